@@ -1,0 +1,50 @@
+#pragma once
+/// The bench recordings that together describe one valve (campaign.toml).
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spoolflow/recording/channel_map.hpp"
+
+namespace spoolflow::recording {
+
+enum class Protocol : std::uint8_t { spring, solenoid_force_map, solenoid_dynamic, axial_force_map, operation };
+[[nodiscard]] std::string_view name(Protocol protocol);
+
+struct CampaignValve {
+  std::string name;
+  double rated_flow_m3_per_s;      ///< full scale of every % FS figure
+  double stroke_m;
+  std::string direction = "b";     ///< "b": flow P to B
+};
+
+/// Data-sheet values of the oil; absent where the campaign does not give them.
+struct CampaignFluid {
+  std::string name;
+  std::optional<double> density_15C_kg_per_m3;
+  std::optional<double> viscosity_40C_m2_per_s;
+  std::optional<double> viscosity_100C_m2_per_s;
+};
+
+struct CampaignRecording {
+  Protocol protocol;
+  std::filesystem::path file;      ///< resolved against the campaign's folder
+  ChannelMap channels;
+  std::string place;               ///< "campaign.toml, line 17", for messages
+};
+
+struct Campaign {
+  std::filesystem::path file;
+  CampaignValve valve;
+  CampaignFluid fluid;
+  std::vector<CampaignRecording> recordings;
+
+  [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;
+};
+
+/// Throws RecordingError with file and line: unknown keys, missing or non-positive values, a recording that does not exist.
+[[nodiscard]] Campaign read_campaign(const std::filesystem::path& file);
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,38 @@
+#pragma once
+/// The physical quantities that a recording can hold, each with its SI unit.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace spoolflow::recording {
+
+/// A measured or commanded quantity. Values are kept in SI: s, A, V, m, N, Pa, K, m3/s.
+/// `position_set` is the share of the stroke, 0 (closed) to 1 (fully open). `test` numbers the parts of a protocol.
+enum class Channel : std::uint8_t {
+  time,
+  current,
+  current_set,
+  voltage,
+  position,
+  position_set,
+  force,
+  axial_force,
+  pressure_upstream,
+  pressure_downstream,
+  pressure_difference,
+  pressure_difference_set,
+  oil_temperature,
+  flow,
+  flow_reference,
+  test,
+};
+inline constexpr std::size_t channel_count = 16;
+
+/// The name used in file headers and channel maps, such as "oil_temperature".
+[[nodiscard]] std::string_view name(Channel channel);
+[[nodiscard]] std::optional<Channel> channel_named(std::string_view name);
+[[nodiscard]] const std::array<Channel, channel_count>& all_channels();
+
+}  // namespace spoolflow::recording

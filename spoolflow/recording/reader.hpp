@@ -1,0 +1,55 @@
+#pragma once
+/// Opens any supported file as a stream of blocks of samples in SI units.
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/recording/recording.hpp"
+
+namespace spoolflow::recording {
+
+struct ReadOptions {
+  ChannelMap channels;                    ///< empty: headers follow <channel>_<unit>
+  std::vector<Channel> required;          ///< absence of one of these is an error that names it
+  std::vector<Channel> optional;          ///< read where present; all other columns are skipped unparsed
+  std::optional<double> stroke_m;         ///< lets position be given in percent and position_set in mm
+};
+
+/// A run of consecutive samples; columns of channels that are absent or not asked for stay empty.
+struct SampleBlock {
+  std::array<std::vector<double>, channel_count> columns;
+  std::size_t rows = 0;
+};
+
+/// What was met while reading and is told rather than swallowed.
+struct ReadNotes {
+  std::uint64_t rows = 0;
+  std::uint64_t duplicate_times = 0;      ///< equal to the time stamp before
+  std::uint64_t missing_values = 0;       ///< empty cells in channels that were asked for
+};
+
+/// Streams a recording; memory does not grow with its length (CSV; MAT and HDF5 are read in slabs).
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  [[nodiscard]] virtual bool has(Channel channel) const = 0;
+  /// Fills the next block (capacities are reused); false at the end. Throws RecordingError: text in a number column, NaN
+  /// or infinity written out, time running backwards, values implausible for their unit; with file, line and column.
+  virtual bool next(SampleBlock& block) = 0;
+  [[nodiscard]] virtual const ReadNotes& notes() const = 0;
+  /// Share of the file read so far, 0 to 1; nothing where the length is unknown (a pipe).
+  [[nodiscard]] virtual std::optional<double> progress() const = 0;
+};
+
+/// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV.
+[[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
+
+/// The whole file at once.
+[[nodiscard]] Recording read_recording(const std::filesystem::path& file, const ReadOptions& options);
+
+}  // namespace spoolflow::recording
