@@ -15,9 +15,9 @@ enum class Protocol : std::uint8_t { spring, solenoid_force_map, solenoid_dynami
 
 struct CampaignValve {
   std::string name;
-  double rated_flow_m3_per_s;      ///< full scale of every % FS figure
+  double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
-  std::string direction = "b";     ///< "b": flow P to B
+  std::string direction = "b";  ///< "b": flow P to B
 };
 
 /// Data-sheet values of the oil; absent where the campaign does not give them.
@@ -30,9 +30,9 @@ struct CampaignFluid {
 
 struct CampaignRecording {
   Protocol protocol;
-  std::filesystem::path file;      ///< resolved against the campaign's folder
+  std::filesystem::path file;  ///< resolved against the campaign's folder
   ChannelMap channels;
-  std::string place;               ///< "campaign.toml, line 17", for messages
+  std::string place;  ///< "campaign.toml, line 17", for messages
 };
 
 struct Campaign {
@@ -44,7 +44,8 @@ struct Campaign {
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;
 };
 
-/// Throws RecordingError with file and line: unknown keys, missing or non-positive values, a recording that does not exist.
+/// Throws RecordingError with file and line: unknown keys, missing or non-positive values, a recording that does not
+/// exist.
 [[nodiscard]] Campaign read_campaign(const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

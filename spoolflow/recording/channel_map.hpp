@@ -11,8 +11,8 @@ namespace spoolflow::recording {
 
 /// One entry of a channel map: value = scale * raw + offset, in `to` if given, else in `unit`.
 struct ChannelSource {
-  std::string column;             ///< CSV header, MATLAB variable (`struct.field`) or HDF5 path (`rig/time`)
-  std::string unit;               ///< unit of the raw value, such as "mA"; empty: taken from the file
+  std::string column;  ///< CSV header, MATLAB variable (`struct.field`) or HDF5 path (`rig/time`)
+  std::string unit;    ///< unit of the raw value, such as "mA"; empty: taken from the file
   double scale = 1.0;
   double offset = 0.0;
   std::optional<std::string> to;  ///< unit of the scaled value where it is another quantity, such as V to mm

@@ -14,10 +14,10 @@
 namespace spoolflow::recording {
 
 struct ReadOptions {
-  ChannelMap channels;                    ///< empty: headers follow <channel>_<unit>
-  std::vector<Channel> required;          ///< absence of one of these is an error that names it
-  std::vector<Channel> optional;          ///< read where present; all other columns are skipped unparsed
-  std::optional<double> stroke_m;         ///< lets position be given in percent and position_set in mm
+  ChannelMap channels;             ///< empty: headers follow <channel>_<unit>
+  std::vector<Channel> required;   ///< absence of one of these is an error that names it
+  std::vector<Channel> optional;   ///< read where present; all other columns are skipped unparsed
+  std::optional<double> stroke_m;  ///< lets position be given in percent and position_set in mm
 };
 
 /// A run of consecutive samples; columns of channels that are absent or not asked for stay empty.
@@ -29,8 +29,8 @@ struct SampleBlock {
 /// What was met while reading and is told rather than swallowed.
 struct ReadNotes {
   std::uint64_t rows = 0;
-  std::uint64_t duplicate_times = 0;      ///< equal to the time stamp before
-  std::uint64_t missing_values = 0;       ///< empty cells in channels that were asked for
+  std::uint64_t duplicate_times = 0;  ///< equal to the time stamp before
+  std::uint64_t missing_values = 0;   ///< empty cells in channels that were asked for
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; MAT and HDF5 are read in slabs).
@@ -38,8 +38,9 @@ class Reader {
  public:
   virtual ~Reader() = default;
   [[nodiscard]] virtual bool has(Channel channel) const = 0;
-  /// Fills the next block (capacities are reused); false at the end. Throws RecordingError: text in a number column, NaN
-  /// or infinity written out, time running backwards, values implausible for their unit; with file, line and column.
+  /// Fills the next block (capacities are reused); false at the end. Throws RecordingError: text in a number column,
+  /// NaN or infinity written out, time running backwards, values implausible for their unit; with file, line and
+  /// column.
   virtual bool next(SampleBlock& block) = 0;
   [[nodiscard]] virtual const ReadNotes& notes() const = 0;
   /// Share of the file read so far, 0 to 1; nothing where the length is unknown (a pipe).

@@ -1,5 +1,6 @@
 #pragma once
-/// A whole recording in memory, in SI units; for calibration and validation. Long files are streamed instead (reader.hpp).
+/// A whole recording in memory, in SI units; for calibration and validation. Long files are streamed instead
+/// (reader.hpp).
 #include <array>
 #include <filesystem>
 #include <span>

@@ -1,0 +1,32 @@
+#pragma once
+/// What goes into the sensor and what comes out, each sample.
+#include "spoolflow/sensor/status.hpp"
+
+namespace spoolflow::sensor {
+
+/// One sample of what the valve's electronics have. Nothing else ever reaches the sensor.
+template <class T>
+struct Sample {
+  T time_step_s{};  ///< since the sample before, >= 0
+  T current_A{};    ///< coil current, mean over the step
+  T voltage_V{};    ///< coil voltage, mean over the step
+  T position_m{};   ///< spool position, 0 closed, > 0 opens P to B
+  T oil_temperature_K{};
+};
+
+/// The flow rate with its band and what led to it. Signs: magnetic force opens (+), spring and flow force close (+),
+/// friction has the sign of the velocity.
+template <class T>
+struct Estimate {
+  T flow_m3_per_s{};
+  T flow_lower_m3_per_s{};  ///< 95 % band
+  T flow_upper_m3_per_s{};
+  T pressure_difference_Pa{};
+  T magnetic_force_N{};
+  T spring_force_N{};
+  T flow_force_N{};
+  T friction_force_N{};
+  Status status{Status::none};
+};
+
+}  // namespace spoolflow::sensor

@@ -1,0 +1,52 @@
+#pragma once
+/// The few operations that every scalar of the sensor supports: float in the valve, double on a host, an
+/// automatic-differentiation number in calibration, a SIMD pack across valves. Other scalars overload these for
+/// themselves, found by argument-dependent lookup.
+#include <cmath>
+#include <concepts>
+
+namespace spoolflow::sensor {
+
+/// `condition ? yes : no`, the one place where data decides; a SIMD pack blends instead.
+template <std::floating_point T>
+constexpr T select(bool condition, T yes, T no) {
+  return condition ? yes : no;
+}
+
+/// The integer part of a number >= 0, as a table index.
+template <std::floating_point T>
+constexpr int table_index(T value) {
+  return static_cast<int>(value);
+}
+
+template <class T>
+constexpr T smaller(T a, T b) {
+  return select(b < a, b, a);
+}
+
+template <class T>
+constexpr T larger(T a, T b) {
+  return select(a < b, b, a);
+}
+
+template <class T>
+constexpr T limited(T value, T lowest, T highest) {
+  return smaller(larger(value, lowest), highest);
+}
+
+template <class T>
+constexpr T magnitude(T value) {
+  return select(value < T(0), -value, value);
+}
+
+template <class T>
+constexpr T squared(T value) {
+  return value * value;
+}
+
+template <class T>
+constexpr bool is_number(T value) {
+  return value == value;
+}
+
+}  // namespace spoolflow::sensor

@@ -1,0 +1,57 @@
+#pragma once
+/// What the sensor says about each of its answers, faults apart from limits.
+#include <array>
+#include <cstdint>
+
+namespace spoolflow::sensor {
+
+/// Bits of a status word. A limit tells that the answer is bounded by what was calibrated or by physics; a fault tells
+/// that an input or the model cannot be trusted.
+enum class Status : std::uint32_t {
+  none = 0,
+  // limits
+  closed = 1U << 0,                  ///< the spool covers the metering edge: no flow but leakage
+  spool_at_rest = 1U << 1,           ///< friction lies anywhere within its limits: the band is wide
+  outside_force_map = 1U << 2,       ///< current or position left the magnetic-force map: answered at its edge
+  outside_flow_force_map = 1U << 3,  ///< the flow force left the measured range at this position: answered at its edge
+  outside_temperature = 1U << 4,     ///< the oil is colder or warmer than the calibration's recordings
+  current_saturated = 1U << 5,       ///< the current sits at the end of its range
+  // faults
+  position_fault = 1U << 16,  ///< the position signal moved as no spool can: the last credible position is used
+  sample_missing = 1U << 17,  ///< an input is missing: the last answer is held
+  not_calibrated = 1U << 18,  ///< the model lacks what this estimator needs
+};
+
+inline constexpr std::uint32_t fault_bits = 0xFFFF0000U;
+
+constexpr Status operator|(Status a, Status b) {
+  return static_cast<Status>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr Status& operator|=(Status& a, Status b) {
+  return a = a | b;
+}
+constexpr bool has(Status status, Status bit) {
+  return (static_cast<std::uint32_t>(status) & static_cast<std::uint32_t>(bit)) != 0;
+}
+constexpr Status when(bool condition, Status bit) {
+  return condition ? bit : Status::none;
+}
+
+struct StatusName {
+  Status bit;
+  const char* name;
+};
+/// The written name of each bit, in the order in which they are listed.
+inline constexpr std::array<StatusName, 9> status_names{{
+    {Status::closed, "closed"},
+    {Status::spool_at_rest, "spool_at_rest"},
+    {Status::outside_force_map, "outside_force_map"},
+    {Status::outside_flow_force_map, "outside_flow_force_map"},
+    {Status::outside_temperature, "outside_temperature"},
+    {Status::current_saturated, "current_saturated"},
+    {Status::position_fault, "position_fault"},
+    {Status::sample_missing, "sample_missing"},
+    {Status::not_calibrated, "not_calibrated"},
+}};
+
+}  // namespace spoolflow::sensor

@@ -1,0 +1,104 @@
+#pragma once
+/// Curves and maps over equally spaced grid points. Outside the grid they answer at the edge and say so; the slope
+/// along an axis that was left is that of the outermost cell. NaN arguments are answered at the first grid point, not
+/// inside.
+#include <array>
+
+#include "spoolflow/sensor/scalar.hpp"
+
+namespace spoolflow::sensor {
+
+/// Equally spaced grid points of a table: first + k * spacing.
+template <class T>
+struct Axis {
+  T first{};
+  T spacing{1};
+  T per_spacing{1};  ///< 1 / spacing
+
+  [[nodiscard]] constexpr T at(int k) const { return first + T(k) * spacing; }
+};
+
+/// The grid cell that holds a point: `index` of its lower grid point and the share of the cell below the point.
+template <class T>
+struct Cell {
+  int index;
+  T share;
+  bool inside;
+};
+
+template <int Points, class T>
+constexpr Cell<T> locate(const Axis<T>& axis, T value) {
+  const T raw = (value - axis.first) * axis.per_spacing;
+  const bool inside = raw >= T(0) && raw <= T(Points - 1);
+  const T kept = select(raw > T(0), smaller(raw, T(Points - 1)), T(0));
+  int index = table_index(kept);
+  index = index > Points - 2 ? Points - 2 : index;
+  return {index, kept - T(index), inside};
+}
+
+/// What a curve answers.
+template <class T>
+struct CurvePoint {
+  T value;
+  T slope;
+  bool inside;
+};
+
+/// y(x), linear between grid points.
+template <class T, int Points>
+struct Curve {
+  static_assert(Points >= 2);
+  static constexpr int points = Points;
+  Axis<T> axis;
+  std::array<T, Points> values;
+
+  [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
+    const Cell<T> cell = locate<Points>(axis, x);
+    const T low = values[static_cast<unsigned>(cell.index)];
+    const T rise = values[static_cast<unsigned>(cell.index) + 1] - low;
+    return {low + cell.share * rise, rise * axis.per_spacing, cell.inside};
+  }
+};
+
+/// What a map answers.
+template <class T>
+struct MapPoint {
+  T value;
+  T row_slope;
+  T column_slope;
+  bool inside;
+};
+
+/// z(row, column), bilinear in each cell.
+template <class T, int Rows, int Columns>
+struct Map {
+  static_assert(Rows >= 2 && Columns >= 2);
+  static constexpr int rows = Rows;
+  static constexpr int columns = Columns;
+  Axis<T> row_axis;
+  Axis<T> column_axis;
+  std::array<T, Rows * Columns> values;  ///< row after row
+
+  [[nodiscard]] constexpr T& node(int row, int column) { return values[static_cast<unsigned>(row * Columns + column)]; }
+  [[nodiscard]] constexpr const T& node(int row, int column) const {
+    return values[static_cast<unsigned>(row * Columns + column)];
+  }
+
+  [[nodiscard]] constexpr MapPoint<T> at(const Cell<T>& row, const Cell<T>& column) const {
+    const T low_low = node(row.index, column.index);
+    const T low_high = node(row.index, column.index + 1);
+    const T high_low = node(row.index + 1, column.index);
+    const T high_high = node(row.index + 1, column.index + 1);
+    const T low = low_low + column.share * (low_high - low_low);
+    const T high = high_low + column.share * (high_high - high_low);
+    const T low_rise = low_high - low_low;
+    const T high_rise = high_high - high_low;
+    return {low + row.share * (high - low), (high - low) * row_axis.per_spacing,
+            (low_rise + row.share * (high_rise - low_rise)) * column_axis.per_spacing, row.inside && column.inside};
+  }
+  [[nodiscard]] constexpr MapPoint<T> at(T row, T column) const {
+    return at(locate<Rows>(row_axis, row), locate<Columns>(column_axis, column));
+  }
+};
+
+}  // namespace spoolflow::sensor
