@@ -1,0 +1,72 @@
+#pragma once
+/// Everything known about one valve: what `calibrate` writes and every other command reads.
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/model/evidence.hpp"
+#include "spoolflow/model/model_error.hpp"
+#include "spoolflow/model/provenance.hpp"
+#include "spoolflow/sensor/condensed.hpp"
+
+namespace spoolflow::model {
+
+inline constexpr int model_version = 1;
+
+struct Valve {
+  std::string name;
+  double rated_flow_m3_per_s;  ///< full scale of every % FS figure
+  double stroke_m;
+  std::string direction;  ///< "b": flow P to B; "a": flow P to A
+};
+
+/// Data-sheet values; absent where the campaign does not give them.
+struct Fluid {
+  std::string name;
+  std::optional<double> density_15C_kg_per_m3;
+  std::optional<double> viscosity_40C_m2_per_s;
+  std::optional<double> viscosity_100C_m2_per_s;
+};
+
+struct Range {
+  double lower;
+  double upper;
+};
+
+/// How well one fit holds on the samples it was made from.
+struct Residual {
+  std::string of;    ///< "magnetic force", …
+  std::string unit;  ///< SI
+  double rms;
+  double largest;
+};
+
+/// The condensed sensor (paper section 3) with the range that it was measured over.
+struct Condensed {
+  sensor::CondensedParameters<double> parameters;
+  Range current_A;
+  Range position_m;
+  Range pressure_difference_Pa;
+  double oil_temperature_K;  ///< of the flow-force map
+  std::vector<Residual> residuals;
+};
+
+struct Model {
+  Valve valve;
+  Fluid fluid;
+  Provenance provenance;
+  Condensed condensed;
+  Evidence evidence;
+};
+
+/// Writes the versioned JSON file.
+void write_model(std::ostream& out, const Model& model);
+/// Reads and validates. Throws ModelError with the file and the JSON path: damaged JSON, another version, a missing or
+/// unknown-typed entry, a number that is not finite or out of range, an axis that does not rise in equal steps.
+[[nodiscard]] Model read_model(const std::filesystem::path& file);
+/// The same from text; `file` names it in messages.
+[[nodiscard]] Model parse_model(const std::string& text, const std::string& file);
+
+}  // namespace spoolflow::model

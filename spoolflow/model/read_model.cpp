@@ -1,0 +1,157 @@
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/json_tables.hpp"
+#include "spoolflow/model/model.hpp"
+
+namespace spoolflow::model {
+namespace {
+
+Range range(const JsonNode& node) {
+  const std::vector<double> ends = node.rising_numbers();
+  if (ends.size() != 2) node.refuse(fmt::format("has {} entries, a range has 2", ends.size()));
+  return {ends[0], ends[1]};
+}
+
+std::optional<double> positive_if_given(const JsonNode& node, const char* key) {
+  if (!node.has(key)) return std::nullopt;
+  return node.at(key).number(1e-12, 1e12);
+}
+
+Provenance provenance(const JsonNode& node) {
+  Provenance out{node.at("tool").text(), node.at("created").text(), {}};
+  const std::string tool = "spoolflow ";
+  if (out.tool_version.starts_with(tool)) out.tool_version.erase(0, tool.size());
+  for (const JsonNode& input : node.at("inputs").elements()) {
+    const std::string sha256 = input.at("sha256").text();
+    if (sha256.size() != 64 || sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      input.at("sha256").refuse("no sha256 of 64 hexadecimal digits");
+    }
+    out.inputs.push_back({input.at("protocol").text(), input.at("file").text(), sha256,
+                          static_cast<std::uint64_t>(input.at("samples").number(0, 1e15))});
+  }
+  return out;
+}
+
+Condensed condensed(const JsonNode& node) {
+  Condensed out{};
+  out.current_A = range(node.at("current_range_A"));
+  out.position_m = range(node.at("position_range_m"));
+  out.pressure_difference_Pa = range(node.at("pressure_difference_range_Pa"));
+  out.oil_temperature_K = node.at("oil_temperature_K").number(200, 500);
+  for (const JsonNode& residual : node.at("residuals").elements()) {
+    out.residuals.push_back({residual.at("of").text(), residual.at("unit").text(), residual.at("rms").number(0, 1e12),
+                             residual.at("largest").number(0, 1e12)});
+  }
+  describe_condensed(out.parameters, TableReader(node));
+  const auto& largest = out.parameters.flow_rate.largest_force_N.values;
+  for (std::size_t k = 0; k < largest.size(); ++k) {
+    if (!(largest[k] > 0)) {
+      node.at("largest_flow_force_N").at("values").elements()[k].refuse("the largest flow force must be above zero");
+    }
+  }
+  return out;
+}
+
+/// `count` numbers; a loop's columns are as long as its positions.
+std::vector<double> column(const JsonNode& node, const char* key, std::size_t count) {
+  std::vector<double> values = node.at(key).numbers();
+  if (values.size() != count) {
+    node.at(key).refuse(fmt::format("has {} entries, {} would fit", values.size(), count));
+  }
+  return values;
+}
+
+Evidence evidence(const JsonNode& node) {
+  Evidence out;
+  for (const JsonNode& loop : node.at("magnetic_force_loops").elements()) {
+    const std::vector<double> position_m = loop.at("position_m").rising_numbers();
+    out.magnetic_force.push_back({loop.at("current_A").number(), position_m,
+                                  column(loop, "opening_N", position_m.size()),
+                                  column(loop, "closing_N", position_m.size())});
+  }
+  for (const JsonNode& loop : node.at("axial_force_loops").elements()) {
+    const std::vector<double> position_m = loop.at("position_m").rising_numbers();
+    const std::size_t n = position_m.size();
+    out.axial_force.push_back({loop.at("pressure_difference_set_Pa").number(), position_m, column(loop, "opening_N", n),
+                               column(loop, "closing_N", n), column(loop, "flow_m3_per_s", n),
+                               column(loop, "pressure_difference_Pa", n)});
+  }
+  const JsonNode sensitivity = node.at("sensitivity");
+  out.sensitivity.position_m = sensitivity.at("position_m").rising_numbers();
+  out.sensitivity.pressure_difference_Pa = sensitivity.at("pressure_difference_Pa").rising_numbers();
+  out.sensitivity.flow_per_force_m3_per_s_N =
+      column(sensitivity, "flow_per_force_m3_per_s_N",
+             out.sensitivity.position_m.size() * out.sensitivity.pressure_difference_Pa.size());
+  const JsonNode uniqueness = node.at("uniqueness");
+  out.uniqueness = {uniqueness.at("unique_from_m").number(), uniqueness.at("blind_below_m").number(),
+                    uniqueness.at("ambiguous_at_m").numbers()};
+  return out;
+}
+
+nlohmann::ordered_json parsed(const std::string& text, const std::string& file) {
+  try {
+    return nlohmann::ordered_json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    std::size_t line = 1;
+    const std::size_t end = std::min<std::size_t>(error.byte, text.size());
+    for (std::size_t k = 0; k < end; ++k) line += text[k] == '\n' ? 1 : 0;
+    const bool cut = error.byte >= text.size();
+    throw ModelError(fmt::format("{}, line {}: {}; make the model again with `spoolflow calibrate`", file, line,
+                                 cut ? "the file ends in the middle of the JSON text, it was cut short"
+                                     : "this is not valid JSON (NaN and infinity are not numbers there)"));
+  } catch (const nlohmann::json::out_of_range&) {
+    throw ModelError(fmt::format("{}: a number is too large for double precision", file));
+  }
+}
+
+}  // namespace
+
+Model parse_model(const std::string& text, const std::string& file) {
+  const nlohmann::ordered_json json = parsed(text, file);
+  const JsonNode root(json, "", file);
+  if (!root.has("format") || !json["format"].is_string() || json["format"] != "spoolflow model") {
+    root.refuse(
+        "this is no spoolflow model (no \"format\": \"spoolflow model\"); give a file that `spoolflow calibrate` "
+        "wrote");
+  }
+  const double version = root.at("version").number();
+  if (version != model_version) {
+    root.at("version").refuse(fmt::format(
+        "version {} is not version {}, which this program reads; calibrate again with it", version, model_version));
+  }
+  Model out;
+  const JsonNode valve = root.at("valve");
+  out.valve = {valve.at("name").text(), valve.at("rated_flow_m3_per_s").number(1e-7, 1),
+               valve.at("stroke_m").number(1e-5, 0.1), valve.at("direction").text()};
+  if (out.valve.direction != "a" && out.valve.direction != "b")
+    valve.at("direction").refuse("is neither \"a\" nor \"b\"");
+  const JsonNode fluid = root.at("fluid");
+  out.fluid = {fluid.at("name").text(), positive_if_given(fluid, "density_15C_kg_per_m3"),
+               positive_if_given(fluid, "viscosity_40C_m2_per_s"), positive_if_given(fluid, "viscosity_100C_m2_per_s")};
+  out.provenance = provenance(root.at("provenance"));
+  out.condensed = condensed(root.at("condensed"));
+  out.evidence = evidence(root.at("evidence"));
+  return out;
+}
+
+Model read_model(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw ModelError(fmt::format("{}: is a folder, not a model file", file.string()));
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw ModelError(
+        fmt::format("{}: cannot be opened; check the path, or make a model with `spoolflow calibrate`", file.string()));
+  }
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.empty())
+    throw ModelError(
+        fmt::format("{}: the file is empty; make the model again with `spoolflow calibrate`", file.string()));
+  return parse_model(text, file.string());
+}
+
+}  // namespace spoolflow::model

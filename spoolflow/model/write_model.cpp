@@ -1,0 +1,96 @@
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/json_tables.hpp"
+#include "spoolflow/model/model.hpp"
+
+namespace spoolflow::model {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json range(const Range& range) {
+  return Json::array({range.lower, range.upper});
+}
+
+Json provenance(const Provenance& provenance) {
+  Json inputs = Json::array();
+  for (const InputFile& input : provenance.inputs) {
+    inputs.push_back(
+        {{"protocol", input.protocol}, {"file", input.file}, {"sha256", input.sha256}, {"samples", input.samples}});
+  }
+  return {{"tool", "spoolflow " + provenance.tool_version}, {"created", provenance.created}, {"inputs", inputs}};
+}
+
+Json fluid(const Fluid& fluid) {
+  Json out{{"name", fluid.name}};
+  if (fluid.density_15C_kg_per_m3) out["density_15C_kg_per_m3"] = *fluid.density_15C_kg_per_m3;
+  if (fluid.viscosity_40C_m2_per_s) out["viscosity_40C_m2_per_s"] = *fluid.viscosity_40C_m2_per_s;
+  if (fluid.viscosity_100C_m2_per_s) out["viscosity_100C_m2_per_s"] = *fluid.viscosity_100C_m2_per_s;
+  return out;
+}
+
+Json condensed(const Condensed& condensed) {
+  Json out{{"current_range_A", range(condensed.current_A)},
+           {"position_range_m", range(condensed.position_m)},
+           {"pressure_difference_range_Pa", range(condensed.pressure_difference_Pa)},
+           {"oil_temperature_K", condensed.oil_temperature_K}};
+  Json residuals = Json::array();
+  for (const Residual& residual : condensed.residuals) {
+    residuals.push_back(
+        {{"of", residual.of}, {"unit", residual.unit}, {"rms", residual.rms}, {"largest", residual.largest}});
+  }
+  out["residuals"] = residuals;
+  describe_condensed(condensed.parameters, TableWriter(out));
+  return out;
+}
+
+Json evidence(const Evidence& evidence) {
+  Json magnetic = Json::array();
+  for (const MagneticForceLoop& loop : evidence.magnetic_force) {
+    magnetic.push_back({{"current_A", loop.current_A},
+                        {"position_m", loop.position_m},
+                        {"opening_N", loop.opening_N},
+                        {"closing_N", loop.closing_N}});
+  }
+  Json axial = Json::array();
+  for (const AxialForceLoop& loop : evidence.axial_force) {
+    axial.push_back({{"pressure_difference_set_Pa", loop.pressure_difference_set_Pa},
+                     {"position_m", loop.position_m},
+                     {"opening_N", loop.opening_N},
+                     {"closing_N", loop.closing_N},
+                     {"flow_m3_per_s", loop.flow_m3_per_s},
+                     {"pressure_difference_Pa", loop.pressure_difference_Pa}});
+  }
+  return {{"magnetic_force_loops", magnetic},
+          {"axial_force_loops", axial},
+          {"sensitivity",
+           {{"position_m", evidence.sensitivity.position_m},
+            {"pressure_difference_Pa", evidence.sensitivity.pressure_difference_Pa},
+            {"flow_per_force_m3_per_s_N", evidence.sensitivity.flow_per_force_m3_per_s_N}}},
+          {"uniqueness",
+           {{"unique_from_m", evidence.uniqueness.unique_from_m},
+            {"blind_below_m", evidence.uniqueness.blind_below_m},
+            {"ambiguous_at_m", evidence.uniqueness.ambiguous_at_m}}}};
+}
+
+}  // namespace
+
+void write_model(std::ostream& out, const Model& model) {
+  const Json file{{"format", "spoolflow model"},
+                  {"version", model_version},
+                  {"valve",
+                   {{"name", model.valve.name},
+                    {"rated_flow_m3_per_s", model.valve.rated_flow_m3_per_s},
+                    {"stroke_m", model.valve.stroke_m},
+                    {"direction", model.valve.direction}}},
+                  {"fluid", fluid(model.fluid)},
+                  {"provenance", provenance(model.provenance)},
+                  {"condensed", condensed(model.condensed)},
+                  {"evidence", evidence(model.evidence)}};
+  out << file.dump(1) << '\n';
+}
+
+}  // namespace spoolflow::model
