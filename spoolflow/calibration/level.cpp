@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/bench_strokes.hpp"
 #include "spoolflow/calibration/calibration_error.hpp"
 
 namespace spoolflow::calibration {
@@ -32,10 +33,6 @@ HeldStroke held_during(const Sweep& sweep, std::span<const double> held) {
   const std::span<const double> all = held.subspan(sweep.begin, sweep.end - sweep.begin);
   const std::size_t quarter = std::max<std::size_t>(1, all.size() / 4);
   return {median(all), std::abs(median(all.last(quarter)) - median(all.first(quarter))), sweep};
-}
-
-const char* written(Direction direction) {
-  return direction == Direction::opening ? "opening" : "closing";
 }
 
 }  // namespace
@@ -83,15 +80,7 @@ void require_levels(const std::vector<Level>& levels, std::size_t least_levels, 
                     file, levels.size(), quantity.name, found.empty() ? "none" : found, least_levels));
   }
   for (const Level& level : levels) {
-    for (const Direction direction : {Direction::opening, Direction::closing}) {
-      if (std::none_of(level.sweeps.begin(), level.sweeps.end(),
-                       [&](const Sweep& sweep) { return sweep.direction == direction; })) {
-        throw CalibrationError(
-            fmt::format("{}: at {} {} there is no {} stroke, and averaging needs both directions; record "
-                        "the level to and fro, or remove it from the recording",
-                        file, quantity.name, quantity.written(level.value), written(direction)));
-      }
-    }
+    require_both_directions(level, fmt::format("{}: {} {}", file, quantity.name, quantity.written(level.value)));
   }
   for (std::size_t k = 1; k + 2 < levels.size(); ++k) {
     const double before = levels[k].value - levels[k - 1].value;

@@ -49,7 +49,7 @@ struct Condensed {
   Range current_A;
   Range position_m;
   Range pressure_difference_Pa;
-  double oil_temperature_K;  ///< of the flow-force map
+  std::optional<double> oil_temperature_K;  ///< of the flow-force map; absent where it was not recorded
   std::vector<Residual> residuals;
 };
 

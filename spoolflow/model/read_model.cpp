@@ -42,7 +42,7 @@ Condensed condensed(const JsonNode& node) {
   out.current_A = range(node.at("current_range_A"));
   out.position_m = range(node.at("position_range_m"));
   out.pressure_difference_Pa = range(node.at("pressure_difference_range_Pa"));
-  out.oil_temperature_K = node.at("oil_temperature_K").number(200, 500);
+  if (node.has("oil_temperature_K")) out.oil_temperature_K = node.at("oil_temperature_K").number(200, 500);
   for (const JsonNode& residual : node.at("residuals").elements()) {
     out.residuals.push_back({residual.at("of").text(), residual.at("unit").text(), residual.at("rms").number(0, 1e12),
                              residual.at("largest").number(0, 1e12)});

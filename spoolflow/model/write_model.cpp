@@ -35,8 +35,8 @@ Json fluid(const Fluid& fluid) {
 Json condensed(const Condensed& condensed) {
   Json out{{"current_range_A", range(condensed.current_A)},
            {"position_range_m", range(condensed.position_m)},
-           {"pressure_difference_range_Pa", range(condensed.pressure_difference_Pa)},
-           {"oil_temperature_K", condensed.oil_temperature_K}};
+           {"pressure_difference_range_Pa", range(condensed.pressure_difference_Pa)}};
+  if (condensed.oil_temperature_K) out["oil_temperature_K"] = *condensed.oil_temperature_K;
   Json residuals = Json::array();
   for (const Residual& residual : condensed.residuals) {
     residuals.push_back(

@@ -1,0 +1,119 @@
+#include "spoolflow/calibration/calibrate.hpp"
+
+#include <deque>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/calibration_error.hpp"
+#include "spoolflow/calibration/condensed.hpp"
+#include "spoolflow/recording/reader.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using recording::Channel;
+using recording::Protocol;
+
+/// The channels that a protocol cannot do without, and those that it uses where they are.
+recording::ReadOptions channels_of(Protocol protocol) {
+  switch (protocol) {
+    case Protocol::spring:
+      return {{}, {Channel::time, Channel::position, Channel::axial_force}, {Channel::oil_temperature}, {}};
+    case Protocol::solenoid_force_map:
+      return {{},
+              {Channel::time, Channel::position, Channel::current, Channel::force},
+              {Channel::current_set, Channel::voltage, Channel::oil_temperature},
+              {}};
+    case Protocol::solenoid_dynamic:
+      return {{},
+              {Channel::time, Channel::position, Channel::current, Channel::force},
+              {Channel::voltage, Channel::test, Channel::oil_temperature},
+              {}};
+    case Protocol::axial_force_map:
+      return {{},
+              {Channel::time, Channel::position, Channel::axial_force},
+              {Channel::pressure_difference_set, Channel::pressure_difference, Channel::pressure_upstream,
+               Channel::pressure_downstream, Channel::oil_temperature, Channel::flow, Channel::flow_reference},
+              {}};
+    case Protocol::operation:
+      return {{},
+              {Channel::time, Channel::position, Channel::current},
+              {Channel::voltage, Channel::oil_temperature, Channel::position_set, Channel::pressure_difference,
+               Channel::flow_reference},
+              {}};
+  }
+  return {};
+}
+
+/// A campaign's recordings, read; addresses stay valid while more are read.
+struct Loaded {
+  Protocol protocol;
+  recording::Recording recording;
+};
+
+std::vector<const recording::Recording*> of(const std::deque<Loaded>& all, Protocol protocol) {
+  std::vector<const recording::Recording*> out;
+  for (const Loaded& loaded : all) {
+    if (loaded.protocol == protocol) out.push_back(&loaded.recording);
+  }
+  return out;
+}
+
+const recording::Recording& only(const std::deque<Loaded>& all, Protocol protocol,
+                                 const recording::Campaign& campaign) {
+  const std::vector<const recording::Recording*> found = of(all, protocol);
+  if (found.size() != 1) {
+    throw CalibrationError(
+        fmt::format("{}: names {} recordings with protocol \"{}\", calibration needs exactly one; edit its "
+                    "[[recording]] tables",
+                    campaign.file.string(), found.size(), recording::name(protocol)));
+  }
+  return *found.front();
+}
+
+}  // namespace
+
+model::Model calibrate(const recording::Campaign& campaign, const std::string& tool_version,
+                       const CalibrationProgress& progress) {
+  model::Model out;
+  out.valve = {campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m,
+               campaign.valve.direction};
+  out.fluid = {campaign.fluid.name, campaign.fluid.density_15C_kg_per_m3, campaign.fluid.viscosity_40C_m2_per_s,
+               campaign.fluid.viscosity_100C_m2_per_s};
+  out.provenance = {tool_version, model::creation_time(), {}};
+  out.provenance.inputs.push_back(
+      {"campaign", campaign.file.filename().string(), model::sha256_of_file(campaign.file), 0});
+
+  std::deque<Loaded> loaded;
+  constexpr double reading_share = 0.7;
+  for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
+    const recording::CampaignRecording& entry = campaign.recordings[k];
+    progress(fmt::format("reading {}", entry.file.filename().string()),
+             reading_share * static_cast<double>(k) / static_cast<double>(campaign.recordings.size()));
+    recording::ReadOptions options = channels_of(entry.protocol);
+    options.channels = entry.channels;
+    options.stroke_m = campaign.valve.stroke_m;
+    loaded.push_back({entry.protocol, recording::read_recording(entry.file, options)});
+    out.provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
+                                     model::sha256_of_file(entry.file), loaded.back().recording.size()});
+  }
+
+  progress("condensed model", reading_share);
+  const std::vector<const recording::Recording*> axial_force_maps = of(loaded, Protocol::axial_force_map);
+  if (axial_force_maps.empty()) {
+    throw CalibrationError(
+        fmt::format("{}: names no recording with protocol \"axial_force_map\", calibration needs at least "
+                    "one; edit its [[recording]] tables",
+                    campaign.file.string()));
+  }
+  CondensedCalibration condensed =
+      calibrate_condensed({only(loaded, Protocol::spring, campaign),
+                           only(loaded, Protocol::solenoid_force_map, campaign), axial_force_maps},
+                          out.valve);
+  out.condensed = std::move(condensed.condensed);
+  out.evidence = std::move(condensed.evidence);
+  progress("done", 1.0);
+  return out;
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,91 @@
+#include "spoolflow/calibration/condensed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spoolflow/calibration/axial_force.hpp"
+#include "spoolflow/calibration/flow_rate.hpp"
+#include "spoolflow/calibration/magnetic_force.hpp"
+#include "spoolflow/calibration/sensitivity.hpp"
+#include "spoolflow/calibration/spring.hpp"
+#include "spoolflow/calibration/uniqueness.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+/// The flow-force map at the middle of the oil temperatures; recordings without temperature sort first.
+AxialForceFit middle_temperature(const std::vector<const recording::Recording*>& recordings, double stroke_m) {
+  std::vector<AxialForceFit> fits;
+  for (const recording::Recording* recording : recordings) fits.push_back(fit_axial_force(*recording, stroke_m));
+  std::sort(fits.begin(), fits.end(), [](const AxialForceFit& a, const AxialForceFit& b) {
+    return std::isnan(a.oil_temperature_K) ? !std::isnan(b.oil_temperature_K)
+                                           : a.oil_temperature_K < b.oil_temperature_K;
+  });
+  return fits[(fits.size() - 1) / 2];
+}
+
+/// Half the distance of both directions, largest over the levels: what friction may hide at each position.
+sensor::Curve<double, sensor::spring_positions> friction_bound(const std::vector<model::AxialForceLoop>& loops,
+                                                               const SpringFit& spring) {
+  sensor::Curve<double, sensor::spring_positions> bound{spring.spring.curve.axis, {}};
+  for (int k = 0; k < sensor::spring_positions; ++k) {
+    double& width_N = bound.values[static_cast<std::size_t>(k)];
+    width_N = std::abs(spring.friction_half_width_N[static_cast<std::size_t>(k)]);
+    for (const model::AxialForceLoop& loop : loops) {
+      const std::size_t p = static_cast<std::size_t>(std::lround(
+          static_cast<double>(k) * static_cast<double>(loop.position_m.size() - 1) / (sensor::spring_positions - 1)));
+      width_N = std::max(width_N, 0.5 * std::abs(loop.opening_N[p] - loop.closing_N[p]));
+    }
+  }
+  return bound;
+}
+
+/// Positions from the closed end at which even the highest pressure difference gave no flow above its noise.
+double closed_below_m(const model::AxialForceLoop& highest, double rated_flow_m3_per_s, double flow_noise_m3_per_s) {
+  const double threshold = std::max(0.002 * rated_flow_m3_per_s, 0.5 * flow_noise_m3_per_s);
+  std::size_t k = 0;
+  while (k + 1 < highest.position_m.size() && highest.flow_m3_per_s[k] < threshold) ++k;
+  return k == 0 ? highest.position_m.front() : highest.position_m[k - 1];
+}
+
+}  // namespace
+
+CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, const model::Valve& valve) {
+  const SpringFit spring = fit_spring(recordings.spring, valve.stroke_m);
+  const MagneticForceFit magnetic = fit_magnetic_force(recordings.solenoid_force_map, valve.stroke_m);
+  const AxialForceFit axial = middle_temperature(recordings.axial_force_maps, valve.stroke_m);
+  const std::vector<FlowForceColumn> columns = flow_force_columns(axial.loops, spring.spring);
+
+  // An averaged force is the mean of some dozen samples a grid point and direction; a fifth of the sample noise bounds
+  // it.
+  const double averaged_force_noise_N = 0.2 * std::hypot(axial.force_residual.rms(), spring.residual.rms());
+
+  CondensedCalibration out{};
+  sensor::CondensedParameters<double>& parameters = out.condensed.parameters;
+  parameters.magnetic_force = magnetic.magnetic_force;
+  parameters.spring = spring.spring;
+  parameters.flow_rate = invert_flow_force(columns, 2 * averaged_force_noise_N + 1e-6);
+  parameters.friction_half_width_N = friction_bound(axial.loops, spring);
+  parameters.closed_below_m = closed_below_m(axial.loops.back(), valve.rated_flow_m3_per_s, axial.flow_residual.rms());
+  parameters.force_residual_N = std::hypot(magnetic.residual.rms(), axial.force_residual.rms(), spring.residual.rms());
+  parameters.flow_residual_m3_per_s = axial.flow_residual.rms();
+
+  out.condensed.current_A = {0, magnetic.largest_current_A};
+  out.condensed.position_m = {0, valve.stroke_m};
+  out.condensed.pressure_difference_Pa = {axial.loops.front().pressure_difference_set_Pa,
+                                          axial.loops.back().pressure_difference_set_Pa};
+  if (!std::isnan(axial.oil_temperature_K)) out.condensed.oil_temperature_K = axial.oil_temperature_K;
+  out.condensed.residuals = {
+      {"spring force", "N", spring.residual.rms(), spring.residual.largest},
+      {"magnetic force", "N", magnetic.residual.rms(), magnetic.residual.largest},
+      {"axial force", "N", axial.force_residual.rms(), axial.force_residual.largest},
+      {"flow rate", "m3/s", axial.flow_residual.rms(), axial.flow_residual.largest},
+  };
+  out.evidence.magnetic_force = magnetic.loops;
+  out.evidence.axial_force = axial.loops;
+  out.evidence.sensitivity = flow_sensitivity(columns, valve.rated_flow_m3_per_s);
+  out.evidence.uniqueness = check_uniqueness(columns, 2 * averaged_force_noise_N);
+  return out;
+}
+
+}  // namespace spoolflow::calibration

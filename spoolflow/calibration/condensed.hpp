@@ -1,0 +1,26 @@
+#pragma once
+/// Calibration of the paper's condensed sensor from the bench recordings of a campaign.
+#include <vector>
+
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/recording.hpp"
+
+namespace spoolflow::calibration {
+
+struct CondensedRecordings {
+  const recording::Recording& spring;
+  const recording::Recording& solenoid_force_map;
+  std::vector<const recording::Recording*> axial_force_maps;  ///< one an oil temperature
+};
+
+struct CondensedCalibration {
+  model::Condensed condensed;
+  model::Evidence evidence;
+};
+
+/// Spring, magnetic-force map, flow-force map, inversion, uniqueness and sensitivity in turn. Of several oil
+/// temperatures the middle one is used: the condensed sensor has one map. Throws CalibrationError.
+[[nodiscard]] CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings,
+                                                       const model::Valve& valve);
+
+}  // namespace spoolflow::calibration

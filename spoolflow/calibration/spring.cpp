@@ -1,0 +1,43 @@
+#include "spoolflow/calibration/spring.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/bench_strokes.hpp"
+#include "spoolflow/calibration/both_directions.hpp"
+#include "spoolflow/calibration/calibration_error.hpp"
+#include "spoolflow/calibration/interpolation.hpp"
+
+namespace spoolflow::calibration {
+
+using recording::Channel;
+
+SpringFit fit_spring(const recording::Recording& recording, double stroke_m) {
+  const std::string file = recording.file.filename().string();
+  const auto position_m = recording[Channel::position];
+  const auto force_N = recording[Channel::axial_force];
+  const Level level{0.0, find_bench_strokes(position_m, stroke_m)};
+  require_both_directions(level, file);
+
+  const std::vector<double> grid_m = equally_spaced(0, stroke_m, sensor::spring_positions);
+  const BothDirections force = average_both_directions({level, position_m, force_N}, grid_m, file + ": spring force");
+  const std::vector<double> mean_N = force.mean();
+
+  SpringFit fit{};
+  fit.spring.curve.axis = {0, grid_m[1], 1 / grid_m[1]};
+  std::copy(mean_N.begin(), mean_N.end(), fit.spring.curve.values.begin());
+  fit.friction_half_width_N = force.half_width();
+  sensor::Curve<double, sensor::spring_positions> half_width{fit.spring.curve.axis, {}};
+  std::copy(fit.friction_half_width_N.begin(), fit.friction_half_width_N.end(), half_width.values.begin());
+  for (const Sweep& sweep : level.sweeps) {
+    const double sign = sweep.direction == Direction::opening ? 1 : -1;
+    for (std::size_t k = sweep.begin; k < sweep.end; ++k) {
+      fit.residual.add(force_N[k] - fit.spring.at(position_m[k]).value - sign * half_width.at(position_m[k]).value);
+    }
+  }
+  fit.oil_temperature_K = mean_oil_temperature_K(recording);
+  return fit;
+}
+
+}  // namespace spoolflow::calibration
