@@ -1,0 +1,26 @@
+#pragma once
+/// What a command's help says, and the options that commands share.
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace spoolflow::apps {
+
+struct CommandText {
+  std::string name;                   ///< as typed: "estimate"
+  std::string purpose;                ///< one line, also shown in the overview of `spoolflow --help`
+  std::string reads;                  ///< the inputs and what they must hold
+  std::string writes;                 ///< the outputs and what they hold
+  std::vector<std::string> examples;  ///< whole command lines; the first is shown in the overview as well
+};
+
+/// Adds the command with its help; the caller adds its arguments and callback.
+CLI::App* add_command(CLI::App& program, const CommandText& text);
+
+/// `-q,--quiet`: no progress.
+void add_quiet(CLI::App& command, bool& quiet);
+
+}  // namespace spoolflow::apps

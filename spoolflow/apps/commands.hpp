@@ -1,0 +1,10 @@
+#pragma once
+/// Every command of the program, one file each. A new one is declared here, defined in NAME_command.cpp and named in
+/// main.cpp; its callback does the work and throws where it cannot (std::invalid_argument: unusable input, status 2;
+/// anything else: status 1).
+
+namespace CLI {
+class App;
+}
+
+namespace spoolflow::apps {}  // namespace spoolflow::apps

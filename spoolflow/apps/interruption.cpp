@@ -1,0 +1,108 @@
+#include "spoolflow/apps/interruption.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <pthread.h>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace spoolflow::apps {
+namespace {
+
+// All that the handler touches: lock-free atomics and fixed buffers, since it may run between any two instructions.
+std::array<std::atomic<const char*>, 16> unfinished{};
+std::atomic<OutputState> output_state{OutputState::nothing_written};
+std::array<char, 64> speaker_text{};
+std::atomic_flag ending = ATOMIC_FLAG_INIT;
+bool terminal = false;
+static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<OutputState>::is_always_lock_free);
+
+void say(const char* text) {
+  // Nothing can be done about a failed write here; the result is taken only because it must not be ignored.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+}
+
+extern "C" void end_interrupted(int) {
+  if (ending.test_and_set()) return;
+  for (auto& slot : unfinished) {
+    const char* path = slot.load();
+    if (path != nullptr) unlink(path);
+  }
+  if (terminal) say("\r\033[K");  // a progress line may stand there
+  say(speaker_text.data());
+  switch (output_state.load()) {
+    case OutputState::nothing_written:
+      say(": interrupted; nothing was written\n");
+      break;
+    case OutputState::stream_begun:
+      say(": interrupted; standard output is incomplete\n");
+      break;
+    case OutputState::file_finished:
+      say(": interrupted; only the files finished before were written\n");
+      break;
+  }
+  _exit(interrupted_status);
+}
+
+sigset_t interruptions() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, number);
+  return set;
+}
+
+}  // namespace
+
+void end_cleanly_when_interrupted(std::string_view program) {
+  interruption_speaker(program);
+  terminal = isatty(STDERR_FILENO) == 1;
+  struct sigaction action {};
+  action.sa_handler = end_interrupted;
+  action.sa_mask = interruptions();
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored under nohup, and stays so
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void interruption_speaker(std::string_view speaker) {
+  const InterruptionPause pause;
+  speaker_text.fill('\0');
+  std::copy_n(speaker.begin(), std::min(speaker.size(), speaker_text.size() - 1), speaker_text.begin());
+}
+
+void interruption_output_state(OutputState state) {
+  output_state = state;
+}
+
+UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)) {
+  for (auto& slot : unfinished) {
+    const char* empty = nullptr;
+    if (slot.compare_exchange_strong(empty, path_.c_str())) {
+      slot_ = &slot;
+      return;
+    }
+  }
+  throw std::logic_error("more than 16 outputs are open at once");
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  slot_->store(nullptr);
+}
+
+InterruptionPause::InterruptionPause() {
+  const sigset_t set = interruptions();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+InterruptionPause::~InterruptionPause() {
+  const sigset_t set = interruptions();
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,132 @@
+/// The spoolflow command: chooses a command, and is the only place that catches what it throws.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/interruption.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/suggestion.hpp"
+#include "spoolflow/apps/tool_version.hpp"
+
+namespace {
+
+using namespace spoolflow::apps;
+
+constexpr int done = 0, work_failed = 1, wrong_usage = 2;
+
+/// In the order of the work, which is the order of the overview.
+void add_commands(CLI::App&) {}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+const CLI::App* chosen(const CLI::App& program) {
+  const auto parsed = program.get_subcommands();
+  return parsed.empty() ? nullptr : parsed.front();
+}
+
+std::string speaker(const CLI::App& program) {
+  const CLI::App* command = chosen(program);
+  return command == nullptr ? program.get_name() : program.get_name() + " " + command->get_name();
+}
+
+/// What was typed wrong, in one line that says what to do next.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App* command = chosen(program);
+  for (const std::string& word : program.remaining(true)) {
+    if (word.size() > 1 && word.front() == '-') {
+      const std::string name = word.substr(0, word.find('='));
+      return fmt::format("there is no option {}{}", name, suggestion(name, option_names(command ? *command : program)));
+    }
+    if (command == nullptr) {
+      return fmt::format("there is no command '{}'{}", word, suggestion(word, command_names(program)));
+    }
+    return fmt::format("one argument too many: {}", word);
+  }
+  return error.what();
+}
+
+int help_or_refuse(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == done) {
+    OutputFile output("-");
+    const CLI::App* command = chosen(program);
+    if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
+      output.stream() << program.get_name() << ' ' << tool_version() << '\n';
+    } else {
+      output.stream() << (command ? command->help(program.get_name()) : program.help());
+    }
+    output.commit();
+    return done;
+  }
+  fmt::print(stderr, "{}: {}; see {} --help\n", speaker(program), usage_message(program, error), speaker(program));
+  return wrong_usage;
+}
+
+int run(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+    if (chosen(program) != nullptr) return done;
+    fmt::print(stderr, "{0}: no command given; see {0} --help\n", program.get_name());
+    return wrong_usage;
+  } catch (const CLI::ParseError& error) {
+    return help_or_refuse(program, error);
+  }
+}
+
+/// Ends as a program does that was told of the closed pipe by its signal: silently.
+[[noreturn]] void end_by_sigpipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  std::_Exit(work_failed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("Soft flow-rate sensor for solenoid-operated spool valves: from rig recordings to a flow rate.",
+                   "spoolflow");
+  const auto say = [&program](const char* message) { fmt::print(stderr, "{}: {}\n", speaker(program), message); };
+  end_cleanly_when_interrupted("spoolflow");
+  program.set_help_flag("-h,--help", "print this help; COMMAND --help explains a command");
+  program.get_formatter()->column_width(24);
+  program.set_version_flag("--version", std::string(tool_version()), "print the version");
+  program.require_subcommand(0, 1);
+  add_commands(program);
+  program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
+  try {
+    return run(program, argc, argv);
+  } catch (const ReaderGone&) {
+    end_by_sigpipe();
+  } catch (const std::invalid_argument& error) {
+    say(error.what());
+    return wrong_usage;
+  } catch (const std::bad_alloc&) {
+    say("out of memory; try a shorter recording or a machine with more");
+    return work_failed;
+  } catch (const std::exception& error) {
+    say(error.what());
+    return work_failed;
+  }
+}

@@ -1,0 +1,216 @@
+#include "spoolflow/apps/output_file.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <optional>
+#include <streambuf>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "spoolflow/apps/interruption.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& target, const std::string& reason) {
+  throw OutputError(fmt::format("cannot write {}: {}", target == "-" ? "standard output" : target.string(), reason));
+}
+
+std::string folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path().string() : std::string(".");
+}
+
+[[noreturn]] void refuse_errno(const fs::path& target, int error) {
+  const std::string folder = folder_of(target);
+  switch (error) {
+    case EPIPE:
+      throw ReaderGone();
+    case ENOSPC:
+    case EDQUOT:
+      refuse(target, "the disk is full; free some space or write to another disk, then run again");
+    case EFBIG:
+      refuse(target,
+             "the file grew past the size limit of this disk or shell (ulimit -f); raise it or write elsewhere");
+    case ENOENT:
+      refuse(target, fmt::format("the folder {} does not exist; create it or name another", folder));
+    case ENOTDIR:
+      refuse(target, fmt::format("{} is not a folder; name another", folder));
+    case EACCES:
+    case EPERM:
+      refuse(target, fmt::format("no permission to write in the folder {}; name another or change its rights", folder));
+    case EROFS:
+      refuse(target, fmt::format("the folder {} is on a read-only disk; name another", folder));
+    default:
+      refuse(target, std::strerror(error));
+  }
+}
+
+/// Sends a large buffer to a file descriptor and throws where the system refuses it.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  explicit DescriptorBuffer(fs::path target) : target_(std::move(target)) { setp(buffer_.begin(), buffer_.end()); }
+
+  void descriptor(int descriptor) { descriptor_ = descriptor; }
+  void stands_for_stdout() { is_stdout_ = true; }
+  void write_out() {
+    const char* from = pbase();
+    if (is_stdout_ && from != pptr()) interruption_output_state(OutputState::stream_begun);
+    while (from != pptr()) {
+      const ssize_t written = ::write(descriptor_, from, static_cast<std::size_t>(pptr() - from));
+      if (written < 0 && errno != EINTR) refuse_errno(target_, errno);
+      if (written > 0) from += written;
+    }
+    setp(buffer_.begin(), buffer_.end());
+  }
+
+ protected:
+  int_type overflow(int_type next) override {
+    write_out();
+    return traits_type::eq_int_type(next, traits_type::eof()) ? traits_type::not_eof(next)
+                                                              : sputc(traits_type::to_char_type(next));
+  }
+  int sync() override {
+    write_out();
+    return 0;
+  }
+
+ private:
+  fs::path target_;
+  int descriptor_ = -1;
+  bool is_stdout_ = false;
+  std::array<char, 256 * 1024> buffer_;
+};
+
+std::optional<struct stat> status_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return status;
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  if (a == "-" || b == "-") return false;
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored) || fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+}
+
+void check_target(const fs::path& target, const std::vector<fs::path>& also_used) {
+  if (target.empty()) throw OutputError("the output has no name; give a file name, or - for standard output");
+  if (target == "-") return;
+  const auto status = status_of(target);
+  if ((status && S_ISDIR(status->st_mode)) || !target.has_filename()) {
+    refuse(target, fmt::format("it is a folder; name a file in it"));
+  }
+  const bool special = status && !S_ISREG(status->st_mode);
+  for (const fs::path& other : also_used) {
+    if (!special && same_file(target, other)) {
+      refuse(target, fmt::format("this command also uses {}, which is the same file; name another", other.string()));
+    }
+  }
+  if (status && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) {
+    refuse(target, "the file is write-protected; name another or change its rights");
+  }
+}
+
+}  // namespace
+
+struct OutputFile::Target {
+  explicit Target(const fs::path& asked) : name(asked), buffer(asked), stream(&buffer) {
+    stream.exceptions(std::ios::badbit);  // lets the buffer's own exception through
+  }
+
+  void open_directly(int flags) {
+    descriptor = ::open(name.c_str(), flags | O_CLOEXEC);
+    if (descriptor < 0) refuse_errno(name, errno);
+    buffer.descriptor(descriptor);
+  }
+
+  void open_beside(const std::optional<struct stat>& replaced) {
+    std::error_code ignored;
+    if (fs::is_symlink(name, ignored)) final_name = fs::weakly_canonical(name);
+    for (int attempt = 0; descriptor < 0; ++attempt) {
+      const fs::path beside =
+          fs::path(folder_of(final_name)) / fmt::format(".spoolflow-{}-{}.part", ::getpid(), attempt);
+      unfinished.emplace(beside.string());
+      descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor < 0) {
+        const int error = errno;
+        unfinished.reset();
+        if (error != EEXIST || attempt > 100) refuse_errno(name, error);
+      }
+    }
+    if (replaced) {
+      // The new file takes over the old one's rights; where that is not permitted it has those of any new file.
+      [[maybe_unused]] const bool kept = ::fchown(descriptor, replaced->st_uid, replaced->st_gid) == 0 &&
+                                         ::fchmod(descriptor, replaced->st_mode & 07777) == 0;
+    }
+    buffer.descriptor(descriptor);
+  }
+
+  void close() {
+    if (descriptor > STDOUT_FILENO && ::close(std::exchange(descriptor, -1)) != 0 && errno != EINTR) {
+      refuse_errno(name, errno);
+    }
+  }
+
+  fs::path name;
+  fs::path final_name = name;
+  int descriptor = -1;
+  std::optional<UnfinishedFile> unfinished;
+  DescriptorBuffer buffer;
+  std::ostream stream;
+};
+
+OutputFile::OutputFile(fs::path target, const std::vector<fs::path>& also_used) {
+  check_target(target, also_used);
+  target_ = std::make_unique<Target>(target);
+  const auto status = status_of(target);
+  if (target == "-") {
+    target_->descriptor = STDOUT_FILENO;
+    target_->buffer.descriptor(STDOUT_FILENO);
+    target_->buffer.stands_for_stdout();
+  } else if (status && !S_ISREG(status->st_mode)) {
+    target_->open_directly(O_WRONLY);
+  } else {
+    target_->open_beside(status);
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (target_->descriptor > STDOUT_FILENO) ::close(target_->descriptor);
+  if (target_->unfinished) ::unlink(target_->unfinished->path().c_str());
+}
+
+std::ostream& OutputFile::stream() {
+  return target_->stream;
+}
+
+void OutputFile::commit() {
+  target_->buffer.write_out();
+  target_->close();
+  if (!target_->unfinished) return;
+  const InterruptionPause pause;
+  if (::rename(target_->unfinished->path().c_str(), target_->final_name.c_str()) != 0) {
+    refuse_errno(target_->name, errno);
+  }
+  target_->unfinished.reset();
+  interruption_output_state(OutputState::file_finished);
+}
+
+void make_output_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  std::error_code unreadable;
+  if (fs::is_directory(folder, unreadable)) return;
+  const std::string reason = fs::exists(folder, unreadable) ? "a file of that name is there" : error.message();
+  throw OutputError(fmt::format("cannot make the folder {}: {}; name another", folder.string(), reason));
+}
+
+}  // namespace spoolflow::apps

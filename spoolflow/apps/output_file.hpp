@@ -1,0 +1,49 @@
+#pragma once
+/// The only place that opens outputs. A file appears under its name only when it is complete.
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <stdexcept>
+#include <vector>
+
+namespace spoolflow::apps {
+
+/// An output that cannot be written: exit status 2.
+struct OutputError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Nobody reads standard output any more (`spoolflow … | head`): the program ends quietly, as cat and grep do.
+struct ReaderGone : std::runtime_error {
+  ReaderGone() : std::runtime_error("the reader of standard output went away") {}
+};
+
+/// Writes to a temporary file beside the target and gives it the target's name on commit(); what stood there before
+/// stays untouched until then, and for good if commit() is never reached (error, interruption).
+/// "-" is standard output; devices and pipes (/dev/null, /dev/stdout, a FIFO) are written directly.
+class OutputFile {
+ public:
+  /// `also_used`: files that the same command reads or writes; the target must be none of them. Throws OutputError
+  /// where it is, where its folder does not exist, where it is itself a folder, or where writing is not permitted.
+  explicit OutputFile(std::filesystem::path target, const std::vector<std::filesystem::path>& also_used = {});
+  /// Without commit(): removes the temporary file.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Buffered by 256 KiB. A failed write (full disk, size limit) throws OutputError or ReaderGone from the call that
+  /// hits it: no need to look at the stream's state.
+  [[nodiscard]] std::ostream& stream();
+  /// Writes what is buffered, closes, and puts the file under its name. No fsync: the name changes hands at once for
+  /// every reader, and a power cut is answered by running the command again.
+  void commit();
+
+ private:
+  struct Target;
+  std::unique_ptr<Target> target_;
+};
+
+/// Makes a folder for outputs, parents included, unless it is there. Throws OutputError.
+void make_output_folder(const std::filesystem::path& folder);
+
+}  // namespace spoolflow::apps

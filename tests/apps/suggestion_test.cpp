@@ -1,0 +1,32 @@
+#include "spoolflow/apps/suggestion.hpp"
+
+#include <gtest/gtest.h>
+
+namespace spoolflow::apps {
+namespace {
+
+const std::vector<std::string> commands{"calibrate", "estimate", "inspect", "validate"};
+
+TEST(Suggestion, CountsInsertedDeletedReplacedAndSwappedLettersAsOneStep) {
+  EXPECT_EQ(edit_distance("inspect", "inspect"), 0u);
+  EXPECT_EQ(edit_distance("inspct", "inspect"), 1u);
+  EXPECT_EQ(edit_distance("inspeect", "inspect"), 1u);
+  EXPECT_EQ(edit_distance("inspekt", "inspect"), 1u);
+  EXPECT_EQ(edit_distance("inpsect", "inspect"), 1u);
+  EXPECT_EQ(edit_distance("", "inspect"), 7u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+}
+
+TEST(Suggestion, NamesTheNearestCommand) {
+  EXPECT_EQ(suggestion("calibrat", commands), "; did you mean 'calibrate'?");
+  EXPECT_EQ(suggestion("esitmate", commands), "; did you mean 'estimate'?");
+}
+
+TEST(Suggestion, StaysSilentWhereNoWordIsNear) {
+  EXPECT_EQ(suggestion("frobnicate", commands), "");
+  EXPECT_EQ(suggestion("x", commands), "");
+  EXPECT_EQ(suggestion("calibrate", {}), "");
+}
+
+}  // namespace
+}  // namespace spoolflow::apps
