@@ -38,4 +38,22 @@ struct CoilHeatState {
   double housing_temperature_C = 25.0;
 };
 
+/// Advances both temperatures with the losses held; explicit midpoint.
+inline void heat_up(const CoilHeat& heat, CoilHeatState& state, double winding_loss_W, double iron_loss_W,
+                    double ambient_C, double oil_C, double dt_s) {
+  const auto rates = [&](const CoilHeatState& at) {
+    const double exchange_W = heat.winding_to_housing_W_per_K * (at.winding_temperature_C - at.housing_temperature_C);
+    return CoilHeatState{
+        (winding_loss_W - exchange_W) / heat.winding_heat_capacity_J_per_K,
+        (iron_loss_W + exchange_W - heat.housing_to_ambient_W_per_K * (at.housing_temperature_C - ambient_C) -
+         heat.housing_to_oil_W_per_K * (at.housing_temperature_C - oil_C)) /
+            heat.housing_heat_capacity_J_per_K};
+  };
+  const CoilHeatState first = rates(state);
+  const CoilHeatState second = rates({state.winding_temperature_C + 0.5 * dt_s * first.winding_temperature_C,
+                                      state.housing_temperature_C + 0.5 * dt_s * first.housing_temperature_C});
+  state.winding_temperature_C += dt_s * second.winding_temperature_C;
+  state.housing_temperature_C += dt_s * second.housing_temperature_C;
+}
+
 }  // namespace spoolflow::rig

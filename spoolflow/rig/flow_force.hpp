@@ -3,10 +3,15 @@
 ///
 ///     F = rho Q^2 cos(e1)/(A1 sin e1) - rho Q^2 cos(e2)/(A2 sin e2) - rho l dQ/dt
 ///
-/// with A1 the radial area the jet fills. The jet angle e1 follows von Mises' slot between opening and clearance, 21 to
-/// 69 deg; the clearance that counts is widened by the boundary layer, d = gain sqrt(nu o/v), so cold oil bends the jet
-/// towards the axis and closes harder. The lateral part rho Q v sin(e1) presses the spool to its bore by the share that
-/// the notches do not balance.
+/// with A1 sin(e1) = Cc A the jet's cross-section behind the metering area. The jet angle e1 follows von Mises' slot
+/// between opening and clearance (jet_angle.hpp); the clearance that counts is widened by edge radius and boundary
+/// layer, d = gain sqrt(nu o/u), so cold oil bends the jet towards the axis and closes harder. The lateral part rho Q u
+/// sin(e1) presses the spool to its bore by the share that the notches do not balance. Leakage carries no momentum
+/// here.
+#include <cmath>
+
+#include "spoolflow/rig/jet_angle.hpp"
+#include "spoolflow/rig/metering_edge.hpp"
 #include "spoolflow/rig/parameter.hpp"
 
 namespace spoolflow::rig {
@@ -34,5 +39,23 @@ struct FlowForce {
         self.friction_per_pressure_N_per_Pa);
   }
 };
+
+struct EdgeForce {
+  double steady_N;   ///< closing > 0, whichever way the oil flows
+  double lateral_N;  ///< magnitude
+  JetDirection jet;
+};
+
+inline EdgeForce edge_force(const FlowForce& law, const EdgeConstants& constants, const EdgeFlow& edge,
+                            double viscosity_m2_per_s) {
+  const double speed = std::abs(edge.velocity_m_per_s) + 1e-3;  // the boundary layer stays finite at no flow
+  const double boundary_layer = law.boundary_layer_gain * std::sqrt(viscosity_m2_per_s * edge.opening_m / speed);
+  const JetDirection jet = jet_direction(edge.opening_m, constants.clearance_m + boundary_layer);
+  const double density = 2.0 * constants.turbulent;
+  const double momentum = density * edge.area_m2 * edge.velocity_m_per_s * edge.velocity_m_per_s;
+  return {.steady_N = momentum * (jet.cosine / law.jet_contraction - edge.area_m2 * constants.outlet),
+          .lateral_N = momentum * jet.sine / law.jet_contraction,
+          .jet = jet};
+}
 
 }  // namespace spoolflow::rig

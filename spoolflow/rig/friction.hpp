@@ -8,7 +8,9 @@
 ///
 /// `level` [N] is the sliding friction from load (spool pressure and lateral flow force, armature side force).
 /// Al-Bender, Lampaert, Swevers 2005 (GMS); rest time: Armstrong-Helouvry 1994.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "spoolflow/rig/parameter.hpp"
 
@@ -54,5 +56,53 @@ struct FrictionState {
   std::array<double, friction_elements> element_N{};  ///< force of each Maxwell-slip element
   double age = 0.0;                                   ///< 0 freshly slid .. 1 long at rest
 };
+
+/// Share alpha_i of the break-away level that element i carries: 1, 2, 3, 4 tenths, at equal stiffness.
+inline constexpr std::array<double, friction_elements> friction_share{0.1, 0.2, 0.3, 0.4};
+
+/// Level W [N] the set can carry at a velocity, from the sliding level.
+inline double breakaway_N(const Friction& friction, double sliding_level_N, double age, double velocity_m_per_s) {
+  const double relative = velocity_m_per_s / friction.stribeck_velocity_m_per_s;
+  return sliding_level_N *
+         (1.0 + (friction.stiction_ratio - 1.0 + friction.ageing_gain * age) / (1.0 + relative * relative));
+}
+
+struct FrictionForce {
+  double force_N;            ///< sign of the motion that it resists
+  double stiffness_N_per_m;  ///< of the elements that stick
+};
+
+/// Force after a monotone displacement from the state.
+inline FrictionForce friction_force(const Friction& friction, const FrictionState& state, double displacement_m,
+                                    double breakaway_N) {
+  const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
+  FrictionForce sum{0.0, 0.0};
+  for (std::size_t i = 0; i < friction_elements; ++i) {
+    const double limit = friction_share[i] * breakaway_N;
+    const double elastic = state.element_N[i] + stiffness * displacement_m;
+    const double force = std::clamp(elastic, -limit, limit);
+    sum.force_N += force;
+    sum.stiffness_N_per_m += elastic == force ? stiffness : 0.0;
+  }
+  return sum;
+}
+
+/// The elements after that displacement.
+inline void slide(const Friction& friction, FrictionState& state, double displacement_m, double breakaway_N) {
+  const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
+  for (std::size_t i = 0; i < friction_elements; ++i) {
+    const double limit = friction_share[i] * breakaway_N;
+    state.element_N[i] = std::clamp(state.element_N[i] + stiffness * displacement_m, -limit, limit);
+  }
+}
+
+/// Contact age after a time at a speed: second-order, L-stable, stays within 0 to 1.
+inline double aged(const Friction& friction, double age, double speed_m_per_s, double dt_s) {
+  const double wiping = speed_m_per_s / friction.ageing_distance_m;
+  const double rate = 1.0 / friction.ageing_time_s + wiping;
+  const double equilibrium = 1.0 / (friction.ageing_time_s * rate);
+  const double z = rate * dt_s;
+  return equilibrium + (age - equilibrium) / (1.0 + z + 0.5 * z * z);
+}
 
 }  // namespace spoolflow::rig

@@ -12,31 +12,36 @@
 /// The first term's slope falls with the plunge, so the force grows with the gap, as proportional magnets are built
 /// for; the second is the flat face behind an anti-stick disc. Leaves out the local saturation of the cone's edge
 /// (its effect is inside the iron section's).
+#include <cmath>
+#include <numbers>
+
+#include "spoolflow/rig/magnetic_material.hpp"
 #include "spoolflow/rig/parameter.hpp"
 
 namespace spoolflow::rig {
 
 struct MagneticCircuit {
-  double iron_area_m2 = 2.2e-4;
-  double iron_length_m = 0.12;
-  double armature_radius_m = 9.0e-3;
+  double iron_area_m2 = 3.1e-4;
+  double iron_length_m = 0.08;
+  double armature_radius_m = 10.5e-3;
   double radial_gap_m = 0.20e-3;
   double radial_gap_length_m = 18.0e-3;
-  double cone_clearance_m = 0.55e-3;
-  double cone_slope = 0.05;
-  double plunge_at_rest_m = 1.0e-3;
-  double fringe_length_m = 1.5e-3;
-  double face_area_m2 = 4.0e-5;
+  double cone_clearance_m = 0.78e-3;
+  double cone_slope = 0.03;
+  double plunge_at_rest_m = 0.8e-3;
+  double fringe_length_m = 1.0e-3;
+  double face_area_m2 = 6.0e-5;
   double face_gap_at_rest_m = 5.0e-3;
   double leakage_permeance_H = 3.0e-8;
-  double eccentricity = 0.3;
+  double eccentricity = 0.2;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit(Parameter{"iron_area_m2", "m2", 5e-5, 2e-3, "armature of 18 mm less its push-rod bore"}, self.iron_area_m2);
-    visit(Parameter{"iron_length_m", "m", 0.03, 0.5, "once round armature, pole, yoke and tube of a 45 mm coil"},
-          self.iron_length_m);
-    visit(Parameter{"armature_radius_m", "m", 3e-3, 3e-2, "18 mm armature"}, self.armature_radius_m);
+    visit(Parameter{"iron_area_m2", "m2", 5e-5, 2e-3, "armature of 21 mm less its push-rod bore"}, self.iron_area_m2);
+    visit(
+        Parameter{"iron_length_m", "m", 0.03, 0.5, "narrow part of the path: armature, pole and tube of a 45 mm coil"},
+        self.iron_length_m);
+    visit(Parameter{"armature_radius_m", "m", 3e-3, 3e-2, "21 mm armature of a 45 mm coil"}, self.armature_radius_m);
     visit(Parameter{"radial_gap_m", "m", 5e-5, 1e-3, "PTFE film or brass tube wall between armature and tube"},
           self.radial_gap_m);
     visit(Parameter{"radial_gap_length_m", "m", 3e-3, 8e-2, "length over which flux enters the armature"},
@@ -59,5 +64,39 @@ struct MagneticCircuit {
           self.eccentricity);
   }
 };
+
+/// Permeance of the working gap and its slope.
+struct GapPermeance {
+  double permeance_H;
+  double slope_H_per_m;  ///< dP/ds, >= 0
+};
+
+/// At the armature's travel s towards its pole, counted from spool centre. Valid below the face gap at rest.
+inline GapPermeance gap_permeance(const MagneticCircuit& circuit, double travel_m) {
+  const double depth = travel_m + circuit.plunge_at_rest_m;
+  const double root = std::sqrt(depth * depth + circuit.fringe_length_m * circuit.fringe_length_m);
+  const double plunge = 0.5 * (depth + root);
+  const double relative = circuit.cone_slope / circuit.cone_clearance_m;
+  const double rim = vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m;
+  const double face_gap = circuit.face_gap_at_rest_m - travel_m;
+  const double face = vacuum_permeability_H_per_m * circuit.face_area_m2 / face_gap;
+  return {rim / circuit.cone_slope * std::log1p(relative * plunge) + face,
+          rim / (circuit.cone_clearance_m + circuit.cone_slope * plunge) * (plunge / root) + face / face_gap};
+}
+
+/// Reluctance [1/H] of the radial gap with the armature off centre: R0 sqrt(1 - eccentricity^2).
+inline double radial_reluctance_per_H(const MagneticCircuit& circuit) {
+  return circuit.radial_gap_m /
+         (vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m *
+          circuit.radial_gap_length_m) *
+         std::sqrt(1.0 - circuit.eccentricity * circuit.eccentricity);
+}
+
+/// Side force over flux squared [N/Wb2]: -dR/de/2 of the radial gap over its width, F = Phi^2 R0 ecc/(2 g
+/// sqrt(1-ecc^2)).
+inline double side_force_per_flux_squared(const MagneticCircuit& circuit) {
+  return 0.5 * radial_reluctance_per_H(circuit) * circuit.eccentricity /
+         (circuit.radial_gap_m * (1.0 - circuit.eccentricity * circuit.eccentricity));
+}
 
 }  // namespace spoolflow::rig

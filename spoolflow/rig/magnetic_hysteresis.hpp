@@ -7,8 +7,11 @@
 /// kappa_k |dB| while it yields, so the operator is thermodynamically consistent, every minor loop closes, and the
 /// enclosed area is the loss. It is the stop form of the energy-based play model (Bergqvist 1997; Francois-Lavet,
 /// Henrotte et al. 2013), written for flux as input. Rate-independent; leaves out the narrowing of loops in saturation.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "spoolflow/rig/magnetic_material.hpp"
 #include "spoolflow/rig/parameter.hpp"
 
 namespace spoolflow::rig {
@@ -29,5 +32,60 @@ struct MagneticHysteresis {
 inline constexpr std::size_t hysteresis_elements = 5;
 /// Field of each stop element [A/m].
 using HysteresisState = std::array<double, hysteresis_elements>;
+
+/// Yield field kappa_k [A/m]: equal shares of the coercive field.
+inline double yield_field_A_per_m(const MagneticHysteresis& hysteresis) {
+  return hysteresis.coercive_field_A_per_m / static_cast<double>(hysteresis_elements);
+}
+
+/// Elastic slope s_k [m/H]: element k yields after the share (k + 1)/n of the reversal width.
+inline double element_slope_m_per_H(const MagneticHysteresis& hysteresis, std::size_t element) {
+  return hysteresis.coercive_field_A_per_m / (hysteresis.reversal_width_T * static_cast<double>(element + 1));
+}
+
+/// The elements after a monotone change of the flux density.
+inline HysteresisState advanced(const MagneticHysteresis& hysteresis, HysteresisState elements, double change_T) {
+  const double yield = yield_field_A_per_m(hysteresis);
+  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
+    elements[k] = std::clamp(elements[k] + element_slope_m_per_H(hysteresis, k) * change_T, -yield, yield);
+  }
+  return elements;
+}
+
+/// Sum of the elements' fields after a monotone change of the flux density, and its slope there.
+inline FieldPoint hysteretic_field(const MagneticHysteresis& hysteresis, const HysteresisState& elements,
+                                   double change_T) {
+  const double yield = yield_field_A_per_m(hysteresis);
+  FieldPoint sum{0.0, 0.0};
+  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
+    const double slope = element_slope_m_per_H(hysteresis, k);
+    const double elastic = elements[k] + slope * change_T;
+    const double field = std::clamp(elastic, -yield, yield);
+    sum.field_A_per_m += field;
+    sum.slope_m_per_H += elastic == field ? slope : 0.0;
+  }
+  return sum;
+}
+
+/// Recoverable energy density [J/m3] in the elements.
+inline double hysteretic_energy(const MagneticHysteresis& hysteresis, const HysteresisState& elements) {
+  double energy = 0.0;
+  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
+    const double slope = element_slope_m_per_H(hysteresis, k);
+    if (slope > 0.0) energy += 0.5 * elements[k] * elements[k] / slope;
+  }
+  return energy;
+}
+
+/// Energy density [J/m3] dissipated while the flux density changes monotonely.
+inline double hysteresis_loss(const MagneticHysteresis& hysteresis, const HysteresisState& elements, double change_T) {
+  const double yield = yield_field_A_per_m(hysteresis);
+  double loss = 0.0;
+  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
+    const double slope = element_slope_m_per_H(hysteresis, k);
+    if (slope > 0.0) loss += yield * std::max(0.0, std::abs(elements[k] + slope * change_T) - yield) / slope;
+  }
+  return loss;
+}
 
 }  // namespace spoolflow::rig

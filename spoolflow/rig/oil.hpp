@@ -7,7 +7,11 @@
 ///     1/K_eff = 1/(K20 + K_T (T - 20 C) + K_p p) + air p0/(p + p0)^2       (p gauge, p0 = 1.013 bar)
 ///
 /// Valid -20 to 120 C, 0 to 400 bar.
+#include <algorithm>
+#include <cmath>
+
 #include "spoolflow/rig/parameter.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
 
@@ -43,5 +47,46 @@ struct Oil {
           self.entrained_air);
   }
 };
+
+/// The oil at one temperature and ambient pressure; kept so that the logarithms are taken once a temperature.
+struct OilState {
+  double temperature_C = 50.0;
+  double density_kg_per_m3 = 0.0;
+  double viscosity_m2_per_s = 0.0;
+  double bulk_modulus_Pa = 0.0;  ///< without air
+};
+
+inline OilState oil_at(const Oil& oil, double temperature_C) {
+  const auto walther = [](double viscosity_m2_per_s) { return std::log10(std::log10(viscosity_m2_per_s * 1e6 + 0.7)); };
+  const double lg_40 = std::log10(units::K_from_degC(40.0));
+  const double lg_100 = std::log10(units::K_from_degC(100.0));
+  const double w_40 = walther(oil.viscosity_40C_m2_per_s);
+  const double b = (w_40 - walther(oil.viscosity_100C_m2_per_s)) / (lg_100 - lg_40);
+  const double w = w_40 - b * (std::log10(units::K_from_degC(temperature_C)) - lg_40);
+  return {.temperature_C = temperature_C,
+          .density_kg_per_m3 = oil.density_15C_kg_per_m3 * (1.0 - oil.thermal_expansion_per_K * (temperature_C - 15.0)),
+          .viscosity_m2_per_s = (std::pow(10.0, std::pow(10.0, w)) - 0.7) * 1e-6,
+          .bulk_modulus_Pa = oil.bulk_modulus_20C_Pa + oil.bulk_modulus_per_K_Pa * (temperature_C - 20.0)};
+}
+
+inline double density_kg_per_m3(const Oil& oil, const OilState& state, double pressure_Pa) {
+  return state.density_kg_per_m3 *
+         (1.0 + pressure_Pa / (state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * pressure_Pa));
+}
+
+inline double viscosity_m2_per_s(const Oil& oil, const OilState& state, double pressure_Pa) {
+  return state.viscosity_m2_per_s * std::exp(oil.pressure_viscosity_per_Pa * pressure_Pa);
+}
+
+inline constexpr double ambient_pressure_Pa = 1.013e5;
+/// Least gauge pressure a volume holds before it cavitates.
+inline constexpr double cavitation_pressure_Pa = -0.95 * ambient_pressure_Pa;
+
+/// 1/K_eff [1/Pa] of oil with entrained air at a gauge pressure.
+inline double compressibility_per_Pa(const Oil& oil, const OilState& state, double pressure_Pa) {
+  const double absolute = std::max(pressure_Pa, cavitation_pressure_Pa) + ambient_pressure_Pa;
+  return 1.0 / (state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * std::max(pressure_Pa, 0.0)) +
+         oil.entrained_air * ambient_pressure_Pa / (absolute * absolute);
+}
 
 }  // namespace spoolflow::rig

@@ -25,8 +25,8 @@ struct Solenoid {
   MagneticHysteresis hysteresis;
   EddyCurrents eddy;
   Friction friction{
-      .base_N = 0.2, .stiction_ratio = 1.2, .contact_stiffness_N_per_m = 1.0e6, .viscosity_exponent = 0.0};
-  double side_friction_coefficient = 0.08;
+      .base_N = 0.3, .stiction_ratio = 1.2, .contact_stiffness_N_per_m = 1.0e6, .viscosity_exponent = 0.0};
+  double side_friction_coefficient = 0.06;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {

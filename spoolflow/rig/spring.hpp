@@ -4,6 +4,8 @@
 ///     F(s) = (1 - relaxation) (F0 + c s (1 + p s)),   s >= 0 the deflection
 ///
 /// The other end's spring rests on the body then, so the pair's force changes sign over the washers' play at centre.
+#include <cmath>
+
 #include "spoolflow/rig/parameter.hpp"
 
 namespace spoolflow::rig {
@@ -26,5 +28,25 @@ struct Spring {
     visit(Parameter{"relaxation", "1", 0, 0.5, "fault: share of force lost by ageing; 0 is new"}, self.relaxation);
   }
 };
+
+struct SpringForce {
+  double force_N;            ///< towards -x
+  double stiffness_N_per_m;  ///< dF/dx
+};
+
+/// Both centring springs at spool position x. Over the washers' play w the changeover is x/sqrt(x^2 + w^2).
+inline SpringForce centring_force(const Spring& spring_a, const Spring& spring_b, double washer_play_m,
+                                  double position_m) {
+  const Spring& spring = position_m >= 0.0 ? spring_b : spring_a;
+  const double deflection = std::abs(position_m);
+  const double root = std::sqrt(position_m * position_m + washer_play_m * washer_play_m);
+  const double full =
+      (1.0 - spring.relaxation) *
+      (spring.preload_N + spring.rate_N_per_m * deflection * (1.0 + spring.progressivity_per_m * deflection));
+  const double slope =
+      (1.0 - spring.relaxation) * spring.rate_N_per_m * (1.0 + 2.0 * spring.progressivity_per_m * deflection);
+  const double share = position_m / root;
+  return {full * share, slope * std::abs(share) + full * (1.0 - share * share) / root};
+}
 
 }  // namespace spoolflow::rig

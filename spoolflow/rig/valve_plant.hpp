@@ -84,7 +84,8 @@ struct PlantParameters {
   }
 };
 
-/// Where an external drive has spool or armature at the end of a step; it gets there at constant acceleration.
+/// Where an external drive has spool or armature at the end of a step, and how fast; on the way there the position
+/// follows the cubic through both ends' positions and velocities. The acceleration is for the load cell's inertia only.
 struct PrescribedMotion {
   double position_m = 0.0;
   double velocity_m_per_s = 0.0;
@@ -110,6 +111,7 @@ struct PlantState {
   SolenoidState solenoid_a;
   SolenoidState solenoid_b;
   FrictionState spool_friction;
+  OilState oil;  ///< at the last oil temperature
   double pressure_P_Pa = 0.0;
   double pressure_A_Pa = 0.0;
   double pressure_B_Pa = 0.0;

@@ -1,0 +1,194 @@
+#include "spoolflow/rig/valve_plant.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "spoolflow/rig/plant_integrator.hpp"
+
+namespace spoolflow::rig {
+namespace {
+
+void refresh_oil(const PlantParameters& parameters, PlantState& state, double temperature_C) {
+  if (state.oil.temperature_C != temperature_C || state.oil.density_kg_per_m3 == 0.0) {
+    state.oil = oil_at(parameters.oil, temperature_C);
+  }
+}
+
+double source_pressure_Pa(const PlantParameters& p, const PlantInput& input, double time_s) {
+  return hydraulic_boundary(p.supply, p.load, input.supply_pressure_Pa, input.held_pressure_difference_Pa,
+                            input.load_force_N, time_s)
+      .source_pressure_Pa;
+}
+
+bool holds_ideally(const PlantParameters& p) {
+  return p.load.kind == LoadKind::held_difference && p.load.ideal_hold;
+}
+
+EdgeOutput edge_output(const PlantRates& rates, std::size_t index) {
+  const EdgeFlow& flow = rates.hydraulics.edges[index];
+  const EdgeForce& force = rates.edge_forces[index];
+  return {.flow_m3_per_s = flow.flow_m3_per_s,
+          .leakage_m3_per_s = flow.leakage_m3_per_s,
+          .pressure_difference_Pa = rates.hydraulics.difference_Pa[index],
+          .area_m2 = flow.area_m2,
+          .jet_angle_rad = std::atan2(force.jet.sine, force.jet.cosine),
+          .steady_force_N = edge_side[index] * force.steady_N,
+          .transient_force_N = rates.transient_N[index],
+          .lateral_force_N = force.lateral_N};
+}
+
+SolenoidOutput solenoid_output(const SolenoidState& state, const SolenoidConstants& constants,
+                               const SolenoidRates& rates, double friction_N) {
+  return {.current_A = rates.current_A,
+          .flux_linkage_Wb = state.flux_linkage_Wb,
+          .flux_Wb = state.flux_Wb,
+          .eddy_current_A = rates.eddy_current_A,
+          .magnetic_force_N = rates.magnetic_force_N,
+          .side_force_N = rates.side_force_N,
+          .friction_force_N = friction_N,
+          .resistance_ohm = constants.resistance_ohm,
+          .winding_temperature_C = state.heat.winding_temperature_C,
+          .housing_temperature_C = state.heat.housing_temperature_C};
+}
+
+}  // namespace
+
+PlantConstants plant_constants(const PlantParameters& p, const PlantState& state) {
+  PlantConstants c{};
+  c.solenoid_a = p.arrangement == Arrangement::valve;
+  c.solenoid_b = p.arrangement != Arrangement::axial_force_bench;
+  c.hydraulics = p.arrangement != Arrangement::solenoid_bench;
+  c.armatures = (c.solenoid_a ? 1.0 : 0.0) + (c.solenoid_b ? 1.0 : 0.0);
+  c.mass_kg = (c.hydraulics ? p.spool.spool_mass_kg : 0.0) + c.armatures * p.spool.armature_mass_kg;
+
+  c.oil = state.oil;
+  const double mean_pressure_Pa = 0.5 * std::max(0.0, state.pressure_P_Pa);
+  c.density_kg_per_m3 = density_kg_per_m3(p.oil, c.oil, mean_pressure_Pa);
+  c.viscosity_m2_per_s = viscosity_m2_per_s(p.oil, c.oil, mean_pressure_Pa);
+  const double dynamic_viscosity_Pa_s = c.density_kg_per_m3 * c.viscosity_m2_per_s;
+  if (c.hydraulics) {
+    c.spool_drag_N_s_per_m =
+        dynamic_viscosity_Pa_s * std::numbers::pi * p.spool.diameter_m * p.spool.land_length_m / p.spool.clearance_m;
+    c.edges = {&p.edge_PA, &p.edge_PB, &p.edge_AT, &p.edge_BT};
+    for (std::size_t i = 0; i < 4; ++i) {
+      c.edge_constants[i] = edge_constants(*c.edges[i], p.spool.diameter_m, p.spool.clearance_m, c.density_kg_per_m3,
+                                           c.viscosity_m2_per_s);
+    }
+  }
+  c.armature_drag_N_s_per_m = c.armatures * dynamic_viscosity_Pa_s * p.spool.armature_drag_m;
+  const double thickness = std::log(c.viscosity_m2_per_s / 46e-6);
+  const auto factor = [thickness](const Friction& friction) {
+    return friction.wear_factor * std::exp(friction.viscosity_exponent * thickness);
+  };
+  c.spool_friction_factor = factor(p.spool_friction);
+  c.armature_a_friction_factor = factor(p.solenoid_a.friction);
+  c.armature_b_friction_factor = factor(p.solenoid_b.friction);
+  c.solenoid_a_constants = solenoid_constants(p.solenoid_a, state.solenoid_a.heat);
+  c.solenoid_b_constants = solenoid_constants(p.solenoid_b, state.solenoid_b.heat);
+  return c;
+}
+
+PlantState plant_at_rest(const PlantParameters& p, const PlantInput& input) {
+  PlantState state;
+  refresh_oil(p, state, input.oil_temperature_C);
+  if (input.motion) state.position_m = input.motion->position_m;
+  const bool held = p.load.kind == LoadKind::held_difference;
+  state.pressure_P_Pa = source_pressure_Pa(p, input, 0.0);
+  state.pressure_A_Pa = state.pressure_B_Pa =
+      held ? p.supply.back_pressure_Pa : 0.5 * (state.pressure_P_Pa + p.supply.tank_pressure_Pa);
+  for (auto [solenoid, heat] :
+       {std::pair{&p.solenoid_a, &state.solenoid_a.heat}, {&p.solenoid_b, &state.solenoid_b.heat}}) {
+    const double to_ambient = solenoid->heat.housing_to_ambient_W_per_K;
+    const double to_oil = solenoid->heat.housing_to_oil_W_per_K;
+    heat->winding_temperature_C = heat->housing_temperature_C =
+        (to_ambient * input.ambient_temperature_C + to_oil * input.oil_temperature_C) / (to_ambient + to_oil);
+  }
+  return state;
+}
+
+void step(const PlantParameters& p, PlantState& state, const PlantInput& input, double dt_s) {
+  refresh_oil(p, state, input.oil_temperature_C);
+  const PlantConstants c = plant_constants(p, state);
+  const double count = std::max(1.0, std::ceil(dt_s / p.integration.substep_s - 1e-6));
+  const double h = dt_s / count;
+  ImposedPath path{};
+  if (input.motion) {
+    path = {state.position_m, state.velocity_m_per_s, input.motion->position_m, input.motion->velocity_m_per_s, dt_s};
+  }
+  SolenoidLosses losses_a, losses_b;
+  for (double i = 0.0; i < count; i += 1.0) {
+    if (holds_ideally(p)) state.pressure_P_Pa = source_pressure_Pa(p, input, state.time_s);
+    internal_step(p, c, state, input, input.motion ? &path : nullptr, i * h, h, losses_a, losses_b);
+  }
+  if (c.solenoid_a) {
+    heat_up(p.solenoid_a.heat, state.solenoid_a.heat, losses_a.winding_J / dt_s, losses_a.iron_J / dt_s,
+            input.ambient_temperature_C, input.oil_temperature_C, dt_s);
+  }
+  if (c.solenoid_b) {
+    heat_up(p.solenoid_b.heat, state.solenoid_b.heat, losses_b.winding_J / dt_s, losses_b.iron_J / dt_s,
+            input.ambient_temperature_C, input.oil_temperature_C, dt_s);
+  }
+}
+
+PlantOutput observe(const PlantParameters& p, const PlantState& state_now, const PlantInput& input) {
+  PlantState state = state_now;
+  refresh_oil(p, state, input.oil_temperature_C);
+  if (holds_ideally(p)) state.pressure_P_Pa = source_pressure_Pa(p, input, state.time_s);
+  const PlantConstants c = plant_constants(p, state);
+  const ContactAges ages{state.spool_friction.age, state.solenoid_a.friction.age, state.solenoid_b.friction.age};
+  const PlantRates r = plant_rates(p, c, state, input, differential_states(state), ages, state.time_s);
+
+  PlantOutput out;
+  out.time_s = state.time_s;
+  out.position_m = state.position_m;
+  out.velocity_m_per_s = state.velocity_m_per_s;
+  out.acceleration_m_per_s2 = input.motion ? input.motion->acceleration_m_per_s2 : r.acceleration_m_per_s2;
+  if (c.solenoid_a) {
+    out.solenoid_a =
+        solenoid_output(state.solenoid_a, c.solenoid_a_constants, r.solenoid_a, r.armature_a_friction.force_N);
+  }
+  if (c.solenoid_b) {
+    out.solenoid_b =
+        solenoid_output(state.solenoid_b, c.solenoid_b_constants, r.solenoid_b, r.armature_b_friction.force_N);
+  }
+  out.magnetic_force_N = out.solenoid_b.magnetic_force_N - out.solenoid_a.magnetic_force_N;
+  out.armature_friction_force_N = out.solenoid_a.friction_force_N + out.solenoid_b.friction_force_N;
+  out.spring_force_N = r.spring.force_N;
+  out.flow_force_N = r.flow_force_N;
+  out.spool_friction_force_N = r.spool_friction.force_N;
+  out.drag_force_N = r.drag_N;
+  out.end_stop_force_N = r.end_stop.force_N;
+
+  const double armature_drag_N = c.armature_drag_N_s_per_m * state.velocity_m_per_s;
+  const double armature_mass_kg = c.armatures * p.spool.armature_mass_kg;
+  out.axial_force_N = out.magnetic_force_N - out.armature_friction_force_N - armature_drag_N -
+                      armature_mass_kg * out.acceleration_m_per_s2;
+  if (p.arrangement == Arrangement::solenoid_bench) {
+    out.load_cell_force_N = out.axial_force_N - out.end_stop_force_N;
+  } else if (p.arrangement == Arrangement::axial_force_bench) {
+    out.load_cell_force_N = out.spring_force_N + out.flow_force_N + out.spool_friction_force_N + out.drag_force_N +
+                            out.end_stop_force_N + c.mass_kg * out.acceleration_m_per_s2;
+  }
+
+  const bool held = p.load.kind == LoadKind::held_difference;
+  out.pressure_P_Pa = state.pressure_P_Pa;
+  out.pressure_A_Pa = state.pressure_A_Pa;
+  out.pressure_B_Pa = state.pressure_B_Pa;
+  out.pressure_T_Pa = held ? p.supply.back_pressure_Pa : p.supply.tank_pressure_Pa;
+  if (c.hydraulics) {
+    out.edge_PA = edge_output(r, edge_PA);
+    out.edge_PB = edge_output(r, edge_PB);
+    out.edge_AT = edge_output(r, edge_AT);
+    out.edge_BT = edge_output(r, edge_BT);
+    const EdgeOutput& opened = state.position_m >= 0.0 ? out.edge_PB : out.edge_PA;
+    out.pressure_difference_Pa = opened.pressure_difference_Pa;
+    out.flow_m3_per_s = opened.flow_m3_per_s;
+  }
+  out.oil_density_kg_per_m3 = c.density_kg_per_m3;
+  out.oil_viscosity_m2_per_s = c.viscosity_m2_per_s;
+  out.cylinder_position_m = state.cylinder_position_m;
+  out.cylinder_velocity_m_per_s = state.cylinder_velocity_m_per_s;
+  return out;
+}
+
+}  // namespace spoolflow::rig
