@@ -102,19 +102,17 @@ int run(CLI::App& program, int argc, char** argv) {
   std::_Exit(work_failed);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Every failure becomes one line and an exit status.
+int run_and_report(int argc, char** argv) {
   CLI::App program("Soft flow-rate sensor for solenoid-operated spool valves: from rig recordings to a flow rate.",
                    "spoolflow");
-  const auto say = [&program](const char* message) { fmt::print(stderr, "{}: {}\n", speaker(program), message); };
-  end_cleanly_when_interrupted("spoolflow");
   program.set_help_flag("-h,--help", "print this help; COMMAND --help explains a command");
   program.get_formatter()->column_width(24);
   program.set_version_flag("--version", std::string(tool_version()), "print the version");
   program.require_subcommand(0, 1);
-  add_commands(program);
   program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
+  add_commands(program);
+  const auto say = [&program](const char* message) { fmt::print(stderr, "{}: {}\n", speaker(program), message); };
   try {
     return run(program, argc, argv);
   } catch (const ReaderGone&) {
@@ -127,6 +125,18 @@ int main(int argc, char** argv) {
     return work_failed;
   } catch (const std::exception& error) {
     say(error.what());
+    return work_failed;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    end_cleanly_when_interrupted("spoolflow");
+    return run_and_report(argc, argv);
+  } catch (...) {
+    std::fputs("spoolflow: a failure that could not even be told\n", stderr);
     return work_failed;
   }
 }

@@ -86,7 +86,7 @@ class DescriptorBuffer : public std::streambuf {
   fs::path target_;
   int descriptor_ = -1;
   bool is_stdout_ = false;
-  std::array<char, 256 * 1024> buffer_;
+  std::array<char, std::size_t{256} * 1024> buffer_;
 };
 
 std::optional<struct stat> status_of(const fs::path& path) {
@@ -168,7 +168,7 @@ struct OutputFile::Target {
   std::ostream stream;
 };
 
-OutputFile::OutputFile(fs::path target, const std::vector<fs::path>& also_used) {
+OutputFile::OutputFile(const fs::path& target, const std::vector<fs::path>& also_used) {
   check_target(target, also_used);
   target_ = std::make_unique<Target>(target);
   const auto status = status_of(target);

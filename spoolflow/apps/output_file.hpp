@@ -25,7 +25,7 @@ class OutputFile {
  public:
   /// `also_used`: files that the same command reads or writes; the target must be none of them. Throws OutputError
   /// where it is, where its folder does not exist, where it is itself a folder, or where writing is not permitted.
-  explicit OutputFile(std::filesystem::path target, const std::vector<std::filesystem::path>& also_used = {});
+  explicit OutputFile(const std::filesystem::path& target, const std::vector<std::filesystem::path>& also_used = {});
   /// Without commit(): removes the temporary file.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

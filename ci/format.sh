@@ -1,0 +1,6 @@
+#!/bin/sh
+# Fails where a source is not as clang-format leaves it; `ci/format.sh -i` formats.
+set -eu
+cd "$(dirname "$0")/.."
+mode=${1:---dry-run}
+find spoolflow tests bench examples -name '*.[ch]pp' 2>/dev/null | sort | xargs clang-format "$mode" --Werror

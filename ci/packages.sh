@@ -1,0 +1,42 @@
+#!/bin/sh
+# Installs what packages.txt lists and this machine lacks. `ci/packages.sh run` leaves out the part for tests only.
+set -eu
+list="$(dirname "$0")/../packages.txt"
+if [ "${1:-}" = run ]; then
+  wanted=$(sed -e '1,/^# Building and running/d' -e '/^#/d' "$list")
+else
+  wanted=$(sed -e '/^#/d' "$list")
+fi
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "this is not a Debian system: the packages of packages.txt must be there by other means" >&2
+  exit 0
+fi
+installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' || true)
+missing=
+for package in $wanted; do
+  case "
+$installed
+" in
+    *"
+$package
+"*) ;;
+    *) missing="$missing $package" ;;
+  esac
+done
+[ -n "$missing" ] || exit 0
+
+echo "installing:$missing" >&2
+if [ "$(id -u)" = 0 ]; then
+  as_root=
+elif command -v sudo >/dev/null; then
+  as_root=sudo
+else
+  echo "these packages are missing and neither root nor sudo is at hand; as root run: apt-get install$missing" >&2
+  exit 1
+fi
+export DEBIAN_FRONTEND=noninteractive
+{
+  $as_root apt-get -qq update
+  $as_root apt-get -qq install -y --no-install-recommends -o Dpkg::Use-Pty=0 $missing
+} </dev/null >&2

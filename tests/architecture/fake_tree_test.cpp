@@ -1,0 +1,148 @@
+/// The checks themselves: each must find its violation in a small made-up tree.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/architecture/file_rules.hpp"
+#include "tests/architecture/folder_table.hpp"
+#include "tests/architecture/include_rules.hpp"
+#include "tests/architecture/link_rules.hpp"
+
+namespace spoolflow::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* page = R"(# Architecture
+| folder (`spoolflow/…`) | what lives there | may include | libraries | never |
+|---|---|---|---|---|
+| `units` | conversions | std | - | anything else |
+| `sensor` | the core | freestanding std | - | heap, any library |
+| `recording` | files | units | fmt, POSIX | sensor |
+| `rig` | the virtual rig | recording, units | fmt | sensor, model |
+| `apps` | the command | all | fmt, CLI11 | - |
+)";
+
+class FakeTree : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "spoolflow-tree-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    root = name;
+    write("ARCHITECTURE.md", page);
+    write("spoolflow/units/conversion.hpp", "#pragma once\n#include <cmath>\n");
+    write("spoolflow/sensor/table.hpp", "#pragma once\n#include <array>\n");
+  }
+  void TearDown() override { fs::remove_all(root); }
+
+  void write(const fs::path& file, const std::string& text) const {
+    fs::create_directories((root / file).parent_path());
+    std::ofstream(root / file) << text;
+  }
+  [[nodiscard]] auto includes() const { return include_violations(table(), root); }
+  [[nodiscard]] FolderTable table() const { return read_folder_table(root / "ARCHITECTURE.md"); }
+
+  fs::path root;
+};
+
+TEST_F(FakeTree, PassesWhereEveryIncludeIsAllowed) {
+  write("spoolflow/rig/oil.cpp",
+        "#include <cmath>\n#include <fmt/format.h>\n#include \"spoolflow/units/conversion.hpp\"\n");
+  write("spoolflow/apps/main.cpp", "#include <CLI/CLI.hpp>\n#include \"spoolflow/sensor/table.hpp\"\n");
+  EXPECT_THAT(includes(), IsEmpty());
+  EXPECT_THAT(file_violations(root), IsEmpty());
+}
+
+TEST_F(FakeTree, FindsARigThatKnowsTheSensor) {
+  write("spoolflow/rig/oil.cpp", "\n#include \"spoolflow/sensor/table.hpp\"\n");
+  EXPECT_THAT(includes(),
+              ElementsAre("spoolflow/rig/oil.cpp:2: rig must not include sensor (spoolflow/sensor/table.hpp)"));
+}
+
+TEST_F(FakeTree, FindsALibraryWhereNoneIsAllowed) {
+  write("spoolflow/units/text.cpp", "#include <fmt/format.h>\n");
+  write("spoolflow/rig/options.cpp", "# include <CLI/CLI.hpp>\n");
+  EXPECT_THAT(includes(), ElementsAre(HasSubstr("rig must not use CLI11"), HasSubstr("units must not use fmt")));
+}
+
+TEST_F(FakeTree, FindsAHeaderThatBareMetalLacks) {
+  write("spoolflow/sensor/log.hpp", "#pragma once\n#include <string>\n");
+  EXPECT_THAT(includes(),
+              ElementsAre("spoolflow/sensor/log.hpp:2: sensor is freestanding and must not include <string>"));
+}
+
+TEST_F(FakeTree, FindsALibraryThatTheTableDoesNotKnow) {
+  write("spoolflow/apps/plot.cpp", "#include <gnuplot/plot.h>\n");
+  EXPECT_THAT(includes(), ElementsAre(HasSubstr("<gnuplot/plot.h> belongs to no library")));
+}
+
+TEST_F(FakeTree, FindsARelativeIncludeAndOneOfNothing) {
+  write("spoolflow/rig/oil.cpp", "#include \"../sensor/table.hpp\"\n#include \"spoolflow/units/nothing.hpp\"\n");
+  EXPECT_THAT(includes(), ElementsAre(HasSubstr("is no path from"), HasSubstr("is no path from")));
+}
+
+TEST_F(FakeTree, FindsAFolderOutsideTheTable) {
+  write("spoolflow/extras/x.hpp", "#pragma once\n");
+  EXPECT_THAT(includes(), ElementsAre(HasSubstr("the folder extras is not in the table")));
+}
+
+TEST_F(FakeTree, FindsForbiddenLinks) {
+  write("links",
+        "spoolflow_rig: spoolflow_settings spoolflow_units fmt::fmt spoolflow_sensor\nspoolflow_units: CLI11::CLI11\n");
+  EXPECT_THAT(link_violations(table(), root / "links"),
+              ElementsAre("the target of rig must not link sensor", "the target of units must not link CLI11"));
+  write("none", "");
+  EXPECT_THROW((void)link_violations(table(), root / "none"), std::runtime_error);
+}
+
+TEST_F(FakeTree, FindsAFileThatHasGrownTooLong) {
+  write("spoolflow/rig/long.cpp", std::string(350, '\n'));
+  EXPECT_THAT(file_violations(root), IsEmpty());
+  write("spoolflow/rig/long.cpp", std::string(351, '\n'));
+  EXPECT_THAT(file_violations(root), ElementsAre(HasSubstr("long.cpp: 351 lines")));
+}
+
+TEST_F(FakeTree, FindsNamesThatSayNothing) {
+  write("spoolflow/rig/string_utils.cpp", "");
+  write("tests/common/x.cpp", "");
+  EXPECT_THAT(file_violations(root), ElementsAre(HasSubstr("string_utils"), HasSubstr("common")));
+}
+
+TEST_F(FakeTree, FindsAHeaderThatCanBeReadTwice) {
+  write("spoolflow/rig/oil.hpp", "struct Oil;\n");
+  EXPECT_THAT(file_violations(root), ElementsAre("spoolflow/rig/oil.hpp: no #pragma once"));
+}
+
+TEST_F(FakeTree, FindsOutputsOpenedOutsideApps) {
+  write("spoolflow/rig/oil.cpp", "std::ofstream out(name);\n");
+  write("spoolflow/apps/output.cpp", "std::ofstream out(name);\n");
+  EXPECT_THAT(file_violations(root), ElementsAre("spoolflow/rig/oil.cpp:1: only apps opens output files"));
+}
+
+TEST_F(FakeTree, FindsUnfinishedWork) {
+  write("spoolflow/rig/oil.cpp",
+        "// TO"
+        "DO: density\n");
+  EXPECT_THAT(file_violations(root), ElementsAre("spoolflow/rig/oil.cpp:1: unfinished work"));
+}
+
+TEST_F(FakeTree, RefusesATableThatContradictsItself) {
+  const std::string head = "| folder | what | may include | libraries | never |\n|---|---|---|---|---|\n";
+  write("ARCHITECTURE.md", head + "| `units` | x | std | - | - |\n| `rig` | x | units | - | units |\n");
+  EXPECT_THROW((void)table(), std::runtime_error);
+  write("ARCHITECTURE.md", head + "| `rig` | x | unitz | - | - |\n");
+  EXPECT_THROW((void)table(), std::runtime_error);
+  write("ARCHITECTURE.md", "no table\n");
+  EXPECT_THROW((void)table(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace spoolflow::architecture

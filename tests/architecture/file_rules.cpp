@@ -1,0 +1,76 @@
+#include "tests/architecture/file_rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <regex>
+
+#include <fmt/format.h>
+
+namespace spoolflow::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_source(const fs::path& path) {
+  return path.extension() == ".hpp" || path.extension() == ".cpp";
+}
+
+bool says_nothing(const std::string& name) {
+  static const std::regex empty_name(R"((^|_)(utils?|utilities|common|helpers?|misc|stuff|dev)(_|$))");
+  return std::regex_search(name, empty_name);
+}
+
+void check_name(const fs::path& place, std::vector<std::string>& violations) {
+  for (const fs::path& part : place) {
+    if (!says_nothing(part.stem().string())) continue;
+    violations.push_back(fmt::format("{}: '{}' says nothing about the content", place.generic_string(), part.string()));
+  }
+}
+
+void check_content(const fs::path& file, const fs::path& place, std::vector<std::string>& violations) {
+  // Written apart, so that this file does not find itself.
+  static const std::regex unfinished(
+      "\\b(TO"
+      "DO|FIX"
+      "ME|X"
+      "XX)\\b");
+  static const std::regex opens_output(R"(\b(std::ofstream|std::fstream|fopen)\b)");
+  const std::string name = place.generic_string();
+  const bool may_open = !name.starts_with("spoolflow/") || name.starts_with("spoolflow/apps/");
+  std::ifstream in(file);
+  int lines = 0;
+  bool once = false;
+  for (std::string line; std::getline(in, line);) {
+    ++lines;
+    once = once || line == "#pragma once";
+    if (std::regex_search(line, unfinished)) violations.push_back(fmt::format("{}:{}: unfinished work", name, lines));
+    if (!may_open && std::regex_search(line, opens_output)) {
+      violations.push_back(fmt::format("{}:{}: only apps opens output files", name, lines));
+    }
+  }
+  if (file.extension() == ".hpp" && !once) violations.push_back(fmt::format("{}: no #pragma once", name));
+  if (lines > longest_file_lines) {
+    violations.push_back(
+        fmt::format("{}: {} lines; past {} look for the second concept", name, lines, longest_file_lines));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> file_violations(const fs::path& root) {
+  std::vector<std::string> violations;
+  for (const char* folder : {"spoolflow", "tests", "bench", "examples"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (!is_source(entry.path())) continue;
+      const fs::path place = fs::relative(entry.path(), root);
+      check_name(place, violations);
+      check_content(entry.path(), place, violations);
+    }
+  }
+  std::sort(violations.begin(), violations.end());
+  return violations;
+}
+
+}  // namespace spoolflow::architecture

@@ -1,0 +1,122 @@
+#include "tests/architecture/include_rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace spoolflow::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What GCC 12 and Clang 14 compile with -ffreestanding and without exceptions, and what needs no heap.
+const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
+                                                 "limits", "numbers", "span",  "type_traits", "utility"};
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> library_prefixes{{
+    {"fmt/", "fmt"},
+    {"nlohmann/", "nlohmann-json"},
+    {"toml++/", "toml++"},
+    {"CLI/", "CLI11"},
+    {"hdf5.h", "HDF5"},
+    {"matio.h", "matio"},
+    {"openssl/", "OpenSSL"},
+    {"ceres/", "Ceres"},
+    {"Eigen/", "Eigen"},
+    {"boost/", "Boost"},
+    {"zip.h", "libzip"},
+    {"sys/", "POSIX"},
+    {"unistd.h", "POSIX"},
+    {"fcntl.h", "POSIX"},
+    {"pthread.h", "POSIX"},
+}};
+
+class Checker {
+ public:
+  Checker(const FolderTable& table, std::vector<std::string>& violations) : table_(table), violations_(violations) {}
+
+  void file(const fs::path& root, const fs::path& path) {
+    place_ = fs::relative(path, root).generic_string();
+    const auto folder = (++fs::relative(path, root).begin())->string();
+    const auto rule = table_.find(folder);
+    if (rule == table_.end()) {
+      violations_.push_back(fmt::format("{}: the folder {} is not in the table", place_, folder));
+      return;
+    }
+    static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    std::ifstream in(path);
+    line_ = 0;
+    for (std::string text; std::getline(in, text);) {
+      ++line_;
+      std::smatch match;
+      if (!std::regex_search(text, match, include)) continue;
+      if (match[1] == "\"") {
+        own_header(folder, rule->second, match[2], root);
+      } else {
+        library_header(folder, rule->second, match[2]);
+      }
+    }
+  }
+
+ private:
+  void violation(const std::string& what) { violations_.push_back(fmt::format("{}:{}: {}", place_, line_, what)); }
+
+  void own_header(const std::string& folder, const FolderRule& rule, const std::string& header, const fs::path& root) {
+    const fs::path path(header);
+    if (*path.begin() != "spoolflow" || !fs::exists(root / path)) {
+      violation(fmt::format("\"{}\" is no path from the project's root", header));
+      return;
+    }
+    const std::string other = (++path.begin())->string();
+    if (other == folder || rule.all_folders || rule.folders.contains(other)) return;
+    violation(fmt::format("{} must not include {} ({})", folder, other, header));
+  }
+
+  void library_header(const std::string& folder, const FolderRule& rule, const std::string& header) {
+    const std::optional<std::string> library = library_of(header);
+    if (!library) {
+      violation(fmt::format("<{}> belongs to no library of the table", header));
+    } else if (*library == "std") {
+      if (rule.freestanding && !freestanding_headers.contains(header)) {
+        violation(fmt::format("{} is freestanding and must not include <{}>", folder, header));
+      }
+    } else if (!rule.libraries.contains(*library)) {
+      violation(fmt::format("{} must not use {} (<{}>)", folder, *library, header));
+    }
+  }
+
+  const FolderTable& table_;
+  std::vector<std::string>& violations_;
+  std::string place_;
+  int line_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> library_of(const std::string& header) {
+  for (const auto& [prefix, library] : library_prefixes) {
+    if (header.starts_with(prefix)) return std::string(library);
+  }
+  static const std::set<std::string> c_headers{"math.h", "signal.h"};
+  const bool standard = header.find_first_of("./") == std::string::npos || c_headers.contains(header);
+  return standard ? std::optional<std::string>("std") : std::nullopt;
+}
+
+std::vector<std::string> include_violations(const FolderTable& table, const fs::path& root) {
+  std::vector<std::string> violations;
+  Checker checker(table, violations);
+  for (const auto& entry : fs::recursive_directory_iterator(root / "spoolflow")) {
+    const fs::path extension = entry.path().extension();
+    if (extension == ".hpp" || extension == ".cpp") checker.file(root, entry.path());
+  }
+  std::sort(violations.begin(), violations.end());
+  return violations;
+}
+
+}  // namespace spoolflow::architecture

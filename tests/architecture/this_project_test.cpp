@@ -1,0 +1,38 @@
+/// The project itself against its own rules. SPOOLFLOW_ROOT and SPOOLFLOW_LINKS come from CMake.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/architecture/file_rules.hpp"
+#include "tests/architecture/folder_table.hpp"
+#include "tests/architecture/include_rules.hpp"
+#include "tests/architecture/link_rules.hpp"
+
+namespace spoolflow::architecture {
+namespace {
+
+using ::testing::IsEmpty;
+
+const std::filesystem::path root = SPOOLFLOW_ROOT;
+
+FolderTable table() {
+  return read_folder_table(root / "docs" / "ARCHITECTURE.md");
+}
+
+TEST(ThisProject, IncludesOnlyWhatItsTableAllows) {
+  EXPECT_THAT(include_violations(table(), root), IsEmpty());
+}
+
+TEST(ThisProject, LinksOnlyWhatItsTableAllows) {
+  EXPECT_THAT(link_violations(table(), SPOOLFLOW_LINKS), IsEmpty());
+}
+
+TEST(ThisProject, KeepsItsFilesShortAndNamedByWhatTheyHold) {
+  EXPECT_THAT(file_violations(root), IsEmpty());
+}
+
+}  // namespace
+}  // namespace spoolflow::architecture

@@ -1,0 +1,9 @@
+/// The sensor as valve firmware has it: one object file in float, with C entry points, linked against nothing.
+#include "all_sensor_headers.hpp"  // written by CMake: every header of spoolflow/sensor
+
+namespace sensor = spoolflow::sensor;
+
+extern "C" void condensed_step(const sensor::CondensedParameters<float>* valve, sensor::CondensedState<float>* state,
+                               const sensor::Sample<float>* sample, sensor::Estimate<float>* estimate) {
+  *estimate = sensor::step(*valve, *state, *sample);
+}
