@@ -18,7 +18,7 @@ namespace spoolflow::rig {
 
 struct FlowForce {
   double jet_contraction = 0.75;
-  double boundary_layer_gain = 4.0;
+  double boundary_layer_gain = 7.5;
   double lateral_friction = 0.035;
   double friction_per_pressure_N_per_Pa = 1.7e-7;
 
@@ -48,6 +48,7 @@ struct EdgeForce {
 
 inline EdgeForce edge_force(const FlowForce& law, const EdgeConstants& constants, const EdgeFlow& edge,
                             double viscosity_m2_per_s) {
+  if (edge.velocity_m_per_s == 0.0) return {0.0, 0.0, {1.0, 0.0}};
   const double speed = std::abs(edge.velocity_m_per_s) + 1e-3;  // the boundary layer stays finite at no flow
   const double boundary_layer = law.boundary_layer_gain * std::sqrt(viscosity_m2_per_s * edge.opening_m / speed);
   const JetDirection jet = jet_direction(edge.opening_m, constants.clearance_m + boundary_layer);

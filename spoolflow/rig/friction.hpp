@@ -19,9 +19,9 @@ namespace spoolflow::rig {
 struct Friction {
   double base_N = 1.4;
   double stiction_ratio = 1.25;
-  double ageing_gain = 0.25;
-  double ageing_time_s = 8.0;
-  double ageing_distance_m = 2.0e-5;
+  double ageing_gain = 3.5;
+  double ageing_time_s = 2.5;
+  double ageing_distance_m = 3.0e-5;
   double stribeck_velocity_m_per_s = 4.0e-3;
   double contact_stiffness_N_per_m = 1.5e6;
   double viscosity_exponent = 0.12;
@@ -33,7 +33,7 @@ struct Friction {
           self.base_N);
     visit(Parameter{"stiction_ratio", "1", 1, 2.5, "break-away over sliding friction right after stopping"},
           self.stiction_ratio);
-    visit(Parameter{"ageing_gain", "1", 0, 2, "what long rest adds to that ratio (oil squeezed out, silting)"},
+    visit(Parameter{"ageing_gain", "1", 0, 8, "what long rest adds to that ratio (oil squeezed out, silting)"},
           self.ageing_gain);
     visit(Parameter{"ageing_time_s", "s", 0.1, 1000,
                     "time constant of that growth; seconds to minutes at fine clearance"},
@@ -62,9 +62,9 @@ inline constexpr std::array<double, friction_elements> friction_share{0.1, 0.2, 
 
 /// Level W [N] the set can carry at a velocity, from the sliding level.
 inline double breakaway_N(const Friction& friction, double sliding_level_N, double age, double velocity_m_per_s) {
-  const double relative = velocity_m_per_s / friction.stribeck_velocity_m_per_s;
-  return sliding_level_N *
-         (1.0 + (friction.stiction_ratio - 1.0 + friction.ageing_gain * age) / (1.0 + relative * relative));
+  const double stribeck2 = friction.stribeck_velocity_m_per_s * friction.stribeck_velocity_m_per_s;
+  return sliding_level_N * (1.0 + (friction.stiction_ratio - 1.0 + friction.ageing_gain * age) * stribeck2 /
+                                      (stribeck2 + velocity_m_per_s * velocity_m_per_s));
 }
 
 struct FrictionForce {
@@ -72,36 +72,45 @@ struct FrictionForce {
   double stiffness_N_per_m;  ///< of the elements that stick
 };
 
-/// Force after a monotone displacement from the state.
+/// Force after a monotone displacement from the state; the velocity tells which elements at their limit go on slipping.
 inline FrictionForce friction_force(const Friction& friction, const FrictionState& state, double displacement_m,
-                                    double breakaway_N) {
-  const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
+                                    double velocity_m_per_s, double breakaway_N) {
+  constexpr double share = 1.0 / static_cast<double>(friction_elements);
+  const double stiffness = share * friction.contact_stiffness_N_per_m;
   FrictionForce sum{0.0, 0.0};
   for (std::size_t i = 0; i < friction_elements; ++i) {
     const double limit = friction_share[i] * breakaway_N;
     const double elastic = state.element_N[i] + stiffness * displacement_m;
-    const double force = std::clamp(elastic, -limit, limit);
-    sum.force_N += force;
-    sum.stiffness_N_per_m += elastic == force ? stiffness : 0.0;
+    sum.force_N += std::clamp(elastic, -limit, limit);
+    sum.stiffness_N_per_m += std::abs(elastic) >= limit && elastic * velocity_m_per_s > 0.0 ? 0.0 : stiffness;
   }
   return sum;
 }
 
+/// Distance the whole set slips over a displacement: what its last element to slip cannot follow.
+inline double slip_m(const Friction& friction, const FrictionState& state, double displacement_m, double breakaway_N) {
+  constexpr double share = 1.0 / static_cast<double>(friction_elements);
+  const double stiffness = share * friction.contact_stiffness_N_per_m;
+  const double elastic = state.element_N.back() + stiffness * displacement_m;
+  return std::max(0.0, std::abs(elastic) - friction_share.back() * breakaway_N) / stiffness;
+}
+
 /// The elements after that displacement.
 inline void slide(const Friction& friction, FrictionState& state, double displacement_m, double breakaway_N) {
-  const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
+  constexpr double share = 1.0 / static_cast<double>(friction_elements);
+  const double change = share * friction.contact_stiffness_N_per_m * displacement_m;
   for (std::size_t i = 0; i < friction_elements; ++i) {
     const double limit = friction_share[i] * breakaway_N;
-    state.element_N[i] = std::clamp(state.element_N[i] + stiffness * displacement_m, -limit, limit);
+    state.element_N[i] = std::clamp(state.element_N[i] + change, -limit, limit);
   }
 }
 
-/// Contact age after a time at a speed: second-order, L-stable, stays within 0 to 1.
-inline double aged(const Friction& friction, double age, double speed_m_per_s, double dt_s) {
-  const double wiping = speed_m_per_s / friction.ageing_distance_m;
-  const double rate = 1.0 / friction.ageing_time_s + wiping;
-  const double equilibrium = 1.0 / (friction.ageing_time_s * rate);
-  const double z = rate * dt_s;
+/// Contact age after a time in which the set slipped over a distance: second-order, L-stable, stays within 0 to 1.
+/// Pre-sliding alone does not renew the contacts.
+inline double aged(const Friction& friction, double age, double slip_m, double dt_s) {
+  const double ageing = dt_s / friction.ageing_time_s;
+  const double z = ageing + slip_m / friction.ageing_distance_m;
+  const double equilibrium = ageing / z;
   return equilibrium + (age - equilibrium) / (1.0 + z + 0.5 * z * z);
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "spoolflow/rig/flow_force.hpp"
 #include "spoolflow/rig/load.hpp"
@@ -20,8 +21,10 @@
 
 namespace spoolflow::rig {
 
-/// {p_P, p_A, p_B [Pa], Q_i [m3/s], x_c [m], v_c [m/s]}
-using HydraulicVector = std::array<double, 6>;
+/// Differential states, in this order.
+enum HydraulicIndex { state_p_P, state_p_A, state_p_B, state_Q_i, state_x_c, state_v_c, hydraulic_states };
+using HydraulicVector = std::span<const double, hydraulic_states>;
+using HydraulicRate = std::span<double, hydraulic_states>;
 
 enum EdgeIndex { edge_PA, edge_PB, edge_AT, edge_BT };
 /// +1: opens with x > 0.
@@ -79,6 +82,7 @@ inline Cushion cushion_force(const Load& load, double position_m, double velocit
   return {side * push, stiffness_N_per_m, stiffness_N_per_m * depth * damping_s_per_m};
 }
 
+/// Left uninitialised where it is made: hydraulic_rates fills every member.
 struct HydraulicRates {
   std::array<EdgeFlow, 4> edges;
   std::array<double, 4> difference_Pa;
@@ -86,17 +90,16 @@ struct HydraulicRates {
   LoadFlow load;
   Cushion cushion;
   double elastance_P, elastance_A, elastance_B;  ///< 1/C [Pa/m3]
-  HydraulicVector rate;
 };
 
-inline HydraulicRates hydraulic_rates(const std::array<const MeteringEdge*, 4>& edges,
-                                      const std::array<EdgeConstants, 4>& constants, const Supply& supply,
-                                      const Load& load, const Oil& oil, const OilState& oil_state,
-                                      double density_kg_per_m3, const HydraulicBoundary& boundary,
-                                      const HydraulicVector& states, double position_m) {
-  const auto [p_P, p_A, p_B, source_flow, x_c, v_c] = states;
+inline void hydraulic_rates(const std::array<const MeteringEdge*, 4>& edges,
+                            const std::array<EdgeConstants, 4>& constants, const Supply& supply, const Load& load,
+                            const Oil& oil, const OilState& oil_state, double density_kg_per_m3,
+                            const HydraulicBoundary& boundary, HydraulicVector states, double position_m,
+                            HydraulicRates& out, HydraulicRate rate) {
+  const double p_P = states[state_p_P], p_A = states[state_p_A], p_B = states[state_p_B];
+  const double x_c = states[state_x_c], v_c = states[state_v_c];
   const double p_T = boundary.tank_pressure_Pa;
-  HydraulicRates out;
   out.difference_Pa = {p_P - p_A, p_P - p_B, p_A - p_T, p_B - p_T};
   for (std::size_t i = 0; i < 4; ++i) {
     out.edges[i] = edge_flow(*edges[i], constants[i], edge_side[i] * position_m, out.difference_Pa[i]);
@@ -104,15 +107,15 @@ inline HydraulicRates hydraulic_rates(const std::array<const MeteringEdge*, 4>& 
   const double error = boundary.source_pressure_Pa - p_P;
   const double G = supply.source_conductance_m3_per_s_Pa;
   out.elastance_P = 1.0 / (supply.line_volume_m3 * compressibility_per_Pa(oil, oil_state, p_P));
-  out.rate = {};
-  out.rate[0] =
-      out.elastance_P * (G * error + source_flow - out.edges[edge_PA].flow_m3_per_s - out.edges[edge_PB].flow_m3_per_s);
+  std::fill(rate.begin(), rate.end(), 0.0);
+  rate[state_p_P] = out.elastance_P * (G * error + states[state_Q_i] - out.edges[edge_PA].flow_m3_per_s -
+                                       out.edges[edge_PB].flow_m3_per_s);
   out.load = {0.0, 0.0};
   out.cushion = {0.0, 0.0, 0.0};
   out.elastance_A = out.elastance_B = 0.0;
   if (load.kind == LoadKind::held_difference) {
-    out.rate[3] = G / supply.hold_integral_time_s * error;
-    if (load.ideal_hold) out.rate[0] = out.rate[3] = 0.0;
+    rate[state_Q_i] = G / supply.hold_integral_time_s * error;
+    if (load.ideal_hold) rate[state_p_P] = rate[state_Q_i] = 0.0;
   } else {
     out.load = load_flow(load, density_kg_per_m3, p_B - p_A);
     const bool cylinder = load.kind == LoadKind::cylinder;
@@ -127,16 +130,16 @@ inline HydraulicRates hydraulic_rates(const std::array<const MeteringEdge*, 4>& 
       into_A += load.piston_area_A_m2 * v_c;
       into_B -= load.piston_area_B_m2 * v_c;
       out.cushion = cushion_force(load, x_c, v_c);
-      out.rate[4] = v_c;
-      out.rate[5] = (p_B * load.piston_area_B_m2 - p_A * load.piston_area_A_m2 - load.cylinder_drag_N_s_per_m * v_c -
-                     out.cushion.force_N - boundary.load_force_N) /
-                    load.cylinder_mass_kg;
+      rate[state_x_c] = v_c;
+      rate[state_v_c] = (p_B * load.piston_area_B_m2 - p_A * load.piston_area_A_m2 -
+                         load.cylinder_drag_N_s_per_m * v_c - out.cushion.force_N - boundary.load_force_N) /
+                        load.cylinder_mass_kg;
     }
-    out.rate[1] = out.elastance_A * into_A;
-    out.rate[2] = out.elastance_B * into_B;
+    rate[state_p_A] = out.elastance_A * into_A;
+    rate[state_p_B] = out.elastance_B * into_B;
   }
-  out.difference_rate_Pa_per_s = {out.rate[0] - out.rate[1], out.rate[0] - out.rate[2], out.rate[1], out.rate[2]};
-  return out;
+  out.difference_rate_Pa_per_s = {rate[state_p_P] - rate[state_p_A], rate[state_p_P] - rate[state_p_B], rate[state_p_A],
+                                  rate[state_p_B]};
 }
 
 /// Solves (1 - w J) k = r; the source's integrator enters explicitly (it is slow by its range).
@@ -180,14 +183,15 @@ class HydraulicSolver {
     }
   }
 
-  HydraulicVector operator()(const HydraulicVector& right) const {
-    HydraulicVector k{};
-    k[3] = right[3];
+  void operator()(HydraulicVector right, HydraulicRate k) const {
     if (kind_ == LoadKind::held_difference) {
-      k[0] = right[0] * pivot_[0];
-      return k;
+      std::fill(k.begin(), k.end(), 0.0);
+      k[state_p_P] = right[state_p_P] * pivot_[0];
+      k[state_Q_i] = right[state_Q_i];
+      return;
     }
-    std::array<double, 4> r{right[0], right[1], right[2], right[5] - position_ * right[4]};
+    std::array<double, 4> r{right[state_p_P], right[state_p_A], right[state_p_B],
+                            right[state_v_c] - position_ * right[state_x_c]};
     for (std::size_t i = 1; i < 4; ++i) {
       for (std::size_t j = 0; j < i; ++j) r[i] -= m_[i][j] * r[j];
     }
@@ -195,12 +199,12 @@ class HydraulicSolver {
       for (std::size_t j = i + 1; j < 4; ++j) r[i] -= m_[i][j] * r[j];
       r[i] *= pivot_[i];
     }
-    k[0] = r[0];
-    k[1] = r[1];
-    k[2] = r[2];
-    k[4] = right[4] + weight_s_ * r[3];
-    k[5] = r[3];
-    return k;
+    k[state_p_P] = r[0];
+    k[state_p_A] = r[1];
+    k[state_p_B] = r[2];
+    k[state_Q_i] = right[state_Q_i];
+    k[state_x_c] = right[state_x_c] + weight_s_ * r[3];
+    k[state_v_c] = r[3];
   }
 
  private:

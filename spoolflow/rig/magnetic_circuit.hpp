@@ -71,17 +71,34 @@ struct GapPermeance {
   double slope_H_per_m;  ///< dP/ds, >= 0
 };
 
+/// The gap's constants.
+struct WorkingGap {
+  double plunge_m, fringe_m2;
+  double cone_H;      ///< mu0 2 pi r/tan(beta)
+  double cone_per_m;  ///< tan(beta)/c
+  double face_H_m;    ///< mu0 A_face
+  double face_gap_m;
+};
+
+inline WorkingGap working_gap(const MagneticCircuit& circuit) {
+  return {circuit.plunge_at_rest_m,
+          circuit.fringe_length_m * circuit.fringe_length_m,
+          vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m / circuit.cone_slope,
+          circuit.cone_slope / circuit.cone_clearance_m,
+          vacuum_permeability_H_per_m * circuit.face_area_m2,
+          circuit.face_gap_at_rest_m};
+}
+
 /// At the armature's travel s towards its pole, counted from spool centre. Valid below the face gap at rest.
-inline GapPermeance gap_permeance(const MagneticCircuit& circuit, double travel_m) {
-  const double depth = travel_m + circuit.plunge_at_rest_m;
-  const double root = std::sqrt(depth * depth + circuit.fringe_length_m * circuit.fringe_length_m);
+inline GapPermeance gap_permeance(const WorkingGap& gap, double travel_m) {
+  const double depth = travel_m + gap.plunge_m;
+  const double root = std::sqrt(depth * depth + gap.fringe_m2);
   const double plunge = 0.5 * (depth + root);
-  const double relative = circuit.cone_slope / circuit.cone_clearance_m;
-  const double rim = vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m;
-  const double face_gap = circuit.face_gap_at_rest_m - travel_m;
-  const double face = vacuum_permeability_H_per_m * circuit.face_area_m2 / face_gap;
-  return {rim / circuit.cone_slope * std::log1p(relative * plunge) + face,
-          rim / (circuit.cone_clearance_m + circuit.cone_slope * plunge) * (plunge / root) + face / face_gap};
+  const double per_face_gap = 1.0 / (gap.face_gap_m - travel_m);
+  const double face = gap.face_H_m * per_face_gap;
+  const double relative = gap.cone_per_m * plunge;
+  return {gap.cone_H * std::log1p(relative) + face,
+          gap.cone_H * gap.cone_per_m * plunge / ((1.0 + relative) * root) + face * per_face_gap};
 }
 
 /// Reluctance [1/H] of the radial gap with the armature off centre: R0 sqrt(1 - eccentricity^2).

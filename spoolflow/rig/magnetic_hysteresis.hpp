@@ -33,57 +33,60 @@ inline constexpr std::size_t hysteresis_elements = 5;
 /// Field of each stop element [A/m].
 using HysteresisState = std::array<double, hysteresis_elements>;
 
-/// Yield field kappa_k [A/m]: equal shares of the coercive field.
-inline double yield_field_A_per_m(const MagneticHysteresis& hysteresis) {
-  return hysteresis.coercive_field_A_per_m / static_cast<double>(hysteresis_elements);
-}
+/// The elements' constants: equal shares of the coercive field as yield, and elastic slopes by which element k yields
+/// after the share (k + 1)/n of the reversal width.
+struct StopElements {
+  double yield_A_per_m;                                   ///< kappa_k
+  std::array<double, hysteresis_elements> slope_m_per_H;  ///< s_k
+};
 
-/// Elastic slope s_k [m/H]: element k yields after the share (k + 1)/n of the reversal width.
-inline double element_slope_m_per_H(const MagneticHysteresis& hysteresis, std::size_t element) {
-  return hysteresis.coercive_field_A_per_m / (hysteresis.reversal_width_T * static_cast<double>(element + 1));
+inline StopElements stop_elements(const MagneticHysteresis& hysteresis) {
+  StopElements stops{};
+  stops.yield_A_per_m = hysteresis.coercive_field_A_per_m / static_cast<double>(hysteresis_elements);
+  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
+    stops.slope_m_per_H[k] =
+        hysteresis.coercive_field_A_per_m / (hysteresis.reversal_width_T * static_cast<double>(k + 1));
+  }
+  return stops;
 }
 
 /// The elements after a monotone change of the flux density.
-inline HysteresisState advanced(const MagneticHysteresis& hysteresis, HysteresisState elements, double change_T) {
-  const double yield = yield_field_A_per_m(hysteresis);
+inline HysteresisState advanced(const StopElements& stops, HysteresisState elements, double change_T) {
   for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    elements[k] = std::clamp(elements[k] + element_slope_m_per_H(hysteresis, k) * change_T, -yield, yield);
+    elements[k] =
+        std::clamp(elements[k] + stops.slope_m_per_H[k] * change_T, -stops.yield_A_per_m, stops.yield_A_per_m);
   }
   return elements;
 }
 
 /// Sum of the elements' fields after a monotone change of the flux density, and its slope there.
-inline FieldPoint hysteretic_field(const MagneticHysteresis& hysteresis, const HysteresisState& elements,
-                                   double change_T) {
-  const double yield = yield_field_A_per_m(hysteresis);
+inline FieldPoint hysteretic_field(const StopElements& stops, const HysteresisState& elements, double change_T) {
   FieldPoint sum{0.0, 0.0};
   for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    const double slope = element_slope_m_per_H(hysteresis, k);
-    const double elastic = elements[k] + slope * change_T;
-    const double field = std::clamp(elastic, -yield, yield);
+    const double elastic = elements[k] + stops.slope_m_per_H[k] * change_T;
+    const double field = std::clamp(elastic, -stops.yield_A_per_m, stops.yield_A_per_m);
     sum.field_A_per_m += field;
-    sum.slope_m_per_H += elastic == field ? slope : 0.0;
+    sum.slope_m_per_H += elastic == field ? stops.slope_m_per_H[k] : 0.0;
   }
   return sum;
 }
 
 /// Recoverable energy density [J/m3] in the elements.
-inline double hysteretic_energy(const MagneticHysteresis& hysteresis, const HysteresisState& elements) {
+inline double hysteretic_energy(const StopElements& stops, const HysteresisState& elements) {
   double energy = 0.0;
   for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    const double slope = element_slope_m_per_H(hysteresis, k);
-    if (slope > 0.0) energy += 0.5 * elements[k] * elements[k] / slope;
+    if (stops.slope_m_per_H[k] > 0.0) energy += 0.5 * elements[k] * elements[k] / stops.slope_m_per_H[k];
   }
   return energy;
 }
 
-/// Energy density [J/m3] dissipated while the flux density changes monotonely.
-inline double hysteresis_loss(const MagneticHysteresis& hysteresis, const HysteresisState& elements, double change_T) {
-  const double yield = yield_field_A_per_m(hysteresis);
+/// Energy density [J/m3] dissipated while the flux density changes monotonely: each element's yield field times the
+/// part of the change over which it yields.
+inline double hysteresis_loss(const StopElements& stops, const HysteresisState& elements, double change_T) {
   double loss = 0.0;
   for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    const double slope = element_slope_m_per_H(hysteresis, k);
-    if (slope > 0.0) loss += yield * std::max(0.0, std::abs(elements[k] + slope * change_T) - yield) / slope;
+    const double beyond = std::abs(elements[k] + stops.slope_m_per_H[k] * change_T) - stops.yield_A_per_m;
+    if (beyond > 0.0) loss += stops.yield_A_per_m * beyond / stops.slope_m_per_H[k];
   }
   return loss;
 }

@@ -33,22 +33,32 @@ struct MagneticMaterial {
   }
 };
 
+/// The curve's constants.
+struct AnhystereticCurve {
+  double saturation_T, knee_T2;
+  double linear_m_per_H;     ///< 1/(mu0 mu_r)
+  double saturated_m_per_H;  ///< 1/mu0 - 1/(mu0 mu_r)
+};
+
+inline AnhystereticCurve anhysteretic_curve(const MagneticMaterial& iron) {
+  const double linear = 1.0 / (vacuum_permeability_H_per_m * iron.relative_permeability);
+  return {iron.saturation_T, iron.knee_width_T * iron.knee_width_T, linear, 1.0 / vacuum_permeability_H_per_m - linear};
+}
+
 /// A curve's value and slope at one point.
 struct FieldPoint {
   double field_A_per_m;
   double slope_m_per_H;  ///< dH/dB, > 0
 };
 
-inline FieldPoint anhysteretic_field(const MagneticMaterial& iron, double flux_density_T) {
-  const double below = flux_density_T - iron.saturation_T;
-  const double above = flux_density_T + iron.saturation_T;
-  const double width2 = iron.knee_width_T * iron.knee_width_T;
-  const double root_below = std::sqrt(below * below + width2);
-  const double root_above = std::sqrt(above * above + width2);
-  const double nu = 1.0 / (vacuum_permeability_H_per_m * iron.relative_permeability);
-  const double saturated = 1.0 / vacuum_permeability_H_per_m - nu;
-  return {nu * flux_density_T + saturated * (flux_density_T + 0.5 * (root_below - root_above)),
-          nu + saturated * (1.0 + 0.5 * (below / root_below - above / root_above))};
+inline FieldPoint anhysteretic_field(const AnhystereticCurve& curve, double flux_density_T) {
+  const double below = flux_density_T - curve.saturation_T;
+  const double above = flux_density_T + curve.saturation_T;
+  const double root_below = std::sqrt(below * below + curve.knee_T2);
+  const double root_above = std::sqrt(above * above + curve.knee_T2);
+  return {curve.linear_m_per_H * flux_density_T +
+              curve.saturated_m_per_H * (flux_density_T + 0.5 * (root_below - root_above)),
+          curve.linear_m_per_H + curve.saturated_m_per_H * (1.0 + 0.5 * (below / root_below - above / root_above))};
 }
 
 /// Energy density [J/m3] stored at a flux density: the integral of the field from zero.

@@ -1,8 +1,8 @@
 #pragma once
 /// One metering edge: notch geometry, overlap, clearance and wear; its flow by pressure difference.
 ///
-///     o = s - overlap,  o+ = (o + sqrt(o^2 + c'^2))/2,  c' = c + r     (smooth positive part; s the travel that opens,
-///                                                                       c clearance, r edge radius)
+///     o = s - overlap                                   (s the travel that opens)
+///     o+ = 0 below -c', (o + c')^2/(4 c') around 0, o above c';   c' = c + r, clearance and edge radius
 ///     A = n (w o+ + tan(theta) o+^2)
 ///     dp = rho/2 (Q_n/(Cd A))^2 (1 + Re_t/Re) + rho/2 (Q_n/A_channel)^2,   Re = 2 o+ Q_n/(A nu)
 ///     Q_leak = pi D c^3 (1 + 1.5 ecc^2)/(12 rho nu L) dp,  L = L_s + (sqrt(o^2 + L_s^2) - o)/2
@@ -20,14 +20,14 @@ namespace spoolflow::rig {
 struct MeteringEdge {
   double overlap_m = 0.15e-3;
   double notches = 4.0;
-  double notch_width_m = 1.2e-3;
-  double notch_flank = 0.35;
+  double notch_width_m = 1.08e-3;
+  double notch_flank = 0.31;
   double discharge_coefficient = 0.68;
   double transition_reynolds = 60.0;
   double sealing_length_m = 0.2e-3;
   double channel_area_m2 = 2.6e-5;
   double outlet_area_m2 = 1.2e-4;
-  double outlet_angle_deg = 80.0;
+  double outlet_cotangent = 0.18;
   double damping_length_m = 12.0e-3;
   double edge_radius_m = 2.0e-6;
   double clearance_eccentricity = 0.5;
@@ -51,8 +51,8 @@ struct MeteringEdge {
           self.channel_area_m2);
     visit(Parameter{"outlet_area_m2", "m2", 1e-5, 5e-3, "A2 of the paper's equation (2): chamber to port"},
           self.outlet_area_m2);
-    visit(Parameter{"outlet_angle_deg", "deg", 45, 90, "e2 of the paper's equation (2), from the spool axis"},
-          self.outlet_angle_deg);
+    visit(Parameter{"outlet_cotangent", "1", 0, 1, "cot e2 of the paper's equation (2); 80 deg from the spool axis"},
+          self.outlet_cotangent);
     visit(Parameter{"damping_length_m", "m", -0.05, 0.05,
                     "l of the paper's equation (2); sign by flow direction in the chamber"},
           self.damping_length_m);
@@ -74,14 +74,13 @@ struct EdgeConstants {
 
 inline EdgeConstants edge_constants(const MeteringEdge& edge, double bore_diameter_m, double clearance_m,
                                     double density_kg_per_m3, double viscosity_m2_per_s) {
-  const double angle = edge.outlet_angle_deg * (std::numbers::pi / 180.0);
   return {.clearance_m = clearance_m + edge.edge_radius_m,
           .turbulent = 0.5 * density_kg_per_m3,
           .laminar = 0.25 * density_kg_per_m3 * viscosity_m2_per_s * edge.transition_reynolds,
           .leakage = std::numbers::pi * bore_diameter_m * clearance_m * clearance_m * clearance_m *
                      (1.0 + 1.5 * edge.clearance_eccentricity * edge.clearance_eccentricity) /
                      (12.0 * density_kg_per_m3 * viscosity_m2_per_s),
-          .outlet = std::cos(angle) / (std::sin(angle) * edge.outlet_area_m2)};
+          .outlet = edge.outlet_cotangent / edge.outlet_area_m2};
 }
 
 /// Flow through one edge and its slopes.
@@ -98,10 +97,17 @@ struct EdgeFlow {
 inline EdgeFlow edge_flow(const MeteringEdge& edge, const EdgeConstants& constants, double travel_m,
                           double pressure_difference_Pa) {
   const double o = travel_m - edge.overlap_m;
-  const double root = std::sqrt(o * o + constants.clearance_m * constants.clearance_m);
-  // The conjugate form keeps the closed edge's small opening free of cancellation.
-  const double opening = o > 0.0 ? 0.5 * (o + root) : 0.5 * constants.clearance_m * constants.clearance_m / (root - o);
-  const double opening_slope = opening / root;
+  const double seal_root = std::sqrt(o * o + edge.sealing_length_m * edge.sealing_length_m);
+  const double length = edge.sealing_length_m + 0.5 * (seal_root - o);
+  const double leakage_conductance = constants.leakage / length;
+  const double leakage = leakage_conductance * pressure_difference_Pa;
+  const double leakage_gain = 0.5 * leakage * (1.0 - o / seal_root) / length;
+  const double c = constants.clearance_m;
+  if (o <= -c) return {0.0, 0.0, 0.0, leakage, leakage, leakage_conductance, leakage_gain};
+
+  const double around = (o + c) / (2.0 * c);
+  const double opening = o < c ? c * around * around : o;
+  const double opening_slope = o < c ? around : 1.0;
   const double area = edge.notches * opening * (edge.notch_width_m + edge.notch_flank * opening);
   const double area_slope = edge.notches * (edge.notch_width_m + 2.0 * edge.notch_flank * opening);
 
@@ -119,19 +125,13 @@ inline EdgeFlow edge_flow(const MeteringEdge& edge, const EdgeConstants& constan
   const double quadratic_slope = constants.turbulent * (loss_slope + 2.0 * channel * area_slope / edge.channel_area_m2);
   const double linear_slope = constants.laminar * (loss_slope - loss / opening) / opening;
   const double u_slope = -u * (quadratic_slope * std::abs(u) + linear_slope) / slope;
-
-  const double seal_root = std::sqrt(o * o + edge.sealing_length_m * edge.sealing_length_m);
-  const double length = edge.sealing_length_m + 0.5 * (seal_root - o);
-  const double leakage_conductance = constants.leakage / length;
-  const double leakage = leakage_conductance * pressure_difference_Pa;
   return {.opening_m = opening,
           .area_m2 = area,
           .velocity_m_per_s = u,
           .leakage_m3_per_s = leakage,
           .flow_m3_per_s = area * u + leakage,
           .conductance_m3_per_s_Pa = area / slope + leakage_conductance,
-          .flow_gain_m2_per_s =
-              opening_slope * (area_slope * u + area * u_slope) + 0.5 * leakage * (1.0 - o / seal_root) / length};
+          .flow_gain_m2_per_s = opening_slope * (area_slope * u + area * u_slope) + leakage_gain};
 }
 
 }  // namespace spoolflow::rig

@@ -33,12 +33,33 @@ struct PlantConstants {
 /// `state.oil` is at the input's oil temperature.
 PlantConstants plant_constants(const PlantParameters& parameters, const PlantState& state);
 
-/// The differential states, as the integrator sees them.
-struct PlantVector {
-  double position_m, velocity_m_per_s;
-  SolenoidVector solenoid_a, solenoid_b;
-  HydraulicVector hydraulics;
+/// The differential states, as the integrator sees them, in this order.
+enum PlantIndex {
+  state_x = 0,
+  state_v = 1,
+  state_solenoid_a = 2,
+  state_solenoid_b = state_solenoid_a + solenoid_states,
+  state_hydraulics = state_solenoid_b + solenoid_states,
+  plant_states = state_hydraulics + hydraulic_states
 };
+using PlantVector = std::array<double, plant_states>;
+
+template <std::size_t offset, std::size_t count, class Vector>
+auto block(Vector& u) {
+  return std::span(u).template subspan<offset, count>();
+}
+template <class Vector>
+auto solenoid_a_of(Vector& u) {
+  return block<state_solenoid_a, solenoid_states>(u);
+}
+template <class Vector>
+auto solenoid_b_of(Vector& u) {
+  return block<state_solenoid_b, solenoid_states>(u);
+}
+template <class Vector>
+auto hydraulics_of(Vector& u) {
+  return block<state_hydraulics, hydraulic_states>(u);
+}
 
 struct ContactAges {
   double spool, armature_a, armature_b;
@@ -47,10 +68,18 @@ struct ContactAges {
 inline PlantVector differential_states(const PlantState& s) {
   return {s.position_m,
           s.velocity_m_per_s,
-          {s.solenoid_a.flux_linkage_Wb, s.solenoid_a.flux_Wb, s.solenoid_a.skin_current_A},
-          {s.solenoid_b.flux_linkage_Wb, s.solenoid_b.flux_Wb, s.solenoid_b.skin_current_A},
-          {s.pressure_P_Pa, s.pressure_A_Pa, s.pressure_B_Pa, s.hold_flow_m3_per_s, s.cylinder_position_m,
-           s.cylinder_velocity_m_per_s}};
+          s.solenoid_a.flux_linkage_Wb,
+          s.solenoid_a.flux_Wb,
+          s.solenoid_a.skin_current_A,
+          s.solenoid_b.flux_linkage_Wb,
+          s.solenoid_b.flux_Wb,
+          s.solenoid_b.skin_current_A,
+          s.pressure_P_Pa,
+          s.pressure_A_Pa,
+          s.pressure_B_Pa,
+          s.hold_flow_m3_per_s,
+          s.cylinder_position_m,
+          s.cylinder_velocity_m_per_s};
 }
 
 /// What acts at one instant; forces towards -x but for the magnetic ones.
@@ -60,73 +89,75 @@ struct PlantRates {
   std::array<EdgeForce, 4> edge_forces;
   std::array<double, 4> transient_N;  ///< of each edge
   double spool_breakaway_N, armature_a_breakaway_N, armature_b_breakaway_N;
-  FrictionForce spool_friction, armature_a_friction, armature_b_friction;
-  SpringForce spring;
+  FrictionForce spool_friction{}, armature_a_friction{}, armature_b_friction{};
+  SpringForce spring{};
   EndStopForce end_stop;
-  double flow_force_N;
+  double flow_force_N = 0.0;
   double drag_N;
-  double acceleration_m_per_s2;  ///< of the free body
+  PlantVector rate{};  ///< of the free body
 };
 
-/// `start` holds the memories and the states they count from; `time_s` is for the ripple.
-inline PlantRates plant_rates(const PlantParameters& p, const PlantConstants& c, const PlantState& start,
-                              const PlantInput& input, const PlantVector& u, const ContactAges& ages, double time_s) {
-  PlantRates out{};
-  const double x = u.position_m;
-  const double v = u.velocity_m_per_s;
+/// `start` holds the memories and the states they count from; `time_s` is for the ripple. Fills what the arrangement
+/// has of `out` and leaves the rest as it is.
+inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const PlantState& start,
+                        const PlantInput& input, const PlantVector& u, const ContactAges& ages, double time_s,
+                        PlantRates& out) {
+  const double x = u[state_x];
+  const double v = u[state_v];
   const double displacement = x - start.position_m;
   double force = 0.0;  // towards +x
+  const auto armature = [&](const Solenoid& solenoid, const SolenoidState& memory, const SolenoidRates& rates,
+                            double factor, double age, double& level, FrictionForce& friction) {
+    level = breakaway_N(solenoid.friction,
+                        factor * (solenoid.friction.base_N + solenoid.side_friction_coefficient * rates.side_force_N),
+                        age, v);
+    friction = friction_force(solenoid.friction, memory.friction, displacement, v, level);
+  };
   if (c.solenoid_a) {
-    out.solenoid_a =
-        solenoid_rates(p.solenoid_a, c.solenoid_a_constants, start.solenoid_a, u.solenoid_a, -x, input.voltage_a_V);
-    const double level =
-        c.armature_a_friction_factor *
-        (p.solenoid_a.friction.base_N + p.solenoid_a.side_friction_coefficient * out.solenoid_a.side_force_N);
-    out.armature_a_breakaway_N = breakaway_N(p.solenoid_a.friction, level, ages.armature_a, v);
-    out.armature_a_friction =
-        friction_force(p.solenoid_a.friction, start.solenoid_a.friction, displacement, out.armature_a_breakaway_N);
+    out.solenoid_a = solenoid_rates(c.solenoid_a_constants, start.solenoid_a, solenoid_a_of(u), -x, input.voltage_a_V,
+                                    solenoid_a_of(out.rate));
+    armature(p.solenoid_a, start.solenoid_a, out.solenoid_a, c.armature_a_friction_factor, ages.armature_a,
+             out.armature_a_breakaway_N, out.armature_a_friction);
     force -= out.solenoid_a.magnetic_force_N + out.armature_a_friction.force_N;
   }
   if (c.solenoid_b) {
-    out.solenoid_b =
-        solenoid_rates(p.solenoid_b, c.solenoid_b_constants, start.solenoid_b, u.solenoid_b, x, input.voltage_b_V);
-    const double level =
-        c.armature_b_friction_factor *
-        (p.solenoid_b.friction.base_N + p.solenoid_b.side_friction_coefficient * out.solenoid_b.side_force_N);
-    out.armature_b_breakaway_N = breakaway_N(p.solenoid_b.friction, level, ages.armature_b, v);
-    out.armature_b_friction =
-        friction_force(p.solenoid_b.friction, start.solenoid_b.friction, displacement, out.armature_b_breakaway_N);
+    out.solenoid_b = solenoid_rates(c.solenoid_b_constants, start.solenoid_b, solenoid_b_of(u), x, input.voltage_b_V,
+                                    solenoid_b_of(out.rate));
+    armature(p.solenoid_b, start.solenoid_b, out.solenoid_b, c.armature_b_friction_factor, ages.armature_b,
+             out.armature_b_breakaway_N, out.armature_b_friction);
     force += out.solenoid_b.magnetic_force_N - out.armature_b_friction.force_N;
   }
   if (c.hydraulics) {
     const HydraulicBoundary boundary = hydraulic_boundary(
         p.supply, p.load, input.supply_pressure_Pa, input.held_pressure_difference_Pa, input.load_force_N, time_s);
-    out.hydraulics = hydraulic_rates(c.edges, c.edge_constants, p.supply, p.load, p.oil, c.oil, c.density_kg_per_m3,
-                                     boundary, u.hydraulics, x);
+    hydraulic_rates(c.edges, c.edge_constants, p.supply, p.load, p.oil, c.oil, c.density_kg_per_m3, boundary,
+                    hydraulics_of(u), x, out.hydraulics, hydraulics_of(out.rate));
     double pressure_sum = 0.0;
     double lateral = 0.0;
+    double flow_force = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
       const EdgeFlow& edge = out.hydraulics.edges[i];
       out.edge_forces[i] = edge_force(p.flow_force, c.edge_constants[i], edge, c.viscosity_m2_per_s);
       const double flow_rate = edge.flow_gain_m2_per_s * edge_side[i] * v +
                                edge.conductance_m3_per_s_Pa * out.hydraulics.difference_rate_Pa_per_s[i];
       out.transient_N[i] = -edge_side[i] * c.density_kg_per_m3 * c.edges[i]->damping_length_m * flow_rate;
-      out.flow_force_N += edge_side[i] * out.edge_forces[i].steady_N + out.transient_N[i];
+      flow_force += edge_side[i] * out.edge_forces[i].steady_N + out.transient_N[i];
       pressure_sum += std::abs(out.hydraulics.difference_Pa[i]);
       lateral += out.edge_forces[i].lateral_N;
     }
+    out.flow_force_N = flow_force;
     const double level = c.spool_friction_factor *
                          (p.spool_friction.base_N + 0.5 * p.flow_force.friction_per_pressure_N_per_Pa * pressure_sum +
                           p.flow_force.lateral_friction * lateral);
     out.spool_breakaway_N = breakaway_N(p.spool_friction, level, ages.spool, v);
-    out.spool_friction = friction_force(p.spool_friction, start.spool_friction, displacement, out.spool_breakaway_N);
+    out.spool_friction = friction_force(p.spool_friction, start.spool_friction, displacement, v, out.spool_breakaway_N);
     out.spring = centring_force(p.spring_a, p.spring_b, p.spool.washer_play_m, x);
-    force -= out.flow_force_N + out.spool_friction.force_N + out.spring.force_N;
+    force -= flow_force + out.spool_friction.force_N + out.spring.force_N;
   }
   out.end_stop = end_stop_force(p.spool, x, v);
   out.drag_N = (c.spool_drag_N_s_per_m + c.armature_drag_N_s_per_m) * v;
-  out.acceleration_m_per_s2 = (force - out.drag_N - out.end_stop.force_N) / c.mass_kg;
-  return out;
+  out.rate[state_x] = v;
+  out.rate[state_v] = (force - out.drag_N - out.end_stop.force_N) / c.mass_kg;
 }
 
 }  // namespace spoolflow::rig

@@ -1,14 +1,13 @@
 #pragma once
-/// One internal step of the plant: ROS2 (Verwer, Spee, Blom, Hundsdorfer 1999) with gamma = 1 - 1/sqrt(2),
+/// One internal step of the plant: the W-method ROS34PW2 (Rang and Angermann, BIT 45, 2005) in four stages,
 ///
-///     (1 - g h A) k1 = f(t, u),   (1 - g h A) k2 = f(t + h, u + h k1) - 2 k1,   u <- u + 3/2 h k1 + 1/2 h k2
+///     (1 - g h A) U_i/(g h) = f(t + alpha_i h, u + sum a_ij U_j) + sum c_ij/h U_j,   u <- u + sum m_i U_i
 ///
-/// Second order for any matrix A (a W-method) and L-stable where A is the Jacobian. So A holds what is stiff, block by
-/// block: each solenoid (3 states), the body's contacts and drag (2), the volumes with the cylinder (5); what couples
-/// the blocks is slow against a step and enters explicitly. Two evaluations a step, no iteration, no allocation,
-/// constant time.
-#include <numbers>
-
+/// Third order for any matrix A, L-stable and stiffly accurate where A is the Jacobian. So A holds what is stiff, block
+/// by block: each solenoid (3 states), the body's contacts and drag (2), the volumes with the cylinder (5); what
+/// couples the blocks is slow against a step and enters explicitly. An embedded second-order result estimates the
+/// error; a step that is too long is not taken, and its half is tried. Four evaluations a step, no iteration, no
+/// allocation.
 #include "spoolflow/rig/plant_dynamics.hpp"
 
 namespace spoolflow::rig {
@@ -34,10 +33,9 @@ struct BodySolver {
     pivot = 1.0 / (1.0 + w * (damping / constants.mass_kg + w * stiffness_per_s2));
   }
 
-  /// {k_x, k_v} for {r_x, r_v}.
-  std::array<double, 2> operator()(double r_x, double r_v) const {
-    const double k_v = (r_v - weight_s * stiffness_per_s2 * r_x) * pivot;
-    return {r_x + weight_s * k_v, k_v};
+  void operator()(const PlantVector& right, PlantVector& k) const {
+    k[state_v] = (right[state_v] - weight_s * stiffness_per_s2 * right[state_x]) * pivot;
+    k[state_x] = right[state_x] + weight_s * k[state_v];
   }
 };
 
@@ -64,131 +62,193 @@ struct SolenoidLosses {
 
 inline void add_losses(const Solenoid& solenoid, const SolenoidConstants& constants, const SolenoidState& state,
                        const SolenoidRates& rates, double flux_change_Wb, double h, SolenoidLosses& losses) {
-  const double area = solenoid.circuit.iron_area_m2;
   const double skin = rates.eddy_current_A - state.skin_current_A;
   losses.winding_J += h * constants.resistance_ohm * rates.current_A * rates.current_A;
-  losses.iron_J += h * (solenoid.eddy.core_resistance_ohm * rates.eddy_current_A * rates.eddy_current_A +
-                        solenoid.eddy.skin_resistance_ohm * skin * skin) +
-                   area * solenoid.circuit.iron_length_m *
-                       hysteresis_loss(solenoid.hysteresis, state.hysteresis_A_per_m, flux_change_Wb / area);
+  losses.iron_J +=
+      h * (solenoid.eddy.core_resistance_ohm * rates.eddy_current_A * rates.eddy_current_A +
+           solenoid.eddy.skin_resistance_ohm * skin * skin) +
+      constants.iron_length_m / constants.per_iron_area_m2 *
+          hysteresis_loss(constants.stops, state.hysteresis_A_per_m, flux_change_Wb * constants.per_iron_area_m2);
 }
 
-template <std::size_t size>
-std::array<double, size> combined(const std::array<double, size>& u, double f1, const std::array<double, size>& k1,
-                                  double f2, const std::array<double, size>& k2) {
-  std::array<double, size> sum;
-  for (std::size_t i = 0; i < size; ++i) sum[i] = u[i] + f1 * k1[i] + f2 * k2[i];
-  return sum;
+/// (1 - w A) k = r for the whole plant, block by block.
+struct PlantSolver {
+  BodySolver body;
+  SolenoidSolver solenoid_a, solenoid_b;
+  HydraulicSolver hydraulics;
+
+  PlantSolver(const PlantParameters& p, const PlantConstants& c, const PlantRates& point, double w)
+      : body(c, point, w) {
+    if (c.solenoid_a) solenoid_a = SolenoidSolver(c.solenoid_a_constants, point.solenoid_a, w);
+    if (c.solenoid_b) solenoid_b = SolenoidSolver(c.solenoid_b_constants, point.solenoid_b, w);
+    if (c.hydraulics) hydraulics = HydraulicSolver(p.supply, p.load, point.hydraulics, w);
+  }
+
+  void operator()(const PlantConstants& c, const PlantVector& right, PlantVector& k) const {
+    body(right, k);
+    if (c.solenoid_a) solenoid_a(solenoid_a_of(right), solenoid_a_of(k));
+    if (c.solenoid_b) solenoid_b(solenoid_b_of(right), solenoid_b_of(k));
+    if (c.hydraulics) hydraulics(hydraulics_of(right), hydraulics_of(k));
+  }
+};
+
+inline void commit(const SolenoidConstants& constants, SolenoidState& state, SolenoidVector states) {
+  state.hysteresis_A_per_m = advanced(constants.stops, state.hysteresis_A_per_m,
+                                      (states[state_flux] - state.flux_Wb) * constants.per_iron_area_m2);
+  state.flux_linkage_Wb = states[state_linkage];
+  state.flux_Wb = states[state_flux];
+  state.skin_current_A = states[state_skin];
 }
 
-inline void commit(const Solenoid& solenoid, SolenoidState& state, const SolenoidVector& states) {
-  state.hysteresis_A_per_m = advanced(solenoid.hysteresis, state.hysteresis_A_per_m,
-                                      (states[1] - state.flux_Wb) / solenoid.circuit.iron_area_m2);
-  state.flux_linkage_Wb = states[0];
-  state.flux_Wb = states[1];
-  state.skin_current_A = states[2];
+inline void commit(PlantState& state, HydraulicVector states) {
+  state.pressure_P_Pa = std::max(states[state_p_P], cavitation_pressure_Pa);
+  state.pressure_A_Pa = std::max(states[state_p_A], cavitation_pressure_Pa);
+  state.pressure_B_Pa = std::max(states[state_p_B], cavitation_pressure_Pa);
+  state.hold_flow_m3_per_s = states[state_Q_i];
+  state.cylinder_position_m = states[state_x_c];
+  state.cylinder_velocity_m_per_s = states[state_v_c];
 }
 
-inline void commit(PlantState& state, const HydraulicVector& states) {
-  state.pressure_P_Pa = std::max(states[0], cavitation_pressure_Pa);
-  state.pressure_A_Pa = std::max(states[1], cavitation_pressure_Pa);
-  state.pressure_B_Pa = std::max(states[2], cavitation_pressure_Pa);
-  state.hold_flow_m3_per_s = states[3];
-  state.cylinder_position_m = states[4];
-  state.cylinder_velocity_m_per_s = states[5];
-}
+/// Method coefficients in the form above, from gamma, alpha_ij, gamma_ij of the paper: a = alpha Gamma^-1,
+/// c = diag(1/gamma) - Gamma^-1, m = b Gamma^-1 (the fourth stage's argument plus U_4), e = (b - b^) Gamma^-1.
+struct Ros34pw2 {
+  static constexpr double gamma = 0.43586652150845900;
+  static constexpr double alpha[4] = {0.0, 0.87173304301691801, 0.73157995778885238, 1.0};
+  static constexpr double a[4][3] = {{0, 0, 0},
+                                     {2.0, 0, 0},
+                                     {1.4192173174557647, -0.25923221167296973, 0},
+                                     {4.1847604823191604, -0.28519201735549599, 2.2942803602790418}};
+  static constexpr double c[4][3] = {{0, 0, 0},
+                                     {-4.5885607205580836, 0, 0},
+                                     {-4.1847604823191595, 0.28519201735549599, 0},
+                                     {-6.3681792001283597, -6.7956209444668367, 2.8700986043310555}};
+  static constexpr double e[4] = {0.2777499476479681, -1.4032398951759992, 1.7726301276675507, 0.5};
+};
 
-inline void internal_step(const PlantParameters& p, const PlantConstants& c, PlantState& state, const PlantInput& input,
-                          const ImposedPath* path, double path_time_s, double h, SolenoidLosses& losses_a,
-                          SolenoidLosses& losses_b) {
-  constexpr double gamma = 1.0 - 0.5 * std::numbers::sqrt2;
-  const double w = gamma * h;
+/// Error of a step over full scale: stroke, the stroke in 5 ms, saturation flux and linkage, 100 bar.
+struct ErrorScale {
+  double per_stroke, per_flux_a, per_linkage_a, per_flux_b, per_linkage_b;
+  static constexpr double per_pressure = 1e-7;
+
+  ErrorScale(const PlantParameters& p, const PlantConstants& c)
+      : per_stroke(1.0 / p.spool.stroke_m),
+        per_flux_a(c.solenoid_a_constants.per_iron_area_m2 / p.solenoid_a.iron.saturation_T),
+        per_linkage_a(per_flux_a / c.solenoid_a_constants.turns),
+        per_flux_b(c.solenoid_b_constants.per_iron_area_m2 / p.solenoid_b.iron.saturation_T),
+        per_linkage_b(per_flux_b / c.solenoid_b_constants.turns) {}
+
+  [[nodiscard]] double operator()(const PlantVector& error) const {
+    double largest = per_stroke * std::max(std::abs(error[state_x]), 5e-3 * std::abs(error[state_v]));
+    largest = std::max(largest, std::abs(solenoid_a_of(error)[state_linkage]) * per_linkage_a);
+    largest = std::max(largest, std::abs(solenoid_a_of(error)[state_flux]) * per_flux_a);
+    largest = std::max(largest, std::abs(solenoid_b_of(error)[state_linkage]) * per_linkage_b);
+    largest = std::max(largest, std::abs(solenoid_b_of(error)[state_flux]) * per_flux_b);
+    for (const auto pressure : {state_p_P, state_p_A, state_p_B}) {
+      largest = std::max(largest, std::abs(hydraulics_of(error)[pressure]) * per_pressure);
+    }
+    return largest;
+  }
+};
+
+/// What stays the same over the internal steps of one call.
+struct StepContext {
+  const PlantParameters& parameters;
+  const PlantConstants& constants;
+  const PlantInput& input;
+  const ErrorScale& scale;
+  const ImposedPath* path;  ///< null when the body moves freely
+  double start_s;           ///< plant time at which the call began
+};
+
+/// Takes one step of length h unless its error exceeds `tolerance`; the state is untouched then. Returns the error.
+inline double internal_step(const StepContext& context, PlantState& state, double h, double tolerance,
+                            SolenoidLosses& losses_a, SolenoidLosses& losses_b) {
+  using Method = Ros34pw2;
+  const PlantParameters& p = context.parameters;
+  const PlantConstants& c = context.constants;
   const PlantVector u0 = differential_states(state);
   const ContactAges ages0{state.spool_friction.age, state.solenoid_a.friction.age, state.solenoid_b.friction.age};
-  const PlantRates r0 = plant_rates(p, c, state, input, u0, ages0, state.time_s);
+  PlantRates first, last;
+  plant_rates(p, c, state, context.input, u0, ages0, state.time_s, first);
+  const PlantSolver solve(p, c, first, Method::gamma * h);
 
-  PlantVector u1 = u0;
-  PlantVector u2 = u0;
-  const BodySolver body(c, r0, w);
-  const auto [k1_x, k1_v] = body(u0.velocity_m_per_s, r0.acceleration_m_per_s2);
-  if (path != nullptr) {
-    const auto [x, v] = path->at(path_time_s + h);
-    u1.position_m = u2.position_m = x;
-    u1.velocity_m_per_s = u2.velocity_m_per_s = v;
-  } else {
-    u1.position_m += h * k1_x;
-    u1.velocity_m_per_s += h * k1_v;
+  PlantVector stage[4] = {};
+  PlantVector u = u0;
+  ContactAges ages = ages0;
+  solve(c, first.rate, stage[0]);
+  for (double& value : stage[0]) value *= Method::gamma * h;
+  for (std::size_t s = 1; s < 4; ++s) {
+    const double elapsed = Method::alpha[s] * h;
+    PlantVector right{};
+    u = u0;
+    for (std::size_t j = 0; j < s; ++j) {
+      for (std::size_t i = 0; i < plant_states; ++i) {
+        u[i] += Method::a[s][j] * stage[j][i];
+        right[i] += Method::c[s][j] * stage[j][i];
+      }
+    }
+    if (context.path != nullptr) {
+      const auto [x, v] = context.path->at(state.time_s - context.start_s + elapsed);
+      u[state_x] = x;
+      u[state_v] = v;
+    }
+    const auto age_at = [&](const Friction& friction, const FrictionState& memory, double breakaway_N) {
+      return aged(friction, memory.age, slip_m(friction, memory, u[state_x] - u0[state_x], breakaway_N), elapsed);
+    };
+    if (c.hydraulics) ages.spool = age_at(p.spool_friction, state.spool_friction, first.spool_breakaway_N);
+    if (c.solenoid_a) {
+      ages.armature_a = age_at(p.solenoid_a.friction, state.solenoid_a.friction, first.armature_a_breakaway_N);
+    }
+    if (c.solenoid_b) {
+      ages.armature_b = age_at(p.solenoid_b.friction, state.solenoid_b.friction, first.armature_b_breakaway_N);
+    }
+    plant_rates(p, c, state, context.input, u, ages, state.time_s + elapsed, last);
+    for (std::size_t i = 0; i < plant_states; ++i) right[i] += h * last.rate[i];
+    solve(c, right, stage[s]);
+    for (double& value : stage[s]) value *= Method::gamma;
   }
-  const std::array<double, 3> none{};
-  const std::array<double, 6> none6{};
-  SolenoidVector k1_a{}, k1_b{};
-  HydraulicVector k1_h{};
-  const SolenoidSolver solver_a =
-      c.solenoid_a ? SolenoidSolver(c.solenoid_a_constants, r0.solenoid_a, w) : SolenoidSolver();
-  const SolenoidSolver solver_b =
-      c.solenoid_b ? SolenoidSolver(c.solenoid_b_constants, r0.solenoid_b, w) : SolenoidSolver();
-  const HydraulicSolver solver_h =
-      c.hydraulics ? HydraulicSolver(p.supply, p.load, r0.hydraulics, w) : HydraulicSolver();
+  PlantVector difference;
+  for (std::size_t i = 0; i < plant_states; ++i) {
+    difference[i] = Method::e[0] * stage[0][i] + Method::e[1] * stage[1][i] + Method::e[2] * stage[2][i] +
+                    Method::e[3] * stage[3][i];
+  }
+  if (context.path != nullptr) difference[state_x] = difference[state_v] = 0.0;
+  const double error = context.scale(difference);
+  if (!(error <= tolerance)) return error;
+
+  PlantVector end = u;
+  for (std::size_t i = 0; i < plant_states; ++i) end[i] += stage[3][i];
+  if (context.path != nullptr) {  // the fourth stage stands at the step's end
+    end[state_x] = u[state_x];
+    end[state_v] = u[state_v];
+  }
+  const double displacement = end[state_x] - u0[state_x];
+  const auto commit_solenoid = [&](const Solenoid& solenoid, const SolenoidConstants& constants, SolenoidState& memory,
+                                   SolenoidVector states, const SolenoidRates& rates, double breakaway_N, double age,
+                                   SolenoidLosses& losses) {
+    add_losses(solenoid, constants, memory, rates, states[state_flux] - memory.flux_Wb, h, losses);
+    commit(constants, memory, states);
+    slide(solenoid.friction, memory.friction, displacement, breakaway_N);
+    memory.friction.age = age;
+  };
+  const PlantVector& reached = end;
   if (c.solenoid_a) {
-    k1_a = solver_a(r0.solenoid_a.rate);
-    u1.solenoid_a = combined(u0.solenoid_a, h, k1_a, 0.0, none);
+    commit_solenoid(p.solenoid_a, c.solenoid_a_constants, state.solenoid_a, solenoid_a_of(reached), first.solenoid_a,
+                    last.armature_a_breakaway_N, ages.armature_a, losses_a);
   }
   if (c.solenoid_b) {
-    k1_b = solver_b(r0.solenoid_b.rate);
-    u1.solenoid_b = combined(u0.solenoid_b, h, k1_b, 0.0, none);
+    commit_solenoid(p.solenoid_b, c.solenoid_b_constants, state.solenoid_b, solenoid_b_of(reached), first.solenoid_b,
+                    last.armature_b_breakaway_N, ages.armature_b, losses_b);
   }
   if (c.hydraulics) {
-    k1_h = solver_h(r0.hydraulics.rate);
-    u1.hydraulics = combined(u0.hydraulics, h, k1_h, 0.0, none6);
+    slide(p.spool_friction, state.spool_friction, displacement, last.spool_breakaway_N);
+    state.spool_friction.age = ages.spool;
+    commit(state, hydraulics_of(reached));
   }
-
-  const double speed = 0.5 * std::abs(u0.velocity_m_per_s + u1.velocity_m_per_s);
-  const ContactAges ages1{aged(p.spool_friction, ages0.spool, speed, h),
-                          aged(p.solenoid_a.friction, ages0.armature_a, speed, h),
-                          aged(p.solenoid_b.friction, ages0.armature_b, speed, h)};
-  const PlantRates r1 = plant_rates(p, c, state, input, u1, ages1, state.time_s + h);
-
-  if (path == nullptr) {
-    const auto [k2_x, k2_v] = body(u1.velocity_m_per_s - 2.0 * k1_x, r1.acceleration_m_per_s2 - 2.0 * k1_v);
-    u2.position_m += h * (1.5 * k1_x + 0.5 * k2_x);
-    u2.velocity_m_per_s += h * (1.5 * k1_v + 0.5 * k2_v);
-  }
-  if (c.solenoid_a) {
-    const SolenoidVector k2 = solver_a(combined(r1.solenoid_a.rate, -2.0, k1_a, 0.0, none));
-    u2.solenoid_a = combined(u0.solenoid_a, 1.5 * h, k1_a, 0.5 * h, k2);
-  }
-  if (c.solenoid_b) {
-    const SolenoidVector k2 = solver_b(combined(r1.solenoid_b.rate, -2.0, k1_b, 0.0, none));
-    u2.solenoid_b = combined(u0.solenoid_b, 1.5 * h, k1_b, 0.5 * h, k2);
-  }
-  if (c.hydraulics) {
-    const HydraulicVector k2 = solver_h(combined(r1.hydraulics.rate, -2.0, k1_h, 0.0, none6));
-    u2.hydraulics = combined(u0.hydraulics, 1.5 * h, k1_h, 0.5 * h, k2);
-  }
-
-  const double displacement = u2.position_m - u0.position_m;
-  if (c.solenoid_a) {
-    add_losses(p.solenoid_a, c.solenoid_a_constants, state.solenoid_a, r0.solenoid_a,
-               u2.solenoid_a[1] - u0.solenoid_a[1], h, losses_a);
-    commit(p.solenoid_a, state.solenoid_a, u2.solenoid_a);
-    slide(p.solenoid_a.friction, state.solenoid_a.friction, displacement, r1.armature_a_breakaway_N);
-    state.solenoid_a.friction.age = ages1.armature_a;
-  }
-  if (c.solenoid_b) {
-    add_losses(p.solenoid_b, c.solenoid_b_constants, state.solenoid_b, r0.solenoid_b,
-               u2.solenoid_b[1] - u0.solenoid_b[1], h, losses_b);
-    commit(p.solenoid_b, state.solenoid_b, u2.solenoid_b);
-    slide(p.solenoid_b.friction, state.solenoid_b.friction, displacement, r1.armature_b_breakaway_N);
-    state.solenoid_b.friction.age = ages1.armature_b;
-  }
-  if (c.hydraulics) {
-    slide(p.spool_friction, state.spool_friction, displacement, r1.spool_breakaway_N);
-    state.spool_friction.age = ages1.spool;
-    commit(state, u2.hydraulics);
-  }
-  state.position_m = u2.position_m;
-  state.velocity_m_per_s = u2.velocity_m_per_s;
+  state.position_m = end[state_x];
+  state.velocity_m_per_s = end[state_v];
   state.time_s += h;
+  return error;
 }
 
 }  // namespace spoolflow::rig

@@ -24,8 +24,13 @@ struct Solenoid {
   MagneticMaterial iron;
   MagneticHysteresis hysteresis;
   EddyCurrents eddy;
-  Friction friction{
-      .base_N = 0.3, .stiction_ratio = 1.2, .contact_stiffness_N_per_m = 1.0e6, .viscosity_exponent = 0.0};
+  Friction friction{.base_N = 0.3,
+                    .stiction_ratio = 1.2,
+                    .ageing_gain = 0.2,
+                    .ageing_time_s = 10.0,
+                    .ageing_distance_m = 3e-5,
+                    .contact_stiffness_N_per_m = 1.0e6,
+                    .viscosity_exponent = 0.0};
   double side_friction_coefficient = 0.06;
 
   template <class Self, class Visit>

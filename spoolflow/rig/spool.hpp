@@ -16,7 +16,7 @@ struct Spool {
   double end_stop_m = 2.5e-3;
   double end_stop_stiffness_N_per_m = 2.0e7;
   double end_stop_damping_s_per_m = 1.5;
-  double washer_play_m = 4.0e-6;
+  double washer_play_m = 15.0e-6;
   double diameter_m = 12.0e-3;
   double land_length_m = 28.0e-3;
   double clearance_m = 5.0e-6;
@@ -34,7 +34,8 @@ struct Spool {
           self.end_stop_stiffness_N_per_m);
     visit(Parameter{"end_stop_damping_s_per_m", "s/m", 0, 10, "Hunt-Crossley factor; 1.5 rebounds at about half speed"},
           self.end_stop_damping_s_per_m);
-    visit(Parameter{"washer_play_m", "m", 1e-6, 1e-4, "over which the centring springs change over"},
+    visit(Parameter{"washer_play_m", "m", 1e-6, 1e-4,
+                    "axial play of the springs' washers, over which the centring force changes over"},
           self.washer_play_m);
     visit(Parameter{"diameter_m", "m", 4e-3, 4e-2, "size 6: 10 to 12 mm; size 10: 16 to 20 mm"}, self.diameter_m);
     visit(Parameter{"land_length_m", "m", 5e-3, 0.2, "sum of the sealing lands"}, self.land_length_m);

@@ -1,6 +1,8 @@
 #include "spoolflow/rig/valve_plant.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 
 #include "spoolflow/rig/plant_integrator.hpp"
@@ -109,16 +111,35 @@ PlantState plant_at_rest(const PlantParameters& p, const PlantInput& input) {
 void step(const PlantParameters& p, PlantState& state, const PlantInput& input, double dt_s) {
   refresh_oil(p, state, input.oil_temperature_C);
   const PlantConstants c = plant_constants(p, state);
-  const double count = std::max(1.0, std::ceil(dt_s / p.integration.substep_s - 1e-6));
-  const double h = dt_s / count;
+  const ErrorScale scale(p, c);
   ImposedPath path{};
   if (input.motion) {
     path = {state.position_m, state.velocity_m_per_s, input.motion->position_m, input.motion->velocity_m_per_s, dt_s};
   }
+  const StepContext context{p, c, input, scale, input.motion ? &path : nullptr, state.time_s};
   SolenoidLosses losses_a, losses_b;
-  for (double i = 0.0; i < count; i += 1.0) {
+
+  // Steps lie on a grid of dt/(count 2^finest); position and stride count in ticks of that grid.
+  constexpr double grow = 1.0 / 16.0;  // of the tolerance: doubling multiplies the estimate by about eight
+  const double count = std::max(1.0, std::ceil(dt_s / p.integration.longest_step_s - 1e-6));
+  const double longest = dt_s / count;
+  int finest = 0;
+  while (finest < 20 && std::ldexp(longest, -finest - 1) >= p.integration.shortest_step_s) ++finest;
+  const std::int64_t ticks_per_longest = std::int64_t{1} << finest;
+  const std::int64_t end = static_cast<std::int64_t>(count) * ticks_per_longest;
+  std::int64_t tick = 0;
+  std::int64_t stride = ticks_per_longest;
+  while (tick < end) {
     if (holds_ideally(p)) state.pressure_P_Pa = source_pressure_Pa(p, input, state.time_s);
-    internal_step(p, c, state, input, input.motion ? &path : nullptr, i * h, h, losses_a, losses_b);
+    const double tolerance = stride > 1 ? p.integration.tolerance : std::numeric_limits<double>::infinity();
+    const double h = std::ldexp(longest, -finest) * static_cast<double>(stride);
+    const double error = internal_step(context, state, h, tolerance, losses_a, losses_b);
+    if (!(error <= tolerance)) {
+      stride /= 2;
+      continue;
+    }
+    tick += stride;
+    if (error < grow * p.integration.tolerance && stride < ticks_per_longest && tick % (2 * stride) == 0) stride *= 2;
   }
   if (c.solenoid_a) {
     heat_up(p.solenoid_a.heat, state.solenoid_a.heat, losses_a.winding_J / dt_s, losses_a.iron_J / dt_s,
@@ -136,13 +157,14 @@ PlantOutput observe(const PlantParameters& p, const PlantState& state_now, const
   if (holds_ideally(p)) state.pressure_P_Pa = source_pressure_Pa(p, input, state.time_s);
   const PlantConstants c = plant_constants(p, state);
   const ContactAges ages{state.spool_friction.age, state.solenoid_a.friction.age, state.solenoid_b.friction.age};
-  const PlantRates r = plant_rates(p, c, state, input, differential_states(state), ages, state.time_s);
+  PlantRates r{};
+  plant_rates(p, c, state, input, differential_states(state), ages, state.time_s, r);
 
   PlantOutput out;
   out.time_s = state.time_s;
   out.position_m = state.position_m;
   out.velocity_m_per_s = state.velocity_m_per_s;
-  out.acceleration_m_per_s2 = input.motion ? input.motion->acceleration_m_per_s2 : r.acceleration_m_per_s2;
+  out.acceleration_m_per_s2 = input.motion ? input.motion->acceleration_m_per_s2 : r.rate[state_v];
   if (c.solenoid_a) {
     out.solenoid_a =
         solenoid_output(state.solenoid_a, c.solenoid_a_constants, r.solenoid_a, r.armature_a_friction.force_N);

@@ -36,13 +36,19 @@ enum class Arrangement {
   axial_force_bench  ///< valve without solenoids, its spool moved by an external drive through a load cell
 };
 
+/// Internal steps (plant_integrator.hpp): halved until the estimated error of each is within the tolerance.
 struct Integration {
-  double substep_s = 25e-6;  ///< longest internal step
+  double longest_step_s = 1e-4;
+  double shortest_step_s = 1.5e-6;
+  double tolerance = 2e-5;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit(Parameter{"substep_s", "s", 1e-7, 1e-4, "longest internal step; docs/rig-physics.md shows the error by step"},
-          self.substep_s);
+    visit(Parameter{"longest_step_s", "s", 1e-7, 2e-4, "one electronics period"}, self.longest_step_s);
+    visit(Parameter{"shortest_step_s", "s", 1e-8, 1e-4, "taken whatever its error: contacts are stepped over by it"},
+          self.shortest_step_s);
+    visit(Parameter{"tolerance", "1", 1e-9, 1e-2, "error of one step over full scale of stroke, flux, 100 bar"},
+          self.tolerance);
   }
 };
 
@@ -184,7 +190,7 @@ struct PlantOutput {
 /// hydraulic equilibrium with its surroundings and no current.
 PlantState plant_at_rest(const PlantParameters& parameters, const PlantInput& input);
 
-/// Advances the plant by dt_s with the input held; internally in equal sub-steps no longer than the integration's.
+/// Advances the plant by dt_s with the input held; internally in steps as Integration allows.
 void step(const PlantParameters& parameters, PlantState& state, const PlantInput& input, double dt_s);
 
 /// Ground truth at the state's instant.
