@@ -84,7 +84,7 @@ CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, 
   out.evidence.magnetic_force = magnetic.loops;
   out.evidence.axial_force = axial.loops;
   out.evidence.sensitivity = flow_sensitivity(columns, valve.rated_flow_m3_per_s);
-  out.evidence.uniqueness = check_uniqueness(columns, 2 * averaged_force_noise_N);
+  out.evidence.uniqueness = check_uniqueness(columns, 2 * parameters.force_residual_N);
   return out;
 }
 
