@@ -101,4 +101,40 @@ struct Map {
   }
 };
 
+/// What a volume answers.
+template <class T>
+struct VolumePoint {
+  T value;
+  T row_slope;
+};
+
+/// z(layer, row, column), trilinear in each cell. The three axes stand beside it, for volumes that share them.
+template <class T, int Layers, int Rows, int Columns>
+struct Volume {
+  static_assert(Layers >= 2 && Rows >= 2 && Columns >= 2);
+  std::array<T, Layers * Rows * Columns> values;  ///< layer after layer, row after row
+
+  [[nodiscard]] constexpr T& node(int layer, int row, int column) {
+    return values[static_cast<unsigned>((layer * Rows + row) * Columns + column)];
+  }
+  [[nodiscard]] constexpr const T& node(int layer, int row, int column) const {
+    return values[static_cast<unsigned>((layer * Rows + row) * Columns + column)];
+  }
+  [[nodiscard]] constexpr VolumePoint<T> at(const Cell<T>& layer, const Cell<T>& row, const Cell<T>& column,
+                                            T per_row_spacing) const {
+    const T low = line(layer, row.index, column);
+    const T high = line(layer, row.index + 1, column);
+    return {low + row.share * (high - low), (high - low) * per_row_spacing};
+  }
+
+ private:
+  [[nodiscard]] constexpr T line(const Cell<T>& layer, int row, const Cell<T>& column) const {
+    const T first = node(layer.index, row, column.index);
+    const T second = node(layer.index + 1, row, column.index);
+    const T low = first + column.share * (node(layer.index, row, column.index + 1) - first);
+    const T high = second + column.share * (node(layer.index + 1, row, column.index + 1) - second);
+    return low + layer.share * (high - low);
+  }
+};
+
 }  // namespace spoolflow::sensor

@@ -1,0 +1,85 @@
+/// `spoolflow calibrate`: from a campaign's bench recordings to a model file.
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/recording/campaign.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct Arguments {
+  std::string campaign;
+  std::string model;
+  bool quiet = false;
+};
+
+std::vector<std::filesystem::path> files_of(const recording::Campaign& campaign) {
+  std::vector<std::filesystem::path> files{campaign.file};
+  for (const recording::CampaignRecording& recording : campaign.recordings) files.push_back(recording.file);
+  return files;
+}
+
+void print_summary(const model::Model& model) {
+  const model::Condensed& condensed = model.condensed;
+  fmt::print(stderr, "{}: currents to {:.3g} A, positions to {:.3g} mm, pressure differences {:.3g} to {:.3g} bar\n",
+             model.valve.name, condensed.current_A.upper, units::mm_from_m(condensed.position_m.upper),
+             units::bar_from_Pa(condensed.pressure_difference_Pa.lower),
+             units::bar_from_Pa(condensed.pressure_difference_Pa.upper));
+  for (const model::Residual& residual : condensed.residuals) {
+    const bool flow = residual.unit == "m3/s";
+    const double scale = flow ? units::litre_per_minute_per_m3_per_s : 1.0;
+    fmt::print(stderr, "  {:<15} residual {:.3g} RMS, {:.3g} at most [{}]\n", residual.of, residual.rms * scale,
+               residual.largest * scale, flow ? "L/min" : residual.unit);
+  }
+  const model::Uniqueness& uniqueness = model.evidence.uniqueness;
+  fmt::print(
+      stderr, "  flow force tells the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),
+      uniqueness.ambiguous_at_m.empty() ? ""
+                                        : fmt::format(", but is ambiguous at {} positions (see the model's evidence)",
+                                                      uniqueness.ambiguous_at_m.size()));
+}
+
+void calibrate(const Arguments& arguments) {
+  const recording::Campaign campaign = recording::read_campaign(arguments.campaign);
+  OutputFile output(arguments.model, files_of(campaign));
+  model::Model model;
+  {
+    Progress progress("calibrating", arguments.quiet);
+    model = calibration::calibrate(campaign, std::string(tool_version()), [&](const std::string& step, double share) {
+      progress.task(step);
+      progress.update(share);
+    });
+  }
+  model::write_model(output.stream(), model);
+  output.commit();
+  if (!arguments.quiet) print_summary(model);
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(
+      program,
+      {"calibrate",
+       "make a valve's model from the bench recordings of a campaign",
+       "CAMPAIGN.toml, which names the valve, the oil and the recordings with their protocols: one `spring`, one "
+       "`solenoid_force_map`, `axial_force_map` at one or several oil temperatures",
+       "the model as JSON: maps, their ranges and residuals, and where they came from",
+       {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json"}});
+  command->add_option("campaign", arguments->campaign, "campaign file (TOML)")->required();
+  command->add_option("-o,--output", arguments->model, "model file to write; - for standard output")->required();
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { calibrate(*arguments); });
+}
+
+}  // namespace spoolflow::apps

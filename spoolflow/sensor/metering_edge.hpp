@@ -1,0 +1,56 @@
+#pragma once
+#include <cmath>
+
+#include "spoolflow/sensor/table.hpp"
+
+namespace spoolflow::sensor {
+
+inline constexpr int edge_temperatures = 3;
+inline constexpr int edge_pressures = 9;
+inline constexpr int edge_positions = 49;
+
+/// What the metering edge does at one opening, pressure difference and oil temperature.
+template <class T>
+struct EdgePoint {
+  T flow_force_N;                  ///< steady, closing > 0
+  T flow_force_per_pressure_N_Pa;  ///< its slope over the pressure difference, >= 0
+  T friction_N;                    ///< half width of the spool's friction, >= 0
+  T conductance;                   ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
+  bool inside;                     ///< position and pressure difference lie within what was measured
+  bool temperature_inside;
+};
+
+/// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
+/// difference [Pa] (rows) and spool position [m] (columns), measured on the axial-force rig (paper section 3, Fig 5).
+/// The flow force is the mean of both directions less the spring, the friction half their distance. Flow is kept as
+/// conductance, Q = conductance * sqrt(dp), which is nearly free of the pressure difference. Omits the transient flow
+/// force (paper (2), term 3).
+template <class T>
+struct MeteringEdge {
+  Axis<T> temperature_K;
+  Axis<T> pressure_difference_Pa;
+  Axis<T> position_m;
+  Volume<T, edge_temperatures, edge_pressures, edge_positions> flow_force_N;
+  Volume<T, edge_temperatures, edge_pressures, edge_positions> friction_N;
+  Volume<T, edge_temperatures, edge_pressures, edge_positions> conductance;
+
+  [[nodiscard]] constexpr T highest_pressure_difference_Pa() const {
+    return pressure_difference_Pa.at(edge_pressures - 1);
+  }
+
+  [[nodiscard]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
+    const Cell<T> layer = locate<edge_temperatures>(temperature_K, temperature);
+    const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
+    const Cell<T> column = locate<edge_positions>(position_m, position);
+    const T per_Pa = pressure_difference_Pa.per_spacing;
+    const VolumePoint<T> force = flow_force_N.at(layer, row, column, per_Pa);
+    return {force.value,
+            larger(force.row_slope, T(0)),
+            friction_N.at(layer, row, column, per_Pa).value,
+            conductance.at(layer, row, column, per_Pa).value,
+            row.inside && column.inside,
+            layer.inside};
+  }
+};
+
+}  // namespace spoolflow::sensor

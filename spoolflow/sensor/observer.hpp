@@ -1,0 +1,171 @@
+#pragma once
+/// The full soft sensor (paper Fig 3): actuator, spring, friction fed back from the estimated flow, metering edge by
+/// temperature, and the pressure difference as the hidden state.
+#include <cmath>
+#include <type_traits>
+
+#include "spoolflow/sensor/actuator.hpp"
+#include "spoolflow/sensor/friction.hpp"
+#include "spoolflow/sensor/metering_edge.hpp"
+#include "spoolflow/sensor/position_track.hpp"
+#include "spoolflow/sensor/pressure_difference.hpp"
+#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/spring.hpp"
+
+namespace spoolflow::sensor {
+
+/// How sure the observer may be, beyond what its parts tell.
+template <class T>
+struct BandParameters {
+  T friction_share{};    ///< standard deviation of sliding friction about its map, as a share of it
+  T force_residual_N{};  ///< standard deviation of all maps together
+  T resting_share{};     ///< share of the resting friction interval that the band takes in
+  T flow_residual_m3_per_s{};
+  T coverage_factor{};  ///< standard deviations in the 95 % band
+};
+
+/// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
+template <class T>
+struct ObserverParameters {
+  ActuatorParameters<T> actuator;
+  Spring<T> spring;
+  MeteringEdge<T> edge;
+  PositionSensor<T> position_sensor;
+  FrictionParameters<T> friction;
+  PressureParameters<T> pressure;
+  BandParameters<T> band;
+  T closed_below_m{};
+  T largest_current_A{};
+};
+
+template <class T>
+struct ObserverState {
+  ActuatorState<T> actuator;
+  PositionState<T> position;
+  FrictionState<T> friction;
+  PressureState<T> pressure;
+  T oil_temperature_K{};  ///< smoothed
+  T flow_m3_per_s{};      ///< as answered
+  bool started{};
+  Estimate<T> last{};
+};
+
+static_assert(std::is_trivially_copyable_v<ObserverParameters<float>>);
+static_assert(std::is_trivially_copyable_v<ObserverState<float>>);
+static_assert(sizeof(ObserverState<float>) < 2048);
+
+namespace detail {
+
+/// A slip is over in a few milliseconds, and so are most of its swings of flow: the answer follows them at this pace.
+template <class T>
+inline constexpr T slip_smoothing_s = T(0.02);
+
+template <class T>
+constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  state.started = true;
+  state.oil_temperature_K =
+      is_number(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1);
+  state.pressure.pressure_difference_Pa = T(0.5) * highest_Pa;
+  state.pressure.variance_Pa2 = squared(T(0.3) * highest_Pa);
+}
+
+/// The oil warms slowly and its sensor is noisy.
+template <class T>
+constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& sample) {
+  constexpr T smoothing_s = T(2);
+  if (!is_number(sample.oil_temperature_K)) return;
+  state.oil_temperature_K +=
+      (sample.oil_temperature_K - state.oil_temperature_K) * smaller(sample.time_step_s / smoothing_s, T(1));
+}
+
+}  // namespace detail
+
+/// One sample through the chain of paper Fig 3. Needs finite current and position; a missing oil temperature is held, a
+/// missing voltage means a force map by current alone.
+template <class T>
+constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
+  using std::sqrt;
+  if (!(is_number(sample.current_A) && is_number(sample.position_m))) {
+    state.last.status = Status::sample_missing;
+    return state.last;
+  }
+  if (!state.started) detail::start(valve, state, sample);
+  detail::follow_temperature(state, sample);
+  const T dt = sample.time_step_s;
+
+  // Spool position, free of drift and faults, and what the spool does.
+  const PositionPoint<T> position =
+      step(valve.position_sensor, state.position, dt, sample.position_m, state.oil_temperature_K);
+
+  // Actuator: from coil current and voltage to the force on the spool.
+  Sample<T> actuated = sample;
+  actuated.position_m = position.position_m;
+  const ActuatorEstimate<T> actuator = step(valve.actuator, state.actuator, actuated);
+  const T spring_N = valve.spring.at(position.position_m).value;
+  const T net_N = actuator.magnetic_force_N - spring_N;  // carries flow force and friction; paper (1)
+
+  // Metering edge and friction at the believed pressure difference.
+  PressureState<T>& pressure = state.pressure;
+  const EdgePoint<T> edge =
+      valve.edge.at(state.oil_temperature_K, pressure.pressure_difference_Pa, position.position_m);
+  const FrictionBounds<T> bounds = friction_bounds(valve.friction, edge.friction_N, actuator.friction_half_width_N);
+  const T apparent_friction_N = net_N - edge.flow_force_N;
+  const FrictionInterval<T> resting =
+      step(valve.friction, state.friction, bounds, valve.position_sensor, position, apparent_friction_N, dt);
+
+  // Pressure difference: every newton tells while the spool slides; at rest only what friction cannot explain.
+  const bool closed = position.position_m < valve.closed_below_m;
+  const bool sliding = position.motion == Motion::opening || position.motion == Motion::closing;
+  const T friction_N =
+      position.motion == Motion::opening
+          ? bounds.sliding_N
+          : (position.motion == Motion::closing ? -bounds.sliding_N
+                                                : limited(apparent_friction_N, resting.lower_N, resting.upper_N));
+  const T slope = larger(edge.flow_force_per_pressure_N_Pa, T(1e-8));
+  const T force_noise_N =
+      sqrt(squared(valve.band.force_residual_N) + squared(valve.band.friction_share * bounds.sliding_N));
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  drift(pressure, sliding ? valve.pressure.sliding_drift_Pa_per_sqrt_s : valve.pressure.resting_drift_Pa_per_sqrt_s, dt,
+        highest_Pa);
+  if (!closed) {
+    const T surprise_N = apparent_friction_N - friction_N;
+    if (sliding) {
+      update(pressure, {surprise_N, slope, force_noise_N}, dt);
+    } else if (position.motion == Motion::rest && surprise_N != T(0)) {
+      yield(pressure, {surprise_N, slope, bounds.sliding_N}, valve.pressure.yielding_s, dt);
+    }
+  }
+  pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
+
+  // Flow rate with its band.
+  Estimate<T> out;
+  const T root = sqrt(pressure.pressure_difference_Pa);
+  const T flow_m3_per_s = larger(edge.conductance * root, T(0));
+  const T following = position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
+  state.flow_m3_per_s += following * (flow_m3_per_s - state.flow_m3_per_s);
+  out.flow_m3_per_s = state.flow_m3_per_s;
+  const T resting_N = sliding ? T(0) : valve.band.resting_share * T(0.5) * (resting.upper_N - resting.lower_N);
+  const T spread_Pa =
+      valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + squared(force_noise_N / slope)) + resting_N / slope;
+  const T residual = T(2) * valve.band.flow_residual_m3_per_s;
+  out.flow_lower_m3_per_s =
+      edge.conductance * sqrt(larger(pressure.pressure_difference_Pa - spread_Pa, T(0))) - residual;
+  out.flow_upper_m3_per_s =
+      edge.conductance * sqrt(smaller(pressure.pressure_difference_Pa + spread_Pa, highest_Pa)) + residual;
+  out.pressure_difference_Pa = pressure.pressure_difference_Pa;
+  out.magnetic_force_N = actuator.magnetic_force_N;
+  out.spring_force_N = spring_N;
+  out.flow_force_N = edge.flow_force_N;
+  out.friction_force_N = friction_N;
+  out.status = when(closed, Status::closed) | when(!sliding, Status::spool_at_rest) |
+               when(!actuator.inside_map, Status::outside_force_map) |
+               when(!edge.inside && !closed, Status::outside_flow_force_map) |
+               when(!edge.temperature_inside, Status::outside_temperature) |
+               when(sample.current_A > valve.largest_current_A, Status::current_saturated) |
+               when(position.fault, Status::position_fault);
+  state.last = out;
+  return out;
+}
+
+}  // namespace spoolflow::sensor

@@ -1,0 +1,148 @@
+#pragma once
+/// What the spool does, from a position signal with noise, drift and acquisition faults.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "spoolflow/sensor/scalar.hpp"
+
+namespace spoolflow::sensor {
+
+/// The valve's position sensor.
+template <class T>
+struct PositionSensor {
+  T noise_m{};                        ///< standard deviation of one sample
+  T drift_m_per_K{};                  ///< of the zero point over the oil temperature
+  T drift_free_K{};                   ///< oil temperature at which the zero point is right
+  T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
+};
+
+enum class Motion : std::uint8_t {
+  rest,       ///< nothing moves by more than noise
+  transient,  ///< a slip, or the end of one: friction and inertia are in motion
+  opening,    ///< slides evenly: friction has its full size and its sign is known
+  closing,
+};
+
+inline constexpr int position_blocks = 32;
+
+/// Trivially copyable memory of a track. The ring holds means over blocks of some milliseconds, newest at `newest`.
+template <class T>
+struct PositionState {
+  std::array<T, position_blocks> block_m{};
+  T sum_m{};
+  T sum_s{};
+  T block_s{};
+  T per_block_samples{};  ///< 1 / samples in a block
+  T last_m{};
+  T step_m{};       ///< last believed change
+  T offset_m{};     ///< what an acquisition fault adds to the signal
+  T fault_s{};      ///< how long the fault has lasted
+  T unsettled_s{};  ///< time until a slip counts as over
+  std::int32_t samples{};
+  std::int32_t newest{};
+  std::int32_t blocks{};
+  Motion motion{Motion::rest};
+};
+
+template <class T>
+struct PositionPoint {
+  T position_m;  ///< free of drift and faults
+  Motion motion;
+  bool fault;
+};
+
+namespace detail {
+
+/// Mean of `count` blocks that end `back` blocks before the newest.
+template <class T>
+constexpr T block_mean(const PositionState<T>& state, int back, int count) {
+  T sum{};
+  for (int k = 0; k < count; ++k) {
+    sum += state.block_m[static_cast<unsigned>((state.newest - back - k) & (position_blocks - 1))];
+  }
+  return sum / T(count);
+}
+
+/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `apart`
+/// blocks.
+template <class T>
+constexpr Motion even_travel(const PositionState<T>& state, int apart, int count, T threshold_m) {
+  const T now = block_mean(state, 0, count);
+  const T before = block_mean(state, apart, count);
+  const T earlier = block_mean(state, 2 * apart, count);
+  const T first = block_mean(state, 3 * apart, count);
+  const T travel[3] = {now - before, before - earlier, earlier - first};
+  const T least = smaller(smaller(magnitude(travel[0]), magnitude(travel[1])), magnitude(travel[2]));
+  const T most = larger(larger(magnitude(travel[0]), magnitude(travel[1])), magnitude(travel[2]));
+  const bool one_way = (travel[0] > T(0)) == (travel[1] > T(0)) && (travel[1] > T(0)) == (travel[2] > T(0));
+  if (!one_way || least < threshold_m || most > T(2) * least + threshold_m) return Motion::rest;
+  return travel[0] > T(0) ? Motion::opening : Motion::closing;
+}
+
+template <class T>
+constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& state) {
+  using std::sqrt;
+  state.newest = (state.newest + 1) & (position_blocks - 1);
+  state.per_block_samples = T(1) / T(state.samples);
+  state.block_m[static_cast<unsigned>(state.newest)] = state.sum_m * state.per_block_samples;
+  state.block_s = state.sum_s;
+  state.blocks = state.blocks < position_blocks ? state.blocks + 1 : position_blocks;
+  state.sum_m = state.sum_s = T(0);
+  state.samples = 0;
+  const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);  // of the difference of two blocks
+
+  Motion motion = Motion::rest;
+  if (state.blocks > 6) motion = even_travel(state, 2, 1, T(3) * noise_m);
+  if (motion == Motion::rest && state.blocks > 27) motion = even_travel(state, 8, 4, T(1.5) * noise_m);
+  const bool even = motion != Motion::rest;
+  if (!even && state.blocks > 2) {
+    const T travel_m = magnitude(block_mean(state, 0, 1) - block_mean(state, 2, 1));
+    // A slip: faster than 0.5 mm/s and beyond five times the noise.
+    if (travel_m > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m)) state.unsettled_s = T(0.03);
+  }
+  state.unsettled_s = even ? T(0) : larger(state.unsettled_s - state.block_s, T(0));
+  state.motion = even ? motion : (state.unsettled_s > T(0) ? Motion::transient : Motion::rest);
+}
+
+}  // namespace detail
+
+/// One sample. A change beyond what the hardest acceleration allows is a fault: its jump is taken out of the signal
+/// until the signal jumps back, or for a quarter of a second, after which the signal is believed.
+template <class T>
+constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T>& state, T time_step_s, T position_m,
+                                T oil_temperature_K) {
+  const T drift_free_m = position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
+  if (state.blocks == 0 && state.samples == 0) state.last_m = drift_free_m;
+  const T corrected_m = drift_free_m - state.offset_m;
+  const T surprise_m = corrected_m - state.last_m - state.step_m;
+  const T credible_m =
+      T(20) * sensor.noise_m + T(20e-6) + sensor.hardest_acceleration_m_per_s2 * time_step_s * time_step_s;
+  T believed_m = corrected_m;
+  if (magnitude(surprise_m) > credible_m) {
+    const T offset_m = state.offset_m + surprise_m;
+    state.offset_m = magnitude(offset_m) < credible_m ? T(0) : offset_m;
+    state.fault_s = T(0);
+    believed_m = drift_free_m - state.offset_m;
+  }
+  if (state.offset_m != T(0)) {
+    state.fault_s += time_step_s;
+    if (state.fault_s > T(0.25)) {
+      state.offset_m = T(0);
+      believed_m = drift_free_m;
+    }
+  }
+  state.step_m = limited(believed_m - state.last_m, -credible_m, credible_m);
+  state.last_m = believed_m;
+  state.sum_m += believed_m;
+  state.sum_s += time_step_s;
+  ++state.samples;
+  constexpr T block_s = T(2e-3);
+  if (state.sum_s > block_s - T(0.5) * time_step_s) detail::close_block(sensor, state);
+  return {believed_m, state.motion, state.offset_m != T(0)};
+}
+
+static_assert(std::is_trivially_copyable_v<PositionState<float>>);
+
+}  // namespace spoolflow::sensor
