@@ -7,4 +7,8 @@ namespace CLI {
 class App;
 }
 
-namespace spoolflow::apps {}  // namespace spoolflow::apps
+namespace spoolflow::apps {
+
+void add_calibrate_command(CLI::App& program);
+
+}  // namespace spoolflow::apps

@@ -23,7 +23,7 @@ using namespace spoolflow::apps;
 constexpr int done = 0, work_failed = 1, wrong_usage = 2;
 
 /// In the order of the work, which is the order of the overview.
-void add_commands(CLI::App&) {}
+void add_commands(CLI::App& program) { add_calibrate_command(program); }
 
 std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;

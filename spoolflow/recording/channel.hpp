@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "spoolflow/units/unit.hpp"
+
 namespace spoolflow::recording {
 
 /// A measured or commanded quantity. Values are kept in SI: s, A, V, m, N, Pa, K, m3/s.
@@ -32,6 +34,7 @@ inline constexpr std::size_t channel_count = 16;
 
 /// The name used in file headers and channel maps, such as "oil_temperature".
 [[nodiscard]] std::string_view name(Channel channel);
+[[nodiscard]] units::Dimension dimension(Channel channel);
 [[nodiscard]] std::optional<Channel> channel_named(std::string_view name);
 [[nodiscard]] const std::array<Channel, channel_count>& all_channels();
 

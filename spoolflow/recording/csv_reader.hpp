@@ -1,0 +1,13 @@
+#pragma once
+#include <memory>
+
+#include "spoolflow/recording/reader.hpp"
+
+namespace spoolflow::recording {
+
+/// Streams a CSV file: comma, semicolon or tab; decimal point or, except with commas, decimal comma; a byte order mark;
+/// quoted headers; an optional row of units below them; lines ended by LF or CRLF. Columns that nobody asked for are
+/// skipped unparsed. An empty cell is a missing sample. "-" is standard input.
+[[nodiscard]] std::unique_ptr<Reader> open_csv(const std::filesystem::path& file, const ReadOptions& options);
+
+}  // namespace spoolflow::recording

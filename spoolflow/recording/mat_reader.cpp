@@ -1,0 +1,136 @@
+#include "spoolflow/recording/mat_reader.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+#include <matio.h>
+
+#include "spoolflow/recording/column_table.hpp"
+#include "spoolflow/recording/recording_error.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+struct FileCloser {
+  void operator()(mat_t* file) const { Mat_Close(file); }
+};
+struct VariableFreer {
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+
+template <class Value>
+void append(std::vector<double>& out, const matvar_t& variable, std::size_t count) {
+  const auto* values = static_cast<const Value*>(variable.data);
+  for (std::size_t k = 0; k < count; ++k) out.push_back(static_cast<double>(values[k]));
+}
+
+/// A numeric row or column vector as doubles; nothing for anything else.
+std::optional<std::vector<double>> vector_of(const matvar_t& variable) {
+  if (variable.isComplex != 0 || variable.data == nullptr || variable.rank != 2) return std::nullopt;
+  if (variable.dims[0] != 1 && variable.dims[1] != 1) return std::nullopt;
+  const std::size_t count = variable.dims[0] * variable.dims[1];
+  std::vector<double> out;
+  out.reserve(count);
+  switch (variable.data_type) {
+    case MAT_T_DOUBLE:
+      append<double>(out, variable, count);
+      break;
+    case MAT_T_SINGLE:
+      append<float>(out, variable, count);
+      break;
+    case MAT_T_INT8:
+      append<std::int8_t>(out, variable, count);
+      break;
+    case MAT_T_UINT8:
+      append<std::uint8_t>(out, variable, count);
+      break;
+    case MAT_T_INT16:
+      append<std::int16_t>(out, variable, count);
+      break;
+    case MAT_T_UINT16:
+      append<std::uint16_t>(out, variable, count);
+      break;
+    case MAT_T_INT32:
+      append<std::int32_t>(out, variable, count);
+      break;
+    case MAT_T_UINT32:
+      append<std::uint32_t>(out, variable, count);
+      break;
+    case MAT_T_INT64:
+      append<std::int64_t>(out, variable, count);
+      break;
+    case MAT_T_UINT64:
+      append<std::uint64_t>(out, variable, count);
+      break;
+    default:
+      return std::nullopt;
+  }
+  return out;
+}
+
+/// Every vector of the file under its name; structs are walked into.
+void collect(matvar_t& variable, const std::string& name, std::map<std::string, std::vector<double>>& vectors,
+             std::vector<std::string>& objects) {
+  if (variable.class_type == MAT_C_STRUCT) {
+    if (variable.data == nullptr || variable.dims == nullptr || variable.dims[0] * variable.dims[1] != 1) return;
+    const unsigned fields = Mat_VarGetNumberOfFields(&variable);
+    char* const* const names = Mat_VarGetStructFieldnames(&variable);
+    for (unsigned k = 0; k < fields; ++k) {
+      matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, k, 0);
+      if (field != nullptr) collect(*field, name + "." + names[k], vectors, objects);
+    }
+    return;
+  }
+  if (variable.class_type == MAT_C_OBJECT || variable.class_type == MAT_C_OPAQUE ||
+      variable.class_type == MAT_C_FUNCTION) {
+    objects.push_back(name);
+    return;
+  }
+  if (auto vector = vector_of(variable)) vectors.emplace(name, std::move(*vector));
+}
+
+/// The last part of a struct path, by which <channel>_<unit> names are told inside a struct.
+std::string leaf(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+}  // namespace
+
+std::unique_ptr<Reader> open_mat(const std::filesystem::path& file, const ReadOptions& options) {
+  Mat_LogInitFunc("spoolflow", [](int, char*) {});  // matio's own complaints say less than ours
+  const std::unique_ptr<mat_t, FileCloser> mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
+  if (!mat) {
+    throw RecordingError(
+        fmt::format("{}: is no readable MATLAB file (damaged or cut short?); save it again with "
+                    "save(…, '-v7.3') or '-v7'",
+                    file.string()));
+  }
+  std::map<std::string, std::vector<double>> vectors;
+  std::vector<std::string> objects;
+  while (const std::unique_ptr<matvar_t, VariableFreer> variable{Mat_VarReadNext(mat.get())}) {
+    if (variable->name != nullptr) collect(*variable, variable->name, vectors, objects);
+  }
+  std::vector<FileColumn> columns;
+  std::vector<const std::vector<double>*> values;
+  for (const auto& [name, vector] : vectors) {
+    columns.push_back({options.channels.sources.empty() ? leaf(name) : name, ""});
+    values.push_back(&vector);
+  }
+  if (columns.empty()) {
+    throw RecordingError(
+        objects.empty()
+            ? fmt::format("{}: holds no numeric vectors that can be read (damaged or cut short?)", file.string())
+            : fmt::format(
+                  "{}: \"{}\" is a table, timetable or other object, which MATLAB alone can read; save its columns as "
+                  "vectors, for instance s = table2struct(T, 'ToScalar', true); save(…, '-struct', 's')",
+                  file.string(), objects.front()));
+  }
+  std::vector<BoundColumn> bound;
+  for (const ColumnBinding& binding : bind_columns(columns, options, file.string())) {
+    bound.push_back({binding, columns[binding.column].name, *values[binding.column]});
+  }
+  return serve_columns(std::move(bound), file.string());
+}
+
+}  // namespace spoolflow::recording
