@@ -1,10 +1,32 @@
 #include "spoolflow/apps/command.hpp"
 
+#include <sstream>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace spoolflow::apps {
 namespace {
+
+constexpr std::size_t help_columns = 96;
+
+/// "Reads:   …" with the text broken at spaces and the further lines indented below the first.
+std::string paragraph(const std::string& heading, const std::string& text) {
+  constexpr std::size_t indent = 9;
+  std::string out = fmt::format("{:<{}}", heading, indent);
+  std::size_t column = indent;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (column > indent && column + 1 + word.size() > help_columns) {
+      out += "\n" + std::string(indent, ' ');
+      column = indent;
+    }
+    if (column > indent) out += ' ', ++column;
+    out += word;
+    column += word.size();
+  }
+  return out + "\n";
+}
 
 std::string examples_heading(const CLI::App& program) {
   return program.get_footer().empty() ? "Examples:\n" : program.get_footer() + "\n";
@@ -13,8 +35,9 @@ std::string examples_heading(const CLI::App& program) {
 }  // namespace
 
 CLI::App* add_command(CLI::App& program, const CommandText& text) {
-  CLI::App* command = program.add_subcommand(text.name, text.purpose);
-  std::string footer = fmt::format("Reads:  {}\nWrites: {}\n\nExamples:", text.reads, text.writes);
+  CLI::App* command = program.add_subcommand(text.name, text.purpose)->group("Commands");
+  command->set_help_flag("-h,--help", "print this help");
+  std::string footer = paragraph("Reads:", text.reads) + paragraph("Writes:", text.writes) + "\nExamples:";
   for (const std::string& example : text.examples) footer += "\n  " + example;
   command->footer(footer);
   if (!text.examples.empty()) program.footer(examples_heading(program) + "  " + text.examples.front());

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/help_page.hpp"
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/suggestion.hpp"
@@ -106,8 +107,7 @@ int run(CLI::App& program, int argc, char** argv) {
 int run_and_report(int argc, char** argv) {
   CLI::App program("Soft flow-rate sensor for solenoid-operated spool valves: from rig recordings to a flow rate.",
                    "spoolflow");
-  program.set_help_flag("-h,--help", "print this help; COMMAND --help explains a command");
-  program.get_formatter()->column_width(24);
+  shape_help_page(program);
   program.set_version_flag("--version", std::string(tool_version()), "print the version");
   program.require_subcommand(0, 1);
   program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
