@@ -10,5 +10,6 @@ class App;
 namespace spoolflow::apps {
 
 void add_calibrate_command(CLI::App& program);
+void add_estimate_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -24,7 +24,10 @@ using namespace spoolflow::apps;
 constexpr int done = 0, work_failed = 1, wrong_usage = 2;
 
 /// In the order of the work, which is the order of the overview.
-void add_commands(CLI::App& program) { add_calibrate_command(program); }
+void add_commands(CLI::App& program) {
+  add_calibrate_command(program);
+  add_estimate_command(program);
+}
 
 std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;

@@ -6,6 +6,7 @@
 
 #include "spoolflow/calibration/calibration_error.hpp"
 #include "spoolflow/calibration/condensed.hpp"
+#include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::calibration {
@@ -112,6 +113,11 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
                           out.valve);
   out.condensed = std::move(condensed.condensed);
   out.evidence = std::move(condensed.evidence);
+  progress("full sensor", reading_share + 0.1);
+  out.observer = calibrate_observer(
+      {only(loaded, Protocol::spring, campaign), only(loaded, Protocol::solenoid_force_map, campaign),
+       of(loaded, Protocol::solenoid_dynamic), axial_force_maps, of(loaded, Protocol::operation)},
+      out.valve, out.condensed.parameters.closed_below_m);
   progress("done", 1.0);
   return out;
 }

@@ -31,6 +31,26 @@ class TableWriter {
   void curve(const char* key, const sensor::Curve<T, Points>& curve, const char* axis_key) {
     out_[key] = {{axis_key, points<Points>(curve.axis)}, {"values", curve.values}};
   }
+  template <class T, int Layers, int Rows, int Columns>
+  void volume(const char* key, const sensor::Volume<T, Layers, Rows, Columns>& volume) {
+    auto layers = nlohmann::ordered_json::array();
+    for (int layer = 0; layer < Layers; ++layer) {
+      auto rows = nlohmann::ordered_json::array();
+      for (int row = 0; row < Rows; ++row) {
+        auto line = nlohmann::ordered_json::array();
+        for (int column = 0; column < Columns; ++column) line.push_back(volume.node(layer, row, column));
+        rows.push_back(std::move(line));
+      }
+      layers.push_back(std::move(rows));
+    }
+    out_[key] = std::move(layers);
+  }
+  template <class T>
+  void axis(const char* key, const sensor::Axis<T>& axis, int points) {
+    auto out = nlohmann::ordered_json::array();
+    for (int k = 0; k < points; ++k) out.push_back(axis.at(k));
+    out_[key] = std::move(out);
+  }
   template <class T>
   void number(const char* key, const T& value, double /*lowest*/, double /*highest*/) {
     out_[key] = value;
@@ -73,6 +93,29 @@ class TableReader {
     const std::vector<double> values = node.at("values").numbers();
     require_count(node.at("values"), values.size(), Points);
     for (std::size_t k = 0; k < values.size(); ++k) curve.values[k] = static_cast<T>(values[k]);
+  }
+  template <class T, int Layers, int Rows, int Columns>
+  void volume(const char* key, sensor::Volume<T, Layers, Rows, Columns>& volume) {
+    const JsonNode node = in_.at(key);
+    const std::vector<JsonNode> layers = node.elements();
+    require_count(node, layers.size(), Layers);
+    for (int layer = 0; layer < Layers; ++layer) {
+      const JsonNode& sheet = layers[static_cast<std::size_t>(layer)];
+      const std::vector<JsonNode> lines = sheet.elements();
+      require_count(sheet, lines.size(), Rows);
+      for (int row = 0; row < Rows; ++row) {
+        const JsonNode& line = lines[static_cast<std::size_t>(row)];
+        const std::vector<double> values = line.numbers();
+        require_count(line, values.size(), Columns);
+        for (int column = 0; column < Columns; ++column) {
+          volume.node(layer, row, column) = static_cast<T>(values[static_cast<std::size_t>(column)]);
+        }
+      }
+    }
+  }
+  template <class T>
+  void axis(const char* key, sensor::Axis<T>& out, int points) {
+    out = axis<T>(in_.at(key), points);
   }
   template <class T>
   void number(const char* key, T& value, double lowest, double highest) {

@@ -10,6 +10,7 @@
 #include "spoolflow/model/model_error.hpp"
 #include "spoolflow/model/provenance.hpp"
 #include "spoolflow/sensor/condensed.hpp"
+#include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::model {
 
@@ -53,11 +54,20 @@ struct Condensed {
   std::vector<Residual> residuals;
 };
 
+/// The full sensor; a model may lack it.
+struct Observer {
+  sensor::ObserverParameters<double> parameters;
+  Range oil_temperature_K;
+  std::vector<Residual> residuals;
+  std::vector<std::string> defaults;  ///< what no recording showed, and was assumed
+};
+
 struct Model {
   Valve valve;
   Fluid fluid;
   Provenance provenance;
   Condensed condensed;
+  std::optional<Observer> observer;  ///< absent: not calibrated
   Evidence evidence;
 };
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
 
@@ -37,16 +38,31 @@ Provenance provenance(const JsonNode& node) {
   return out;
 }
 
+std::vector<Residual> residuals(const JsonNode& node) {
+  std::vector<Residual> out;
+  for (const JsonNode& residual : node.elements()) {
+    out.push_back({residual.at("of").text(), residual.at("unit").text(), residual.at("rms").number(0, 1e12),
+                   residual.at("largest").number(0, 1e12)});
+  }
+  return out;
+}
+
+Observer observer(const JsonNode& node) {
+  Observer out{};
+  out.oil_temperature_K = range(node.at("oil_temperature_range_K"));
+  out.residuals = residuals(node.at("residuals"));
+  for (const JsonNode& each : node.at("defaults").elements()) out.defaults.push_back(each.text());
+  describe_observer(out.parameters, TableReader(node));
+  return out;
+}
+
 Condensed condensed(const JsonNode& node) {
   Condensed out{};
   out.current_A = range(node.at("current_range_A"));
   out.position_m = range(node.at("position_range_m"));
   out.pressure_difference_Pa = range(node.at("pressure_difference_range_Pa"));
   if (node.has("oil_temperature_K")) out.oil_temperature_K = node.at("oil_temperature_K").number(200, 500);
-  for (const JsonNode& residual : node.at("residuals").elements()) {
-    out.residuals.push_back({residual.at("of").text(), residual.at("unit").text(), residual.at("rms").number(0, 1e12),
-                             residual.at("largest").number(0, 1e12)});
-  }
+  out.residuals = residuals(node.at("residuals"));
   describe_condensed(out.parameters, TableReader(node));
   const auto& largest = out.parameters.flow_rate.largest_force_N.values;
   for (std::size_t k = 0; k < largest.size(); ++k) {
@@ -135,6 +151,7 @@ Model parse_model(const std::string& text, const std::string& file) {
                positive_if_given(fluid, "viscosity_40C_m2_per_s"), positive_if_given(fluid, "viscosity_100C_m2_per_s")};
   out.provenance = provenance(root.at("provenance"));
   out.condensed = condensed(root.at("condensed"));
+  if (root.has("observer")) out.observer = observer(root.at("observer"));
   out.evidence = evidence(root.at("evidence"));
   return out;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
 
@@ -32,17 +33,28 @@ Json fluid(const Fluid& fluid) {
   return out;
 }
 
+Json residuals(const std::vector<Residual>& residuals) {
+  Json out = Json::array();
+  for (const Residual& residual : residuals) {
+    out.push_back({{"of", residual.of}, {"unit", residual.unit}, {"rms", residual.rms}, {"largest", residual.largest}});
+  }
+  return out;
+}
+
+Json observer(const Observer& observer) {
+  Json out{{"oil_temperature_range_K", range(observer.oil_temperature_K)},
+           {"residuals", residuals(observer.residuals)},
+           {"defaults", observer.defaults}};
+  describe_observer(observer.parameters, TableWriter(out));
+  return out;
+}
+
 Json condensed(const Condensed& condensed) {
   Json out{{"current_range_A", range(condensed.current_A)},
            {"position_range_m", range(condensed.position_m)},
            {"pressure_difference_range_Pa", range(condensed.pressure_difference_Pa)}};
   if (condensed.oil_temperature_K) out["oil_temperature_K"] = *condensed.oil_temperature_K;
-  Json residuals = Json::array();
-  for (const Residual& residual : condensed.residuals) {
-    residuals.push_back(
-        {{"of", residual.of}, {"unit", residual.unit}, {"rms", residual.rms}, {"largest", residual.largest}});
-  }
-  out["residuals"] = residuals;
+  out["residuals"] = residuals(condensed.residuals);
   describe_condensed(condensed.parameters, TableWriter(out));
   return out;
 }
@@ -79,17 +91,18 @@ Json evidence(const Evidence& evidence) {
 }  // namespace
 
 void write_model(std::ostream& out, const Model& model) {
-  const Json file{{"format", "spoolflow model"},
-                  {"version", model_version},
-                  {"valve",
-                   {{"name", model.valve.name},
-                    {"rated_flow_m3_per_s", model.valve.rated_flow_m3_per_s},
-                    {"stroke_m", model.valve.stroke_m},
-                    {"direction", model.valve.direction}}},
-                  {"fluid", fluid(model.fluid)},
-                  {"provenance", provenance(model.provenance)},
-                  {"condensed", condensed(model.condensed)},
-                  {"evidence", evidence(model.evidence)}};
+  Json file{{"format", "spoolflow model"},
+            {"version", model_version},
+            {"valve",
+             {{"name", model.valve.name},
+              {"rated_flow_m3_per_s", model.valve.rated_flow_m3_per_s},
+              {"stroke_m", model.valve.stroke_m},
+              {"direction", model.valve.direction}}},
+            {"fluid", fluid(model.fluid)},
+            {"provenance", provenance(model.provenance)},
+            {"condensed", condensed(model.condensed)}};
+  if (model.observer) file["observer"] = observer(*model.observer);
+  file["evidence"] = evidence(model.evidence);
   out << file.dump(1) << '\n';
 }
 

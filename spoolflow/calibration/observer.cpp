@@ -1,0 +1,73 @@
+#include "spoolflow/calibration/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spoolflow/calibration/armature_friction.hpp"
+#include "spoolflow/calibration/magnetic_force.hpp"
+#include "spoolflow/calibration/metering_edge.hpp"
+#include "spoolflow/calibration/position_sensor.hpp"
+#include "spoolflow/calibration/spring.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+/// What no bench test shows, where no operating recording shows it either. Wide on purpose.
+constexpr double assumed_stiction_ratio = 2.5;
+constexpr double assumed_contact_stiffness_N_per_m = 2e7;
+constexpr double assumed_gauge_tolerance_ratio = 1.0;
+constexpr double assumed_gauge_tolerance_N = 0.7;
+constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
+
+}  // namespace
+
+model::Observer calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
+                                   double closed_below_m) {
+  std::vector<const recording::Recording*> bench{&recordings.spring};
+  bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
+  const PositionSensorFit position = fit_position_sensor(bench, valve.stroke_m);
+  const SpringFit spring = fit_spring(without_zero_offset(recordings.spring, valve.stroke_m), valve.stroke_m);
+  const MagneticForceFit magnetic =
+      fit_magnetic_force(without_zero_offset(recordings.solenoid_force_map, valve.stroke_m), valve.stroke_m);
+  std::vector<AxialForceFit> axial;
+  FitResidual flow;
+  FitResidual axial_force;
+  for (const recording::Recording* recording : recordings.axial_force_maps) {
+    axial.push_back(fit_axial_force(without_zero_offset(*recording, valve.stroke_m), valve.stroke_m));
+    flow.largest = std::max(flow.largest, axial.back().flow_residual.largest);
+    flow.sum_of_squares += axial.back().flow_residual.sum_of_squares;
+    flow.samples += axial.back().flow_residual.samples;
+    axial_force.largest = std::max(axial_force.largest, axial.back().force_residual.largest);
+    axial_force.sum_of_squares += axial.back().force_residual.sum_of_squares;
+    axial_force.samples += axial.back().force_residual.samples;
+  }
+  const MeteringEdgeFit edge = fit_metering_edge(axial, spring.spring, spring.friction_half_width_N);
+
+  model::Observer out{};
+  sensor::ObserverParameters<double>& parameters = out.parameters;
+  parameters.actuator = {magnetic.magnetic_force, armature_friction(magnetic), magnetic.residual.rms()};
+  parameters.spring = spring.spring;
+  parameters.edge = edge.edge;
+  parameters.position_sensor = {position.noise_m, position.drift_m_per_K, position.drift_free_K,
+                                assumed_hardest_acceleration_m_per_s2};
+  parameters.friction = {assumed_stiction_ratio, assumed_contact_stiffness_N_per_m, assumed_gauge_tolerance_ratio,
+                         assumed_gauge_tolerance_N};
+  parameters.pressure = {3e5, 2e4, 0.02};
+  parameters.band = {0.1, std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()), 0.5,
+                     flow.rms(), 2.0};
+  parameters.closed_below_m = closed_below_m;
+  parameters.largest_current_A = magnetic.largest_current_A;
+
+  out.oil_temperature_K = {edge.edge.temperature_K.at(0), edge.edge.temperature_K.at(sensor::edge_temperatures - 1)};
+  out.residuals = {
+      {"spring force", "N", spring.residual.rms(), spring.residual.largest},
+      {"magnetic force", "N", magnetic.residual.rms(), magnetic.residual.largest},
+      {"axial force", "N", axial_force.rms(), axial_force.largest},
+      {"flow rate", "m3/s", flow.rms(), flow.largest},
+      {"position drift", "m", position.drift_residual_m, position.drift_residual_m},
+  };
+  out.defaults = {"stiction_ratio", "contact_stiffness_N_per_m", "gauge_tolerance", "hardest_acceleration_m_per_s2"};
+  return out;
+}
+
+}  // namespace spoolflow::calibration
