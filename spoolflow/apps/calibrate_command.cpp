@@ -11,6 +11,7 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/recording/campaign.hpp"
+#include "spoolflow/report/validation_report.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {
@@ -19,6 +20,7 @@ namespace {
 struct Arguments {
   std::string campaign;
   std::string model;
+  std::string report;
   bool quiet = false;
 };
 
@@ -50,7 +52,11 @@ void print_summary(const model::Model& model) {
 
 void calibrate(const Arguments& arguments) {
   const recording::Campaign campaign = recording::read_campaign(arguments.campaign);
-  OutputFile output(arguments.model, files_of(campaign));
+  std::vector<std::filesystem::path> inputs = files_of(campaign);
+  OutputFile output(arguments.model, inputs);
+  std::optional<OutputFile> page;
+  inputs.emplace_back(arguments.model);
+  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
   model::Model model;
   {
     Progress progress("calibrating", arguments.quiet);
@@ -61,6 +67,10 @@ void calibrate(const Arguments& arguments) {
   }
   model::write_model(output.stream(), model);
   output.commit();
+  if (page) {
+    report::write_calibration_report(page->stream(), model);
+    page->commit();
+  }
   if (!arguments.quiet) print_summary(model);
 }
 
@@ -78,6 +88,7 @@ void add_calibrate_command(CLI::App& program) {
        {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json"}});
   command->add_option("campaign", arguments->campaign, "campaign file (TOML)")->required();
   command->add_option("-o,--output", arguments->model, "model file to write; - for standard output")->required();
+  command->add_option("--report", arguments->report, "HTML page to write about the calibration");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { calibrate(*arguments); });
 }

@@ -27,6 +27,7 @@ constexpr int done = 0, work_failed = 1, wrong_usage = 2;
 void add_commands(CLI::App& program) {
   add_calibrate_command(program);
   add_estimate_command(program);
+  add_validate_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

@@ -1,0 +1,115 @@
+/// `spoolflow validate`: how good the sensor is on recordings with a reference flow.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/report/metrics_json.hpp"
+#include "spoolflow/report/validation_report.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct Arguments {
+  std::string model;
+  std::vector<std::string> recordings;
+  std::string report;
+  std::string json;
+  std::string channels;
+  std::string estimator = "both";
+  double reference_lag_ms = 30;
+  bool apply_reference_lag = false;
+  bool quiet = false;
+};
+
+std::vector<validation::Estimator> chosen(const std::string& name, const model::Model& model) {
+  if (name == "condensed") return {validation::Estimator::condensed};
+  if (name == "observer") return {validation::Estimator::observer};
+  if (!model.observer) return {validation::Estimator::condensed};
+  return {validation::Estimator::condensed, validation::Estimator::observer};
+}
+
+void print_figures(const model::Model& model, const std::vector<validation::ValidatedRun>& runs) {
+  const double percent = 100 / model.valve.rated_flow_m3_per_s;
+  fmt::print("{}\n\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", report::verdict(model, runs), "run", "estimator",
+             "p95 %FS", "RMS %FS", "max %FS", "in band");
+  for (const validation::ValidatedRun& run : runs) {
+    for (const validation::EstimatorResult& result : run.results) {
+      if (!result.metrics) {
+        fmt::print("{:<24} {:<10} no reference flow\n", run.name, validation::name(result.estimator));
+        continue;
+      }
+      fmt::print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, validation::name(result.estimator),
+                 result.metrics->all.p95 * percent, result.metrics->all.rms * percent,
+                 result.metrics->all.largest * percent, 100 * result.metrics->band_coverage);
+    }
+  }
+}
+
+void validate(const Arguments& arguments) {
+  const model::Model model = model::read_model(arguments.model);
+  validation::ValidationOptions options{
+      chosen(arguments.estimator, model), {}, arguments.reference_lag_ms * 1e-3, arguments.apply_reference_lag};
+  if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
+  std::vector<std::filesystem::path> inputs{arguments.model};
+  inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
+  std::optional<OutputFile> page;
+  std::optional<OutputFile> figures;
+  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
+  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
+  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  std::vector<validation::ValidatedRun> runs;
+  {
+    Progress progress("validating", arguments.quiet);
+    const auto total = static_cast<double>(arguments.recordings.size());
+    for (const std::string& recording : arguments.recordings) {
+      const auto done = static_cast<double>(runs.size());
+      runs.push_back(validation::validate_run(model, recording, options,
+                                              [&](double share) { progress.update((done + share) / total); }));
+    }
+  }
+  if (page) {
+    report::write_validation_report(page->stream(), model, runs, options);
+    page->commit();
+  }
+  if (figures) {
+    report::write_metrics(figures->stream(), model, runs, options);
+    figures->commit();
+  }
+  if (arguments.json != "-" && arguments.report != "-") print_figures(model, runs);
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(
+      program,
+      {"validate",
+       "compare the estimate with a reference flow meter and write a report",
+       "MODEL.json, and recordings that also hold flow_reference (without it the report shows the estimate alone)",
+       "a self-contained HTML report, and all figures as JSON; a summary on standard output",
+       {"spoolflow validate valve_a.json ramp.csv duty.csv --report report.html --json metrics.json"}});
+  command->add_option("model", arguments->model, "model file")->required();
+  command->add_option("recordings", arguments->recordings, "recordings with a reference flow")->required();
+  command->add_option("--report", arguments->report, "HTML report to write");
+  command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output");
+  command->add_option("--channels", arguments->channels,
+                      "channel map (TOML) for files with other column names or units");
+  command->add_option("--estimator", arguments->estimator, "both, condensed or observer")
+      ->check(CLI::IsMember({"both", "condensed", "observer"}))
+      ->capture_default_str();
+  command
+      ->add_option("--reference-lag-ms", arguments->reference_lag_ms,
+                   "lag of the reference meter, stated in the report")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->capture_default_str();
+  command->add_flag("--apply-reference-lag", arguments->apply_reference_lag,
+                    "lag the estimate likewise before comparing");
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { validate(*arguments); });
+}
+
+}  // namespace spoolflow::apps
