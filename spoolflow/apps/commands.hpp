@@ -12,5 +12,7 @@ namespace spoolflow::apps {
 void add_calibrate_command(CLI::App& program);
 void add_estimate_command(CLI::App& program);
 void add_validate_command(CLI::App& program);
+void add_simulate_command(CLI::App& program);
+void add_campaign_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -28,6 +28,8 @@ void add_commands(CLI::App& program) {
   add_calibrate_command(program);
   add_estimate_command(program);
   add_validate_command(program);
+  add_simulate_command(program);
+  add_campaign_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

@@ -4,38 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/nearest_name.hpp"
+
 namespace spoolflow::apps {
 
-// Optimal string alignment: rows of the dynamic-programming table are kept three at a time.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    before.swap(above);
-    above.swap(row);
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      row[j] = std::min({replaced, above[j] + 1, row[j - 1] + 1});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-  }
-  return row[b.size()];
-}
-
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string* nearest = nullptr;
-  std::size_t least = 0;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (nearest == nullptr || distance < least) {
-      nearest = &candidate;
-      least = distance;
-    }
-  }
-  if (nearest == nullptr || 3 * least > std::max(word.size(), nearest->size())) return {};
-  return fmt::format("; did you mean '{}'?", *nearest);
+  if (candidates.empty()) return {};
+  const std::string_view nearest = recording::nearest_name(word, candidates);
+  if (3 * recording::edit_distance(word, nearest) > std::max(word.size(), nearest.size())) return {};
+  return fmt::format("; did you mean '{}'?", nearest);
 }
 
 }  // namespace spoolflow::apps

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/nearest_name.hpp"
 #include "spoolflow/recording/read_channel_map.hpp"
 #include "spoolflow/recording/recording_error.hpp"
 #include "spoolflow/recording/toml_place.hpp"
@@ -20,9 +21,8 @@ Protocol protocol_of(const toml::table& entry, const std::filesystem::path& file
   const std::string text = text_of(entry, "protocol", "[[recording]]", file);
   const auto found = std::find(protocols.begin(), protocols.end(), text);
   if (found == protocols.end()) {
-    throw RecordingError(
-        fmt::format("{}: there is no protocol \"{}\"; did you mean \"{}\"?", place_of(*entry.get("protocol"), file),
-                    text, nearest(text, {protocols[0], protocols[1], protocols[2], protocols[3], protocols[4]})));
+    throw RecordingError(fmt::format("{}: there is no protocol \"{}\"; did you mean \"{}\"?",
+                                     place_of(*entry.get("protocol"), file), text, nearest_name(text, protocols)));
   }
   return static_cast<Protocol>(found - protocols.begin());
 }

@@ -16,8 +16,6 @@ namespace spoolflow::recording {
 /// Throws where the table has a key that is none of `known`, proposing the nearest.
 void refuse_unknown_keys(const toml::table& table, std::initializer_list<std::string_view> known,
                          const std::string& where, const std::filesystem::path& file);
-/// The known name that is nearest by edit distance.
-[[nodiscard]] std::string nearest(std::string_view name, std::initializer_list<std::string_view> known);
 
 /// The value of a key as text or number; throws RecordingError where it is missing or of another type.
 [[nodiscard]] std::string text_of(const toml::table& table, std::string_view key, const std::string& where,

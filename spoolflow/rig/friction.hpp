@@ -23,7 +23,7 @@ struct Friction {
   double ageing_time_s = 2.5;
   double ageing_distance_m = 3.0e-5;
   double stribeck_velocity_m_per_s = 4.0e-3;
-  double contact_stiffness_N_per_m = 1.5e6;
+  double contact_stiffness_N_per_m = 4.0e6;
   double viscosity_exponent = 0.12;
   double wear_factor = 1.0;
 

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/rig/recording_file.hpp"
+#include "spoolflow/rig/virtual_campaign.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct CampaignArguments {
+  std::string valve;
+  std::filesystem::path folder;
+  bool calibration_only = false;
+  bool with_truth = false;
+  bool quiet = false;
+};
+
+void store(const std::filesystem::path& folder, const rig::CampaignItem& item, const rig::BenchRun& run,
+           const rig::Simulation& simulation) {
+  OutputFile recording(folder / item.file);
+  rig::write_recording(recording.stream(), simulation.recording, run);
+  if (simulation.truth.size() > 0) {
+    OutputFile truth(folder / "truth" / item.file);
+    rig::write_truth(truth.stream(), simulation.truth);
+    truth.commit();
+  }
+  recording.commit();
+}
+
+void campaign(const CampaignArguments& arguments) {
+  const rig::ValveAndCampaign asked = rig::read_valve_and_campaign(arguments.valve);
+  const auto items = arguments.calibration_only ? rig::calibration_items(asked.valve, asked.campaign)
+                                                : rig::campaign_items(asked.valve, asked.campaign);
+  make_output_folder(arguments.folder);
+  if (arguments.with_truth) {
+    make_output_folder(arguments.folder / "truth");
+  }
+  {
+    Progress progress("simulating the campaign", arguments.quiet);
+    rig::run_campaign(items, {.store = [&](const auto& item, const auto& run,
+                                           const auto& simulation) { store(arguments.folder, item, run, simulation); },
+                              .progress = [&](double share) { progress.update(share); },
+                              .workers = std::max(1U, std::thread::hardware_concurrency()),
+                              .with_truth = arguments.with_truth});
+  }
+  OutputFile text(arguments.folder / "campaign.toml");
+  text.stream() << rig::campaign_text(asked.valve, items);
+  text.commit();
+}
+
+}  // namespace
+
+void add_campaign_command(CLI::App& program) {
+  CLI::App* command = add_command(
+      program, {.name = "campaign",
+                .purpose = "Make a whole measuring campaign of a valve on the virtual test rig.",
+                .reads = "a valve file (TOML), or the name of a built-in valve: size_6, size_10, fast_dither",
+                .writes = "a folder: bench tests, operating runs and campaign.toml, which spoolflow calibrate reads",
+                .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign"}});
+  auto arguments = std::make_shared<CampaignArguments>();
+  command->add_option("valve", arguments->valve, "valve file or name of a built-in valve")
+      ->type_name("VALVE.toml")
+      ->required();
+  command->add_option("-o,--output", arguments->folder, "folder for the recordings")->type_name("DIR")->required();
+  command->add_flag("--calibration-only", arguments->calibration_only, "leave out the validation runs");
+  command->add_flag("--truth", arguments->with_truth, "write flow, pressure and each force of every run to DIR/truth");
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { campaign(*arguments); });
+}
+
+}  // namespace spoolflow::apps
