@@ -57,7 +57,9 @@ bool asked_for(Channel channel, const ReadOptions& options) {
 
 void bind_by_map(std::vector<ColumnBinding>& bound, const std::vector<FileColumn>& columns, const ReadOptions& options,
                  const std::string& file) {
-  for (const auto& [channel, source] : options.channels.sources) {
+  for (const auto& entry : options.channels.sources) {
+    const Channel channel = entry.first;
+    const ChannelSource& source = entry.second;
     if (!asked_for(channel, options)) continue;
     const auto found = std::find_if(columns.begin(), columns.end(),
                                     [&](const FileColumn& column) { return column.name == source.column; });

@@ -17,9 +17,9 @@ constexpr std::array<double, 10> power{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1
 /// Two decimal digits at a time.
 constexpr auto digit_pairs = [] {
   std::array<char, 200> pairs{};
-  for (int k = 0; k < 100; ++k) {
-    pairs[static_cast<std::size_t>(2 * k)] = static_cast<char>('0' + k / 10);
-    pairs[static_cast<std::size_t>(2 * k + 1)] = static_cast<char>('0' + k % 10);
+  for (std::size_t k = 0; k < 100; ++k) {
+    pairs[2 * k] = static_cast<char>('0' + k / 10);
+    pairs[2 * k + 1] = static_cast<char>('0' + k % 10);
   }
   return pairs;
 }();
@@ -77,7 +77,7 @@ void CsvWriter::number(double value, int decimals) {
     used_ += static_cast<std::size_t>(written.out - (buffer_.data() + used_));
     return;
   }
-  const auto digits = static_cast<std::uint64_t>(scaled + 0.5);
+  const auto digits = static_cast<std::uint64_t>(std::floor(scaled + 0.5));
   std::array<char, 32> text;
   char* const end = text.data() + text.size();
   char* begin = write_backwards(end, digits, decimals + 1);

@@ -21,7 +21,7 @@ Channel channel_of(const toml::key& key, const toml::node& value, const std::fil
 /// A unit that exists; whether it fits the channel is told where the column is bound.
 std::string unit_of(const toml::table& entry, std::string_view key, const std::string& where,
                     const std::filesystem::path& file) {
-  const std::string unit = text_of(entry, key, where, file);
+  std::string unit = text_of(entry, key, where, file);
   if (!units::unit_named(unit)) {
     throw RecordingError(
         fmt::format("{}: {}.{}: \"{}\" is no known unit", place_of(*entry.get(key), file), where, key, unit));

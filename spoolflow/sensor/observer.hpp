@@ -142,7 +142,8 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   Estimate<T> out;
   const T root = sqrt(pressure.pressure_difference_Pa);
   const T flow_m3_per_s = larger(edge.conductance * root, T(0));
-  const T following = position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
+  const T following =
+      position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
   state.flow_m3_per_s += following * (flow_m3_per_s - state.flow_m3_per_s);
   out.flow_m3_per_s = state.flow_m3_per_s;
   const T resting_N = sliding ? T(0) : valve.band.resting_share * T(0.5) * (resting.upper_N - resting.lower_N);
