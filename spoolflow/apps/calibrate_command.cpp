@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
@@ -16,13 +17,6 @@
 
 namespace spoolflow::apps {
 namespace {
-
-struct Arguments {
-  std::string campaign;
-  std::string model;
-  std::string report;
-  bool quiet = false;
-};
 
 std::vector<std::filesystem::path> files_of(const recording::Campaign& campaign) {
   std::vector<std::filesystem::path> files{campaign.file};
@@ -49,8 +43,9 @@ void print_summary(const model::Model& model) {
                                         : fmt::format(", but is ambiguous at {} positions (see the model's evidence)",
                                                       uniqueness.ambiguous_at_m.size()));
 }
+}  // namespace
 
-void calibrate(const Arguments& arguments) {
+void calibrate(const CalibrateArguments& arguments) {
   const recording::Campaign campaign = recording::read_campaign(arguments.campaign);
   std::vector<std::filesystem::path> inputs = files_of(campaign);
   OutputFile output(arguments.model, inputs);
@@ -74,10 +69,8 @@ void calibrate(const Arguments& arguments) {
   if (!arguments.quiet) print_summary(model);
 }
 
-}  // namespace
-
 void add_calibrate_command(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = add_command(
       program,
       {"calibrate",

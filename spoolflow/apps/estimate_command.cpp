@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
@@ -12,15 +13,6 @@
 
 namespace spoolflow::apps {
 namespace {
-
-struct Arguments {
-  std::string model;
-  std::string recording;
-  std::string output;
-  std::string estimator;
-  std::string channels;
-  bool quiet = false;
-};
 
 void write_rows(recording::CsvWriter& out, const recording::SampleBlock& block,
                 const std::vector<sensor::Estimate<double>>& estimates, validation::StatusText& status_text) {
@@ -52,8 +44,9 @@ void tell(const recording::ReadNotes& notes, const std::string& file) {
                notes.missing_values);
   }
 }
+}  // namespace
 
-void estimate(const Arguments& arguments) {
+void estimate(const EstimateArguments& arguments) {
   const model::Model model = model::read_model(arguments.model);
   validation::Estimator estimator = validation::best_estimator(model);
   if (arguments.estimator == "condensed") estimator = validation::Estimator::condensed;
@@ -83,10 +76,8 @@ void estimate(const Arguments& arguments) {
   tell(reader->notes(), arguments.recording);
 }
 
-}  // namespace
-
 void add_estimate_command(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<EstimateArguments>();
   CLI::App* command = add_command(
       program,
       {"estimate",

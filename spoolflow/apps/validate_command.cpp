@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
@@ -11,18 +12,6 @@
 
 namespace spoolflow::apps {
 namespace {
-
-struct Arguments {
-  std::string model;
-  std::vector<std::string> recordings;
-  std::string report;
-  std::string json;
-  std::string channels;
-  std::string estimator = "both";
-  double reference_lag_ms = 30;
-  bool apply_reference_lag = false;
-  bool quiet = false;
-};
 
 std::vector<validation::Estimator> chosen(const std::string& name, const model::Model& model) {
   if (name == "condensed") return {validation::Estimator::condensed};
@@ -47,8 +36,9 @@ void print_figures(const model::Model& model, const std::vector<validation::Vali
     }
   }
 }
+}  // namespace
 
-void validate(const Arguments& arguments) {
+void validate(const ValidateArguments& arguments) {
   const model::Model model = model::read_model(arguments.model);
   validation::ValidationOptions options{
       chosen(arguments.estimator, model), {}, arguments.reference_lag_ms * 1e-3, arguments.apply_reference_lag};
@@ -81,10 +71,8 @@ void validate(const Arguments& arguments) {
   if (arguments.json != "-" && arguments.report != "-") print_figures(model, runs);
 }
 
-}  // namespace
-
 void add_validate_command(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = add_command(
       program,
       {"validate",

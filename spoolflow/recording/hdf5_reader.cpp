@@ -63,6 +63,15 @@ std::string text_attribute(hid_t object, const char* name) {
   return out;
 }
 
+/// A numeric attribute; `otherwise` where there is none.
+double number_attribute(hid_t object, const char* name, double otherwise) {
+  if (H5Aexists(object, name) <= 0) return otherwise;
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  double value = otherwise;
+  if (!attribute.valid() || H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value) < 0) return otherwise;
+  return value;
+}
+
 struct Found {
   std::vector<FileColumn> columns;
   std::vector<std::string> paths;
@@ -87,6 +96,11 @@ std::vector<double> read_vector(hid_t file, const std::string& path, const std::
   if (!length || H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     throw RecordingError(fmt::format("{}: dataset \"{}\" cannot be read (damaged or cut short?); write the file again",
                                      file_name, path));
+  }
+  const double scale = number_attribute(dataset.id(), "scale_factor", 1);
+  const double offset = number_attribute(dataset.id(), "add_offset", 0);
+  if (scale != 1 || offset != 0) {
+    for (double& value : values) value = scale * value + offset;
   }
   return values;
 }

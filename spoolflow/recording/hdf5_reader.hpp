@@ -6,7 +6,8 @@
 namespace spoolflow::recording {
 
 /// An HDF5 file: numeric one-dimensional datasets (or N x 1, 1 x N) named by their path, `rig/time`; a text attribute
-/// `unit` or `units` gives the unit where no channel map does.
+/// `unit` or `units` gives the unit where no channel map does. Packed data (netCDF's CF conventions, section 8.1) are
+/// unpacked: value = scale_factor * stored + add_offset.
 [[nodiscard]] std::unique_ptr<Reader> open_hdf5(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace spoolflow::recording

@@ -1,0 +1,39 @@
+#pragma once
+/// The commands as functions of what was asked of them, so that `demo` does exactly what the commands do.
+#include <string>
+#include <vector>
+
+namespace spoolflow::apps {
+
+struct CalibrateArguments {
+  std::string campaign;
+  std::string model;   ///< to write
+  std::string report;  ///< to write; empty: none
+  bool quiet = false;
+};
+void calibrate(const CalibrateArguments& arguments);
+
+struct EstimateArguments {
+  std::string model;
+  std::string recording;
+  std::string output;
+  std::string estimator;  ///< "condensed" or "observer"; empty: the observer where the model has one
+  std::string channels;   ///< channel map; empty: none
+  bool quiet = false;
+};
+void estimate(const EstimateArguments& arguments);
+
+struct ValidateArguments {
+  std::string model;
+  std::vector<std::string> recordings;
+  std::string report;    ///< to write; empty: none
+  std::string json;      ///< to write; empty: none
+  std::string channels;  ///< channel map; empty: none
+  std::string estimator = "both";
+  double reference_lag_ms = 30;
+  bool apply_reference_lag = false;
+  bool quiet = false;
+};
+void validate(const ValidateArguments& arguments);
+
+}  // namespace spoolflow::apps
