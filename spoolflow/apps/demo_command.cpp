@@ -61,7 +61,7 @@ void add_demo_command(CLI::App& program) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       add_command(program, {"demo",
-                            "the whole way from bench recordings to a report, on recordings that come with the program",
+                            "from bench recordings to a report, on recordings inside the program",
                             "nothing: simulated recordings of one valve are inside the program",
                             "a folder with the recordings (valve_a), model.json, estimate.csv, metrics.json, "
                             "calibration.html and report.html; "
