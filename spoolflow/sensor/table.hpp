@@ -29,7 +29,7 @@ struct Cell {
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
-  const bool inside = raw >= T(0) && raw <= T(Points - 1);
+  const bool inside = raw >= T(-0.25) && raw <= T(Points - 0.75);  // noise at an end is no extrapolation
   const T kept = select(raw > T(0), smaller(raw, T(Points - 1)), T(0));
   int index = table_index(kept);
   index = index > Points - 2 ? Points - 2 : index;
