@@ -10,6 +10,7 @@ class App;
 namespace spoolflow::apps {
 
 void add_demo_command(CLI::App& program);
+void add_inspect_command(CLI::App& program);
 void add_calibrate_command(CLI::App& program);
 void add_estimate_command(CLI::App& program);
 void add_validate_command(CLI::App& program);

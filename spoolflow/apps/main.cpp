@@ -26,6 +26,7 @@ constexpr int done = 0, work_failed = 1, wrong_usage = 2;
 /// In the order of the work, which is the order of the overview.
 void add_commands(CLI::App& program) {
   add_demo_command(program);
+  add_inspect_command(program);
   add_calibrate_command(program);
   add_estimate_command(program);
   add_validate_command(program);

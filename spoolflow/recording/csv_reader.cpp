@@ -28,6 +28,7 @@ class CsvReader final : public Reader {
     read_header(options);
   }
 
+  [[nodiscard]] const std::vector<FileColumn>& columns() const { return columns_; }
   [[nodiscard]] bool has(Channel channel) const override {
     for (const ColumnBinding& binding : bindings_) {
       if (binding.channel == channel) return true;
@@ -193,6 +194,13 @@ bool CsvReader::next(SampleBlock& block) {
 
 std::unique_ptr<Reader> open_csv(const std::filesystem::path& file, const ReadOptions& options) {
   return std::make_unique<CsvReader>(file, options);
+}
+
+std::vector<FileColumn> columns_of_csv(const std::filesystem::path& file) {
+  ReadOptions nothing;
+  nothing.optional = {Channel::test};  // any single channel: the columns are listed, not bound
+  nothing.channels.sources.clear();
+  return CsvReader(file, nothing).columns();
 }
 
 }  // namespace spoolflow::recording

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "spoolflow/recording/column_binding.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::recording {
@@ -9,5 +10,7 @@ namespace spoolflow::recording {
 /// quoted headers; an optional row of units below them; lines ended by LF or CRLF. Columns that nobody asked for are
 /// skipped unparsed. An empty cell is a missing sample. "-" is standard input.
 [[nodiscard]] std::unique_ptr<Reader> open_csv(const std::filesystem::path& file, const ReadOptions& options);
+/// Its header, with the units row where there is one.
+[[nodiscard]] std::vector<FileColumn> columns_of_csv(const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

@@ -110,19 +110,35 @@ std::string leaf(const std::string& path) {
   return slash == std::string::npos ? path : path.substr(slash + 1);
 }
 
-}  // namespace
+/// The file and its vectors.
+struct Opened {
+  std::unique_ptr<Handle> file;
+  Found found;
+};
 
-std::unique_ptr<Reader> open_hdf5(const std::filesystem::path& file, const ReadOptions& options) {
+Opened open_file(const std::filesystem::path& file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // HDF5's own complaints say less than ours
-  const Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!handle.valid()) {
+  Opened out{std::make_unique<Handle>(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose), {}};
+  if (!out.file->valid()) {
     throw RecordingError(
         fmt::format("{}: is no readable HDF5 file (damaged or cut short?); write it again", file.string()));
   }
-  Found found;
-  if (H5Ovisit2(handle.id(), H5_INDEX_NAME, H5_ITER_INC, visit, &found, H5O_INFO_BASIC) < 0 || found.columns.empty()) {
+  if (H5Ovisit2(out.file->id(), H5_INDEX_NAME, H5_ITER_INC, visit, &out.found, H5O_INFO_BASIC) < 0 ||
+      out.found.columns.empty()) {
     throw RecordingError(fmt::format("{}: holds no numeric one-dimensional datasets that can be read", file.string()));
   }
+  return out;
+}
+
+}  // namespace
+
+std::vector<FileColumn> columns_of_hdf5(const std::filesystem::path& file) {
+  return open_file(file).found.columns;
+}
+
+std::unique_ptr<Reader> open_hdf5(const std::filesystem::path& file, const ReadOptions& options) {
+  Opened opened = open_file(file);
+  Found& found = opened.found;
   if (options.channels.sources.empty()) {
     for (FileColumn& column : found.columns) column.name = leaf(column.name);
   }
@@ -133,7 +149,7 @@ std::unique_ptr<Reader> open_hdf5(const std::filesystem::path& file, const ReadO
   std::vector<BoundColumn> bound;
   for (const ColumnBinding& binding : bind_columns(found.columns, rooted, file.string())) {
     bound.push_back({binding, found.columns[binding.column].name,
-                     read_vector(handle.id(), found.paths[binding.column], file.string())});
+                     read_vector(opened.file->id(), found.paths[binding.column], file.string())});
   }
   return serve_columns(std::move(bound), file.string());
 }

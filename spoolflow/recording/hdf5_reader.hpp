@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "spoolflow/recording/column_binding.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::recording {
@@ -9,5 +10,7 @@ namespace spoolflow::recording {
 /// `unit` or `units` gives the unit where no channel map does. Packed data (netCDF's CF conventions, section 8.1) are
 /// unpacked: value = scale_factor * stored + add_offset.
 [[nodiscard]] std::unique_ptr<Reader> open_hdf5(const std::filesystem::path& file, const ReadOptions& options);
+/// Its vectors by path, with their unit attributes.
+[[nodiscard]] std::vector<FileColumn> columns_of_hdf5(const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

@@ -95,9 +95,12 @@ std::string leaf(const std::string& name) {
   return dot == std::string::npos ? name : name.substr(dot + 1);
 }
 
-}  // namespace
+struct MatContents {
+  std::map<std::string, std::vector<double>> vectors;
+  std::vector<std::string> objects;  ///< what only MATLAB can read
+};
 
-std::unique_ptr<Reader> open_mat(const std::filesystem::path& file, const ReadOptions& options) {
+MatContents contents_of_mat(const std::filesystem::path& file) {
   Mat_LogInitFunc("spoolflow", [](int, char*) {});  // matio's own complaints say less than ours
   const std::unique_ptr<mat_t, FileCloser> mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
   if (!mat) {
@@ -106,25 +109,35 @@ std::unique_ptr<Reader> open_mat(const std::filesystem::path& file, const ReadOp
                     "save(…, '-v7.3') or '-v7'",
                     file.string()));
   }
-  std::map<std::string, std::vector<double>> vectors;
-  std::vector<std::string> objects;
+  MatContents out;
   while (const std::unique_ptr<matvar_t, VariableFreer> variable{Mat_VarReadNext(mat.get())}) {
-    if (variable->name != nullptr) collect(*variable, variable->name, vectors, objects);
+    if (variable->name != nullptr) collect(*variable, variable->name, out.vectors, out.objects);
   }
+  if (!out.vectors.empty()) return out;
+  throw RecordingError(
+      out.objects.empty()
+          ? fmt::format("{}: holds no numeric vectors that can be read (damaged or cut short?)", file.string())
+          : fmt::format(
+                "{}: \"{}\" is a table, timetable or other object, which MATLAB alone can read; save its columns as "
+                "vectors, for instance s = table2struct(T, 'ToScalar', true); save(…, '-struct', 's')",
+                file.string(), out.objects.front()));
+}
+
+}  // namespace
+
+std::vector<FileColumn> columns_of_mat(const std::filesystem::path& file) {
+  std::vector<FileColumn> columns;
+  for (const auto& [name, vector] : contents_of_mat(file).vectors) columns.push_back({name, ""});
+  return columns;
+}
+
+std::unique_ptr<Reader> open_mat(const std::filesystem::path& file, const ReadOptions& options) {
+  const MatContents contents = contents_of_mat(file);
   std::vector<FileColumn> columns;
   std::vector<const std::vector<double>*> values;
-  for (const auto& [name, vector] : vectors) {
+  for (const auto& [name, vector] : contents.vectors) {
     columns.push_back({options.channels.sources.empty() ? leaf(name) : name, ""});
     values.push_back(&vector);
-  }
-  if (columns.empty()) {
-    throw RecordingError(
-        objects.empty()
-            ? fmt::format("{}: holds no numeric vectors that can be read (damaged or cut short?)", file.string())
-            : fmt::format(
-                  "{}: \"{}\" is a table, timetable or other object, which MATLAB alone can read; save its columns as "
-                  "vectors, for instance s = table2struct(T, 'ToScalar', true); save(…, '-struct', 's')",
-                  file.string(), objects.front()));
   }
   std::vector<BoundColumn> bound;
   for (const ColumnBinding& binding : bind_columns(columns, options, file.string())) {

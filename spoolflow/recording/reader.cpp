@@ -35,7 +35,9 @@ Format format_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options) {
+namespace {
+
+void require_file(const std::filesystem::path& file) {
   std::error_code error;
   if (file != "-" && !std::filesystem::exists(file, error)) {
     throw RecordingError(fmt::format("{}: there is no such file; check the path", file.string()));
@@ -43,6 +45,37 @@ std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const Rea
   if (file != "-" && std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) == 0) {
     throw RecordingError(fmt::format("{}: the file is empty", file.string()));
   }
+}
+
+}  // namespace
+
+FileContents contents_of(const std::filesystem::path& file) {
+  require_file(file);
+  FileContents out;
+  std::vector<FileColumn> columns;
+  switch (format_of(file)) {
+    case Format::mat:
+      out.format = "MATLAB";
+      columns = columns_of_mat(file);
+      break;
+    case Format::hdf5:
+      out.format = "HDF5";
+      columns = columns_of_hdf5(file);
+      break;
+    case Format::csv:
+      out.format = "CSV";
+      columns = columns_of_csv(file);
+      break;
+  }
+  for (FileColumn& column : columns) {
+    out.columns.push_back(std::move(column.name));
+    out.units.push_back(std::move(column.unit));
+  }
+  return out;
+}
+
+std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options) {
+  require_file(file);
   switch (format_of(file)) {
     case Format::mat:
       return open_mat(file, options);

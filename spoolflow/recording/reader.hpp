@@ -50,6 +50,14 @@ class Reader {
 /// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV.
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
 
+/// What a file is and what its columns are called, whether they are channels or not.
+struct FileContents {
+  std::string format;  ///< "CSV", "MATLAB", "HDF5"
+  std::vector<std::string> columns;
+  std::vector<std::string> units;  ///< as a units row or an attribute says; empty where nothing does
+};
+[[nodiscard]] FileContents contents_of(const std::filesystem::path& file);
+
 /// The whole file at once.
 [[nodiscard]] Recording read_recording(const std::filesystem::path& file, const ReadOptions& options);
 

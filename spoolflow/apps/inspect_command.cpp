@@ -1,0 +1,165 @@
+/// `spoolflow inspect`: what a recording holds, and a channel map for foreign column names.
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/recording/inspection.hpp"
+#include "spoolflow/recording/proposal.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct Arguments {
+  std::string file;
+  std::string channels;
+  double stroke_mm = 0;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// The unit that people read a channel in.
+struct ShownUnit {
+  const char* name;
+  double per_SI;
+  double offset;
+};
+
+ShownUnit shown_unit(recording::Channel channel) {
+  using units::Dimension;
+  switch (recording::dimension(channel)) {
+    case Dimension::time:
+      return {"s", 1, 0};
+    case Dimension::current:
+      return {"A", 1, 0};
+    case Dimension::voltage:
+      return {"V", 1, 0};
+    case Dimension::length:
+      return {"mm", units::millimetre_per_metre, 0};
+    case Dimension::ratio:
+      return {"percent", 100, 0};
+    case Dimension::force:
+      return {"N", 1, 0};
+    case Dimension::pressure:
+      return {"bar", 1 / units::pascal_per_bar, 0};
+    case Dimension::temperature:
+      return {"C", 1, -units::kelvin_at_0_degC};
+    case Dimension::flow:
+      return {"L/min", units::litre_per_minute_per_m3_per_s, 0};
+    case Dimension::none:
+      break;
+  }
+  return {"", 1, 0};
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+void print_text(const Arguments& arguments, const recording::Inspection& found) {
+  fmt::print("{}: {}, {} columns: {}\n", arguments.file, found.contents.format, found.contents.columns.size(),
+             joined(found.contents.columns));
+  if (!found.channels.empty()) {
+    fmt::print("{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
+               found.end_s - found.begin_s, found.rate_Hz);
+    if (found.jitter > 0.01) fmt::print(", time steps vary by up to {:.0f} %", 100 * found.jitter);
+    fmt::print("\n");
+    if (found.duplicate_times > 0) fmt::print("{} samples repeat the time stamp before them\n", found.duplicate_times);
+    if (found.gap_count > 0) {
+      fmt::print("{} gaps in time", found.gap_count);
+      for (const recording::Gap& gap : found.gaps)
+        fmt::print("{} {:.6g} to {:.6g} s", &gap == found.gaps.data() ? ":" : ",", gap.from_s, gap.to_s);
+      fmt::print("{}\n", found.gap_count > found.gaps.size() ? ", …" : "");
+    }
+    fmt::print("\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
+               "missing", "clipped");
+    for (const recording::ChannelSummary& summary : found.channels) {
+      const ShownUnit unit = shown_unit(summary.channel);
+      const auto shown = [&](double value) { return value * unit.per_SI + unit.offset; };
+      fmt::print("{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel),
+                 unit.name, shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
+                 100 * summary.clipped);
+    }
+    fmt::print("\n");
+  }
+  if (found.proposal.sources.empty()) {
+    fmt::print("No column name is known; write a channel map by hand (see docs/formats.md).\n");
+  } else {
+    fmt::print("Proposed channel map (check it, then give it with --channels MAP.toml):\n\n{}",
+               recording::written(found.proposal));
+  }
+}
+
+void print_json(const recording::Inspection& found) {
+  nlohmann::ordered_json out{{"format", found.contents.format},
+                             {"columns", found.contents.columns},
+                             {"samples", found.samples},
+                             {"begin_s", found.begin_s},
+                             {"end_s", found.end_s},
+                             {"rate_Hz", found.rate_Hz},
+                             {"time_step_jitter", found.jitter},
+                             {"duplicate_times", found.duplicate_times},
+                             {"gap_count", found.gap_count},
+                             {"gaps_s", nlohmann::ordered_json::array()},
+                             {"channels", nlohmann::ordered_json::array()}};
+  for (const recording::Gap& gap : found.gaps) out["gaps_s"].push_back({gap.from_s, gap.to_s});
+  for (const recording::ChannelSummary& summary : found.channels) {
+    const ShownUnit unit = shown_unit(summary.channel);
+    const auto shown = [&](double value) { return value * unit.per_SI + unit.offset; };
+    out["channels"].push_back({{"channel", recording::name(summary.channel)},
+                               {"unit", unit.name},
+                               {"lowest", shown(summary.lowest)},
+                               {"mean", shown(summary.mean)},
+                               {"highest", shown(summary.highest)},
+                               {"missing", summary.missing},
+                               {"clipped_share", summary.clipped}});
+  }
+  out["proposed_channel_map"] = recording::written(found.proposal);
+  fmt::print("{}\n", out.dump(1));
+}
+
+void inspect(const Arguments& arguments) {
+  recording::ReadOptions options;
+  if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
+  if (arguments.stroke_mm > 0) options.stroke_m = units::m_from_mm(arguments.stroke_mm);
+  recording::Inspection found;
+  {
+    Progress progress("inspecting", arguments.quiet);
+    found = recording::inspect(arguments.file, options,
+                               [&](std::optional<double> share, std::uint64_t rows) { progress.update(share, rows); });
+  }
+  if (arguments.json) {
+    print_json(found);
+  } else {
+    print_text(arguments, found);
+  }
+}
+
+}  // namespace
+
+void add_inspect_command(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      add_command(program, {"inspect",
+                            "show what a recording holds and propose a channel map",
+                            "a recording: CSV (comma, semicolon or tab; decimal comma), MATLAB v5 or v7.3, HDF5",
+                            "on standard output: channels, units, rate, gaps, clipping, and a channel map to paste",
+                            {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml"}});
+  command->add_option("file", arguments->file, "recording")->required();
+  command->add_option("--channels", arguments->channels,
+                      "channel map (TOML) for files with other column names or units");
+  command->add_option("--stroke-mm", arguments->stroke_mm, "the valve's stroke, for positions in percent")
+      ->check(CLI::Range(0.01, 50.0));
+  command->add_flag("--json", arguments->json, "print JSON instead of text");
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { inspect(*arguments); });
+}
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,133 @@
+#include "spoolflow/recording/inspection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "spoolflow/recording/column_binding.hpp"
+#include "spoolflow/recording/proposal.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+constexpr std::size_t gaps_listed = 10;
+constexpr double gap_steps = 3;
+constexpr std::size_t steps_learned = 2000;  ///< time steps from which the median is taken
+
+/// A channel followed through the stream.
+struct Follower {
+  double lowest = INFINITY, highest = -INFINITY, sum = 0;
+  std::uint64_t samples = 0, missing = 0;
+  std::uint64_t at_lowest = 0, at_highest = 0;  ///< samples in runs of at least three equal values at that extreme
+  double last = NAN;
+  std::uint64_t run = 0;
+
+  void take(double value) {
+    if (std::isnan(value)) {
+      ++missing;
+      return;
+    }
+    ++samples;
+    sum += value;
+    if (value < lowest) lowest = value, at_lowest = 0;
+    if (value > highest) highest = value, at_highest = 0;
+    run = value == last ? run + 1 : 1;
+    last = value;
+    const std::uint64_t counted = run == 3 ? 3 : (run > 3 ? 1 : 0);
+    if (value == lowest) at_lowest += counted;
+    if (value == highest) at_highest += counted;
+  }
+  [[nodiscard]] ChannelSummary summary(Channel channel) const {
+    const auto n = static_cast<double>(std::max<std::uint64_t>(1, samples));
+    const bool moves = highest > lowest;
+    return {channel,
+            samples > 0 ? lowest : NAN,
+            samples > 0 ? highest : NAN,
+            samples > 0 ? sum / n : NAN,
+            missing,
+            moves ? static_cast<double>(at_lowest + at_highest) / n : 0.0};
+  }
+};
+
+/// Time steps: their median from the first ones, then jitter and gaps.
+class Steps {
+ public:
+  void take(double time_s, Inspection& out) {
+    if (std::isnan(last_s_)) out.begin_s = time_s;
+    out.end_s = time_s;
+    const double step_s = time_s - last_s_;
+    if (step_s > 0) {
+      if (median_s_ == 0) {
+        learned_.push_back({last_s_, step_s});
+        if (learned_.size() >= steps_learned) settle(out);
+      } else {
+        judge(last_s_, step_s, out);
+      }
+    }
+    last_s_ = time_s;
+  }
+  void settle(Inspection& out) {
+    if (learned_.empty() || median_s_ > 0) return;
+    std::vector<double> steps;
+    for (const auto& [from, step] : learned_) steps.push_back(step);
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    median_s_ = *middle;
+    out.rate_Hz = 1 / median_s_;
+    for (const auto& [from, step] : learned_) judge(from, step, out);
+    learned_.clear();
+  }
+
+ private:
+  void judge(double from_s, double step_s, Inspection& out) const {
+    if (step_s <= gap_steps * median_s_) {
+      out.jitter = std::max(out.jitter, std::abs(step_s / median_s_ - 1));
+      return;
+    }
+    ++out.gap_count;
+    if (out.gaps.size() < gaps_listed) out.gaps.push_back({from_s, from_s + step_s});
+  }
+  double last_s_ = NAN;
+  double median_s_ = 0;
+  std::vector<std::pair<double, double>> learned_;
+};
+
+bool has_own_names(const FileContents& contents) {
+  Channel channel{};
+  std::string unit;
+  return std::any_of(contents.columns.begin(), contents.columns.end(), [&](const std::string& column) {
+    const std::size_t last = column.find_last_of("./");
+    return parse_header(last == std::string::npos ? column : column.substr(last + 1), channel, unit) && !unit.empty();
+  });
+}
+
+}  // namespace
+
+Inspection inspect(const std::filesystem::path& file, const ReadOptions& options,
+                   const std::function<void(std::optional<double>, std::uint64_t)>& progress) {
+  Inspection out;
+  out.contents = contents_of(file);
+  out.proposal = propose_channels(out.contents);
+  if (options.channels.sources.empty() && !has_own_names(out.contents)) return out;
+  const auto reader = open_reader(file, options);
+  std::array<Follower, channel_count> followers;
+  Steps steps;
+  SampleBlock block;
+  while (reader->next(block)) {
+    for (const Channel channel : all_channels()) {
+      for (const double value : block.columns[static_cast<std::size_t>(channel)])
+        followers[static_cast<std::size_t>(channel)].take(value);
+    }
+    for (const double time_s : block.columns[static_cast<std::size_t>(Channel::time)]) steps.take(time_s, out);
+    progress(reader->progress(), reader->notes().rows);
+  }
+  steps.settle(out);
+  out.samples = reader->notes().rows;
+  out.duplicate_times = reader->notes().duplicate_times;
+  for (const Channel channel : all_channels()) {
+    if (reader->has(channel)) out.channels.push_back(followers[static_cast<std::size_t>(channel)].summary(channel));
+  }
+  return out;
+}
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,137 @@
+#include "spoolflow/recording/proposal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/column_binding.hpp"
+#include "spoolflow/recording/csv_dialect.hpp"
+#include "spoolflow/units/unit.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+/// Words by which people call a channel, in English and German; the longer match wins.
+struct Words {
+  Channel channel;
+  std::array<std::string_view, 9> words;
+};
+constexpr std::array<Words, 15> vocabulary{{
+    {Channel::time, {"time", "t", "zeit", "timestamp", "seconds"}},
+    {Channel::current, {"current", "i", "strom", "isol", "icoil", "coilcurrent"}},
+    {Channel::current_set, {"currentset", "iset", "icmd", "sollstrom", "isoll", "currentcommand"}},
+    {Channel::voltage, {"voltage", "u", "v", "spannung", "usol", "ucoil", "coilvoltage"}},
+    {Channel::position, {"position", "x", "lvdt", "weg", "stroke", "spool", "spoolposition", "pos", "xist"}},
+    {Channel::position_set, {"positionset", "xset", "xsoll", "xcmd", "setpoint", "sollwert", "positioncommand", "xs"}},
+    {Channel::force, {"force", "f", "kraft", "loadcell", "fmag", "magneticforce"}},
+    {Channel::axial_force, {"axialforce", "fax", "axialkraft"}},
+    {Channel::pressure_upstream, {"pressureupstream", "p1", "pp", "pressurep", "pupstream", "pu"}},
+    {Channel::pressure_downstream, {"pressuredownstream", "p2", "pb", "pressureb", "pdownstream", "pd"}},
+    {Channel::pressure_difference, {"pressuredifference", "dp", "deltap", "pdiff", "druckdifferenz"}},
+    {Channel::pressure_difference_set, {"pressuredifferenceset", "dpset", "dpsoll"}},
+    {Channel::oil_temperature, {"oiltemperature", "temperature", "temp", "toil", "temperatur", "oeltemperatur", "t"}},
+    {Channel::flow, {"flow", "q", "flowrate", "volumenstrom", "qmeas"}},
+    {Channel::flow_reference, {"flowreference", "qref", "flowmeter", "referenceflow"}},
+}};
+
+/// A column's name taken apart: "I_sol [mA]" is "isol" with unit "mA".
+struct NameParts {
+  std::string word;
+  std::string unit;
+};
+
+std::string letters_of(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return out;
+}
+
+NameParts parts_of(std::string name, const std::string& told_unit) {
+  const std::size_t last = name.find_last_of("./");  // the last part of a struct or group path
+  if (last != std::string::npos && last + 1 < name.size() && name.find('[') == std::string::npos)
+    name.erase(0, last + 1);
+  NameParts out{"", told_unit};
+  const std::size_t open = name.find_first_of("[(");
+  if (open != std::string::npos) {
+    if (out.unit.empty()) out.unit = without_brackets(name.substr(open));
+    name.resize(open);
+  } else {
+    for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
+      if (out.unit.empty() && at > 0 && units::unit_named(name.substr(at + 1))) {
+        out.unit = name.substr(at + 1);
+        name.resize(at);
+        break;
+      }
+    }
+  }
+  out.word = letters_of(name);
+  return out;
+}
+
+/// Whether the unit may be the channel's: of its quantity, or a voltage (a raw sensor signal), or a share of the
+/// stroke.
+bool may_have(Channel channel, const std::string& unit_name) {
+  const auto unit = units::unit_named(unit_name);
+  if (!unit) return unit_name.empty();
+  const units::Dimension wanted = dimension(channel);
+  return unit->dimension == wanted ||
+         (unit->dimension == units::Dimension::voltage && wanted != units::Dimension::time) ||
+         (unit->dimension == units::Dimension::ratio && wanted == units::Dimension::length);
+}
+
+}  // namespace
+
+ChannelMap propose_channels(const FileContents& contents) {
+  ChannelMap out;
+  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
+    Channel channel{};
+    std::string unit;
+    if (parse_header(contents.columns[k], channel, unit)) {
+      out.sources.try_emplace(
+          channel, ChannelSource{contents.columns[k], unit.empty() ? contents.units[k] : unit, 1.0, 0.0, {}});
+      continue;
+    }
+    const NameParts parts = parts_of(contents.columns[k], contents.units[k]);
+    for (const Words& entry : vocabulary) {
+      if (std::find(entry.words.begin(), entry.words.end(), parts.word) == entry.words.end() || parts.word.empty())
+        continue;
+      if (!may_have(entry.channel, parts.unit)) continue;
+      out.sources.try_emplace(entry.channel, ChannelSource{contents.columns[k], parts.unit, 1.0, 0.0, {}});
+      break;
+    }
+  }
+  return out;
+}
+
+std::string written(const ChannelMap& map) {
+  std::string out = "[channels]\n";
+  for (const auto& [channel, source] : map.sources) {
+    std::string column;
+    for (const char c : source.column) {
+      if (c == '"' || c == '\\') column += '\\';
+      column += c;
+    }
+    const auto unit = units::unit_named(source.unit);
+    const bool raw_signal =
+        unit && unit->dimension == units::Dimension::voltage && dimension(channel) != units::Dimension::voltage;
+    out += fmt::format("{} = {{ column = \"{}\"", name(channel), column);
+    if (dimension(channel) != units::Dimension::none)
+      out += fmt::format(", unit = \"{}\"", source.unit.empty() ? "?" : source.unit);
+    if (raw_signal) out += ", scale = 1.0, offset = 0.0, to = \"?\"";
+    out += " }";
+    if (source.unit.empty() && dimension(channel) != units::Dimension::none) {
+      out += fmt::format("  # fill in the unit: {}", units::units_of(dimension(channel)));
+    }
+    if (raw_signal) out += "  # a sensor signal: value = scale * raw + offset, in `to`";
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace spoolflow::recording
