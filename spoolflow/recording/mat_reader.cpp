@@ -1,5 +1,7 @@
 #include "spoolflow/recording/mat_reader.hpp"
 
+#include <array>
+#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -95,6 +97,34 @@ std::string leaf(const std::string& name) {
   return dot == std::string::npos ? name : name.substr(dot + 1);
 }
 
+/// A version 5 file is a header of 128 bytes and a chain of elements, each with its length: the chain must end with the
+/// file. matio reads a file that was cut short as if zeros followed.
+void refuse_cut_version_5(const std::filesystem::path& file) {
+  constexpr std::uintmax_t header = 128;
+  constexpr std::uintmax_t tag = 8;
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, header> begin{};
+  in.read(begin.data(), begin.size());
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  const bool little_endian = begin[126] == 'I' && begin[127] == 'M';
+  const bool version_5 = begin[little_endian ? 125 : 124] == 1;
+  if (in.gcount() == static_cast<std::streamsize>(header) && !version_5) return;  // 7.3 is HDF5, which checks itself
+  std::uintmax_t at = header;
+  while (in && at < size) {
+    std::array<unsigned char, tag> bytes{};
+    in.seekg(static_cast<std::streamoff>(at));
+    in.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+    std::uintmax_t length = 0;
+    for (std::size_t k = 0; k < 4; ++k) length |= std::uintmax_t{bytes[4 + k]} << (8 * (little_endian ? k : 3 - k));
+    at += tag + length;
+  }
+  if (at != size) {
+    throw RecordingError(
+        fmt::format("{}: the MATLAB file is cut short ({} bytes, its contents need {}); copy or save it again",
+                    file.string(), size, at));
+  }
+}
+
 struct MatContents {
   std::map<std::string, std::vector<double>> vectors;
   std::vector<std::string> objects;  ///< what only MATLAB can read
@@ -109,6 +139,7 @@ MatContents contents_of_mat(const std::filesystem::path& file) {
                     "save(…, '-v7.3') or '-v7'",
                     file.string()));
   }
+  refuse_cut_version_5(file);
   MatContents out;
   while (const std::unique_ptr<matvar_t, VariableFreer> variable{Mat_VarReadNext(mat.get())}) {
     if (variable->name != nullptr) collect(*variable, variable->name, out.vectors, out.objects);
