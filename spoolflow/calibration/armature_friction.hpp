@@ -1,11 +1,35 @@
 #pragma once
+/// What strokes of the armature both ways show of its friction, apart from magnetic hysteresis.
+#include <vector>
+
+#include "spoolflow/calibration/fit_residual.hpp"
 #include "spoolflow/calibration/magnetic_force.hpp"
+#include "spoolflow/calibration/solenoid_samples.hpp"
+#include "spoolflow/sensor/coil.hpp"
 
 namespace spoolflow::calibration {
 
-/// Half the distance of both directions of the solenoid's force map over current [A] and position [m]: armature
-/// friction, with what magnetic hysteresis adds to it while the spool moves.
-[[nodiscard]] sensor::Map<double, sensor::force_map_currents, sensor::force_map_positions> armature_friction(
-    const MagneticForceFit& fit);
+using FrictionMap = sensor::Map<double, sensor::force_map_currents, sensor::force_map_positions>;
+
+struct ArmatureFrictionFit {
+  FrictionMap friction_N;                        ///< half width over current and position, >= 0
+  sensor::MagneticForce<double> magnetic_force;  ///< over magnetising current, both directions averaged
+  FitResidual residual;                          ///< of the strokes about both [N]
+};
+
+/// Runs the coil along the recording of `solenoid_force_map`, so that the force of each stroke stands over its
+/// magnetising current; what then differs between the directions is friction.
+[[nodiscard]] ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const MagneticForceFit& map,
+                                                        const sensor::Coil<double>& coil, double stroke_m);
+
+/// How the loops' half widths part, where no current loops were recorded: friction as a constant and a share of the
+/// magnetic force (the side load of the armature), and a coercive current times the force's slope over current.
+struct LoopWidths {
+  double constant_N;
+  double per_force;
+  double coercive_current_A;
+  FitResidual residual;  ///< [N]
+};
+[[nodiscard]] LoopWidths part_loop_widths(const MagneticForceFit& map);
 
 }  // namespace spoolflow::calibration

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "spoolflow/calibration/armature_friction.hpp"
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/actuator.hpp"
 #include "spoolflow/calibration/magnetic_force.hpp"
 #include "spoolflow/calibration/metering_edge.hpp"
 #include "spoolflow/calibration/position_sensor.hpp"
@@ -27,8 +30,13 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
   const PositionSensorFit position = fit_position_sensor(bench, valve.stroke_m);
   const SpringFit spring = fit_spring(without_zero_offset(recordings.spring, valve.stroke_m), valve.stroke_m);
-  const MagneticForceFit magnetic =
-      fit_magnetic_force(without_zero_offset(recordings.solenoid_force_map, valve.stroke_m), valve.stroke_m);
+  const double closed_m = closed_reading_m(recordings.solenoid_force_map[recording::Channel::position], valve.stroke_m);
+  const recording::Recording force_map = shifted(recordings.solenoid_force_map, closed_m);
+  const MagneticForceFit magnetic = fit_magnetic_force(force_map, valve.stroke_m);
+  // The armature never meets its stop in `solenoid_dynamic`: the rig's zero is that of the force map.
+  std::optional<recording::Recording> dynamic;
+  if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
+  const ActuatorFit actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, magnetic, valve.stroke_m);
   std::vector<AxialForceFit> axial;
   FitResidual flow;
   FitResidual axial_force;
@@ -45,7 +53,7 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
 
   model::Observer out{};
   sensor::ObserverParameters<double>& parameters = out.parameters;
-  parameters.actuator = {magnetic.magnetic_force, armature_friction(magnetic), magnetic.residual.rms()};
+  parameters.actuator = actuator.actuator;
   parameters.spring = spring.spring;
   parameters.edge = edge.edge;
   parameters.position_sensor = {position.noise_m, position.drift_m_per_K, position.drift_free_K,
@@ -66,7 +74,16 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
       {"flow rate", "m3/s", flow.rms(), flow.largest},
       {"position drift", "m", position.drift_residual_m, position.drift_residual_m},
   };
+  if (actuator.dynamics) {
+    for (const TestResidual& test : actuator.dynamics->tests)
+      out.residuals.push_back(
+          {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});
+  }
   out.defaults = {"stiction_ratio", "contact_stiffness_N_per_m", "gauge_tolerance", "hardest_acceleration_m_per_s2"};
+  if (!actuator.dynamics) {
+    out.defaults.emplace_back("hysteresis_threshold_Wb");
+    out.defaults.emplace_back("eddy_currents");
+  }
   return out;
 }
 

@@ -84,10 +84,14 @@ PositionSensorFit fit_position_sensor(const std::vector<const recording::Recordi
   return fit;
 }
 
+recording::Recording shifted(recording::Recording recording, double offset_m) {
+  for (double& x : recording.column(recording::Channel::position)) x -= offset_m;
+  return recording;
+}
+
 recording::Recording without_zero_offset(recording::Recording recording, double stroke_m) {
   const double closed_m = closed_reading_m(recording[recording::Channel::position], stroke_m);
-  for (double& x : recording.column(recording::Channel::position)) x -= closed_m;
-  return recording;
+  return shifted(std::move(recording), closed_m);
 }
 
 }  // namespace spoolflow::calibration

@@ -24,6 +24,9 @@ struct PositionSensorFit {
 [[nodiscard]] PositionSensorFit fit_position_sensor(const std::vector<const recording::Recording*>& recordings,
                                                     double stroke_m);
 
+/// The recording with its positions lowered by `offset_m`.
+[[nodiscard]] recording::Recording shifted(recording::Recording recording, double offset_m);
+
 /// The recording with its positions shifted so that the closed spool reads zero.
 [[nodiscard]] recording::Recording without_zero_offset(recording::Recording recording, double stroke_m);
 

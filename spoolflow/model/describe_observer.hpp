@@ -4,14 +4,40 @@
 
 namespace spoolflow::model {
 
-/// As describe_condensed, and visitor.volume(key, volume, layer_axis, row_axis, column_axis, VolumeKeys).
+/// As describe_condensed, and visitor.list(key, array, lowest, highest).
+template <class Actuator, class Visitor>
+void describe_coil(Actuator& actuator, Visitor& visitor) {
+  visitor.map("flux_linkage_Wb", actuator.coil.flux_linkage.map, "magnetising_current_A", "position_m");
+  auto& hysteresis = actuator.coil.hysteresis;
+  visitor.list("hysteresis_threshold_Wb", hysteresis.threshold, 0.0, 1e6);
+  visitor.list("hysteresis_stiffness_A_per_Wb", hysteresis.stiffness, 0.0, 1e9);
+  visitor.list("hysteresis_stiffness_increase_A_per_Wb", hysteresis.stiffness_increase, -1e9, 1e9);
+  visitor.number("hysteresis_per_full_flux_1_per_Wb", hysteresis.per_full_flux, 0.0, 1e9);
+  auto& eddy_currents = actuator.coil.eddy_currents;
+  visitor.number("classical_eddy_current_A_per_V", eddy_currents.classical_A_per_V, 0.0, 1e3);
+  visitor.number("excess_eddy_current_A_per_rootV", eddy_currents.excess_A_per_rootV, 0.0, 1e3);
+  visitor.number("smallest_flux_rate_V", eddy_currents.smallest_rate_V, 1e-9, 1e3);
+  auto& resistance = actuator.coil_resistance;
+  visitor.number("coil_resistance_Ohm", resistance.resistance_Ohm, 0.0, 1e4);
+  visitor.number("coil_resistance_uncertainty_Ohm", resistance.uncertainty_Ohm, 0.0, 1e4);
+  visitor.number("coil_resistance_drift_Ohm_per_root_s", resistance.drift_Ohm_per_root_s, 0.0, 1e4);
+  visitor.number("voltage_noise_V_root_s", resistance.voltage_noise_V_root_s, 0.0, 1e3);
+  visitor.number("coercive_current_A", actuator.coercive_current_A, 0.0, 1e3);
+  visitor.number("per_wiping_flux_1_per_Wb", actuator.per_wiping_flux, 0.0, 1e9);
+  visitor.number("magnetic_force_uncertainty_N", actuator.force_uncertainty_N, 0.0, 1e4);
+  visitor.number("magnetising_current_uncertainty_A", actuator.current_uncertainty_A, 0.0, 1e3);
+  visitor.number("eddy_current_uncertainty", actuator.eddy_uncertainty, 0.0, 1e3);
+}
+
+/// As describe_condensed and describe_coil, and visitor.volume(key, volume, layer_axis, row_axis, column_axis,
+/// VolumeKeys).
 template <class Parameters, class Visitor>
 void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.map("magnetic_force_N", parameters.actuator.magnetic_force.map, "current_A", "position_m");
   visitor.curve("magnetic_hysteresis_half_width_N", parameters.actuator.magnetic_force.hysteresis_half_width_N,
                 "current_A");
   visitor.map("armature_friction_N", parameters.actuator.friction_N, "current_A", "position_m");
-  visitor.number("magnetic_force_residual_N", parameters.actuator.force_residual_N, 0.0, 1e4);
+  describe_coil(parameters.actuator, visitor);
   visitor.curve("spring_force_N", parameters.spring.curve, "position_m");
 
   auto& edge = parameters.edge;

@@ -1,5 +1,6 @@
 #pragma once
 /// Visitors that carry the sensor's tables into JSON and back.
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -50,6 +51,10 @@ class TableWriter {
     auto out = nlohmann::ordered_json::array();
     for (int k = 0; k < points; ++k) out.push_back(axis.at(k));
     out_[key] = std::move(out);
+  }
+  template <class T, std::size_t Count>
+  void list(const char* key, const std::array<T, Count>& values, double /*lowest*/, double /*highest*/) {
+    out_[key] = values;
   }
   template <class T>
   void number(const char* key, const T& value, double /*lowest*/, double /*highest*/) {
@@ -116,6 +121,13 @@ class TableReader {
   template <class T>
   void axis(const char* key, sensor::Axis<T>& out, int points) {
     out = axis<T>(in_.at(key), points);
+  }
+  template <class T, std::size_t Count>
+  void list(const char* key, std::array<T, Count>& out, double lowest, double highest) {
+    const JsonNode node = in_.at(key);
+    const std::vector<JsonNode> entries = node.elements();
+    require_count(node, entries.size(), static_cast<int>(Count));
+    for (std::size_t k = 0; k < Count; ++k) out[k] = static_cast<T>(entries[k].number(lowest, highest));
   }
   template <class T>
   void number(const char* key, T& value, double lowest, double highest) {

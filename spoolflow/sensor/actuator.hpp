@@ -2,6 +2,8 @@
 /// The solenoid as a force sensor: coil current, coil voltage and spool position give the magnetic force.
 #include <type_traits>
 
+#include "spoolflow/sensor/coil.hpp"
+#include "spoolflow/sensor/coil_resistance.hpp"
 #include "spoolflow/sensor/magnetic_force.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
@@ -10,32 +12,51 @@ namespace spoolflow::sensor {
 /// Everything about one solenoid that its force needs.
 template <class T>
 struct ActuatorParameters {
-  MagneticForce<T> magnetic_force;  ///< averaged over both directions
-  Map<T, force_map_currents, force_map_positions>
-      friction_N;        ///< armature friction, half width, over current, position
-  T force_residual_N{};  ///< standard deviation of the measured force about the map
+  MagneticForce<T> magnetic_force;  ///< over magnetising current [A] and position [m]
+  Coil<T> coil;
+  CoilResistance<T> coil_resistance;
+  Map<T, force_map_currents, force_map_positions> friction_N;  ///< armature friction while sliding, >= 0
+  T coercive_current_A{};                                      ///< half width of the widest loop
+  T per_wiping_flux{};        ///< 1 / the flux swing [Wb] after which older history does not matter
+  T force_uncertainty_N{};    ///< one standard deviation of the force at a known magnetising current
+  T current_uncertainty_A{};  ///< one standard deviation of the magnetising current at rest
+  T eddy_uncertainty{};       ///< its growth per eddy current [A/A]
 };
 
-/// What the solenoid remembers between samples; {} is a demagnetised coil at rest.
+/// What the solenoid remembers between samples; {} is a demagnetised coil before its first sample.
 template <class T>
 struct ActuatorState {
-  T current_A{};  ///< last finite current
+  CoilState<T> coil{};
+  CoilResistanceState<T> coil_resistance{};
+  T lowest_flux_Wb{};  ///< since the first sample
+  T highest_flux_Wb{};
   bool started{};
 };
 
 /// What the solenoid answers.
 template <class T>
 struct ActuatorEstimate {
-  T magnetic_force_N{};       ///< opening > 0, without armature friction
-  T uncertainty_N{};          ///< one standard deviation of the magnetic force
-  T friction_half_width_N{};  ///< armature friction while it slides, >= 0; its sign is that of the velocity
-  T force_per_current_N_per_A{};
+  T magnetic_force_N{};            ///< opening > 0, without armature friction
+  T uncertainty_N{};               ///< one standard deviation of the magnetic force
+  T friction_half_width_N{};       ///< armature friction while it slides, >= 0; its sign is that of the velocity
+  T force_per_current_N_per_A{};   ///< what an error of the current means for the force
   T force_per_position_N_per_m{};  ///< what an error of the position means for the force
-  bool inside_map{};               ///< current and position lie within what was calibrated
+  T flux_linkage_Wb{};
+  bool inside_map{};  ///< current and position lie within what was calibrated
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
 static_assert(std::is_trivially_copyable_v<ActuatorState<float>>);
+
+/// What the unknown history before the first sample may still mean for the current [A], one standard deviation: a swing
+/// of twice the largest threshold wipes it out.
+template <class T>
+constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, ActuatorState<T>& state) {
+  state.lowest_flux_Wb = smaller(state.lowest_flux_Wb, state.coil.hysteresis.flux);
+  state.highest_flux_Wb = larger(state.highest_flux_Wb, state.coil.hysteresis.flux);
+  const T left = T(1) - (state.highest_flux_Wb - state.lowest_flux_Wb) * actuator.per_wiping_flux;
+  return larger(left, T(0)) * actuator.coercive_current_A;
+}
 
 /// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
 /// must be finite; a voltage that is NaN is one that is not measured. Any time step from 50 us to 5 ms.
@@ -43,17 +64,30 @@ template <class T>
 constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
                                    const Sample<T>& sample) {
   using std::sqrt;
-  state.current_A = sample.current_A;
-  state.started = true;
-  const Cell<T> current = locate<force_map_currents>(actuator.magnetic_force.map.row_axis, sample.current_A);
-  const Cell<T> position = locate<force_map_positions>(actuator.magnetic_force.map.column_axis, sample.position_m);
-  const MapPoint<T> force = actuator.magnetic_force.map.at(current, position);
-  const T half_width_N = actuator.magnetic_force.hysteresis_half_width_N.at(sample.current_A).value;
+  const Cell<T> flux_position =
+      locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
+  if (!state.started) {
+    begin(actuator.coil, state.coil, sample.current_A, flux_position);
+    state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
+    state.started = true;
+  } else {
+    follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position);
+    follow_resistance(actuator.coil_resistance, state.coil_resistance,
+                      {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
+  }
+  const auto& force_map = actuator.magnetic_force.map;
+  const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
+  const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
+  const MapPoint<T> force = force_map.at(current, position);
+  const T eddy_A = actuator.eddy_uncertainty * (sample.current_A - state.coil.static_current_A);
+  const T current_variance_A2 =
+      squared(actuator.current_uncertainty_A) + squared(eddy_A) + squared(unknown_memory_A(actuator, state));
   return {force.value,
-          sqrt(squared(actuator.force_residual_N) + squared(half_width_N)),
+          sqrt(squared(actuator.force_uncertainty_N) + squared(force.row_slope) * current_variance_A2),
           actuator.friction_N.at(current, position).value,
           force.row_slope,
           force.column_slope,
+          state.coil.hysteresis.flux,
           force.inside};
 }
 

@@ -1,0 +1,90 @@
+#pragma once
+/// From coil current to magnetising current: hysteresis and eddy currents taken off.
+#include <type_traits>
+
+#include "spoolflow/sensor/eddy_currents.hpp"
+#include "spoolflow/sensor/flux_linkage.hpp"
+#include "spoolflow/sensor/magnetic_hysteresis.hpp"
+
+namespace spoolflow::sensor {
+
+inline constexpr int newton_steps = 2;
+
+template <class T>
+struct Coil {
+  FluxLinkage<T> flux_linkage;
+  MagneticHysteresis<T> hysteresis;  ///< current [A] over flux linkage [Wb]
+  EddyCurrents<T> eddy_currents;
+};
+
+/// The coil's memory; {} is demagnetised.
+template <class T>
+struct CoilState {
+  HysteresisState<T> hysteresis{};
+  T magnetising_current_A{};
+  T static_current_A{};  ///< magnetising and hysteresis current together
+  T flux_rate_V{};
+  T time_constant_s{};  ///< with which the eddy currents let the flux follow the coil current
+};
+
+static_assert(std::is_trivially_copyable_v<CoilState<float>>);
+
+/// The coil current [A], mean over the step that ends now.
+template <class T>
+struct CoilStep {
+  T time_step_s;
+  T current_A;
+};
+
+/// The weight of the step's end in a mean over the step: one half where the step is short against the time constant
+/// (trapezoidal rule), one where it is long (implicit Euler), so that any step is stable and short ones are exact to
+/// second order. Close to the exponential fitting 1/(1 - exp(-1/a)) - a, a being time constant over step.
+template <class T>
+constexpr T end_weight(T time_constant_per_step) {
+  return T(0.5) + T(0.5) / (T(1) + time_constant_per_step * (T(2) + T(3) * time_constant_per_step));
+}
+
+/// Follows the coil current with the flux: finds the magnetising current i_m at the step's end at which
+///
+///     i_m + hysteresis(flux) + eddy(d flux/dt) = i,   flux = flux_linkage(i_m, x),
+///
+/// in the mean over the step. Newton steps from the last flux rate; what they leave is taken up by the next sample.
+template <class T>
+constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
+                              const Cell<T>& position) {
+  const auto& flux_map = coil.flux_linkage.map;
+  const T per_step = T(1) / larger(step.time_step_s, T(1e-6));
+  const T weight = end_weight(state.time_constant_s * per_step);
+  const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
+  MapPoint<T> flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, state.magnetising_current_A), position);
+  T current_A = state.magnetising_current_A +
+                (state.hysteresis.flux + state.flux_rate_V * step.time_step_s - flux.value) / flux.row_slope;
+  for (int pass = 0; pass < newton_steps; ++pass) {
+    flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position);
+    const HysteresisPoint<T> hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, flux.value);
+    const EddyCurrent<T> eddy = coil.eddy_currents.at((flux.value - state.hysteresis.flux) * per_step);
+    state.time_constant_s = eddy.slope_A_per_V * flux.row_slope;
+    const T slope = weight * (T(1) + hysteresis.slope * flux.row_slope) + state.time_constant_s * per_step;
+    current_A += (target_A - weight * (current_A + hysteresis.value) - eddy.current_A) / slope;
+  }
+  flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position);
+  state.flux_rate_V = (flux.value - state.hysteresis.flux) * per_step;
+  state.magnetising_current_A = current_A;
+  state.static_current_A = current_A + advance(coil.hysteresis, state.hysteresis, flux.value);
+}
+
+/// Before the first sample nothing is known of the coil's history: it is taken to have been demagnetised and then
+/// brought to the first current slowly.
+template <class T>
+constexpr void begin(const Coil<T>& coil, CoilState<T>& state, T current_A, const Cell<T>& position) {
+  state = {};
+  for (int pass = 0; pass < 4; ++pass) {
+    state.hysteresis = {};
+    state.flux_rate_V = T(0);
+    state.time_constant_s = T(0);
+    follow_current(coil, state, {T(1e6), current_A}, position);
+  }
+  state.flux_rate_V = T(0);
+}
+
+}  // namespace spoolflow::sensor

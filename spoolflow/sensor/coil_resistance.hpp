@@ -1,0 +1,51 @@
+#pragma once
+#include <type_traits>
+
+#include "spoolflow/sensor/scalar.hpp"
+
+namespace spoolflow::sensor {
+
+/// Coil resistance [Ohm], followed while the valve works: the coil warms, copper by 0.39 % per kelvin.
+template <class T>
+struct CoilResistance {
+  T resistance_Ohm{};          ///< as calibrated, where following starts; 0: not known
+  T uncertainty_Ohm{};         ///< one standard deviation at the start
+  T drift_Ohm_per_root_s{};    ///< how fast it may wander
+  T voltage_noise_V_root_s{};  ///< of the voltage about R i + d flux/dt, noise density
+};
+
+/// Estimate and variance of a scalar Kalman filter; {} before the first sample.
+template <class T>
+struct CoilResistanceState {
+  T resistance_Ohm{};
+  T variance_Ohm2{};
+};
+
+static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
+
+/// What the coil's equation u = R i + d flux/dt tells of the resistance during one sample.
+template <class T>
+struct CoilEquation {
+  T time_step_s;
+  T current_A;
+  T voltage_V;
+  T flux_rate_V;
+};
+
+/// One step of the Kalman filter. Informative where current flows, whether steady or not; a voltage that is NaN, or
+/// a coil whose resistance was never calibrated, leaves the estimate alone.
+template <class T>
+constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state,
+                                 const CoilEquation<T>& sample) {
+  if (!(is_number(sample.voltage_V) && coil.resistance_Ohm > T(0) && sample.time_step_s > T(0))) return;
+  if (state.variance_Ohm2 == T(0)) state = {coil.resistance_Ohm, squared(coil.uncertainty_Ohm)};
+  state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * sample.time_step_s;
+  const T misfit_V = sample.voltage_V - sample.flux_rate_V - state.resistance_Ohm * sample.current_A;
+  const T covariance = state.variance_Ohm2 * sample.current_A;
+  const T gain = covariance * sample.time_step_s /
+                 (covariance * sample.current_A * sample.time_step_s + squared(coil.voltage_noise_V_root_s) + T(1e-12));
+  state.resistance_Ohm += gain * misfit_V;
+  state.variance_Ohm2 -= gain * covariance;
+}
+
+}  // namespace spoolflow::sensor
