@@ -16,10 +16,12 @@ namespace spoolflow::calibration {
 namespace {
 
 /// What no bench test shows, where no operating recording shows it either. Wide on purpose.
-constexpr double assumed_stiction_ratio = 2.5;
-constexpr double assumed_contact_stiffness_N_per_m = 2e7;
-constexpr double assumed_gauge_tolerance_ratio = 1.0;
-constexpr double assumed_gauge_tolerance_N = 0.7;
+constexpr double assumed_ageing_ratio = 4;
+constexpr double assumed_ageing_s = 2.5;
+constexpr double assumed_contact_stiffness_N_per_m = 5e6;
+constexpr double assumed_backlash_m = 0.45e-6;
+constexpr double assumed_friction_tolerance_N = 0.7;
+constexpr double assumed_breakaway_share = 0.2;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 
 }  // namespace
@@ -56,13 +58,13 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   parameters.actuator = actuator.actuator;
   parameters.spring = spring.spring;
   parameters.edge = edge.edge;
-  parameters.position_sensor = {position.noise_m, position.drift_m_per_K, position.drift_free_K,
+  parameters.position_sensor = {position.noise_m, assumed_backlash_m, position.drift_m_per_K, position.drift_free_K,
                                 assumed_hardest_acceleration_m_per_s2};
-  parameters.friction = {assumed_stiction_ratio, assumed_contact_stiffness_N_per_m, assumed_gauge_tolerance_ratio,
-                         assumed_gauge_tolerance_N};
-  parameters.pressure = {3e5, 2e4, 0.02};
-  parameters.band = {0.1, std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()), 0.5,
-                     flow.rms(), 2.0};
+  parameters.friction = {assumed_ageing_ratio, assumed_ageing_s, assumed_contact_stiffness_N_per_m,
+                         assumed_friction_tolerance_N, assumed_breakaway_share};
+  parameters.pressure = {3e5, 1e6, 0.03, 0.03};
+  parameters.band = {0.05, std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()), flow.rms(),
+                     2.0};
   parameters.closed_below_m = closed_below_m;
   parameters.largest_current_A = magnetic.largest_current_A;
 
@@ -79,7 +81,7 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
       out.residuals.push_back(
           {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});
   }
-  out.defaults = {"stiction_ratio", "contact_stiffness_N_per_m", "gauge_tolerance", "hardest_acceleration_m_per_s2"};
+  out.defaults = {"friction_ageing", "contact_stiffness_N_per_m", "position_backlash_m", "breakaway_share", "hardest_acceleration_m_per_s2"};
   if (!actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");

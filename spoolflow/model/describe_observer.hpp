@@ -49,22 +49,24 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.volume("conductance_m3_per_s_sqrt_Pa", edge.conductance);
 
   visitor.number("position_noise_m", parameters.position_sensor.noise_m, 0.0, 1e-3);
+  visitor.number("position_backlash_m", parameters.position_sensor.backlash_m, 0.0, 1e-3);
   visitor.number("position_drift_m_per_K", parameters.position_sensor.drift_m_per_K, -1e-4, 1e-4);
   visitor.number("position_drift_free_K", parameters.position_sensor.drift_free_K, 0.0, 1e4);
   visitor.number("hardest_acceleration_m_per_s2", parameters.position_sensor.hardest_acceleration_m_per_s2, 1e-3, 1e5);
 
-  visitor.number("stiction_ratio", parameters.friction.stiction_ratio, 1.0, 20.0);
+  visitor.number("friction_ageing_ratio", parameters.friction.ageing_ratio, 1.0, 20.0);
+  visitor.number("friction_ageing_s", parameters.friction.ageing_s, 1e-4, 1e4);
   visitor.number("contact_stiffness_N_per_m", parameters.friction.contact_stiffness_N_per_m, 0.0, 1e10);
-  visitor.number("gauge_tolerance_ratio", parameters.friction.gauge_tolerance_ratio, 0.0, 100.0);
-  visitor.number("gauge_tolerance_N", parameters.friction.gauge_tolerance_N, 0.0, 1e4);
+  visitor.number("friction_tolerance_N", parameters.friction.tolerance_N, 0.0, 1e4);
+  visitor.number("breakaway_share", parameters.friction.breakaway_share, 0.0, 10.0);
 
   visitor.number("sliding_drift_Pa_per_sqrt_s", parameters.pressure.sliding_drift_Pa_per_sqrt_s, 0.0, 1e9);
   visitor.number("resting_drift_Pa_per_sqrt_s", parameters.pressure.resting_drift_Pa_per_sqrt_s, 0.0, 1e9);
+  visitor.number("least_liveliness", parameters.pressure.least_liveliness, 1e-6, 1.0);
   visitor.number("yielding_s", parameters.pressure.yielding_s, 1e-5, 1e3);
 
   visitor.number("band_friction_share", parameters.band.friction_share, 0.0, 10.0);
   visitor.number("band_force_residual_N", parameters.band.force_residual_N, 0.0, 1e4);
-  visitor.number("band_resting_share", parameters.band.resting_share, 0.0, 10.0);
   visitor.number("band_flow_residual_m3_per_s", parameters.band.flow_residual_m3_per_s, 0.0, 1.0);
   visitor.number("band_coverage_factor", parameters.band.coverage_factor, 0.0, 100.0);
 

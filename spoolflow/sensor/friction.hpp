@@ -12,17 +12,22 @@ namespace spoolflow::sensor {
 /// What the bench's half widths do not tell. See paper section 2.1.3; pre-sliding after Dahl.
 template <class T>
 struct FrictionParameters {
-  T stiction_ratio{};             ///< largest friction at rest over sliding friction of the spool, >= 1
+  T ageing_ratio{};               ///< the spool's friction after a long rest over its sliding friction, >= 1
+  T ageing_s{};                   ///< time constant of that growth
   T contact_stiffness_N_per_m{};  ///< of the contacts in pre-sliding
-  T gauge_tolerance_ratio{};      ///< how far the pre-sliding displacement may mislead, as a share of sliding friction
-  T gauge_tolerance_N{};          ///< and regardless of it
+  T tolerance_N{};                ///< standard deviation of friction told by the pre-sliding displacement
+  T breakaway_share{};            ///< standard deviation of the break-away force about ageing, as a share of it
 };
 
 template <class T>
 struct FrictionState {
-  T gauge_N{};     ///< friction by the pre-sliding displacement, sign of the velocity
-  T smooth_m{};    ///< position, smoothed over some milliseconds
+  T gauge_N{};     ///< middle of where friction may lie by the pre-sliding displacement, sign of the velocity
+  T smooth_m{};    ///< position, smoothed
   T followed_m{};  ///< the same without what noise may fake
+  T rest_s{};      ///< since the spool came to rest
+  T held_N{};      ///< friction as it was some milliseconds ago
+  T earlier_N{};   ///< and some before
+  T held_s{};
   bool started{};
 };
 
@@ -31,23 +36,32 @@ template <class T>
 struct FrictionInterval {
   T lower_N;
   T upper_N;
+  T breakaway_N;  ///< friction at the moment at which the spool broke away; 0 where it did not
+  T rested_s;     ///< how long it had rested before
 };
 
 /// What bounds friction at this sample.
 template <class T>
 struct FrictionBounds {
   T sliding_N;   ///< of spool and armature together while they slide
-  T sticking_N;  ///< the most that they can hold at rest
+  T sticking_N;  ///< the most that they can hold after this rest
 };
 
+/// Contacts grow stronger while they rest.
 template <class T>
-constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& friction, T spool_N, T armature_N) {
-  return {spool_N + armature_N, friction.stiction_ratio * spool_N + armature_N + friction.gauge_tolerance_N};
+constexpr T ageing(const FrictionParameters<T>& friction, T rest_s) {
+  const T share = rest_s / (friction.ageing_s + rest_s);  // a rational rise: no exponential in the valve
+  return T(1) + (friction.ageing_ratio - T(1)) * share;
+}
+
+template <class T>
+constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& friction, const FrictionState<T>& state,
+                                            T spool_N, T armature_N) {
+  return {spool_N + armature_N, ageing(friction, state.rest_s) * spool_N + armature_N};
 }
 
 /// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
-/// while the spool slips it is all there is, and slowly the gauge returns to it. Returns where friction may lie at
-/// rest.
+/// while the spool slips it is all there is. Returns where friction may lie at rest.
 template <class T>
 constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                    const FrictionBounds<T>& bounds, const PositionSensor<T>& sensor,
@@ -56,35 +70,48 @@ constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, Fricti
   if (!state.started) {
     state.started = true;
     state.smooth_m = state.followed_m = position.position_m;
+    state.rest_s = friction.ageing_s;
   }
-  constexpr T smoothing_s = T(0.01);
-  constexpr T forgetting_s = T(1);
-  const T time_constant_s = position.motion == Motion::transient ? T(0.2) * smoothing_s : smoothing_s;
-  const T share = time_step_s / (time_constant_s + time_step_s);
-  state.smooth_m += share * (position.position_m - state.smooth_m);
-  const T slack_m = sensor.noise_m * sqrt(T(0.5) * share);  // one standard deviation of the smoothed position
-  const T before_m = state.followed_m;
-  state.followed_m = limited(state.followed_m, state.smooth_m - slack_m, state.smooth_m + slack_m);
-  const T moved_m = state.followed_m - before_m;
-
-  const T holds_N = bounds.sticking_N;
-  const T sign = select(moved_m < T(0), T(-1), T(1));
-  const T reserve = larger(T(1) - sign * state.gauge_N / holds_N, T(0));
-  state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;  // Dahl: stiffness fades towards the limit
-  state.gauge_N = limited(state.gauge_N, -holds_N, holds_N);
-  if (position.motion == Motion::opening) {
-    state.gauge_N = bounds.sliding_N;
-  } else if (position.motion == Motion::closing) {
-    state.gauge_N = -bounds.sliding_N;
-  } else if (position.motion == Motion::transient) {
-    state.gauge_N = limited(apparent_N, -holds_N, holds_N);
+  constexpr T smoothing_s = T(0.03);
+  constexpr T delay_s = T(0.004);
+  const T slack_m = T(2) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
+  const T reach_N = friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
+  const T holds_N = bounds.sticking_N + T(2) * friction.tolerance_N;
+  T breakaway_N{};
+  const T rested_s = state.rest_s;
+  if (position.motion == Motion::rest) {
+    state.rest_s += time_step_s;
+    const T share = larger(time_step_s / state.rest_s, time_step_s / (smoothing_s + time_step_s));
+    state.smooth_m += smaller(share, T(1)) * (position.position_m - state.smooth_m);
+    const T before_m = state.followed_m;
+    state.followed_m = limited(state.followed_m, state.smooth_m - slack_m, state.smooth_m + slack_m);
+    const T moved_m = state.followed_m - before_m;
+    const T sign = select(moved_m < T(0), T(-1), T(1));
+    // Dahl: stiffness fades towards the limit.
+    const T reserve = limited(T(1) - sign * apparent_N / holds_N, T(0.1), T(1));
+    state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
+    // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
+    const T most_N = larger(bounds.sticking_N - reach_N, T(0));
+    state.gauge_N = limited(state.gauge_N, -most_N, most_N);
   } else {
-    state.gauge_N +=
-        (limited(apparent_N, -holds_N, holds_N) - state.gauge_N) * smaller(time_step_s / forgetting_s, T(1));
+    const bool up = position.travel_m > T(0);
+    const T direction = select(up, T(1), T(-1));
+    if (rested_s > T(0)) breakaway_N = direction * larger(direction * state.held_N, direction * state.earlier_N);
+    const bool sliding = position.motion != Motion::transient;
+    const T friction_N = sliding ? direction * bounds.sliding_N : limited(apparent_N, -holds_N, holds_N);
+    state.gauge_N = sliding ? friction_N - direction * reach_N : friction_N;
+    state.smooth_m = position.position_m;
+    state.followed_m = position.position_m - direction * slack_m;
+    state.rest_s = T(0);
   }
-  const T tolerance_N = friction.gauge_tolerance_ratio * bounds.sliding_N + friction.gauge_tolerance_N;
-  return {limited(state.gauge_N - tolerance_N, -holds_N, holds_N),
-          limited(state.gauge_N + tolerance_N, -holds_N, holds_N)};
+  state.held_s += time_step_s;
+  if (state.held_s >= delay_s) {
+    state.held_s = T(0);
+    state.earlier_N = state.held_N;
+    state.held_N = apparent_N;
+  }
+  return {limited(state.gauge_N - reach_N, -holds_N, holds_N), limited(state.gauge_N + reach_N, -holds_N, holds_N),
+          breakaway_N, rested_s};
 }
 
 static_assert(std::is_trivially_copyable_v<FrictionState<float>>);

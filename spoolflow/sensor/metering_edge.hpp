@@ -15,6 +15,7 @@ struct EdgePoint {
   T flow_force_N;                  ///< steady, closing > 0
   T flow_force_per_pressure_N_Pa;  ///< its slope over the pressure difference, >= 0
   T friction_N;                    ///< half width of the spool's friction, >= 0
+  T friction_per_pressure_N_Pa;    ///< its slope over the pressure difference
   T conductance;                   ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
   bool inside;                     ///< position and pressure difference lie within what was measured
   bool temperature_inside;
@@ -44,9 +45,11 @@ struct MeteringEdge {
     const Cell<T> column = locate<edge_positions>(position_m, position);
     const T per_Pa = pressure_difference_Pa.per_spacing;
     const VolumePoint<T> force = flow_force_N.at(layer, row, column, per_Pa);
+    const VolumePoint<T> friction = friction_N.at(layer, row, column, per_Pa);
     return {force.value,
             larger(force.row_slope, T(0)),
-            friction_N.at(layer, row, column, per_Pa).value,
+            friction.value,
+            friction.row_slope,
             conductance.at(layer, row, column, per_Pa).value,
             row.inside && column.inside,
             layer.inside};

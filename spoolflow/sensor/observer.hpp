@@ -19,7 +19,6 @@ template <class T>
 struct BandParameters {
   T friction_share{};    ///< standard deviation of sliding friction about its map, as a share of it
   T force_residual_N{};  ///< standard deviation of all maps together
-  T resting_share{};     ///< share of the resting friction interval that the band takes in
   T flow_residual_m3_per_s{};
   T coverage_factor{};  ///< standard deviations in the 95 % band
 };
@@ -68,6 +67,7 @@ constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state
       is_number(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1);
   state.pressure.pressure_difference_Pa = T(0.5) * highest_Pa;
   state.pressure.variance_Pa2 = squared(T(0.3) * highest_Pa);
+  state.pressure.liveliness = T(1);
 }
 
 /// The oil warms slowly and its sensor is noisy.
@@ -109,7 +109,8 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   PressureState<T>& pressure = state.pressure;
   const EdgePoint<T> edge =
       valve.edge.at(state.oil_temperature_K, pressure.pressure_difference_Pa, position.position_m);
-  const FrictionBounds<T> bounds = friction_bounds(valve.friction, edge.friction_N, actuator.friction_half_width_N);
+  const FrictionBounds<T> bounds =
+      friction_bounds(valve.friction, state.friction, edge.friction_N, actuator.friction_half_width_N);
   const T apparent_friction_N = net_N - edge.flow_force_N;
   const FrictionInterval<T> resting =
       step(valve.friction, state.friction, bounds, valve.position_sensor, position, apparent_friction_N, dt);
@@ -117,23 +118,35 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   // Pressure difference: every newton tells while the spool slides; at rest only what friction cannot explain.
   const bool closed = position.position_m < valve.closed_below_m;
   const bool sliding = position.motion == Motion::opening || position.motion == Motion::closing;
+  const T direction = position.travel_m > T(0) ? T(1) : T(-1);
   const T friction_N =
-      position.motion == Motion::opening
-          ? bounds.sliding_N
-          : (position.motion == Motion::closing ? -bounds.sliding_N
-                                                : limited(apparent_friction_N, resting.lower_N, resting.upper_N));
-  const T slope = larger(edge.flow_force_per_pressure_N_Pa, T(1e-8));
-  const T force_noise_N =
-      sqrt(squared(valve.band.force_residual_N) + squared(valve.band.friction_share * bounds.sliding_N));
+      sliding ? direction * bounds.sliding_N : limited(apparent_friction_N, resting.lower_N, resting.upper_N);
+  const T least_slope = T(1e-8);
+  const T slope = larger(edge.flow_force_per_pressure_N_Pa, least_slope);
+  const T force_noise_N = sqrt(squared(valve.band.force_residual_N) + squared(actuator.uncertainty_N) +
+                               squared(valve.band.friction_share * bounds.sliding_N));
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
-  drift(pressure, sliding ? valve.pressure.sliding_drift_Pa_per_sqrt_s : valve.pressure.resting_drift_Pa_per_sqrt_s, dt,
-        highest_Pa);
+  if (sliding) {
+    drift(pressure, valve.pressure.sliding_drift_Pa_per_sqrt_s, dt, highest_Pa);
+  } else {
+    drift_unseen(valve.pressure, pressure, dt, highest_Pa);
+  }
   if (!closed) {
     const T surprise_N = apparent_friction_N - friction_N;
     if (sliding) {
-      update(pressure, {surprise_N, slope, force_noise_N}, dt);
+      const T whole_slope = larger(slope + direction * edge.friction_per_pressure_N_Pa, T(0.3) * slope);
+      update(pressure, {surprise_N, whole_slope, force_noise_N}, dt);
+      if (squared(slope) * pressure.variance_Pa2 < T(0.25) * squared(force_noise_N))
+        learn_liveliness(valve.pressure, pressure, force_noise_N / slope);
+    } else if (resting.breakaway_N != T(0) && resting.rested_s > T(0.03)) {
+      const T ratio = ageing(valve.friction, resting.rested_s);
+      const T expected_N = direction * (ratio * edge.friction_N + actuator.friction_half_width_N);
+      const T noise_N = sqrt(squared(force_noise_N) + squared(valve.friction.breakaway_share * expected_N));
+      const T whole_slope = larger(slope + direction * ratio * edge.friction_per_pressure_N_Pa, T(0.3) * slope);
+      update(pressure, {resting.breakaway_N - expected_N, whole_slope, noise_N}, T(0));
     } else if (position.motion == Motion::rest && surprise_N != T(0)) {
-      yield(pressure, {surprise_N, slope, bounds.sliding_N}, valve.pressure.yielding_s, dt);
+      const T left_N = yield(pressure, {surprise_N, slope, valve.friction.tolerance_N}, valve.pressure.yielding_s, dt);
+      if (magnitude(apparent_friction_N) < bounds.sticking_N) state.friction.gauge_N += left_N;
     }
   }
   pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
@@ -142,18 +155,23 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   Estimate<T> out;
   const T root = sqrt(pressure.pressure_difference_Pa);
   const T flow_m3_per_s = larger(edge.conductance * root, T(0));
-  const T following =
-      position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
-  state.flow_m3_per_s += following * (flow_m3_per_s - state.flow_m3_per_s);
+  const T following = position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
+  const T change_m3_per_s = following * (flow_m3_per_s - state.flow_m3_per_s);
+  state.flow_m3_per_s += change_m3_per_s;
   out.flow_m3_per_s = state.flow_m3_per_s;
-  const T resting_N = sliding ? T(0) : valve.band.resting_share * T(0.5) * (resting.upper_N - resting.lower_N);
-  const T spread_Pa =
-      valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + squared(force_noise_N / slope)) + resting_N / slope;
+  const T deviation_Pa = valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + squared(force_noise_N / slope));
+  const T certain_Pa = valve.band.coverage_factor * (force_noise_N + valve.friction.tolerance_N) / slope;
+  T below_Pa = deviation_Pa;
+  T above_Pa = deviation_Pa;
+  if (!sliding && !closed) {
+    below_Pa = smaller(below_Pa, larger(resting.upper_N - apparent_friction_N, T(0)) / slope + certain_Pa);
+    above_Pa = smaller(above_Pa, larger(apparent_friction_N - resting.lower_N, T(0)) / slope + certain_Pa);
+  }
   const T residual = T(2) * valve.band.flow_residual_m3_per_s;
   out.flow_lower_m3_per_s =
-      edge.conductance * sqrt(larger(pressure.pressure_difference_Pa - spread_Pa, T(0))) - residual;
+      edge.conductance * sqrt(larger(pressure.pressure_difference_Pa - below_Pa, T(0))) - residual;
   out.flow_upper_m3_per_s =
-      edge.conductance * sqrt(smaller(pressure.pressure_difference_Pa + spread_Pa, highest_Pa)) + residual;
+      edge.conductance * sqrt(smaller(pressure.pressure_difference_Pa + above_Pa, highest_Pa)) + residual;
   out.pressure_difference_Pa = pressure.pressure_difference_Pa;
   out.magnetic_force_N = actuator.magnetic_force_N;
   out.spring_force_N = spring_N;

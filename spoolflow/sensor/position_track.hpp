@@ -13,6 +13,7 @@ namespace spoolflow::sensor {
 template <class T>
 struct PositionSensor {
   T noise_m{};                        ///< standard deviation of one sample
+  T backlash_m{};                     ///< half width: how far the spool may creep unseen
   T drift_m_per_K{};                  ///< of the zero point over the oil temperature
   T drift_free_K{};                   ///< oil temperature at which the zero point is right
   T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
@@ -40,6 +41,7 @@ struct PositionState {
   T offset_m{};     ///< what an acquisition fault adds to the signal
   T fault_s{};      ///< how long the fault has lasted
   T unsettled_s{};  ///< time until a slip counts as over
+  T travel_m{};     ///< over the last blocks of a motion, sign of the velocity
   std::int32_t samples{};
   std::int32_t newest{};
   std::int32_t blocks{};
@@ -51,6 +53,7 @@ struct PositionPoint {
   T position_m;  ///< free of drift and faults
   Motion motion;
   bool fault;
+  T travel_m;  ///< sign of the velocity of what `motion` tells
 };
 
 namespace detail {
@@ -98,10 +101,15 @@ constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& st
   if (motion == Motion::rest && state.blocks > 27) motion = even_travel(state, 8, 4, T(1.5) * noise_m);
   const bool even = motion != Motion::rest;
   if (!even && state.blocks > 2) {
-    const T travel_m = magnitude(block_mean(state, 0, 1) - block_mean(state, 2, 1));
+    const T signed_travel_m = block_mean(state, 0, 1) - block_mean(state, 2, 1);
+    const T travel_m = magnitude(signed_travel_m);
     // A slip: faster than 0.5 mm/s and beyond five times the noise.
-    if (travel_m > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m)) state.unsettled_s = T(0.03);
+    if (travel_m > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m)) {
+      state.unsettled_s = T(0.03);
+      state.travel_m = signed_travel_m;
+    }
   }
+  if (even) state.travel_m = motion == Motion::opening ? T(1e-6) : T(-1e-6);
   state.unsettled_s = even ? T(0) : larger(state.unsettled_s - state.block_s, T(0));
   state.motion = even ? motion : (state.unsettled_s > T(0) ? Motion::transient : Motion::rest);
 }
@@ -140,7 +148,7 @@ constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T
   ++state.samples;
   constexpr T block_s = T(2e-3);
   if (state.sum_s > block_s - T(0.5) * time_step_s) detail::close_block(sensor, state);
-  return {believed_m, state.motion, state.offset_m != T(0)};
+  return {believed_m, state.motion, state.offset_m != T(0), state.travel_m};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);
