@@ -21,7 +21,7 @@ constexpr double assumed_ageing_s = 2.5;
 constexpr double assumed_contact_stiffness_N_per_m = 5e6;
 constexpr double assumed_backlash_m = 0.45e-6;
 constexpr double assumed_friction_tolerance_N = 0.7;
-constexpr double assumed_breakaway_share = 0.2;
+constexpr double assumed_breakaway_share = 0.12;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 
 }  // namespace
@@ -62,9 +62,9 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
                                 assumed_hardest_acceleration_m_per_s2};
   parameters.friction = {assumed_ageing_ratio, assumed_ageing_s, assumed_contact_stiffness_N_per_m,
                          assumed_friction_tolerance_N, assumed_breakaway_share};
-  parameters.pressure = {3e5, 1e6, 0.03, 0.03};
-  parameters.band = {0.05, std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()), flow.rms(),
-                     2.0};
+  parameters.pressure = {2e5, 1e6, 0.03, 0.03};
+  parameters.band = {
+      0.03, std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()), flow.rms(), 1.1, 2.0, 0.03};
   parameters.closed_below_m = closed_below_m;
   parameters.largest_current_A = magnetic.largest_current_A;
 
@@ -81,7 +81,8 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
       out.residuals.push_back(
           {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});
   }
-  out.defaults = {"friction_ageing", "contact_stiffness_N_per_m", "position_backlash_m", "breakaway_share", "hardest_acceleration_m_per_s2"};
+  out.defaults = {"friction_ageing", "contact_stiffness_N_per_m", "position_backlash_m", "breakaway_share",
+                  "hardest_acceleration_m_per_s2"};
   if (!actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");

@@ -69,6 +69,8 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.number("band_force_residual_N", parameters.band.force_residual_N, 0.0, 1e4);
   visitor.number("band_flow_residual_m3_per_s", parameters.band.flow_residual_m3_per_s, 0.0, 1.0);
   visitor.number("band_coverage_factor", parameters.band.coverage_factor, 0.0, 100.0);
+  visitor.number("band_unseen_factor", parameters.band.unseen_factor, 0.0, 100.0);
+  visitor.number("band_reference_lag_s", parameters.band.reference_lag_s, 0.0, 10.0);
 
   visitor.number("closed_below_m", parameters.closed_below_m, -1e-3, 0.1);
   visitor.number("largest_current_A", parameters.largest_current_A, 0.0, 1e3);

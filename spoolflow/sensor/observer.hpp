@@ -21,6 +21,8 @@ struct BandParameters {
   T force_residual_N{};  ///< standard deviation of all maps together
   T flow_residual_m3_per_s{};
   T coverage_factor{};  ///< standard deviations in the 95 % band
+  T unseen_factor{};  ///< how much wider unseen changes of pressure are taken than the drift that the estimate follows
+  T reference_lag_s{};  ///< of the flow meter that the band is held against: it still reads what has been
 };
 
 /// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
@@ -45,6 +47,7 @@ struct ObserverState {
   PressureState<T> pressure;
   T oil_temperature_K{};  ///< smoothed
   T flow_m3_per_s{};      ///< as answered
+  T metered_m3_per_s{};   ///< as a flow meter with its lag would read it
   bool started{};
   Estimate<T> last{};
 };
@@ -155,11 +158,16 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   Estimate<T> out;
   const T root = sqrt(pressure.pressure_difference_Pa);
   const T flow_m3_per_s = larger(edge.conductance * root, T(0));
-  const T following = position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
+  const T following =
+      position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
   const T change_m3_per_s = following * (flow_m3_per_s - state.flow_m3_per_s);
   state.flow_m3_per_s += change_m3_per_s;
   out.flow_m3_per_s = state.flow_m3_per_s;
-  const T deviation_Pa = valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + squared(force_noise_N / slope));
+  state.metered_m3_per_s +=
+      smaller(dt / (valve.band.reference_lag_s + dt), T(1)) * (out.flow_m3_per_s - state.metered_m3_per_s);
+  const T unseen_Pa2 = pressure.liveliness * pressure.unseen_Pa2 * squared(valve.band.unseen_factor);
+  const T deviation_Pa =
+      valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + unseen_Pa2 + squared(force_noise_N / slope));
   const T certain_Pa = valve.band.coverage_factor * (force_noise_N + valve.friction.tolerance_N) / slope;
   T below_Pa = deviation_Pa;
   T above_Pa = deviation_Pa;
@@ -168,10 +176,14 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
     above_Pa = smaller(above_Pa, larger(apparent_friction_N - resting.lower_N, T(0)) / slope + certain_Pa);
   }
   const T residual = T(2) * valve.band.flow_residual_m3_per_s;
+  const T lag_m3_per_s = state.metered_m3_per_s - out.flow_m3_per_s;
   out.flow_lower_m3_per_s =
-      edge.conductance * sqrt(larger(pressure.pressure_difference_Pa - below_Pa, T(0))) - residual;
+      smaller(edge.conductance * sqrt(larger(pressure.pressure_difference_Pa - below_Pa, T(0))), out.flow_m3_per_s) -
+      residual + smaller(lag_m3_per_s, T(0));
   out.flow_upper_m3_per_s =
-      edge.conductance * sqrt(smaller(pressure.pressure_difference_Pa + above_Pa, highest_Pa)) + residual;
+      larger(edge.conductance * sqrt(smaller(pressure.pressure_difference_Pa + above_Pa, highest_Pa)),
+             out.flow_m3_per_s) +
+      residual + larger(lag_m3_per_s, T(0));
   out.pressure_difference_Pa = pressure.pressure_difference_Pa;
   out.magnetic_force_N = actuator.magnetic_force_N;
   out.spring_force_N = spring_N;

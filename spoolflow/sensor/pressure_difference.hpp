@@ -21,9 +21,9 @@ template <class T>
 struct PressureState {
   T pressure_difference_Pa{};
   T variance_Pa2{};
-  T liveliness{};     ///< variance of unseen changes over that of the resting drift
-  T settled_Pa{};     ///< when last seen
-  T unseen_Pa2{};     ///< variance that has built up since, at full liveliness
+  T liveliness{};  ///< variance of unseen changes over that of the resting drift
+  T settled_Pa{};  ///< when last seen
+  T unseen_Pa2{};  ///< variance that has built up since, at full liveliness
 };
 
 /// A force balance as a measurement of the pressure difference.
@@ -46,8 +46,7 @@ constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState
                             T highest_Pa) {
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.unseen_Pa2 += variance_Pa2;
-  state.variance_Pa2 =
-      smaller(state.variance_Pa2 + state.liveliness * variance_Pa2, squared(T(0.4) * highest_Pa));
+  state.variance_Pa2 = smaller(state.variance_Pa2 + state.liveliness * variance_Pa2, squared(T(0.4) * highest_Pa));
 }
 
 /// The pressure difference is seen again: what it did meanwhile tells how lively the supply is.
