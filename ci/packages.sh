@@ -35,8 +35,12 @@ else
   echo "these packages are missing and neither root nor sudo is at hand; as root run: apt-get install$missing" >&2
   exit 1
 fi
-export DEBIAN_FRONTEND=noninteractive
-{
-  $as_root apt-get -qq update
-  $as_root apt-get -qq install -y --no-install-recommends -o Dpkg::Use-Pty=0 $missing
-} </dev/null >&2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "$@" </dev/null >>"$log" 2>&1; }
+apt update || true # a broken third-party source must not stand in the way; the installation tells
+if ! apt install -y --no-install-recommends $missing; then
+  cat "$log" >&2
+  echo "could not install:$missing" >&2
+  exit 1
+fi
