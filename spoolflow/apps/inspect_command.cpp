@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
@@ -97,32 +96,49 @@ void print_text(const Arguments& arguments, const recording::Inspection& found) 
   }
 }
 
+/// Text as a JSON string.
+std::string json_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<int>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+/// A number of JSON, which has none for NaN.
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
 void print_json(const recording::Inspection& found) {
-  nlohmann::ordered_json out{{"format", found.contents.format},
-                             {"columns", found.contents.columns},
-                             {"samples", found.samples},
-                             {"begin_s", found.begin_s},
-                             {"end_s", found.end_s},
-                             {"rate_Hz", found.rate_Hz},
-                             {"time_step_jitter", found.jitter},
-                             {"duplicate_times", found.duplicate_times},
-                             {"gap_count", found.gap_count},
-                             {"gaps_s", nlohmann::ordered_json::array()},
-                             {"channels", nlohmann::ordered_json::array()}};
-  for (const recording::Gap& gap : found.gaps) out["gaps_s"].push_back({gap.from_s, gap.to_s});
+  fmt::print("{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
+  for (const std::string& column : found.contents.columns) {
+    fmt::print("{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
+  }
+  fmt::print(
+      "],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
+      found.samples, number(found.begin_s), number(found.end_s), number(found.rate_Hz), number(found.jitter));
+  fmt::print(" \"duplicate_times\": {},\n \"gap_count\": {},\n \"gaps_s\": [", found.duplicate_times, found.gap_count);
+  for (const recording::Gap& gap : found.gaps) {
+    fmt::print("{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", number(gap.from_s), number(gap.to_s));
+  }
+  fmt::print("],\n \"channels\": [");
   for (const recording::ChannelSummary& summary : found.channels) {
     const ShownUnit unit = shown_unit(summary.channel);
-    const auto shown = [&](double value) { return value * unit.per_SI + unit.offset; };
-    out["channels"].push_back({{"channel", recording::name(summary.channel)},
-                               {"unit", unit.name},
-                               {"lowest", shown(summary.lowest)},
-                               {"mean", shown(summary.mean)},
-                               {"highest", shown(summary.highest)},
-                               {"missing", summary.missing},
-                               {"clipped_share", summary.clipped}});
+    const auto shown = [&](double value) { return number(value * unit.per_SI + unit.offset); };
+    fmt::print(
+        "{}\n  {{\"channel\": \"{}\", \"unit\": \"{}\", \"lowest\": {}, \"mean\": {}, \"highest\": {}, \"missing\": "
+        "{}, "
+        "\"clipped_share\": {}}}",
+        &summary == found.channels.data() ? "" : ",", recording::name(summary.channel), unit.name,
+        shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing, number(summary.clipped));
   }
-  out["proposed_channel_map"] = recording::written(found.proposal);
-  fmt::print("{}\n", out.dump(1));
+  fmt::print("\n ],\n \"proposed_channel_map\": {}\n}}\n", json_text(recording::written(found.proposal)));
 }
 
 void inspect(const Arguments& arguments) {

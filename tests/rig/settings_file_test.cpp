@@ -72,7 +72,8 @@ TEST_F(SettingsFile, RefusesNumbersThatAreNone) {
 
 TEST_F(SettingsFile, NamesTheNearestKeyForAnUnknownOne) {
   EXPECT_THAT(message("[spool]\nmas_kg = 1\n"), AllOf(HasSubstr("spool.mas_kg"), HasSubstr("spool.mass_kg")));
-  EXPECT_THAT(message("[spol]\nmass_kg = 1\n"), AllOf(HasSubstr("line 1"), HasSubstr("spol"), HasSubstr("did you mean")));
+  EXPECT_THAT(message("[spol]\nmass_kg = 1\n"),
+              AllOf(HasSubstr("line 1"), HasSubstr("spol"), HasSubstr("did you mean")));
 }
 
 TEST_F(SettingsFile, TellsAboutTomlThatIsNone) {
