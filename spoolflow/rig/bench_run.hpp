@@ -5,6 +5,7 @@
 
 #include "spoolflow/recording/channel.hpp"
 #include "spoolflow/rig/course.hpp"
+#include "spoolflow/rig/electronics.hpp"
 #include "spoolflow/rig/valve_plant.hpp"
 
 namespace spoolflow::rig {
@@ -49,6 +50,7 @@ struct BenchRun {
   Course current_A;     ///< bench amplifier
   Course voltage_V;     ///< bench amplifier, in the spans below where it holds the voltage
   std::vector<Span<bool>> voltage_held;
+  Dither dither;  ///< on the bench amplifier's current; the valve's electronics have their own
   Course pressure_difference_Pa;
   Course supply_pressure_Pa{100e5};  ///< loads orifice and cylinder
   Course oil_temperature_C{50};

@@ -43,7 +43,8 @@ class CoilSupply {
       amplifier_ = {};
       return run_.voltage_V.at(time_s);
     }
-    return step(valve_.bench_amplifier, amplifier_, run_.current_A.at(time_s), current_A, electronics_period_s);
+    const double set_A = run_.current_A.at(time_s) + dither_A(run_.dither, time_s);
+    return step(valve_.bench_amplifier, amplifier_, set_A, current_A, electronics_period_s);
   }
 
   const ValveUnderTest& valve_;

@@ -14,8 +14,8 @@
 namespace spoolflow::rig {
 
 struct CurrentControl {
-  double proportional_V_per_A = 30.0;
-  double integral_V_per_A_s = 900.0;
+  double proportional_V_per_A = 100.0;
+  double integral_V_per_A_s = 3000.0;
   double feed_forward_ohm = 3.0;
   double supply_V = 24.0;
   double duty_steps = 2000.0;
@@ -23,7 +23,7 @@ struct CurrentControl {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit(Parameter{"proportional_V_per_A", "V/A", 0, 300, "crossover times inductance: 50 Hz at 0.1 H"},
+    visit(Parameter{"proportional_V_per_A", "V/A", 0, 300, "crossover times inductance: 160 Hz at 0.1 H"},
           self.proportional_V_per_A);
     visit(Parameter{"integral_V_per_A_s", "V/(A s)", 0, 20000, "its ratio to the gain is the coil's R/L"},
           self.integral_V_per_A_s);

@@ -16,7 +16,7 @@ inline constexpr double electronics_period_s = 1e-4;  ///< 10 kHz
 /// Sine on the set current that keeps spool and armature from sticking.
 struct Dither {
   double amplitude_A = 0.0;
-  double frequency_Hz = 120.0;
+  double frequency_Hz = 160.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -24,6 +24,11 @@ struct Dither {
     visit(Parameter{"frequency_Hz", "Hz", 20, 500, "amplifiers offer 60 to 200 Hz"}, self.frequency_Hz);
   }
 };
+
+/// The dither's share of the set current [A].
+inline double dither_A(const Dither& dither, double time_s) {
+  return dither.amplitude_A * std::sin(2 * std::numbers::pi * dither.frequency_Hz * time_s);
+}
 
 struct Electronics {
   PositionControl position;
@@ -45,7 +50,7 @@ struct ElectronicsState {
   PositionControlState position;
   CurrentControlState current_a;
   CurrentControlState current_b;
-  double dither_cycles = 0;
+  double time_s = 0;
 };
 
 struct ElectronicsInput {
@@ -65,11 +70,10 @@ inline SolenoidVoltages step(const Electronics& electronics, ElectronicsState& s
                              Noise& noise) {
   double set_A =
       step(electronics.position, state.position, input.position_set_m, input.position_signal_m, electronics_period_s);
-  state.dither_cycles += electronics.dither.frequency_Hz * electronics_period_s;
-  state.dither_cycles -= std::floor(state.dither_cycles);
+  state.time_s += electronics_period_s;
   if (state.position.on) {
     const double direction = input.position_set_m > 0 ? 1 : -1;
-    set_A += direction * electronics.dither.amplitude_A * std::sin(2 * std::numbers::pi * state.dither_cycles);
+    set_A += direction * dither_A(electronics.dither, state.time_s);
   }
   const auto drive = [&](CurrentControlState& stage, double stage_set_A, double current_A) {
     const double signal_A = current_A + electronics.current_noise_A * noise.normal();

@@ -17,10 +17,10 @@ namespace spoolflow::rig {
 struct PositionControl {
   double feed_forward_A = 0.5;
   double feed_forward_A_per_m = 300.0;
-  double proportional_A_per_m = 450.0;
-  double integral_A_per_m_s = 9000.0;
-  double derivative_A_s_per_m = 2.0;
-  double derivative_time_s = 1.0e-3;
+  double proportional_A_per_m = 1200.0;
+  double integral_A_per_m_s = 8000.0;
+  double derivative_A_s_per_m = 9.0;
+  double derivative_time_s = 3.0e-4;
   double integral_limit_A = 1.5;
   double off_below_m = 2.0e-6;
 
@@ -28,7 +28,7 @@ struct PositionControl {
   static void describe(Self& self, Visit&& visit) {
     visit(Parameter{"feed_forward_A", "A", 0, 5, "lifts the spring's preload"}, self.feed_forward_A);
     visit(Parameter{"feed_forward_A_per_m", "A/m", 0, 5000, "carries the spring's rate"}, self.feed_forward_A_per_m);
-    visit(Parameter{"proportional_A_per_m", "A/m", 0, 50000, "450: 45 mA for 0.1 mm"}, self.proportional_A_per_m);
+    visit(Parameter{"proportional_A_per_m", "A/m", 0, 50000, "1200: 0.12 A for 0.1 mm"}, self.proportional_A_per_m);
     visit(Parameter{"integral_A_per_m_s", "A/(m s)", 0, 2e6, "its ratio to the gain is a time of 20 to 200 ms"},
           self.integral_A_per_m_s);
     visit(Parameter{"derivative_A_s_per_m", "A s/m", 0, 200, "damps the spool on its springs"},

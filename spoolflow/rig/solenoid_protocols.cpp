@@ -90,6 +90,8 @@ BenchRun plan(const SolenoidForceMapProtocol& protocol, const SolenoidRating& ra
     run.motion_m.ramp_at(travel_m, speed_m_per_s).hold(protocol.hold_s).ramp_at(0, speed_m_per_s);
     run.current_A.hold(run.motion_m.duration_s() - run.current_A.duration_s());
   }
+  run.dither = {.amplitude_A = rating.rated_current_A * protocol.dither_percent / 100,
+                .frequency_Hz = protocol.dither_frequency_Hz};
   run.sample_rate_Hz = {{run.motion_m.duration_s(), protocol.sample_rate_Hz}};
   run.channels = {Channel::time,    Channel::current_set, Channel::current,
                   Channel::voltage, Channel::position,    Channel::force};

@@ -22,6 +22,8 @@ struct SolenoidForceMapProtocol {
   double carriage_percent_per_s = 20.8;
   double travel_percent = 103.5;
   double hold_s = 0.3;
+  double dither_percent = 0.0;
+  double dither_frequency_Hz = 160.0;
   double ambient_temperature_C = 25.0;
   double sample_rate_Hz = 200.0;
 
@@ -34,6 +36,9 @@ struct SolenoidForceMapProtocol {
           self.carriage_percent_per_s);
     visit(Parameter{"travel_percent", "%", 10, 104, "of the stroke, short of the pole"}, self.travel_percent);
     visit(Parameter{"hold_s", "s", 0, 60, "at the far end"}, self.hold_s);
+    visit(Parameter{"dither_percent", "%", 0, 40, "amplitude on the held current, of the rated current; 0: none"},
+          self.dither_percent);
+    visit(Parameter{"dither_frequency_Hz", "Hz", 20, 500, "as the valve's electronics"}, self.dither_frequency_Hz);
     visit(Parameter{"ambient_temperature_C", "degC", -20, 60, "of the laboratory"}, self.ambient_temperature_C);
     visit(Parameter{"sample_rate_Hz", "Hz", 10, 10000, "of the recorder; a divisor of 10 kHz"}, self.sample_rate_Hz);
   }

@@ -21,7 +21,7 @@ struct CampaignSettings {
   double sweep_pressure_bar = 50.0;
   double duty_cycle_s = 180.0;
   double dither_amplitude_A = 0.2;
-  double dither_frequency_Hz = 120.0;
+  double dither_frequency_Hz = 160.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
