@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
@@ -15,14 +16,6 @@
 
 namespace spoolflow::apps {
 namespace {
-
-struct CampaignArguments {
-  std::string valve;
-  std::filesystem::path folder;
-  bool calibration_only = false;
-  bool with_truth = false;
-  bool quiet = false;
-};
 
 void store(const std::filesystem::path& folder, const rig::CampaignItem& item, const rig::BenchRun& run,
            const rig::Simulation& simulation) {
@@ -36,28 +29,29 @@ void store(const std::filesystem::path& folder, const rig::CampaignItem& item, c
   recording.commit();
 }
 
+}  // namespace
+
 void campaign(const CampaignArguments& arguments) {
+  const std::filesystem::path folder = arguments.folder;
   const rig::ValveAndCampaign asked = rig::read_valve_and_campaign(arguments.valve);
   const auto items = arguments.calibration_only ? rig::calibration_items(asked.valve, asked.campaign)
                                                 : rig::campaign_items(asked.valve, asked.campaign);
-  make_output_folder(arguments.folder);
+  make_output_folder(folder);
   if (arguments.with_truth) {
-    make_output_folder(arguments.folder / "truth");
+    make_output_folder(folder / "truth");
   }
   {
     Progress progress("simulating the campaign", arguments.quiet);
     rig::run_campaign(items, {.store = [&](const auto& item, const auto& run,
-                                           const auto& simulation) { store(arguments.folder, item, run, simulation); },
+                                           const auto& simulation) { store(folder, item, run, simulation); },
                               .progress = [&](double share) { progress.update(share); },
                               .workers = std::max(1U, std::thread::hardware_concurrency()),
                               .with_truth = arguments.with_truth});
   }
-  OutputFile text(arguments.folder / "campaign.toml");
+  OutputFile text(folder / "campaign.toml");
   text.stream() << rig::campaign_text(asked.valve, items);
   text.commit();
 }
-
-}  // namespace
 
 void add_campaign_command(CLI::App& program) {
   CLI::App* command = add_command(

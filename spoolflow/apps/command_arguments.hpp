@@ -5,6 +5,23 @@
 
 namespace spoolflow::apps {
 
+struct SimulateArguments {
+  std::string scenario;
+  std::string recording;  ///< to write
+  std::string truth;      ///< to write; empty: none
+  bool quiet = false;
+};
+void simulate(const SimulateArguments& arguments);
+
+struct CampaignArguments {
+  std::string valve;   ///< valve file or preset
+  std::string folder;  ///< to write
+  bool calibration_only = false;
+  bool with_truth = false;
+  bool quiet = false;
+};
+void campaign(const CampaignArguments& arguments);
+
 struct CalibrateArguments {
   std::string campaign;
   std::string model;   ///< to write

@@ -1,11 +1,11 @@
-/// `spoolflow demo`: the whole way from bench recordings to a report, on recordings that travel inside the program.
+/// `spoolflow demo`: the whole way from a valve to a report, on the virtual test rig.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/demo_recordings.hpp"
+#include "spoolflow/apps/demo_files.hpp"
 #include "spoolflow/apps/output_file.hpp"
 
 namespace spoolflow::apps {
@@ -16,21 +16,25 @@ struct Arguments {
   bool quiet = false;
 };
 
-void unpack(const std::filesystem::path& folder) {
-  make_output_folder(folder);
-  for (const EmbeddedFile& file : demo_recordings()) {
-    OutputFile output(folder / file.name);
-    output.stream().write(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size()));
-    output.commit();
-  }
-}
-
 void demo(const Arguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   const auto in_folder = [&](const char* name) { return (folder / name).string(); };
-  const std::vector<std::string> runs{in_folder("valve_a/ramp_60bar.h5"), in_folder("valve_a/duty_cycle_1.h5")};
-  unpack(folder / "valve_a");
-  calibrate({.campaign = in_folder("valve_a/campaign.toml"),
+  make_output_folder(folder);
+  for (const EmbeddedFile& file : demo_files()) {
+    OutputFile output(folder / file.name);
+    output.stream() << file.bytes;
+    output.commit();
+  }
+  const std::vector<std::string> runs{in_folder("campaign/ramp_60bar.csv"), in_folder("duty_cycle.csv")};
+  campaign({.valve = in_folder("valve.toml"),
+            .folder = in_folder("campaign"),
+            .calibration_only = true,
+            .quiet = arguments.quiet});
+  simulate({.scenario = in_folder("duty_cycle.toml"),
+            .recording = runs.back(),
+            .truth = in_folder("duty_cycle_truth.csv"),
+            .quiet = arguments.quiet});
+  calibrate({.campaign = in_folder("campaign/campaign.toml"),
              .model = in_folder("model.json"),
              .report = in_folder("calibration.html"),
              .quiet = arguments.quiet});
@@ -47,12 +51,15 @@ void demo(const Arguments& arguments) {
             .channels = {},
             .quiet = arguments.quiet});
   fmt::print(
-      "\nThe recordings are simulated; they, the model and the estimate are in {0}. The same step by step:\n"
-      "  spoolflow calibrate {1} -o {2}\n"
-      "  spoolflow estimate {2} {4} -o {5}\n"
-      "  spoolflow validate {2} {3} {4} --report {6} --json {7}\n\n{6}\n",
-      folder.string(), in_folder("valve_a/campaign.toml"), in_folder("model.json"), runs.front(), runs.back(),
-      in_folder("estimate.csv"), in_folder("report.html"), in_folder("metrics.json"));
+      "\nThe recordings are simulated by the virtual test rig; they, the model and the estimate are in {0}. The same "
+      "step "
+      "by step:\n"
+      "  spoolflow campaign {0}/valve.toml -o {0}/campaign --calibration-only\n"
+      "  spoolflow simulate {0}/duty_cycle.toml -o {1}\n"
+      "  spoolflow calibrate {0}/campaign/campaign.toml -o {0}/model.json\n"
+      "  spoolflow estimate {0}/model.json {1} -o {0}/estimate.csv\n"
+      "  spoolflow validate {0}/model.json {2} {1} --report {0}/report.html --json {0}/metrics.json\n\n{3}\n",
+      folder.string(), runs.back(), runs.front(), in_folder("report.html"));
 }
 
 }  // namespace
@@ -61,10 +68,10 @@ void add_demo_command(CLI::App& program) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       add_command(program, {"demo",
-                            "from bench recordings to a report, on recordings inside the program",
-                            "nothing: simulated recordings of one valve are inside the program",
-                            "a folder with the recordings (valve_a), model.json, estimate.csv, metrics.json, "
-                            "calibration.html and report.html; "
+                            "from a valve on the virtual test rig to a report, with no input files",
+                            "nothing: the valve and the run are inside the program",
+                            "a folder with valve.toml and its campaign, duty_cycle.csv, model.json, estimate.csv, "
+                            "metrics.json, calibration.html and report.html; "
                             "the path of the report comes last on standard output",
                             {"spoolflow demo -o demo"}});
   command->add_option("-o,--output", arguments->folder, "folder to write")->capture_default_str();

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
@@ -12,21 +13,12 @@
 #include "spoolflow/rig/scenario.hpp"
 
 namespace spoolflow::apps {
-namespace {
-
-struct SimulateArguments {
-  std::filesystem::path scenario;
-  std::filesystem::path recording;
-  std::filesystem::path truth;
-  bool quiet = false;
-};
-
 void simulate(const SimulateArguments& arguments) {
   const rig::Scenario scenario = rig::read_scenario(arguments.scenario);
   OutputFile recording(arguments.recording, {arguments.scenario, arguments.truth});
   std::unique_ptr<OutputFile> truth;
   if (!arguments.truth.empty()) {
-    truth = std::make_unique<OutputFile>(arguments.truth, std::vector{arguments.scenario});
+    truth = std::make_unique<OutputFile>(arguments.truth, std::vector<std::filesystem::path>{arguments.scenario});
   }
   const rig::PlannedScenario planned = rig::plan(scenario);
   rig::Simulation simulation;
@@ -43,8 +35,6 @@ void simulate(const SimulateArguments& arguments) {
   }
   recording.commit();
 }
-
-}  // namespace
 
 void add_simulate_command(CLI::App& program) {
   CLI::App* command = add_command(

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "spoolflow/rig/valve_preset_texts.hpp"
+#include "spoolflow/rig/valve_preset_files.hpp"
 
 namespace spoolflow::rig {
 namespace {
+
+std::string preset_name(const EmbeddedFile& file) {
+  return std::filesystem::path(file.name).stem().string();
+}
 
 /// Everything that a valve file may hold, `preset` included.
 void overlay(const SettingsSource& source, const Settings& beside, ValveUnderTest& valve) {
@@ -21,8 +25,8 @@ void overlay(const SettingsSource& source, const Settings& beside, ValveUnderTes
 const std::vector<std::string>& valve_presets() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const PresetText& preset : valve_preset_texts()) {
-      all.emplace_back(preset.name);
+    for (const EmbeddedFile& file : valve_preset_files()) {
+      all.push_back(preset_name(file));
     }
     return all;
   }();
@@ -30,10 +34,10 @@ const std::vector<std::string>& valve_presets() {
 }
 
 ValveUnderTest valve_preset(std::string_view name, const Settings& beside) {
-  for (const PresetText& preset : valve_preset_texts()) {
-    if (preset.name == name) {
+  for (const EmbeddedFile& file : valve_preset_files()) {
+    if (preset_name(file) == name) {
       ValveUnderTest valve;
-      overlay({.text = std::string(preset.text), .name = fmt::format("preset {}", name)}, beside, valve);
+      overlay({.text = std::string(file.bytes), .name = fmt::format("preset {}", name)}, beside, valve);
       return valve;
     }
   }

@@ -10,7 +10,7 @@ struct EmbeddedFile {
   std::string_view bytes;
 };
 
-/// The campaign of examples/valve_a with its recordings and two operating runs (simulated).
-[[nodiscard]] std::span<const EmbeddedFile> demo_recordings();
+/// The valve and the scenario of examples/demo.
+[[nodiscard]] std::span<const EmbeddedFile> demo_files();
 
 }  // namespace spoolflow::apps
