@@ -32,13 +32,13 @@ static_assert(std::is_trivially_copyable_v<CondensedParameters<float>>);
 static_assert(std::is_trivially_copyable_v<CondensedState<float>>);
 
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
-/// left out (paper section 3) and stand in the band instead. Needs finite current and position; other inputs are not
-/// read.
+/// left out (paper section 3) and stand in the band instead. Needs current and position, and a time that does not run
+/// backwards: otherwise the last answer is held. Other inputs are not read.
 template <class T>
 constexpr Estimate<T> step(const CondensedParameters<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
   using std::sqrt;
-  if (!(is_number(sample.current_A) && is_number(sample.position_m))) {
-    state.last.status = Status::sample_missing;
+  if (const Status held = unusable(sample); held != Status::none) {
+    state.last.status = held;
     return state.last;
   }
   Estimate<T> out;

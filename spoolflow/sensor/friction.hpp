@@ -81,7 +81,7 @@ constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, Fricti
   const T rested_s = state.rest_s;
   if (position.motion == Motion::rest) {
     state.rest_s += time_step_s;
-    const T share = larger(time_step_s / state.rest_s, time_step_s / (smoothing_s + time_step_s));
+    const T share = larger(time_step_s / larger(state.rest_s, T(1e-9)), time_step_s / (smoothing_s + time_step_s));
     state.smooth_m += smaller(share, T(1)) * (position.position_m - state.smooth_m);
     const T before_m = state.followed_m;
     state.followed_m = limited(state.followed_m, state.smooth_m - slack_m, state.smooth_m + slack_m);
@@ -105,7 +105,7 @@ constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, Fricti
     state.rest_s = T(0);
   }
   state.held_s += time_step_s;
-  if (state.held_s >= delay_s) {
+  if (state.held_s > delay_s - T(0.5) * time_step_s) {  // no matter how the sum rounds
     state.held_s = T(0);
     state.earlier_N = state.held_N;
     state.held_N = apparent_N;

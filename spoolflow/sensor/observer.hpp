@@ -84,13 +84,14 @@ constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& samp
 
 }  // namespace detail
 
-/// One sample through the chain of paper Fig 3. Needs finite current and position; a missing oil temperature is held, a
-/// missing voltage means a force map by current alone.
+/// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
+/// otherwise the last answer is held. A missing oil temperature is held, a missing voltage means a force map by current
+/// alone.
 template <class T>
 constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
   using std::sqrt;
-  if (!(is_number(sample.current_A) && is_number(sample.position_m))) {
-    state.last.status = Status::sample_missing;
+  if (const Status held = unusable(sample); held != Status::none) {
+    state.last.status = held;
     return state.last;
   }
   if (!state.started) detail::start(valve, state, sample);
@@ -141,7 +142,7 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
       update(pressure, {surprise_N, whole_slope, force_noise_N}, dt);
       if (squared(slope) * pressure.variance_Pa2 < T(0.25) * squared(force_noise_N))
         learn_liveliness(valve.pressure, pressure, force_noise_N / slope);
-    } else if (resting.breakaway_N != T(0) && resting.rested_s > T(0.03)) {
+    } else if (resting.breakaway_N != T(0) && resting.rested_s > T(0.03) + T(0.5) * dt) {
       const T ratio = ageing(valve.friction, resting.rested_s);
       const T expected_N = direction * (ratio * edge.friction_N + actuator.friction_half_width_N);
       const T noise_N = sqrt(squared(force_noise_N) + squared(valve.friction.breakaway_share * expected_N));

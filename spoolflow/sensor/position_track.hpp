@@ -111,7 +111,7 @@ constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& st
   }
   if (even) state.travel_m = motion == Motion::opening ? T(1e-6) : T(-1e-6);
   state.unsettled_s = even ? T(0) : larger(state.unsettled_s - state.block_s, T(0));
-  state.motion = even ? motion : (state.unsettled_s > T(0) ? Motion::transient : Motion::rest);
+  state.motion = even ? motion : (state.unsettled_s > T(0.5) * state.block_s ? Motion::transient : Motion::rest);
 }
 
 }  // namespace detail
@@ -136,7 +136,7 @@ constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T
   }
   if (state.offset_m != T(0)) {
     state.fault_s += time_step_s;
-    if (state.fault_s > T(0.25)) {
+    if (state.fault_s > T(0.25) + T(0.5) * time_step_s) {
       state.offset_m = T(0);
       believed_m = drift_free_m;
     }

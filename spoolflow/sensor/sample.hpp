@@ -1,5 +1,6 @@
 #pragma once
 /// What goes into the sensor and what comes out, each sample.
+#include "spoolflow/sensor/scalar.hpp"
 #include "spoolflow/sensor/status.hpp"
 
 namespace spoolflow::sensor {
@@ -13,6 +14,13 @@ struct Sample {
   T position_m{};   ///< spool position, 0 closed, > 0 opens P to B
   T oil_temperature_K{};
 };
+
+/// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.
+template <class T>
+constexpr Status unusable(const Sample<T>& sample) {
+  return when(!(is_number(sample.current_A) && is_number(sample.position_m)), Status::sample_missing) |
+         when(!(sample.time_step_s >= T(0) && is_number(sample.time_step_s)), Status::time_fault);
+}
 
 /// The flow rate with its band and what led to it. Signs: magnetic force opens (+), spring and flow force close (+),
 /// friction has the sign of the velocity.

@@ -44,9 +44,10 @@ constexpr T squared(T value) {
   return value * value;
 }
 
+/// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
 constexpr bool is_number(T value) {
-  return value == value;
+  return value > T(-1e9) && value < T(1e9);
 }
 
 }  // namespace spoolflow::sensor

@@ -2,13 +2,11 @@
 /// Runs a model's sensor over a recording, block by block, as the valve would: one sample after the other.
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/model/running_sensor.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "spoolflow/sensor/condensed.hpp"
-#include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::validation {
 
@@ -21,7 +19,7 @@ enum class Estimator { condensed, observer };
 /// they are.
 [[nodiscard]] recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels);
 
-/// One sensor in operation. Before the first complete sample its flow is zero with a band over the whole rated flow.
+/// One sensor in operation; see RunningSensor for time and for what comes before the first complete sample.
 class Estimation {
  public:
   /// Keeps a reference to the model. Throws ModelError where the model is not calibrated for the estimator.
@@ -30,15 +28,7 @@ class Estimation {
   void run(const recording::SampleBlock& block, std::vector<sensor::Estimate<double>>& estimates);
 
  private:
-  template <class Parameters, class State>
-  void run_with(const Parameters& parameters, State& state, const recording::SampleBlock& block,
-                std::vector<sensor::Estimate<double>>& estimates);
-
-  const model::Model& model_;
-  std::variant<sensor::CondensedState<double>, sensor::ObserverState<double>> state_;
-  double last_time_s_ = 0;
-  bool started_ = false;
-  bool answered_ = false;
+  model::RunningSensor sensor_;
 };
 
 /// Names of the set bits, joined by '|'; empty when all is well. Each combination is put together once.
