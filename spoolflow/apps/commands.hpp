@@ -16,5 +16,6 @@ void add_estimate_command(CLI::App& program);
 void add_validate_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
+void add_export_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

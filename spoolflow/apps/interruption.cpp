@@ -12,7 +12,7 @@ namespace spoolflow::apps {
 namespace {
 
 // All that the handler touches: lock-free atomics and fixed buffers, since it may run between any two instructions.
-std::array<std::atomic<const char*>, 16> unfinished{};
+std::array<std::atomic<const char*>, 64> unfinished{};
 std::atomic<OutputState> output_state{OutputState::nothing_written};
 std::array<char, 64> speaker_text{};
 std::atomic_flag ending = ATOMIC_FLAG_INIT;
@@ -88,7 +88,7 @@ UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)) {
       return;
     }
   }
-  throw std::logic_error("more than 16 outputs are open at once");
+  throw std::logic_error("more than 64 outputs are open at once");
 }
 
 UnfinishedFile::~UnfinishedFile() {

@@ -18,7 +18,7 @@ void interruption_speaker(std::string_view speaker);
 enum class OutputState { nothing_written, stream_begun, file_finished };
 void interruption_output_state(OutputState state);
 
-/// Keeps the name of a file that must not survive an interruption. At most 16 at a time.
+/// Keeps the name of a file that must not survive an interruption. At most 64 at a time.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(std::string path);

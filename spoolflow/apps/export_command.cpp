@@ -1,0 +1,85 @@
+/// `spoolflow export`: a model as something that other programs and controllers run.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/export/cpp_folder.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportArguments {
+  std::string kind;
+  std::string model;
+  std::string output;
+};
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Files of an earlier export may be replaced; whatever else bears a name that is needed is somebody's work.
+void refuse_to_overwrite(const fs::path& folder, const std::vector<exports::ExportedFile>& files) {
+  if (content_of(folder / exports::cpp_model_name).starts_with(exports::cpp_model_mark)) return;
+  for (const exports::ExportedFile& file : files) {
+    const fs::path target = folder / file.name;
+    std::error_code unreadable;
+    if (fs::exists(target, unreadable) && content_of(target) != file.content) {
+      throw OutputError(
+          fmt::format("cannot write {}: it is there already and comes from no earlier export; name another folder",
+                      target.string()));
+    }
+  }
+}
+
+/// All files are written before the first one gets its name.
+void export_cpp(const ExportArguments& arguments) {
+  const model::Model model = model::read_model(arguments.model);
+  const std::vector<exports::ExportedFile> files = exports::cpp_folder(model);
+  const fs::path folder(arguments.output);
+  if (folder.empty() || folder == "-") throw OutputError("an export needs a folder: name one after -o");
+  refuse_to_overwrite(folder, files);
+  std::vector<std::unique_ptr<OutputFile>> outputs;
+  for (const exports::ExportedFile& file : files) {
+    make_output_folder((folder / file.name).parent_path());
+    outputs.push_back(std::make_unique<OutputFile>(folder / file.name, std::vector<fs::path>{arguments.model}));
+    outputs.back()->stream() << file.content;
+    outputs.back()->stream().flush();
+  }
+  for (const auto& output : outputs) output->commit();
+  if (!model.observer) {
+    fmt::print(stderr,
+               "{}: the model is not calibrated for the observer, so the condensed sensor alone is exported; calibrate "
+               "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
+               model.valve.name);
+  }
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& program) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = add_command(
+      program, {"export",
+                "turn a model into something that other programs and controllers run",
+                "MODEL.json from `spoolflow calibrate`",
+                "cpp: a folder with the sensor's headers, the model as constexpr numbers in single precision, an "
+                "example and a self-test; files of an earlier export are replaced, all else in the folder stays",
+                {"spoolflow export cpp valve_a.json -o valve_a_cpp"}});
+  command->add_option("kind", arguments->kind, "cpp: C++ for firmware")->required()->check(CLI::IsMember({"cpp"}));
+  command->add_option("model", arguments->model, "model file")->required();
+  command->add_option("-o,--output", arguments->output, "folder to write")->required();
+  command->callback([arguments] { export_cpp(*arguments); });
+}
+
+}  // namespace spoolflow::apps

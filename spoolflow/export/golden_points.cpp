@@ -1,0 +1,154 @@
+#include "spoolflow/export/golden_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "spoolflow/export/number_groups.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+constexpr double time_step_s = 1e-3;
+constexpr int golden_samples = 1200;
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+struct Corner {
+  double time_s;
+  double share;  ///< of the stroke or of the largest force
+};
+
+/// The share at a time, straight between corners.
+template <std::size_t Count>
+double course(const std::array<Corner, Count>& corners, double time_s) {
+  for (std::size_t k = 1; k < Count; ++k) {
+    const Corner& from = corners[k - 1];
+    const Corner& to = corners[k];
+    if (time_s < to.time_s)
+      return from.share + (to.share - from.share) * (time_s - from.time_s) / (to.time_s - from.time_s);
+  }
+  return corners.back().share;
+}
+
+double position_share(double time_s) {
+  static constexpr std::array<Corner, 10> corners{{{0.00, 0.00},
+                                                   {0.05, 0.00},
+                                                   {0.40, 0.80},
+                                                   {0.50, 0.80},
+                                                   {0.51, 0.78},
+                                                   {0.60, 0.78},
+                                                   {0.80, 0.35},
+                                                   {0.90, 0.35},
+                                                   {1.00, 0.60},
+                                                   {1.20, 0.00}}};
+  return course(corners, time_s);
+}
+
+double pressure_share(double time_s) {
+  static constexpr std::array<Corner, 6> corners{
+      {{0.0, 0.5}, {0.3, 0.5}, {0.35, 0.8}, {0.7, 0.8}, {0.72, 0.4}, {1.2, 0.6}}};
+  return course(corners, time_s);
+}
+
+/// The current at which the magnetic force has this size; bisection over the map's range.
+double balancing_current_A(const sensor::MagneticForce<double>& magnetic_force, double position_m, double force_N) {
+  double low_A = magnetic_force.map.row_axis.first;
+  double high_A = magnetic_force.map.row_axis.at(sensor::force_map_currents - 1);
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle_A = 0.5 * (low_A + high_A);
+    (magnetic_force.at(middle_A, position_m).value < force_N ? low_A : high_A) = middle_A;
+  }
+  return 0.5 * (low_A + high_A);
+}
+
+/// A small even noise, the same on every machine; within -1 to 1.
+class Noise {
+ public:
+  double operator()() {
+    state_ = state_ * 1664525U + 1013904223U;
+    return static_cast<double>(state_ >> 8U) / (1U << 23U) - 1.0;
+  }
+
+ private:
+  std::uint32_t state_ = 12345;
+};
+
+std::vector<sensor::Sample<float>> strokes(const model::Model& model) {
+  const auto& condensed = model.condensed.parameters;
+  const double oil_temperature_K = model.condensed.oil_temperature_K.value_or(313.15);
+  std::vector<sensor::Sample<float>> out;
+  Noise noise;
+  for (int k = 0; k < golden_samples; ++k) {
+    const double time_s = k * time_step_s;
+    const double position_m = position_share(time_s) * model.valve.stroke_m;
+    const double before_m = position_share(time_s - time_step_s) * model.valve.stroke_m;
+    const double direction = position_m > before_m ? 1.0 : (position_m < before_m ? -1.0 : 0.0);
+    double flow_force_N = pressure_share(time_s) * condensed.flow_rate.largest_force_N.at(position_m).value;
+    double friction_N = condensed.friction_half_width_N.at(position_m).value;
+    if (model.observer) {
+      const auto& edge = model.observer->parameters.edge;
+      const auto point =
+          edge.at(oil_temperature_K, pressure_share(time_s) * edge.highest_pressure_difference_Pa(), position_m);
+      flow_force_N = point.flow_force_N;
+      friction_N = point.friction_N;
+    }
+    const double force_N = condensed.spring.at(position_m).value + flow_force_N + direction * friction_N;
+    const double current_A = balancing_current_A(condensed.magnetic_force, position_m, force_N);
+    const double voltage_V =
+        current_A * (model.observer ? model.observer->parameters.actuator.coil_resistance.resistance_Ohm : 0.0);
+    out.push_back({static_cast<float>(k == 0 ? 0.0 : time_step_s), static_cast<float>(current_A + 2e-3 * noise()),
+                   static_cast<float>(voltage_V + 0.02 * noise()), static_cast<float>(position_m + 1e-6 * noise()),
+                   static_cast<float>(oil_temperature_K + 0.1 * noise())});
+  }
+  for (std::size_t k = 540; k < 560; ++k) out[k].position_m += static_cast<float>(0.1 * model.valve.stroke_m);
+  out[700].position_m = missing;
+  for (std::size_t k = 850; k < 870; ++k) out[k].voltage_V = missing;
+  return out;
+}
+
+/// Every answer of one sensor.
+template <class T, class Parameters, class State>
+std::vector<double> flows(const Parameters& parameters, State state,
+                          const std::vector<sensor::Sample<float>>& samples) {
+  std::vector<double> out;
+  for (const sensor::Sample<float>& in : samples) {
+    const sensor::Sample<T> sample{in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K};
+    out.push_back(static_cast<double>(step(parameters, state, sample).flow_m3_per_s));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<GoldenPoint> golden_points(const model::Model& model) {
+  const std::vector<sensor::Sample<float>> inputs = strokes(model);
+  const std::vector<double> condensed =
+      flows<double>(model.condensed.parameters, sensor::CondensedState<double>{}, inputs);
+  const std::vector<double> best =
+      model.observer ? flows<double>(model.observer->parameters, sensor::ObserverState<double>{}, inputs) : condensed;
+  std::vector<GoldenPoint> points;
+  for (std::size_t k = 0; k < inputs.size(); ++k) points.push_back({inputs[k], condensed[k], best[k]});
+  return points;
+}
+
+SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<GoldenPoint>& points) {
+  std::vector<sensor::Sample<float>> inputs;
+  for (const GoldenPoint& point : points) inputs.push_back(point.sample);
+  const std::vector<double> condensed =
+      flows<float>(single_precision(model.condensed.parameters), sensor::CondensedState<float>{}, inputs);
+  const std::vector<double> best = model.observer ? flows<float>(single_precision(model.observer->parameters),
+                                                                 sensor::ObserverState<float>{}, inputs)
+                                                  : condensed;
+  SinglePrecisionError largest{0, 0};
+  const double percent = 100.0 / model.valve.rated_flow_m3_per_s;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    largest.condensed_percent =
+        std::max(largest.condensed_percent, percent * std::abs(condensed[k] - points[k].condensed_m3_per_s));
+    largest.best_percent = std::max(largest.best_percent, percent * std::abs(best[k] - points[k].best_m3_per_s));
+  }
+  return largest;
+}
+
+}  // namespace spoolflow::exports

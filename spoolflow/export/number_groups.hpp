@@ -1,0 +1,100 @@
+#pragma once
+/// The sensor's parameters as one row of numbers in the order in which they lie in memory, each group of them with its
+/// description from the model's schema. A parameter that is added to the sensor and described there needs nothing here.
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "spoolflow/sensor/table.hpp"
+
+namespace spoolflow::exports {
+
+/// Numbers that stand together.
+struct NumberGroup {
+  std::size_t first;  ///< counted from the beginning of the parameters
+  std::size_t count;
+  std::size_t per_line;
+  std::string meaning;
+};
+
+/// All numbers of `Parameters`, which are made of nothing else.
+template <class Parameters>
+std::vector<double> numbers_of(const Parameters& parameters) {
+  static_assert(sizeof(Parameters) % sizeof(double) == 0);
+  std::vector<double> numbers(sizeof(Parameters) / sizeof(double));
+  std::memcpy(numbers.data(), &parameters, sizeof(Parameters));
+  return numbers;
+}
+
+/// Below the smallest normal number zero. Throws std::invalid_argument where it is not finite in single precision.
+[[nodiscard]] float single_precision(double number);
+
+/// The sensor's parameters as the target has them.
+template <template <class> class Parameters>
+Parameters<float> single_precision(const Parameters<double>& parameters) {
+  static_assert(2 * sizeof(Parameters<float>) == sizeof(Parameters<double>));
+  const std::vector<double> numbers = numbers_of(parameters);
+  std::array<float, sizeof(Parameters<float>) / sizeof(float)> single{};
+  for (std::size_t k = 0; k < single.size(); ++k) single[k] = single_precision(numbers[k]);
+  return std::bit_cast<Parameters<float>>(single);
+}
+
+/// Visitor for model::describe_condensed and describe_observer.
+class NumberGroups {
+ public:
+  /// `parameters`: the object that is visited.
+  explicit NumberGroups(const void* parameters) : begin_(static_cast<const char*>(parameters)) {}
+
+  template <int Rows, int Columns>
+  void map(const std::string& key, const sensor::Map<double, Rows, Columns>& map, const std::string& row_key,
+           const std::string& column_key) {
+    axis(row_key, map.row_axis, Rows);
+    axis(column_key, map.column_axis, Columns);
+    add(map.values, Columns, key + " over " + row_key + " (a line each) and " + column_key);
+  }
+  template <int Points>
+  void curve(const std::string& key, const sensor::Curve<double, Points>& curve, const std::string& axis_key) {
+    axis(axis_key, curve.axis, Points);
+    add(curve.values, 12, key + " over " + axis_key);
+  }
+  template <int Layers, int Rows, int Columns>
+  void volume(const std::string& key, const sensor::Volume<double, Layers, Rows, Columns>& volume) {
+    add(volume.values, Columns,
+        key + ": " + std::to_string(Layers) + " layers of " + std::to_string(Rows) + " lines, by the axes above");
+  }
+  void axis(const std::string& key, const sensor::Axis<double>& axis, int points) {
+    add(axis, 3, key + ": first of " + std::to_string(points) + " grid points, spacing, 1 / spacing");
+  }
+  template <std::size_t Count>
+  void list(const std::string& key, const std::array<double, Count>& values, double /*lowest*/, double /*highest*/) {
+    add(values, 12, key);
+  }
+  void number(const std::string& key, const double& value, double /*lowest*/, double /*highest*/) {
+    add(value, 1, key);
+  }
+
+  /// In memory order. Throws std::logic_error where the descriptions leave one of `count` numbers out.
+  [[nodiscard]] std::vector<NumberGroup> in_order(std::size_t count) const;
+
+ private:
+  template <class Numbers>
+  void add(const Numbers& numbers, std::size_t per_line, std::string meaning) {
+    constexpr std::size_t bytes = sizeof(double);
+    const auto offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&numbers) - begin_);
+    groups_.push_back({offset / bytes, sizeof(Numbers) / bytes, per_line, std::move(meaning)});
+  }
+
+  const char* begin_;
+  std::vector<NumberGroup> groups_;
+};
+
+/// The numbers as lines of float literals, each group under a comment with its meaning.
+[[nodiscard]] std::string literals(std::span<const double> numbers, std::span<const NumberGroup> groups);
+
+/// One number in single precision as the shortest float literal that is read back as the same float.
+[[nodiscard]] std::string float_literal(double number);
+
+}  // namespace spoolflow::exports

@@ -1,0 +1,66 @@
+/// `spoolflow export`: what it leaves in folders that hold something already, and what it refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/apps/command_line.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Export : public CommandLine {
+ protected:
+  const std::string model = SPOOLFLOW_EXAMPLE_MODEL;
+};
+
+TEST_F(Export, WritesAFolderWithExampleAndSelfTest) {
+  const Answer answer = run("export cpp '" + model + "' -o new/valve");
+  ASSERT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.message, IsEmpty());
+  for (const char* file :
+       {"README.md", "example.cpp", "self_test.cpp", "valve_model.hpp", "spoolflow/sensor/observer.hpp"}) {
+    EXPECT_THAT(content(std::filesystem::path("new/valve") / file), Not(IsEmpty())) << file;
+  }
+}
+
+TEST_F(Export, ReplacesAnEarlierExportAndLeavesTheRest) {
+  ASSERT_EQ(run("export cpp '" + model + "' -o valve").status, 0);
+  const std::string before = content("valve/valve_model.hpp");
+  write("valve/notes.txt", "mine");
+  write("valve/golden_points.hpp", "damaged");
+  ASSERT_EQ(run("export cpp '" + model + "' -o valve").status, 0);
+  EXPECT_EQ(content("valve/valve_model.hpp"), before);
+  EXPECT_EQ(content("valve/notes.txt"), "mine");
+  EXPECT_THAT(content("valve/golden_points.hpp"), StartsWith("// Made by"));
+}
+
+TEST_F(Export, DoesNotTouchSomebodysFileOfTheSameName) {
+  std::filesystem::create_directory(folder / "valve");
+  write("valve/example.cpp", "int main() {}  // mine");
+  const Answer answer = run("export cpp '" + model + "' -o valve");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.message, AllOf(HasSubstr("valve/example.cpp"), HasSubstr("another folder")));
+  EXPECT_EQ(content("valve/example.cpp"), "int main() {}  // mine");
+}
+
+TEST_F(Export, RefusesWhatIsNoFolderAndWhatIsNoModel) {
+  write("taken", "a file");
+  Answer answer = run("export cpp '" + model + "' -o taken/valve");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.message, HasSubstr("taken"));
+  answer = run("export cpp taken -o valve");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(files(), Not(Contains("valve")));
+  EXPECT_EQ(run("export gold '" + model + "' -o valve").status, 2);
+  EXPECT_EQ(run("export cpp '" + model + "' -o -").status, 2);
+  EXPECT_EQ(content("taken"), "a file");
+}
+
+}  // namespace
+}  // namespace spoolflow::apps

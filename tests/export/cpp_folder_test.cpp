@@ -1,0 +1,156 @@
+#include "spoolflow/export/cpp_folder.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/export/golden_points.hpp"
+#include "spoolflow/export/number_groups.hpp"
+#include "tests/export/exported_folder.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr const char* strict = " -std=c++20 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -I. ";
+
+model::Model without_observer() {
+  model::Model model = example_model();
+  model.observer.reset();
+  return model;
+}
+
+std::vector<std::string> compilers() {
+#ifdef SPOOLFLOW_CLANGXX
+  return {"g++", SPOOLFLOW_CLANGXX};
+#else
+  return {"g++"};
+#endif
+}
+
+TEST(CppFolder, StandsAloneAndAnswersAsTheHostWithoutAWarning) {
+  for (const model::Model& model : {example_model(), without_observer()}) {
+    const ExportedFolder folder(model);
+    for (const std::string& compiler : compilers()) {
+      for (const char* program : {"example", "self_test"}) {
+        const std::string build = compiler + strict + program + ".cpp -o " + program;
+        EXPECT_EQ(folder.run(build + " && ./" + program), 0) << build;
+      }
+    }
+  }
+}
+
+TEST(CppFolder, SelfTestTellsWhichSensorWentAstray) {
+  const ExportedFolder folder(example_model());
+  const std::string golden = folder.content("golden_points.hpp");
+  const std::string build = std::string("g++") + strict + "self_test.cpp -o self_test && ./self_test";
+  // One point in the middle of the strokes gets other flows: 0.2 % of 80 L/min on top.
+  std::string line, condensed_wrong, best_wrong;
+  std::istringstream lines(golden);
+  for (int k = 0; std::getline(lines, line); ++k) {
+    const auto samples_end = line.find("}, ");
+    if (k == 400 && samples_end != std::string::npos) {
+      const auto comma = line.find(", ", samples_end + 3);
+      condensed_wrong += line.substr(0, samples_end + 3) + "2.7e-6F + " + line.substr(samples_end + 3) + "\n";
+      best_wrong += line.substr(0, comma + 2) + "2.7e-6F + " + line.substr(comma + 2) + "\n";
+    } else {
+      condensed_wrong += line + "\n";
+      best_wrong += line + "\n";
+    }
+  }
+  ASSERT_NE(condensed_wrong, golden);
+  folder.write("golden_points.hpp", condensed_wrong);
+  EXPECT_EQ(folder.run(build), 1);
+  folder.write("golden_points.hpp", best_wrong);
+  EXPECT_EQ(folder.run(build), 2);
+}
+
+TEST(CppFolder, HoldsTheSensorsHeadersUnchanged) {
+  std::size_t headers = 0;
+  for (const ExportedFile& file : cpp_folder(without_observer())) {
+    if (!file.name.starts_with("spoolflow/sensor/")) continue;
+    std::ifstream source(SPOOLFLOW_SOURCES "/" + file.name, std::ios::binary);
+    EXPECT_EQ(file.content, std::string(std::istreambuf_iterator<char>(source), {})) << file.name;
+    ++headers;
+  }
+  EXPECT_GT(headers, 15U);
+}
+
+TEST(CppFolder, SaysThatAModelHasNoObserver) {
+  const ExportedFolder folder(without_observer());
+  EXPECT_THAT(folder.content("README.md"), HasSubstr("not calibrated for the observer"));
+  EXPECT_THAT(folder.content("valve_model.hpp"), HasSubstr("has_observer = false"));
+  EXPECT_THAT(ExportedFolder(example_model()).content("README.md"), Not(HasSubstr("not calibrated")));
+}
+
+TEST(CppFolder, KeepsAValvesNameOutOfTheCode) {
+  model::Model model = without_observer();
+  model.valve.name = "A \"B\" ?\?/ \\\n#error";
+  const ExportedFolder folder(model);
+  EXPECT_EQ(folder.run(std::string("g++") + strict + "example.cpp -o example && ./example"), 0);
+}
+
+TEST(CppFolder, RefusesANumberThatSinglePrecisionDoesNotHold) {
+  model::Model model = without_observer();
+  model.condensed.parameters.force_residual_N = 1e39;
+  EXPECT_THROW((void)cpp_folder(model), std::invalid_argument);
+}
+
+TEST(GoldenPoints, MoveTheValveThroughEveryModeOfTheObserver) {
+  const model::Model model = example_model();
+  sensor::ObserverState<double> state;
+  std::array<int, 4> motions{};
+  int faults = 0, missing = 0, closed = 0;
+  for (const GoldenPoint& point : golden_points(model)) {
+    const auto& in = point.sample;
+    const auto estimate =
+        step(model.observer->parameters, state,
+             sensor::Sample<double>{in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K});
+    ++motions[static_cast<std::size_t>(state.position.motion)];
+    faults += has(estimate.status, sensor::Status::position_fault) ? 1 : 0;
+    missing += has(estimate.status, sensor::Status::sample_missing) ? 1 : 0;
+    closed += has(estimate.status, sensor::Status::closed) ? 1 : 0;
+    EXPECT_EQ(estimate.flow_m3_per_s, point.best_m3_per_s);
+  }
+  for (const int count : motions) EXPECT_GT(count, 10);
+  EXPECT_GT(faults, 10);
+  EXPECT_EQ(missing, 1);
+  EXPECT_GT(closed, 10);
+}
+
+TEST(GoldenPoints, StayTheSameInSinglePrecision) {
+  const model::Model model = example_model();
+  const SinglePrecisionError error = single_precision_error(model, golden_points(model));
+  EXPECT_LT(error.condensed_percent, 0.1);
+  EXPECT_LT(error.best_percent, 0.1);
+  EXPECT_GT(error.best_percent, 0.0);  // it is another precision
+}
+
+TEST(NumberGroups, NoticeAParameterThatNobodyDescribed) {
+  const std::array<double, 3> parameters{1, 2, 3};
+  NumberGroups groups(&parameters);
+  groups.number("first", parameters[0], 0, 1);
+  groups.number("last", parameters[2], 0, 1);
+  EXPECT_THROW((void)groups.in_order(3), std::logic_error);
+  groups.number("middle", parameters[1], 0, 1);
+  EXPECT_EQ(groups.in_order(3).size(), 3U);
+  EXPECT_THROW((void)groups.in_order(4), std::logic_error);
+}
+
+TEST(NumberGroups, WriteFloatsThatAreReadBackTheSame) {
+  EXPECT_EQ(float_literal(0.1), "0.1F");
+  EXPECT_EQ(float_literal(3), "3.0F");
+  EXPECT_EQ(float_literal(1e-40), "0.0F");  // no denormals in the valve
+  for (const double number : {1.0 / 3, 6.02214076e23, 1.17549435e-38, -7.7755e-5}) {
+    EXPECT_EQ(std::stof(float_literal(number)), static_cast<float>(number));
+  }
+}
+
+}  // namespace
+}  // namespace spoolflow::exports
