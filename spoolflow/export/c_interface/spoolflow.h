@@ -42,6 +42,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(modernize-use-using): this is C. */
+
 /* What a call came to. */
 typedef enum spoolflow_result {
   SPOOLFLOW_OK = 0,
@@ -200,6 +202,8 @@ SPOOLFLOW_API size_t spoolflow_status_text(uint32_t status, char* text, size_t s
 
 /* A result as text, such as "bad model"; lives as long as the program. */
 SPOOLFLOW_API const char* spoolflow_result_text(spoolflow_result result);
+
+/* NOLINTEND(modernize-use-using) */
 
 #ifdef __cplusplus
 }
