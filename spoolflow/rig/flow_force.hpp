@@ -40,6 +40,15 @@ struct FlowForce {
   }
 };
 
+/// Transient force [N] -rho l dQ/dt, closing > 0. The oil in the chamber cannot be pushed harder than by the pressure
+/// difference on its cross-section, dp A_chamber, into which the force runs (hundreds of newtons at size 6).
+inline double transient_force_N(const EdgeConstants& constants, double density_kg_per_m3, double damping_length_m,
+                                double flow_rate_m3_per_s2, double pressure_difference_Pa) {
+  const double force = -density_kg_per_m3 * damping_length_m * flow_rate_m3_per_s2;
+  const double limit = std::abs(pressure_difference_Pa) * constants.chamber_area_m2 + 1.0;
+  return force * limit / std::sqrt(limit * limit + force * force);
+}
+
 struct EdgeForce {
   double steady_N;   ///< closing > 0, whichever way the oil flows
   double lateral_N;  ///< magnitude
@@ -52,10 +61,10 @@ inline EdgeForce edge_force(const FlowForce& law, const EdgeConstants& constants
   const double speed = std::abs(edge.velocity_m_per_s) + 1e-3;  // the boundary layer stays finite at no flow
   const double boundary_layer = law.boundary_layer_gain * std::sqrt(viscosity_m2_per_s * edge.opening_m / speed);
   const JetDirection jet = jet_direction(edge.opening_m, constants.clearance_m + boundary_layer);
-  const double density = 2.0 * constants.turbulent;
-  const double momentum = density * edge.area_m2 * edge.velocity_m_per_s * edge.velocity_m_per_s;
-  return {.steady_N = momentum * (jet.cosine / law.jet_contraction - edge.area_m2 * constants.outlet),
-          .lateral_N = momentum * jet.sine / law.jet_contraction,
+  const double momentum = 2.0 * constants.turbulent * edge.area_m2 * edge.velocity_m_per_s * edge.velocity_m_per_s;
+  const double jet_momentum = momentum / law.jet_contraction;
+  return {.steady_N = jet_momentum * jet.cosine - momentum * edge.area_m2 * constants.outlet_per_m2,
+          .lateral_N = jet_momentum * jet.sine,
           .jet = jet};
 }
 

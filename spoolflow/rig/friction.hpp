@@ -60,11 +60,38 @@ struct FrictionState {
 /// Share alpha_i of the break-away level that element i carries: 1, 2, 3, 4 tenths, at equal stiffness.
 inline constexpr std::array<double, friction_elements> friction_share{0.1, 0.2, 0.3, 0.4};
 
-/// Level W [N] the set can carry at a velocity, from the sliding level.
-inline double breakaway_N(const Friction& friction, double sliding_level_N, double age, double velocity_m_per_s) {
-  const double stribeck2 = friction.stribeck_velocity_m_per_s * friction.stribeck_velocity_m_per_s;
-  return sliding_level_N * (1.0 + (friction.stiction_ratio - 1.0 + friction.ageing_gain * age) * stribeck2 /
-                                      (stribeck2 + velocity_m_per_s * velocity_m_per_s));
+/// What does not change within a step; `load_factor` scales the sliding friction by wear and viscosity.
+struct FrictionConstants {
+  double base_N;  ///< scaled
+  double load_factor;
+  double stiffness_N_per_m;  ///< of one element
+  double per_stiffness_m_per_N;
+  double stiction, ageing_gain;  ///< stiction ratio less 1
+  double stribeck2_m2_per_s2;
+  double per_ageing_time_s, per_ageing_distance_m;
+};
+
+inline FrictionConstants friction_constants(const Friction& friction, double viscosity_m2_per_s) {
+  double factor = friction.wear_factor;
+  if (friction.viscosity_exponent > 0.0) factor *= std::pow(viscosity_m2_per_s / 46e-6, friction.viscosity_exponent);
+  const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
+  return {.base_N = factor * friction.base_N,
+          .load_factor = factor,
+          .stiffness_N_per_m = stiffness,
+          .per_stiffness_m_per_N = 1.0 / stiffness,
+          .stiction = friction.stiction_ratio - 1.0,
+          .ageing_gain = friction.ageing_gain,
+          .stribeck2_m2_per_s2 = friction.stribeck_velocity_m_per_s * friction.stribeck_velocity_m_per_s,
+          .per_ageing_time_s = 1.0 / friction.ageing_time_s,
+          .per_ageing_distance_m = 1.0 / friction.ageing_distance_m};
+}
+
+/// Level W [N] the set can carry at a velocity; `load_N` is the load's part of the sliding friction, unscaled.
+inline double breakaway_N(const FrictionConstants& friction, double load_N, double age, double velocity_m_per_s) {
+  const double v2 = velocity_m_per_s * velocity_m_per_s;
+  return (friction.base_N + friction.load_factor * load_N) *
+         (1.0 + (friction.stiction + friction.ageing_gain * age) * friction.stribeck2_m2_per_s2 /
+                    (friction.stribeck2_m2_per_s2 + v2));
 }
 
 struct FrictionForce {
@@ -73,45 +100,42 @@ struct FrictionForce {
 };
 
 /// Force after a monotone displacement from the state; the velocity tells which elements at their limit go on slipping.
-inline FrictionForce friction_force(const Friction& friction, const FrictionState& state, double displacement_m,
-                                    double velocity_m_per_s, double breakaway_N) {
-  constexpr double share = 1.0 / static_cast<double>(friction_elements);
-  const double stiffness = share * friction.contact_stiffness_N_per_m;
+inline FrictionForce friction_force(const FrictionConstants& friction, const FrictionState& state,
+                                    double displacement_m, double velocity_m_per_s, double breakaway_N) {
+  const double change = friction.stiffness_N_per_m * displacement_m;
+  const double towards = velocity_m_per_s > 0.0 ? 1.0 : -1.0;
   FrictionForce sum{0.0, 0.0};
   for (std::size_t i = 0; i < friction_elements; ++i) {
     const double limit = friction_share[i] * breakaway_N;
-    const double elastic = state.element_N[i] + stiffness * displacement_m;
-    sum.force_N += std::clamp(elastic, -limit, limit);
-    sum.stiffness_N_per_m += std::abs(elastic) >= limit && elastic * velocity_m_per_s > 0.0 ? 0.0 : stiffness;
+    const double elastic = state.element_N[i] + change;
+    sum.force_N += std::min(std::max(elastic, -limit), limit);
+    sum.stiffness_N_per_m += towards * elastic < limit ? friction.stiffness_N_per_m : 0.0;
   }
   return sum;
 }
 
 /// Distance the whole set slips over a displacement: what its last element to slip cannot follow.
-inline double slip_m(const Friction& friction, const FrictionState& state, double displacement_m, double breakaway_N) {
-  constexpr double share = 1.0 / static_cast<double>(friction_elements);
-  const double stiffness = share * friction.contact_stiffness_N_per_m;
-  const double elastic = state.element_N.back() + stiffness * displacement_m;
-  return std::max(0.0, std::abs(elastic) - friction_share.back() * breakaway_N) / stiffness;
+inline double slip_m(const FrictionConstants& friction, const FrictionState& state, double displacement_m,
+                     double breakaway_N) {
+  const double elastic = state.element_N.back() + friction.stiffness_N_per_m * displacement_m;
+  return std::max(0.0, std::abs(elastic) - friction_share.back() * breakaway_N) * friction.per_stiffness_m_per_N;
 }
 
-/// The elements after that displacement.
-inline void slide(const Friction& friction, FrictionState& state, double displacement_m, double breakaway_N) {
-  constexpr double share = 1.0 / static_cast<double>(friction_elements);
-  const double change = share * friction.contact_stiffness_N_per_m * displacement_m;
+/// The elements after a displacement.
+inline void slide(const FrictionConstants& friction, FrictionState& state, double displacement_m, double breakaway_N) {
+  const double change = friction.stiffness_N_per_m * displacement_m;
   for (std::size_t i = 0; i < friction_elements; ++i) {
     const double limit = friction_share[i] * breakaway_N;
     state.element_N[i] = std::clamp(state.element_N[i] + change, -limit, limit);
   }
 }
 
-/// Contact age after a time in which the set slipped over a distance: second-order, L-stable, stays within 0 to 1.
-/// Pre-sliding alone does not renew the contacts.
-inline double aged(const Friction& friction, double age, double slip_m, double dt_s) {
-  const double ageing = dt_s / friction.ageing_time_s;
-  const double z = ageing + slip_m / friction.ageing_distance_m;
-  const double equilibrium = ageing / z;
-  return equilibrium + (age - equilibrium) / (1.0 + z + 0.5 * z * z);
+/// Contact age after a time in which the set slipped over a distance, with z the sum of both over their scales:
+/// the L-stable second-order (a + (1 + z/2) dt/t_rest)/(1 + z + z^2/2), within 0 to 1. Pre-sliding renews nothing.
+inline double aged(const FrictionConstants& friction, double age, double slip_m, double dt_s) {
+  const double ageing = dt_s * friction.per_ageing_time_s;
+  const double z = ageing + slip_m * friction.per_ageing_distance_m;
+  return (age + ageing * (1.0 + 0.5 * z)) / (1.0 + z + 0.5 * z * z);
 }
 
 }  // namespace spoolflow::rig

@@ -7,11 +7,14 @@
 /// Working gap with a plunging, slightly conical pole (stroke s towards the pole, plunge depth L = L0 + s smoothed over
 /// the edge's fringing field):
 ///
-///     P_g(s) = mu0 2 pi r / tan(beta) ln(1 + L tan(beta)/c)  +  mu0 A_face/(g_face - s)
+///     P_g(s) = mu0 2 pi r L/(c + L tan(beta)/2)  +  mu0 A_face/(g_face - s)
 ///
-/// The first term's slope falls with the plunge, so the force grows with the gap, as proportional magnets are built
-/// for; the second is the flat face behind an anti-stick disc. Leaves out the local saturation of the cone's edge
-/// (its effect is inside the iron section's).
+/// The first is the cone's mu0 2 pi r/tan(beta) ln(1 + z), z = L tan(beta)/c, with ln(1 + z) taken as z/(1 + z/2)
+/// (within 0.2 % below z = 0.15; the force is the exact slope of what stands here, so energy is kept whatever z). Its
+/// slope falls with the plunge, so the force grows with the gap, as proportional magnets are built for; the second is
+/// the flat face behind an anti-stick disc. Leaves out the local saturation of the cone's edge (its effect is inside
+/// the iron section's).
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -74,31 +77,36 @@ struct GapPermeance {
 /// The gap's constants.
 struct WorkingGap {
   double plunge_m, fringe_m2;
-  double cone_H;      ///< mu0 2 pi r/tan(beta)
-  double cone_per_m;  ///< tan(beta)/c
-  double face_H_m;    ///< mu0 A_face
+  double rim_H;        ///< mu0 2 pi r
+  double clearance_m;  ///< c
+  double half_slope;   ///< tan(beta)/2
+  double face_H_m;     ///< mu0 A_face
   double face_gap_m;
 };
 
 inline WorkingGap working_gap(const MagneticCircuit& circuit) {
   return {circuit.plunge_at_rest_m,
           circuit.fringe_length_m * circuit.fringe_length_m,
-          vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m / circuit.cone_slope,
-          circuit.cone_slope / circuit.cone_clearance_m,
+          vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m,
+          circuit.cone_clearance_m,
+          0.5 * circuit.cone_slope,
           vacuum_permeability_H_per_m * circuit.face_area_m2,
           circuit.face_gap_at_rest_m};
 }
 
-/// At the armature's travel s towards its pole, counted from spool centre. Valid below the face gap at rest.
+/// The anti-stick disc keeps the face off its pole however hard the end stop is hit.
+inline constexpr double anti_stick_m = 5e-5;
+
+/// At the armature's travel s towards its pole, counted from spool centre.
 inline GapPermeance gap_permeance(const WorkingGap& gap, double travel_m) {
   const double depth = travel_m + gap.plunge_m;
   const double root = std::sqrt(depth * depth + gap.fringe_m2);
   const double plunge = 0.5 * (depth + root);
-  const double per_face_gap = 1.0 / (gap.face_gap_m - travel_m);
-  const double face = gap.face_H_m * per_face_gap;
-  const double relative = gap.cone_per_m * plunge;
-  return {gap.cone_H * std::log1p(relative) + face,
-          gap.cone_H * gap.cone_per_m * plunge / ((1.0 + relative) * root) + face * per_face_gap};
+  const double per_cone = 1.0 / (gap.clearance_m + gap.half_slope * plunge);
+  const double cone = gap.rim_H * per_cone * plunge;
+  const double per_face = 1.0 / std::max(gap.face_gap_m - travel_m, anti_stick_m);
+  const double face = gap.face_H_m * per_face;
+  return {cone + face, cone * gap.clearance_m * per_cone / root + face * per_face};
 }
 
 /// Reluctance [1/H] of the radial gap with the armature off centre: R0 sqrt(1 - eccentricity^2).

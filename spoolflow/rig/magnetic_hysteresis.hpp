@@ -64,9 +64,8 @@ inline FieldPoint hysteretic_field(const StopElements& stops, const HysteresisSt
   FieldPoint sum{0.0, 0.0};
   for (std::size_t k = 0; k < hysteresis_elements; ++k) {
     const double elastic = elements[k] + stops.slope_m_per_H[k] * change_T;
-    const double field = std::clamp(elastic, -stops.yield_A_per_m, stops.yield_A_per_m);
-    sum.field_A_per_m += field;
-    sum.slope_m_per_H += elastic == field ? stops.slope_m_per_H[k] : 0.0;
+    sum.field_A_per_m += std::min(std::max(elastic, -stops.yield_A_per_m), stops.yield_A_per_m);
+    sum.slope_m_per_H += std::abs(elastic) < stops.yield_A_per_m ? stops.slope_m_per_H[k] : 0.0;
   }
   return sum;
 }

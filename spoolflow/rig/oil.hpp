@@ -56,13 +56,17 @@ struct OilState {
   double bulk_modulus_Pa = 0.0;  ///< without air
 };
 
+/// Near the pour point Walther's line climbs without bound; the rig's oil gets no stiffer than this.
+inline constexpr double stiffest_oil_m2_per_s = 0.05;
+
 inline OilState oil_at(const Oil& oil, double temperature_C) {
   const auto walther = [](double viscosity_m2_per_s) { return std::log10(std::log10(viscosity_m2_per_s * 1e6 + 0.7)); };
   const double lg_40 = std::log10(units::K_from_degC(40.0));
   const double lg_100 = std::log10(units::K_from_degC(100.0));
   const double w_40 = walther(oil.viscosity_40C_m2_per_s);
   const double b = (w_40 - walther(oil.viscosity_100C_m2_per_s)) / (lg_100 - lg_40);
-  const double w = w_40 - b * (std::log10(units::K_from_degC(temperature_C)) - lg_40);
+  const double stiff = walther(stiffest_oil_m2_per_s);
+  const double w = std::min(w_40 - b * (std::log10(units::K_from_degC(temperature_C)) - lg_40), stiff);
   return {.temperature_C = temperature_C,
           .density_kg_per_m3 = oil.density_15C_kg_per_m3 * (1.0 - oil.thermal_expansion_per_K * (temperature_C - 15.0)),
           .viscosity_m2_per_s = (std::pow(10.0, std::pow(10.0, w)) - 0.7) * 1e-6,
@@ -85,8 +89,9 @@ inline constexpr double cavitation_pressure_Pa = -0.95 * ambient_pressure_Pa;
 /// 1/K_eff [1/Pa] of oil with entrained air at a gauge pressure.
 inline double compressibility_per_Pa(const Oil& oil, const OilState& state, double pressure_Pa) {
   const double absolute = std::max(pressure_Pa, cavitation_pressure_Pa) + ambient_pressure_Pa;
-  return 1.0 / (state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * std::max(pressure_Pa, 0.0)) +
-         oil.entrained_air * ambient_pressure_Pa / (absolute * absolute);
+  const double bulk_modulus_Pa = state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * std::max(pressure_Pa, 0.0);
+  const double square = absolute * absolute;
+  return (square + oil.entrained_air * ambient_pressure_Pa * bulk_modulus_Pa) / (bulk_modulus_Pa * square);
 }
 
 }  // namespace spoolflow::rig

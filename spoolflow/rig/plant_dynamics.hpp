@@ -14,13 +14,12 @@ namespace spoolflow::rig {
 /// What does not change within one call of `step`.
 struct PlantConstants {
   bool solenoid_a, solenoid_b, hydraulics;  ///< present in the arrangement
+  bool magnetic_a, magnetic_b;              ///< solenoid under voltage or magnetised; else its rates are zero
   double armatures;                         ///< number of armatures on the body
   double mass_kg;
   double spool_drag_N_s_per_m;
   double armature_drag_N_s_per_m;  ///< all armatures
-  double spool_friction_factor;    ///< wear and viscosity
-  double armature_a_friction_factor;
-  double armature_b_friction_factor;
+  FrictionConstants spool_friction, armature_a_friction, armature_b_friction;
   double density_kg_per_m3;
   double viscosity_m2_per_s;
   OilState oil;
@@ -31,7 +30,7 @@ struct PlantConstants {
 };
 
 /// `state.oil` is at the input's oil temperature.
-PlantConstants plant_constants(const PlantParameters& parameters, const PlantState& state);
+PlantConstants plant_constants(const PlantParameters& parameters, const PlantState& state, const PlantInput& input);
 
 /// The differential states, as the integrator sees them, in this order.
 enum PlantIndex {
@@ -84,7 +83,7 @@ inline PlantVector differential_states(const PlantState& s) {
 
 /// What acts at one instant; forces towards -x but for the magnetic ones.
 struct PlantRates {
-  SolenoidRates solenoid_a, solenoid_b;
+  SolenoidRates solenoid_a{}, solenoid_b{};
   HydraulicRates hydraulics;
   std::array<EdgeForce, 4> edge_forces;
   std::array<double, 4> transient_N;  ///< of each edge
@@ -106,25 +105,26 @@ inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const
   const double v = u[state_v];
   const double displacement = x - start.position_m;
   double force = 0.0;  // towards +x
-  const auto armature = [&](const Solenoid& solenoid, const SolenoidState& memory, const SolenoidRates& rates,
-                            double factor, double age, double& level, FrictionForce& friction) {
-    level = breakaway_N(solenoid.friction,
-                        factor * (solenoid.friction.base_N + solenoid.side_friction_coefficient * rates.side_force_N),
-                        age, v);
-    friction = friction_force(solenoid.friction, memory.friction, displacement, v, level);
-  };
   if (c.solenoid_a) {
-    out.solenoid_a = solenoid_rates(c.solenoid_a_constants, start.solenoid_a, solenoid_a_of(u), -x, input.voltage_a_V,
-                                    solenoid_a_of(out.rate));
-    armature(p.solenoid_a, start.solenoid_a, out.solenoid_a, c.armature_a_friction_factor, ages.armature_a,
-             out.armature_a_breakaway_N, out.armature_a_friction);
+    if (c.magnetic_a)
+      out.solenoid_a = solenoid_rates(c.solenoid_a_constants, start.solenoid_a, solenoid_a_of(u), -x, input.voltage_a_V,
+                                      solenoid_a_of(out.rate));
+    out.armature_a_breakaway_N =
+        breakaway_N(c.armature_a_friction, p.solenoid_a.side_friction_coefficient * out.solenoid_a.side_force_N,
+                    ages.armature_a, v);
+    out.armature_a_friction =
+        friction_force(c.armature_a_friction, start.solenoid_a.friction, displacement, v, out.armature_a_breakaway_N);
     force -= out.solenoid_a.magnetic_force_N + out.armature_a_friction.force_N;
   }
   if (c.solenoid_b) {
-    out.solenoid_b = solenoid_rates(c.solenoid_b_constants, start.solenoid_b, solenoid_b_of(u), x, input.voltage_b_V,
-                                    solenoid_b_of(out.rate));
-    armature(p.solenoid_b, start.solenoid_b, out.solenoid_b, c.armature_b_friction_factor, ages.armature_b,
-             out.armature_b_breakaway_N, out.armature_b_friction);
+    if (c.magnetic_b)
+      out.solenoid_b = solenoid_rates(c.solenoid_b_constants, start.solenoid_b, solenoid_b_of(u), x, input.voltage_b_V,
+                                      solenoid_b_of(out.rate));
+    out.armature_b_breakaway_N =
+        breakaway_N(c.armature_b_friction, p.solenoid_b.side_friction_coefficient * out.solenoid_b.side_force_N,
+                    ages.armature_b, v);
+    out.armature_b_friction =
+        friction_force(c.armature_b_friction, start.solenoid_b.friction, displacement, v, out.armature_b_breakaway_N);
     force += out.solenoid_b.magnetic_force_N - out.armature_b_friction.force_N;
   }
   if (c.hydraulics) {
@@ -140,17 +140,18 @@ inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const
       out.edge_forces[i] = edge_force(p.flow_force, c.edge_constants[i], edge, c.viscosity_m2_per_s);
       const double flow_rate = edge.flow_gain_m2_per_s * edge_side[i] * v +
                                edge.conductance_m3_per_s_Pa * out.hydraulics.difference_rate_Pa_per_s[i];
-      out.transient_N[i] = -edge_side[i] * c.density_kg_per_m3 * c.edges[i]->damping_length_m * flow_rate;
+      out.transient_N[i] =
+          edge_side[i] * transient_force_N(c.edge_constants[i], c.density_kg_per_m3, c.edges[i]->damping_length_m,
+                                           flow_rate, out.hydraulics.difference_Pa[i]);
       flow_force += edge_side[i] * out.edge_forces[i].steady_N + out.transient_N[i];
       pressure_sum += std::abs(out.hydraulics.difference_Pa[i]);
       lateral += out.edge_forces[i].lateral_N;
     }
     out.flow_force_N = flow_force;
-    const double level = c.spool_friction_factor *
-                         (p.spool_friction.base_N + 0.5 * p.flow_force.friction_per_pressure_N_per_Pa * pressure_sum +
-                          p.flow_force.lateral_friction * lateral);
-    out.spool_breakaway_N = breakaway_N(p.spool_friction, level, ages.spool, v);
-    out.spool_friction = friction_force(p.spool_friction, start.spool_friction, displacement, v, out.spool_breakaway_N);
+    const double load =
+        0.5 * p.flow_force.friction_per_pressure_N_per_Pa * pressure_sum + p.flow_force.lateral_friction * lateral;
+    out.spool_breakaway_N = breakaway_N(c.spool_friction, load, ages.spool, v);
+    out.spool_friction = friction_force(c.spool_friction, start.spool_friction, displacement, v, out.spool_breakaway_N);
     out.spring = centring_force(p.spring_a, p.spring_b, p.spool.washer_play_m, x);
     force -= flow_force + out.spool_friction.force_N + out.spring.force_N;
   }

@@ -8,36 +8,10 @@
 /// couples the blocks is slow against a step and enters explicitly. An embedded second-order result estimates the
 /// error; a step that is too long is not taken, and its half is tried. Four evaluations a step, no iteration, no
 /// allocation.
-#include "spoolflow/rig/plant_dynamics.hpp"
+#include "spoolflow/rig/plant_memory.hpp"
+#include "spoolflow/rig/plant_solver.hpp"
 
 namespace spoolflow::rig {
-
-/// The body's pair of states: (1 - w J) k = r with contact stiffness and damping.
-struct BodySolver {
-  double weight_s, stiffness_per_s2, pivot;
-
-  BodySolver(const PlantConstants& constants, const PlantRates& point, double w) : weight_s(w) {
-    double flow_damping = 0.0;
-    if (constants.hydraulics) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        flow_damping -= constants.density_kg_per_m3 * constants.edges[i]->damping_length_m *
-                        point.hydraulics.edges[i].flow_gain_m2_per_s;
-      }
-    }
-    const double stiffness = point.spring.stiffness_N_per_m + point.spool_friction.stiffness_N_per_m +
-                             point.armature_a_friction.stiffness_N_per_m + point.armature_b_friction.stiffness_N_per_m +
-                             point.end_stop.stiffness_N_per_m;
-    const double damping = constants.spool_drag_N_s_per_m + constants.armature_drag_N_s_per_m +
-                           point.end_stop.damping_N_s_per_m + std::max(0.0, flow_damping);
-    stiffness_per_s2 = stiffness / constants.mass_kg;
-    pivot = 1.0 / (1.0 + w * (damping / constants.mass_kg + w * stiffness_per_s2));
-  }
-
-  void operator()(const PlantVector& right, PlantVector& k) const {
-    k[state_v] = (right[state_v] - weight_s * stiffness_per_s2 * right[state_x]) * pivot;
-    k[state_x] = right[state_x] + weight_s * k[state_v];
-  }
-};
 
 /// Position and velocity an external drive imposes at a time after the call's start.
 struct ImposedPath {
@@ -53,61 +27,6 @@ struct ImposedPath {
             chord + a * (1.0 - s) * (1.0 - 3.0 * s) + b * s * (3.0 * s - 2.0)};
   }
 };
-
-/// Losses of a solenoid summed over the internal steps [J].
-struct SolenoidLosses {
-  double winding_J = 0.0;
-  double iron_J = 0.0;
-};
-
-inline void add_losses(const Solenoid& solenoid, const SolenoidConstants& constants, const SolenoidState& state,
-                       const SolenoidRates& rates, double flux_change_Wb, double h, SolenoidLosses& losses) {
-  const double skin = rates.eddy_current_A - state.skin_current_A;
-  losses.winding_J += h * constants.resistance_ohm * rates.current_A * rates.current_A;
-  losses.iron_J +=
-      h * (solenoid.eddy.core_resistance_ohm * rates.eddy_current_A * rates.eddy_current_A +
-           solenoid.eddy.skin_resistance_ohm * skin * skin) +
-      constants.iron_length_m / constants.per_iron_area_m2 *
-          hysteresis_loss(constants.stops, state.hysteresis_A_per_m, flux_change_Wb * constants.per_iron_area_m2);
-}
-
-/// (1 - w A) k = r for the whole plant, block by block.
-struct PlantSolver {
-  BodySolver body;
-  SolenoidSolver solenoid_a, solenoid_b;
-  HydraulicSolver hydraulics;
-
-  PlantSolver(const PlantParameters& p, const PlantConstants& c, const PlantRates& point, double w)
-      : body(c, point, w) {
-    if (c.solenoid_a) solenoid_a = SolenoidSolver(c.solenoid_a_constants, point.solenoid_a, w);
-    if (c.solenoid_b) solenoid_b = SolenoidSolver(c.solenoid_b_constants, point.solenoid_b, w);
-    if (c.hydraulics) hydraulics = HydraulicSolver(p.supply, p.load, point.hydraulics, w);
-  }
-
-  void operator()(const PlantConstants& c, const PlantVector& right, PlantVector& k) const {
-    body(right, k);
-    if (c.solenoid_a) solenoid_a(solenoid_a_of(right), solenoid_a_of(k));
-    if (c.solenoid_b) solenoid_b(solenoid_b_of(right), solenoid_b_of(k));
-    if (c.hydraulics) hydraulics(hydraulics_of(right), hydraulics_of(k));
-  }
-};
-
-inline void commit(const SolenoidConstants& constants, SolenoidState& state, SolenoidVector states) {
-  state.hysteresis_A_per_m = advanced(constants.stops, state.hysteresis_A_per_m,
-                                      (states[state_flux] - state.flux_Wb) * constants.per_iron_area_m2);
-  state.flux_linkage_Wb = states[state_linkage];
-  state.flux_Wb = states[state_flux];
-  state.skin_current_A = states[state_skin];
-}
-
-inline void commit(PlantState& state, HydraulicVector states) {
-  state.pressure_P_Pa = std::max(states[state_p_P], cavitation_pressure_Pa);
-  state.pressure_A_Pa = std::max(states[state_p_A], cavitation_pressure_Pa);
-  state.pressure_B_Pa = std::max(states[state_p_B], cavitation_pressure_Pa);
-  state.hold_flow_m3_per_s = states[state_Q_i];
-  state.cylinder_position_m = states[state_x_c];
-  state.cylinder_velocity_m_per_s = states[state_v_c];
-}
 
 /// Method coefficients in the form above, from gamma, alpha_ij, gamma_ij of the paper: a = alpha Gamma^-1,
 /// c = diag(1/gamma) - Gamma^-1, m = b Gamma^-1 (the fourth stage's argument plus U_4), e = (b - b^) Gamma^-1.
@@ -162,19 +81,18 @@ struct StepContext {
 
 /// Takes one step of length h unless its error exceeds `tolerance`; the state is untouched then. Returns the error.
 inline double internal_step(const StepContext& context, PlantState& state, double h, double tolerance,
-                            SolenoidLosses& losses_a, SolenoidLosses& losses_b) {
+                            PlantLosses& losses) {
   using Method = Ros34pw2;
   const PlantParameters& p = context.parameters;
   const PlantConstants& c = context.constants;
   const PlantVector u0 = differential_states(state);
-  const ContactAges ages0{state.spool_friction.age, state.solenoid_a.friction.age, state.solenoid_b.friction.age};
   PlantRates first, last;
-  plant_rates(p, c, state, context.input, u0, ages0, state.time_s, first);
+  plant_rates(p, c, state, context.input, u0, contact_ages(state), state.time_s, first);
   const PlantSolver solve(p, c, first, Method::gamma * h);
 
   PlantVector stage[4] = {};
   PlantVector u = u0;
-  ContactAges ages = ages0;
+  ContactAges ages{};
   solve(c, first.rate, stage[0]);
   for (double& value : stage[0]) value *= Method::gamma * h;
   for (std::size_t s = 1; s < 4; ++s) {
@@ -192,16 +110,7 @@ inline double internal_step(const StepContext& context, PlantState& state, doubl
       u[state_x] = x;
       u[state_v] = v;
     }
-    const auto age_at = [&](const Friction& friction, const FrictionState& memory, double breakaway_N) {
-      return aged(friction, memory.age, slip_m(friction, memory, u[state_x] - u0[state_x], breakaway_N), elapsed);
-    };
-    if (c.hydraulics) ages.spool = age_at(p.spool_friction, state.spool_friction, first.spool_breakaway_N);
-    if (c.solenoid_a) {
-      ages.armature_a = age_at(p.solenoid_a.friction, state.solenoid_a.friction, first.armature_a_breakaway_N);
-    }
-    if (c.solenoid_b) {
-      ages.armature_b = age_at(p.solenoid_b.friction, state.solenoid_b.friction, first.armature_b_breakaway_N);
-    }
+    ages = contact_ages(c, state, first, u, elapsed);
     plant_rates(p, c, state, context.input, u, ages, state.time_s + elapsed, last);
     for (std::size_t i = 0; i < plant_states; ++i) right[i] += h * last.rate[i];
     solve(c, right, stage[s]);
@@ -222,32 +131,7 @@ inline double internal_step(const StepContext& context, PlantState& state, doubl
     end[state_x] = u[state_x];
     end[state_v] = u[state_v];
   }
-  const double displacement = end[state_x] - u0[state_x];
-  const auto commit_solenoid = [&](const Solenoid& solenoid, const SolenoidConstants& constants, SolenoidState& memory,
-                                   SolenoidVector states, const SolenoidRates& rates, double breakaway_N, double age,
-                                   SolenoidLosses& losses) {
-    add_losses(solenoid, constants, memory, rates, states[state_flux] - memory.flux_Wb, h, losses);
-    commit(constants, memory, states);
-    slide(solenoid.friction, memory.friction, displacement, breakaway_N);
-    memory.friction.age = age;
-  };
-  const PlantVector& reached = end;
-  if (c.solenoid_a) {
-    commit_solenoid(p.solenoid_a, c.solenoid_a_constants, state.solenoid_a, solenoid_a_of(reached), first.solenoid_a,
-                    last.armature_a_breakaway_N, ages.armature_a, losses_a);
-  }
-  if (c.solenoid_b) {
-    commit_solenoid(p.solenoid_b, c.solenoid_b_constants, state.solenoid_b, solenoid_b_of(reached), first.solenoid_b,
-                    last.armature_b_breakaway_N, ages.armature_b, losses_b);
-  }
-  if (c.hydraulics) {
-    slide(p.spool_friction, state.spool_friction, displacement, last.spool_breakaway_N);
-    state.spool_friction.age = ages.spool;
-    commit(state, hydraulics_of(reached));
-  }
-  state.position_m = end[state_x];
-  state.velocity_m_per_s = end[state_v];
-  state.time_s += h;
+  commit(p, c, state, end, first, last, ages, h, losses);
   return error;
 }
 

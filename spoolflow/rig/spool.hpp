@@ -24,13 +24,13 @@ struct Spool {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit(Parameter{"spool_mass_kg", "kg", 0.01, 1, "steel spool of 12 mm, 70 mm long"}, self.spool_mass_kg);
+    visit(Parameter{"spool_mass_kg", "kg", 0.02, 1, "steel spool of 12 mm, 70 mm long"}, self.spool_mass_kg);
     visit(Parameter{"armature_mass_kg", "kg", 0.01, 0.5, "each; armature of 18 mm, 30 mm long, with push rod"},
           self.armature_mass_kg);
     visit(Parameter{"stroke_m", "m", 5e-4, 4e-3, "position at 100 % of set value; size 6: 2 to 3 mm"}, self.stroke_m);
     visit(Parameter{"end_stop_m", "m", 5e-4, 4.3e-3, "where the push rod meets the pole; beyond the stroke"},
           self.end_stop_m);
-    visit(Parameter{"end_stop_stiffness_N_per_m", "N/m", 1e6, 2e8, "steel on an anti-stick disc: 1e7 to 1e8"},
+    visit(Parameter{"end_stop_stiffness_N_per_m", "N/m", 3e6, 2e8, "steel on an anti-stick disc: 1e7 to 1e8"},
           self.end_stop_stiffness_N_per_m);
     visit(Parameter{"end_stop_damping_s_per_m", "s/m", 0, 10, "Hunt-Crossley factor; 1.5 rebounds at about half speed"},
           self.end_stop_damping_s_per_m);

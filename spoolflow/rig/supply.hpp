@@ -8,7 +8,7 @@
 ///
 ///     C_P dp_P/dt = G (p_set - p_P) + Q_i - Q_PA - Q_PB,   dQ_i/dt = G/T (p_set - p_P)
 ///
-/// or follows at once when `ideal` is asked for. Ripple is a sine at the pump's piston frequency.
+/// or follows at once when `ideal` is asked for. Ripple is a parabolic wave at the pump's piston frequency.
 #include "spoolflow/rig/parameter.hpp"
 
 namespace spoolflow::rig {

@@ -4,8 +4,12 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "spoolflow/rig/plant_integrator.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
 namespace {
@@ -24,6 +28,15 @@ double source_pressure_Pa(const PlantParameters& p, const PlantInput& input, dou
 
 bool holds_ideally(const PlantParameters& p) {
   return p.load.kind == LoadKind::held_difference && p.load.ideal_hold;
+}
+
+[[noreturn]] void diverged(const PlantState& state, double h) {
+  throw std::runtime_error(fmt::format(
+      "the plant has no finite state {:.3g} s after t = {:.6f} s (position {:.4g} mm, velocity {:.4g} m/s, pressure P "
+      "{:.4g} "
+      "bar): check that every parameter is inside its range, then choose a smaller integration.shortest_step_s",
+      h, state.time_s, units::mm_from_m(state.position_m), state.velocity_m_per_s,
+      units::bar_from_Pa(state.pressure_P_Pa)));
 }
 
 EdgeOutput edge_output(const PlantRates& rates, std::size_t index) {
@@ -55,11 +68,17 @@ SolenoidOutput solenoid_output(const SolenoidState& state, const SolenoidConstan
 
 }  // namespace
 
-PlantConstants plant_constants(const PlantParameters& p, const PlantState& state) {
+PlantConstants plant_constants(const PlantParameters& p, const PlantState& state, const PlantInput& input) {
   PlantConstants c{};
   c.solenoid_a = p.arrangement == Arrangement::valve;
   c.solenoid_b = p.arrangement != Arrangement::axial_force_bench;
   c.hydraulics = p.arrangement != Arrangement::solenoid_bench;
+  const auto magnetic = [](const SolenoidState& solenoid, double voltage_V) {
+    return voltage_V != 0.0 || solenoid.flux_linkage_Wb != 0.0 || solenoid.flux_Wb != 0.0 ||
+           solenoid.skin_current_A != 0.0 || solenoid.hysteresis_A_per_m != HysteresisState{};
+  };
+  c.magnetic_a = c.solenoid_a && magnetic(state.solenoid_a, input.voltage_a_V);
+  c.magnetic_b = c.solenoid_b && magnetic(state.solenoid_b, input.voltage_b_V);
   c.armatures = (c.solenoid_a ? 1.0 : 0.0) + (c.solenoid_b ? 1.0 : 0.0);
   c.mass_kg = (c.hydraulics ? p.spool.spool_mass_kg : 0.0) + c.armatures * p.spool.armature_mass_kg;
 
@@ -78,13 +97,9 @@ PlantConstants plant_constants(const PlantParameters& p, const PlantState& state
     }
   }
   c.armature_drag_N_s_per_m = c.armatures * dynamic_viscosity_Pa_s * p.spool.armature_drag_m;
-  const double thickness = std::log(c.viscosity_m2_per_s / 46e-6);
-  const auto factor = [thickness](const Friction& friction) {
-    return friction.wear_factor * std::exp(friction.viscosity_exponent * thickness);
-  };
-  c.spool_friction_factor = factor(p.spool_friction);
-  c.armature_a_friction_factor = factor(p.solenoid_a.friction);
-  c.armature_b_friction_factor = factor(p.solenoid_b.friction);
+  c.spool_friction = friction_constants(p.spool_friction, c.viscosity_m2_per_s);
+  c.armature_a_friction = friction_constants(p.solenoid_a.friction, c.viscosity_m2_per_s);
+  c.armature_b_friction = friction_constants(p.solenoid_b.friction, c.viscosity_m2_per_s);
   c.solenoid_a_constants = solenoid_constants(p.solenoid_a, state.solenoid_a.heat);
   c.solenoid_b_constants = solenoid_constants(p.solenoid_b, state.solenoid_b.heat);
   return c;
@@ -110,31 +125,35 @@ PlantState plant_at_rest(const PlantParameters& p, const PlantInput& input) {
 
 void step(const PlantParameters& p, PlantState& state, const PlantInput& input, double dt_s) {
   refresh_oil(p, state, input.oil_temperature_C);
-  const PlantConstants c = plant_constants(p, state);
+  const PlantConstants c = plant_constants(p, state, input);
   const ErrorScale scale(p, c);
   ImposedPath path{};
   if (input.motion) {
     path = {state.position_m, state.velocity_m_per_s, input.motion->position_m, input.motion->velocity_m_per_s, dt_s};
   }
   const StepContext context{p, c, input, scale, input.motion ? &path : nullptr, state.time_s};
-  SolenoidLosses losses_a, losses_b;
+  PlantLosses losses;
 
-  // Steps lie on a grid of dt/(count 2^finest); position and stride count in ticks of that grid.
+  // Steps lie on a grid of dt/(count 2^levels); position and stride count in ticks of that grid.
   constexpr double grow = 1.0 / 16.0;  // of the tolerance: doubling multiplies the estimate by about eight
   const double count = std::max(1.0, std::ceil(dt_s / p.integration.longest_step_s - 1e-6));
   const double longest = dt_s / count;
-  int finest = 0;
-  while (finest < 20 && std::ldexp(longest, -finest - 1) >= p.integration.shortest_step_s) ++finest;
-  const std::int64_t ticks_per_longest = std::int64_t{1} << finest;
+  double finest = longest;
+  std::int64_t ticks_per_longest = 1;
+  while (ticks_per_longest < 1 << 20 && 0.5 * finest >= p.integration.shortest_step_s) {
+    finest *= 0.5;
+    ticks_per_longest *= 2;
+  }
   const std::int64_t end = static_cast<std::int64_t>(count) * ticks_per_longest;
   std::int64_t tick = 0;
   std::int64_t stride = ticks_per_longest;
   while (tick < end) {
     if (holds_ideally(p)) state.pressure_P_Pa = source_pressure_Pa(p, input, state.time_s);
     const double tolerance = stride > 1 ? p.integration.tolerance : std::numeric_limits<double>::infinity();
-    const double h = std::ldexp(longest, -finest) * static_cast<double>(stride);
-    const double error = internal_step(context, state, h, tolerance, losses_a, losses_b);
+    const double h = finest * static_cast<double>(stride);
+    const double error = internal_step(context, state, h, tolerance, losses);
     if (!(error <= tolerance)) {
+      if (stride == 1) diverged(state, h);
       stride /= 2;
       continue;
     }
@@ -142,12 +161,12 @@ void step(const PlantParameters& p, PlantState& state, const PlantInput& input, 
     if (error < grow * p.integration.tolerance && stride < ticks_per_longest && tick % (2 * stride) == 0) stride *= 2;
   }
   if (c.solenoid_a) {
-    heat_up(p.solenoid_a.heat, state.solenoid_a.heat, losses_a.winding_J / dt_s, losses_a.iron_J / dt_s,
-            input.ambient_temperature_C, input.oil_temperature_C, dt_s);
+    heat_up(p.solenoid_a.heat, state.solenoid_a.heat, losses.solenoid_a.winding_J / dt_s,
+            losses.solenoid_a.iron_J / dt_s, input.ambient_temperature_C, input.oil_temperature_C, dt_s);
   }
   if (c.solenoid_b) {
-    heat_up(p.solenoid_b.heat, state.solenoid_b.heat, losses_b.winding_J / dt_s, losses_b.iron_J / dt_s,
-            input.ambient_temperature_C, input.oil_temperature_C, dt_s);
+    heat_up(p.solenoid_b.heat, state.solenoid_b.heat, losses.solenoid_b.winding_J / dt_s,
+            losses.solenoid_b.iron_J / dt_s, input.ambient_temperature_C, input.oil_temperature_C, dt_s);
   }
 }
 
@@ -155,10 +174,9 @@ PlantOutput observe(const PlantParameters& p, const PlantState& state_now, const
   PlantState state = state_now;
   refresh_oil(p, state, input.oil_temperature_C);
   if (holds_ideally(p)) state.pressure_P_Pa = source_pressure_Pa(p, input, state.time_s);
-  const PlantConstants c = plant_constants(p, state);
-  const ContactAges ages{state.spool_friction.age, state.solenoid_a.friction.age, state.solenoid_b.friction.age};
+  const PlantConstants c = plant_constants(p, state, input);
   PlantRates r{};
-  plant_rates(p, c, state, input, differential_states(state), ages, state.time_s, r);
+  plant_rates(p, c, state, input, differential_states(state), contact_ages(state), state.time_s, r);
 
   PlantOutput out;
   out.time_s = state.time_s;

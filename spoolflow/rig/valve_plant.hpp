@@ -40,7 +40,7 @@ enum class Arrangement {
 struct Integration {
   double longest_step_s = 1e-4;
   double shortest_step_s = 1.5e-6;
-  double tolerance = 2e-5;
+  double tolerance = 5e-5;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
