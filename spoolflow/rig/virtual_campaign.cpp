@@ -85,7 +85,9 @@ std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const Camp
   items.add("temperature_sweep.csv", "", sweep);
   items.add("pressure_steps.csv", "", protocol_named("pressure_steps"));
   items.add("sine_sweep.csv", "",
-            SineProtocol{.conditions = {}, .pressure_difference_bar = settings.sweep_pressure_bar});
+            SineProtocol{.conditions = {},
+                         .frequency_end_Hz = settings.sweep_frequency_Hz,
+                         .pressure_difference_bar = settings.sweep_pressure_bar});
   ValveUnderTest dithered = items.valve();
   if (dithered.electronics.dither.amplitude_A == 0) {
     dithered.electronics.dither = {.amplitude_A = settings.dither_amplitude_A,

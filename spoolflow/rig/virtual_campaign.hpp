@@ -19,6 +19,7 @@ struct CampaignSettings {
   std::vector<double> ramps_pressures_bar{30, 40, 50, 60, 70};
   double ramps_position_faults_per_s = 0.1;
   double sweep_pressure_bar = 50.0;
+  double sweep_frequency_Hz = 8.0;
   double duty_cycle_s = 180.0;
   double dither_amplitude_A = 0.2;
   double dither_frequency_Hz = 160.0;
@@ -35,6 +36,8 @@ struct CampaignSettings {
           self.ramps_position_faults_per_s);
     visit(Parameter{"sweep_pressure_bar", "bar", 0.5, 350, "of the temperature sweep and the sine sweep"},
           self.sweep_pressure_bar);
+    visit(Parameter{"sweep_frequency_Hz", "Hz", 0.2, 100, "reached by the sine sweep from 0.1 Hz"},
+          self.sweep_frequency_Hz);
     visit(Parameter{"duty_cycle_s", "s", 1, 3600, "of the random duty cycle"}, self.duty_cycle_s);
     visit(Parameter{"dither_amplitude_A", "A", 0, 1, "of the dither run, where the electronics have none of their own"},
           self.dither_amplitude_A);
