@@ -13,7 +13,7 @@
 
 #include "spoolflow/rig/protocol.hpp"
 #include "spoolflow/rig/simulate.hpp"
-#include "tests/rig/plant_cvode.hpp"
+#include "tests/cvode/plant_cvode.hpp"
 #include "tests/rig/smooth_plant.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 /// The plant's own integrator against SUNDIALS CVODE at a relative tolerance of 1e-8.
-#include "tests/rig/plant_cvode.hpp"
+#include "tests/cvode/plant_cvode.hpp"
 
 #include <gtest/gtest.h>
 
