@@ -1,0 +1,72 @@
+# What `cmake --install` puts where, and the Debian packages that `cpack` makes of it: the tool (component tool), and what
+# other programs build against (component development).
+include(CMakePackageConfigHelpers)
+
+# Manual page and completion are made from the built command's own help.
+set(made ${PROJECT_BINARY_DIR}/package)
+foreach(page IN ITEMS man_page:spoolflow.1 completion:spoolflow.bash)
+  string(REGEX MATCH "^[^:]+" script ${page})
+  string(REGEX REPLACE "^[^:]+:" "" file ${page})
+  add_custom_command(
+    OUTPUT ${made}/${file}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${made}
+    COMMAND ${PROJECT_SOURCE_DIR}/ci/${script}.sh $<TARGET_FILE:spoolflow> > ${made}/${file}
+    DEPENDS spoolflow ${PROJECT_SOURCE_DIR}/ci/${script}.sh)
+endforeach()
+add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1 ${made}/spoolflow.bash)
+
+# The tool.
+install(TARGETS spoolflow RUNTIME COMPONENT tool)
+install(FILES ${made}/spoolflow.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
+install(FILES ${made}/spoolflow.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME spoolflow
+        COMPONENT tool)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spoolflow RENAME copyright COMPONENT tool)
+
+# Libraries, headers, and how other builds find them. The sensor's core is headers only.
+add_library(spoolflow_core INTERFACE)
+target_include_directories(spoolflow_core INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(spoolflow_core INTERFACE cxx_std_20)
+set_target_properties(spoolflow_core PROPERTIES EXPORT_NAME sensor)
+set_target_properties(spoolflow_c_shared PROPERTIES EXPORT_NAME spoolflow)
+set_target_properties(spoolflow_c_static PROPERTIES EXPORT_NAME spoolflow_static)
+install(TARGETS spoolflow_c_shared spoolflow_c_static spoolflow_core EXPORT spoolflow
+        LIBRARY COMPONENT development NAMELINK_COMPONENT development
+        ARCHIVE COMPONENT development)
+install(FILES spoolflow/export/c_interface/spoolflow.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(DIRECTORY spoolflow/sensor DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spoolflow COMPONENT development
+        FILES_MATCHING PATTERN *.hpp)
+install(DIRECTORY examples/c_interface DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libspoolflow-dev/examples COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libspoolflow-dev RENAME copyright
+        COMPONENT development)
+set(config ${CMAKE_INSTALL_LIBDIR}/cmake/spoolflow)
+install(EXPORT spoolflow NAMESPACE spoolflow:: FILE spoolflowTargets.cmake DESTINATION ${config} COMPONENT development)
+configure_package_config_file(cmake/spoolflowConfig.cmake.in ${made}/spoolflowConfig.cmake INSTALL_DESTINATION ${config})
+write_basic_package_version_file(${made}/spoolflowConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(cmake/spoolflow.pc.in ${made}/spoolflow.pc @ONLY)
+install(FILES ${made}/spoolflowConfig.cmake ${made}/spoolflowConfigVersion.cmake DESTINATION ${config} COMPONENT development)
+install(FILES ${made}/spoolflow.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+# cpack -G DEB
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME spoolflow)
+set(CPACK_PACKAGE_VENDOR "the spoolflow authors")
+set(CPACK_PACKAGE_CONTACT "the spoolflow authors <spoolflow@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL tool development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_TOOL_PACKAGE_NAME spoolflow)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libspoolflow-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)
+include(CPack)
+cpack_add_component(tool DESCRIPTION "Soft flow-rate sensor for solenoid-operated spool valves
+ Calibrates a valve from bench recordings, estimates its flow rate from coil
+ current, coil voltage and spool position, and exports the sensor as FMU or C++.")
+cpack_add_component(development DESCRIPTION "Soft flow-rate sensor for spool valves: C library and C++ core
+ spoolflow.h with shared and static library, the sensor's C++ headers, and the
+ files by which CMake and pkg-config find them.")
