@@ -63,7 +63,6 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, ActuatorStat
 template <class T>
 constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
                                    const Sample<T>& sample) {
-  using std::sqrt;
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
   if (!state.started) {

@@ -77,9 +77,10 @@ constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, const Co
 /// brought to the first current slowly.
 template <class T>
 constexpr void begin(const Coil<T>& coil, CoilState<T>& state, T current_A, const Cell<T>& position) {
-  state = {};
+  state.magnetising_current_A = T(0);
+  state.static_current_A = T(0);
   for (int pass = 0; pass < 4; ++pass) {
-    state.hysteresis = {};
+    demagnetise(state.hysteresis);
     state.flux_rate_V = T(0);
     state.time_constant_s = T(0);
     follow_current(coil, state, {T(1e6), current_A}, position);

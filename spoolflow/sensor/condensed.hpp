@@ -36,7 +36,6 @@ static_assert(std::is_trivially_copyable_v<CondensedState<float>>);
 /// backwards: otherwise the last answer is held. Other inputs are not read.
 template <class T>
 constexpr Estimate<T> step(const CondensedParameters<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
-  using std::sqrt;
   if (const Status held = unusable(sample); held != Status::none) {
     state.last.status = held;
     return state.last;

@@ -20,7 +20,6 @@ struct EddyCurrents {
   T smallest_rate_V{T(1)};  ///< > 0; below it the excess part becomes proportional, too
 
   [[nodiscard]] constexpr EddyCurrent<T> at(T flux_rate_V) const {
-    using std::sqrt;
     const T size = magnitude(flux_rate_V);
     const T per_root = T(1) / sqrt(size + smallest_rate_V);
     const T share = size * per_root * per_root;  // 0 where proportional, 1 where the root law holds

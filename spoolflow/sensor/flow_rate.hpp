@@ -27,7 +27,6 @@ struct FlowRate {
   Map<T, flow_map_positions, flow_map_forces> root_pressure_difference;  ///< sqrt(Pa), same axes
 
   [[nodiscard]] constexpr FlowRatePoint<T> at(T flow_force_N, T position_m) const {
-    using std::sqrt;
     const T largest = largest_force_N.at(position_m).value;
     const T share = flow_force_N / largest;
     const Cell<T> force = locate<flow_map_forces>(flow_m3_per_s.column_axis, sqrt(limited(share, T(0), T(1))));

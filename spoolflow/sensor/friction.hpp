@@ -66,7 +66,6 @@ template <class T>
 constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                    const FrictionBounds<T>& bounds, const PositionSensor<T>& sensor,
                                    const PositionPoint<T>& position, T apparent_N, T time_step_s) {
-  using std::sqrt;
   if (!state.started) {
     state.started = true;
     state.smooth_m = state.followed_m = position.position_m;

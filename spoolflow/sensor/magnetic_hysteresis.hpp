@@ -31,6 +31,13 @@ struct HysteresisState {
 
 static_assert(std::is_trivially_copyable_v<HysteresisState<float>>);
 
+/// As {} would; no block of memory is cleared, for which a compiler may want a library.
+template <class T>
+constexpr void demagnetise(HysteresisState<T>& state) {
+  state.flux = T(0);
+  for (T& deflection : state.deflection) deflection = T(0);
+}
+
 /// What the hysteresis would answer at another flux.
 template <class T>
 struct HysteresisPoint {

@@ -89,7 +89,6 @@ constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& samp
 /// alone.
 template <class T>
 constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
-  using std::sqrt;
   if (const Status held = unusable(sample); held != Status::none) {
     state.last.status = held;
     return state.last;

@@ -86,7 +86,6 @@ constexpr Motion even_travel(const PositionState<T>& state, int apart, int count
 
 template <class T>
 constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& state) {
-  using std::sqrt;
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
   state.block_m[static_cast<unsigned>(state.newest)] = state.sum_m * state.per_block_samples;

@@ -1,0 +1,45 @@
+/// What a step of the exported sensors costs on emulated cores: instructions, flash, memory.
+/// cortex_m_cost MODEL.json RECORDING
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "tests/cortex_m/replay.hpp"
+
+namespace {
+
+using namespace spoolflow;
+
+void print(const cortex_m::Core& core, validation::Estimator estimator, const cortex_m::Replay& replay) {
+  fmt::print("{}, {}: {} samples, largest difference to double precision on the host {:.4f} % of the rated flow\n",
+             core.name, validation::name(estimator), replay.points, replay.largest_error_percent);
+  fmt::print("  {:<20}{:>9}{:>9}{:>9}\n", "instructions a step", "steps", "median", "largest");
+  const auto line = [](const cortex_m::StepCost& cost) {
+    fmt::print("  {:<20}{:>9}{:>9}{:>9}\n", cost.way, cost.steps, cost.median, cost.largest);
+  };
+  line(replay.all);
+  for (const cortex_m::StepCost& way : replay.ways) line(way);
+  fmt::print("  code and tables {} bytes of flash, state {} bytes, stack {} bytes\n\n", replay.flash_bytes,
+             replay.state_bytes, replay.stack_bytes);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    fmt::print(stderr, "usage: cortex_m_cost MODEL.json RECORDING\n");
+    return 2;
+  }
+  try {
+    const model::Model model = model::read_model(argv[1]);
+    for (const cortex_m::Core& core : cortex_m::cores) {
+      for (const auto estimator : {validation::Estimator::observer, validation::Estimator::condensed}) {
+        print(core, estimator, cortex_m::replay(model, estimator, argv[2], core));
+      }
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cortex_m_cost: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,16 @@
+#pragma once
+/// A recording as the firmware of tests/cortex_m replays it.
+#include <filesystem>
+#include <string>
+
+#include "spoolflow/validation/estimation.hpp"
+
+namespace spoolflow::cortex_m {
+
+/// The bytes of `Run` in firmware/replay.cpp, little-endian: samples in single precision with the flow rate that the
+/// host answers to the very same samples in double precision. Behind the recording come two seconds of disturbances:
+/// faults of the position sensor, slips, missing inputs, a current beyond its range.
+[[nodiscard]] std::string packed_run(const model::Model& model, validation::Estimator estimator,
+                                     const std::filesystem::path& recording);
+
+}  // namespace spoolflow::cortex_m

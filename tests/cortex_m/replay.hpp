@@ -1,0 +1,48 @@
+#pragma once
+/// Cross-compiles an exported folder, replays a recording through it on an emulated core, and tells what came out.
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "spoolflow/validation/estimation.hpp"
+
+namespace spoolflow::cortex_m {
+
+struct Core {
+  const char* name;
+  const char* flags;    ///< of the compiler
+  const char* machine;  ///< of QEMU
+};
+inline constexpr std::array<Core, 2> cores{{{"Cortex-M4F", "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16", "mps2-an386"},
+                                            {"Cortex-M7", "-mcpu=cortex-m7 -mfpu=fpv5-sp-d16", "mps2-an500"}}};
+
+/// Instructions of one step, call and return included. Emulated: a count, no time.
+struct StepCost {
+  std::string way;  ///< through the step
+  std::uint32_t steps;
+  std::uint32_t median;
+  std::uint32_t largest;
+};
+
+struct Replay {
+  std::uint32_t points;          ///< samples replayed
+  double largest_error_percent;  ///< of the rated flow, single precision on the core against double on the host
+  std::uint32_t not_a_number;    ///< answers with a NaN in them
+  bool made_nan;                 ///< the floating-point unit's flag
+  bool met_denormal;             ///< the floating-point unit's flag
+  sensor::Status statuses;       ///< every bit that was ever set
+  StepCost all;
+  std::vector<StepCost> ways;  ///< each that was taken
+  std::uint32_t state_bytes;
+  std::uint32_t stack_bytes;       ///< of one step
+  std::uint32_t flash_bytes;       ///< code and tables of this sensor, linked without any library but the compiler's
+  std::uint32_t self_test_status;  ///< of the exported self-test on the core
+};
+
+/// Throws std::runtime_error with what the tools said where one of them fails.
+[[nodiscard]] Replay replay(const model::Model& model, validation::Estimator estimator,
+                            const std::filesystem::path& recording, const Core& core);
+
+}  // namespace spoolflow::cortex_m

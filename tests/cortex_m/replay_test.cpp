@@ -1,0 +1,56 @@
+#include "tests/cortex_m/replay.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace spoolflow::cortex_m {
+namespace {
+
+using sensor::Status;
+using validation::Estimator;
+
+constexpr double most_percent = 0.1;  // of the rated flow: a tenth of what the best flow meters claim
+
+struct Limits {
+  std::uint32_t instructions;
+  std::size_t ways;
+};
+
+void expect_fit_for_a_valve(const Replay& replay, const Limits& limits) {
+  EXPECT_GE(replay.points, 60000U);
+  EXPECT_LT(replay.largest_error_percent, most_percent);
+  EXPECT_EQ(replay.not_a_number, 0U);
+  EXPECT_FALSE(replay.made_nan);
+  EXPECT_FALSE(replay.met_denormal);
+  EXPECT_EQ(replay.self_test_status, 0U);
+  EXPECT_LE(replay.all.largest, limits.instructions);
+  EXPECT_EQ(replay.ways.size(), limits.ways);
+  EXPECT_LT(replay.state_bytes, 2048U);
+  EXPECT_LT(replay.stack_bytes, 2048U);
+  EXPECT_LT(replay.flash_bytes, 65536U);
+}
+
+class CortexM : public ::testing::TestWithParam<Core> {
+ protected:
+  const model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+  const std::filesystem::path minute = SPOOLFLOW_EXAMPLES "/valve_a/duty_cycle_1.h5";
+};
+
+TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
+  const Replay observer = replay(model, Estimator::observer, minute, GetParam());
+  expect_fit_for_a_valve(observer, {4700, 9});
+  for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_force_map,
+                              Status::outside_temperature, Status::position_fault, Status::sample_missing}) {
+    EXPECT_TRUE(has(observer.statuses, status)) << static_cast<std::uint32_t>(status);
+  }
+}
+
+TEST_P(CortexM, CondensedSensorAnswersAsTheHostOverAMinuteOfOperation) {
+  expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {700, 4});
+}
+
+INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),
+                         [](const auto& core) { return std::string(core.param.machine).substr(5); });
+
+}  // namespace
+}  // namespace spoolflow::cortex_m
