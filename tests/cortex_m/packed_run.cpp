@@ -52,7 +52,7 @@ void append_disturbances(std::vector<Sample>& samples, double stroke_m) {
     if (part == 7) sample.voltage_V = sample.oil_temperature_K = missing;
     if (part == 8) sample.current_A *= 3.0F;
     if (part == 9) sample.position_m = 0.0F;
-    if (part == 10) sample.oil_temperature_K = 260.0F;
+    if (part >= 10) sample.oil_temperature_K = 200.0F;
     if (part == 11) sample.time_step_s = 0.0F;
     if (part > 12) sample.position_m = 0.5F * stroke * static_cast<float>(k % 20) / 20.0F;
     samples.push_back(sample);

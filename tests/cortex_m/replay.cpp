@@ -128,7 +128,7 @@ Replay replay(const model::Model& model, Estimator estimator, const fs::path& re
   out.points = figures.at("points");
   out.largest_error_percent = 1e-4 * figures.at("error_ppm");
   out.not_a_number = figures.at("not_a_number");
-  out.made_nan = (figures.at("flags") & 1U) != 0;
+  out.made_nan = (figures.at("flags_recorded") & 1U) != 0;
   out.met_denormal = (figures.at("flags") & 0x88U) != 0;
   out.statuses = static_cast<sensor::Status>(figures.at("statuses"));
   out.all = cost(figures, "all", "all");

@@ -30,7 +30,7 @@ struct Replay {
   std::uint32_t points;          ///< samples replayed
   double largest_error_percent;  ///< of the rated flow, single precision on the core against double on the host
   std::uint32_t not_a_number;    ///< answers with a NaN in them
-  bool made_nan;                 ///< the floating-point unit's flag
+  bool made_nan;                 ///< the floating-point unit's flag, while no input was missing
   bool met_denormal;             ///< the floating-point unit's flag
   sensor::Status statuses;       ///< every bit that was ever set
   StepCost all;
