@@ -41,6 +41,7 @@ ShownUnit shown_unit(recording::Channel channel) {
     case Dimension::length:
       return {"mm", units::millimetre_per_metre, 0};
     case Dimension::ratio:
+      if (channel == recording::Channel::test) return {"", 1, 0};
       return {"percent", 100, 0};
     case Dimension::force:
       return {"N", 1, 0};
@@ -48,9 +49,9 @@ ShownUnit shown_unit(recording::Channel channel) {
       return {"bar", 1 / units::pascal_per_bar, 0};
     case Dimension::temperature:
       return {"C", 1, -units::kelvin_at_0_degC};
-    case Dimension::flow:
+    case Dimension::volume_flow:
       return {"L/min", units::litre_per_minute_per_m3_per_s, 0};
-    case Dimension::none:
+    default:
       break;
   }
   return {"", 1, 0};

@@ -5,75 +5,103 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/nearest_name.hpp"
-#include "spoolflow/recording/read_channel_map.hpp"
+#include "spoolflow/recording/allowed_names.hpp"
 #include "spoolflow/recording/recording_error.hpp"
-#include "spoolflow/recording/toml_place.hpp"
+#include "spoolflow/recording/toml_input.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::array<std::string_view, 5> protocols{"spring", "solenoid_force_map", "solenoid_dynamic",
-                                                    "axial_force_map", "operation"};
+constexpr std::array<std::string_view, 5> protocol_names{"spring", "solenoid_force_map", "solenoid_dynamic",
+                                                         "axial_force_map", "operation"};
 
-Protocol protocol_of(const toml::table& entry, const std::filesystem::path& file) {
-  const std::string text = text_of(entry, "protocol", "[[recording]]", file);
-  const auto found = std::find(protocols.begin(), protocols.end(), text);
-  if (found == protocols.end()) {
-    throw RecordingError(fmt::format("{}: there is no protocol \"{}\"; did you mean \"{}\"?",
-                                     place_of(*entry.get("protocol"), file), text, nearest_name(text, protocols)));
+Protocol protocol_of(const TomlTable& entry) {
+  const std::string written = entry.text("protocol");
+  const auto found = std::find(protocol_names.begin(), protocol_names.end(), written);
+  if (found == protocol_names.end()) {
+    const std::vector<std::string> allowed(protocol_names.begin(), protocol_names.end());
+    throw RecordingError(fmt::format("{}: unknown protocol \"{}\"{}; allowed: {}", entry.place("protocol"), written,
+                                     did_you_mean(written, allowed), listed(allowed)));
   }
-  return static_cast<Protocol>(found - protocols.begin());
+  return static_cast<Protocol>(found - protocol_names.begin());
 }
 
-std::optional<double> positive_if_given(const toml::table* table, std::string_view key, double to_SI,
-                                        const std::filesystem::path& file) {
-  if (table == nullptr || !table->contains(key)) return std::nullopt;
-  return positive_of(*table, key, "[fluid]", file) * to_SI;
+CampaignValve valve_of(const TomlTable& table) {
+  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction"});
+  CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.positive("rated_flow_L_min")),
+                      units::m_from_mm(table.positive("stroke_mm")), table.optional_text("direction").value_or("b")};
+  if (valve.direction != "a" && valve.direction != "b") {
+    throw RecordingError(fmt::format("{}: direction \"{}\" is not known; allowed: \"b\" (flow P to B), \"a\" (P to A)",
+                                     table.place("direction"), valve.direction));
+  }
+  constexpr double longest_stroke_m = 0.1;
+  if (valve.stroke_m > longest_stroke_m) {
+    throw RecordingError(fmt::format("{}: a stroke of {} mm is longer than any spool valve's; give it in mm",
+                                     table.place("stroke_mm"), units::mm_from_m(valve.stroke_m)));
+  }
+  return valve;
 }
 
-CampaignValve valve_of(const toml::table& valve, const std::filesystem::path& file) {
-  refuse_unknown_keys(valve, {"name", "rated_flow_L_min", "stroke_mm", "direction"}, "[valve]", file);
-  CampaignValve out{text_of(valve, "name", "[valve]", file),
-                    units::m3_per_s_from_L_per_min(positive_of(valve, "rated_flow_L_min", "[valve]", file)),
-                    units::m_from_mm(positive_of(valve, "stroke_mm", "[valve]", file)), "b"};
-  if (valve.contains("direction")) out.direction = text_of(valve, "direction", "[valve]", file);
-  if (out.direction != "a" && out.direction != "b") {
-    throw RecordingError(fmt::format("{}: valve.direction is \"{}\"; it is \"b\" (flow P to B) or \"a\" (P to A)",
-                                     place_of(*valve.get("direction"), file), out.direction));
+CampaignFluid fluid_of(const TomlTable& table) {
+  table.allow_only({"name", "density_15C_kg_per_m3", "viscosity_40C_mm2_per_s", "viscosity_100C_mm2_per_s"});
+  const auto viscosity = [&table](std::string_view key) -> std::optional<double> {
+    const auto written = table.optional_positive(key);
+    return written ? std::optional(units::m2_per_s_from_mm2_per_s(*written)) : std::nullopt;
+  };
+  return {table.optional_text("name").value_or(""), table.optional_positive("density_15C_kg_per_m3"),
+          viscosity("viscosity_40C_mm2_per_s"), viscosity("viscosity_100C_mm2_per_s")};
+}
+
+CampaignInstruments instruments_of(const TomlTable& table) {
+  table.allow_only({"position_uncertainty_mm", "current_uncertainty_A", "force_uncertainty_N",
+                    "pressure_uncertainty_bar", "temperature_uncertainty_K"});
+  CampaignInstruments out;
+  if (const auto written = table.optional_positive("position_uncertainty_mm")) {
+    out.position_uncertainty_m = units::m_from_mm(*written);
   }
-  if (out.stroke_m > 0.05) {
-    throw RecordingError(fmt::format("{}: valve.stroke_mm is {:g}, plausible are up to 50",
-                                     place_of(*valve.get("stroke_mm"), file), units::mm_from_m(out.stroke_m)));
+  out.current_uncertainty_A = table.optional_positive("current_uncertainty_A");
+  out.force_uncertainty_N = table.optional_positive("force_uncertainty_N");
+  if (const auto written = table.optional_positive("pressure_uncertainty_bar")) {
+    out.pressure_uncertainty_Pa = units::Pa_from_bar(*written);
   }
+  out.temperature_uncertainty_K = table.optional_positive("temperature_uncertainty_K");
   return out;
 }
 
-CampaignRecording recording_of(const toml::node& node, const std::filesystem::path& file) {
-  const toml::table* entry = node.as_table();
-  if (entry == nullptr) throw RecordingError(fmt::format("{}: a [[recording]] is a table", place_of(node, file)));
-  refuse_unknown_keys(*entry, {"protocol", "file", "channels"}, "[[recording]]", file);
+CampaignRecording recording_of(const TomlTable& entry) {
+  entry.allow_only({"protocol", "file", "channels"});
   CampaignRecording out{
-      protocol_of(*entry, file), text_of(*entry, "file", "[[recording]]", file), {}, place_of(*entry, file)};
-  if (out.file.is_relative()) out.file = file.parent_path() / out.file;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(out.file, error)) {
-    throw RecordingError(
-        fmt::format("{}: the recording \"{}\" is not there; paths are taken from the campaign's folder",
-                    place_of(*entry->get("file"), file), out.file.string()));
+      protocol_of(entry), entry.file.parent_path() / entry.text("file"), {}, place_of(entry.table, entry.file)};
+  std::error_code failure;
+  if (!std::filesystem::exists(out.file, failure)) {
+    throw RecordingError(fmt::format("{}: the recording {} does not exist; correct file = \"{}\" or put the file there",
+                                     entry.place("file"), out.file.string(), entry.text("file")));
   }
-  if (const toml::node* channels = entry->get("channels")) {
-    if (!channels->is_table()) throw RecordingError(fmt::format("{}: channels is no table", place_of(*channels, file)));
-    out.channels = parse_channel_map(*channels->as_table(), file);
+  if (const toml::node* channels = entry.table.get("channels")) {
+    const toml::table* table = channels->as_table();
+    if (table == nullptr) {
+      throw RecordingError(fmt::format("{}: channels must be a table, [recording.channels]", entry.place("channels")));
+    }
+    out.channels = read_channels(*table, entry.file);
   }
   return out;
+}
+
+/// The table `key` of the document; throws where it is missing or of another kind.
+TomlTable table_of(const TomlTable& document, std::string_view key) {
+  const toml::node* node = document.table.get(key);
+  const toml::table* table = node == nullptr ? nullptr : node->as_table();
+  if (table == nullptr) {
+    throw RecordingError(fmt::format("{}: a campaign needs a table [{}]", document.place(key), key));
+  }
+  return {*table, document.file, fmt::format("[{}]", key)};
 }
 
 }  // namespace
 
 std::string_view name(Protocol protocol) {
-  return protocols[static_cast<std::size_t>(protocol)];
+  return protocol_names[static_cast<std::size_t>(protocol)];
 }
 
 std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
@@ -85,34 +113,27 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
 }
 
 Campaign read_campaign(const std::filesystem::path& file) {
-  const toml::table table = read_toml(file);
-  refuse_unknown_keys(table, {"valve", "fluid", "recording", "instruments"}, "the campaign", file);
-  const toml::table* valve = table["valve"].as_table();
-  if (valve == nullptr) {
-    throw RecordingError(
-        fmt::format("{}: has no [valve] table; add one with name, rated_flow_L_min and stroke_mm", file.string()));
-  }
-  const toml::table* fluid = table["fluid"].as_table();
-  if (fluid != nullptr) {
-    refuse_unknown_keys(*fluid,
-                        {"name", "density_15C_kg_per_m3", "viscosity_40C_mm2_per_s", "viscosity_100C_mm2_per_s"},
-                        "[fluid]", file);
-  }
-  Campaign out{file, valve_of(*valve, file), {}, {}};
-  out.fluid.name =
-      fluid != nullptr && fluid->contains("name") ? text_of(*fluid, "name", "[fluid]", file) : "not stated";
-  out.fluid.density_15C_kg_per_m3 = positive_if_given(fluid, "density_15C_kg_per_m3", 1, file);
-  out.fluid.viscosity_40C_m2_per_s =
-      positive_if_given(fluid, "viscosity_40C_mm2_per_s", units::m2_per_s_per_mm2_per_s, file);
-  out.fluid.viscosity_100C_m2_per_s =
-      positive_if_given(fluid, "viscosity_100C_mm2_per_s", units::m2_per_s_per_mm2_per_s, file);
-  const toml::array* recordings = table["recording"].as_array();
+  const toml::table read = read_toml(file);
+  const TomlTable document{read, file, "the campaign"};
+  document.allow_only({"valve", "fluid", "instruments", "recording"});
+  Campaign campaign;
+  campaign.file = file;
+  campaign.valve = valve_of(table_of(document, "valve"));
+  if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
+  if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
+  const toml::array* recordings = read["recording"].as_array();
   if (recordings == nullptr || recordings->empty()) {
-    throw RecordingError(
-        fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file", file.string()));
+    throw RecordingError(fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file",
+                                     document.place("recording")));
   }
-  for (const toml::node& node : *recordings) out.recordings.push_back(recording_of(node, file));
-  return out;
+  for (const toml::node& node : *recordings) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      throw RecordingError(fmt::format("{}: write each recording as a table [[recording]]", place_of(node, file)));
+    }
+    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}));
+  }
+  return campaign;
 }
 
 }  // namespace spoolflow::recording

@@ -1,5 +1,6 @@
 #pragma once
 /// The bench recordings that together describe one valve (campaign.toml).
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,6 +29,15 @@ struct CampaignFluid {
   std::optional<double> viscosity_100C_m2_per_s;
 };
 
+/// What the instruments of the bench are good for, as 95 % uncertainties in SI; absent where not given.
+struct CampaignInstruments {
+  std::optional<double> position_uncertainty_m;
+  std::optional<double> current_uncertainty_A;
+  std::optional<double> force_uncertainty_N;
+  std::optional<double> pressure_uncertainty_Pa;
+  std::optional<double> temperature_uncertainty_K;
+};
+
 struct CampaignRecording {
   Protocol protocol;
   std::filesystem::path file;  ///< resolved against the campaign's folder
@@ -39,6 +49,7 @@ struct Campaign {
   std::filesystem::path file;
   CampaignValve valve;
   CampaignFluid fluid;
+  CampaignInstruments instruments;
   std::vector<CampaignRecording> recordings;
 
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;

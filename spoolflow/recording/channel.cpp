@@ -1,59 +1,67 @@
 #include "spoolflow/recording/channel.hpp"
 
-#include <algorithm>
-
 namespace spoolflow::recording {
 namespace {
 
 using units::Dimension;
 
-struct Entry {
+struct Description {
+  Channel channel;
   std::string_view name;
   Dimension dimension;
 };
-constexpr std::array<Entry, channel_count> entries{{
-    {"time", Dimension::time},
-    {"current", Dimension::current},
-    {"current_set", Dimension::current},
-    {"voltage", Dimension::voltage},
-    {"position", Dimension::length},
-    {"position_set", Dimension::ratio},
-    {"force", Dimension::force},
-    {"axial_force", Dimension::force},
-    {"pressure_upstream", Dimension::pressure},
-    {"pressure_downstream", Dimension::pressure},
-    {"pressure_difference", Dimension::pressure},
-    {"pressure_difference_set", Dimension::pressure},
-    {"oil_temperature", Dimension::temperature},
-    {"flow", Dimension::flow},
-    {"flow_reference", Dimension::flow},
-    {"test", Dimension::none},
+
+constexpr std::array<Description, channel_count> descriptions{{
+    {Channel::time, "time", Dimension::time},
+    {Channel::current, "current", Dimension::current},
+    {Channel::current_set, "current_set", Dimension::current},
+    {Channel::voltage, "voltage", Dimension::voltage},
+    {Channel::position, "position", Dimension::length},
+    {Channel::position_set, "position_set", Dimension::ratio},
+    {Channel::force, "force", Dimension::force},
+    {Channel::axial_force, "axial_force", Dimension::force},
+    {Channel::pressure_upstream, "pressure_upstream", Dimension::pressure},
+    {Channel::pressure_downstream, "pressure_downstream", Dimension::pressure},
+    {Channel::pressure_difference, "pressure_difference", Dimension::pressure},
+    {Channel::pressure_difference_set, "pressure_difference_set", Dimension::pressure},
+    {Channel::oil_temperature, "oil_temperature", Dimension::temperature},
+    {Channel::flow, "flow", Dimension::volume_flow},
+    {Channel::flow_reference, "flow_reference", Dimension::volume_flow},
+    {Channel::test, "test", Dimension::ratio},
 }};
+
+constexpr bool in_order_of_the_enumeration() {
+  for (std::size_t k = 0; k < channel_count; ++k) {
+    if (descriptions[k].channel != static_cast<Channel>(k)) return false;
+  }
+  return true;
+}
+static_assert(in_order_of_the_enumeration());
 
 }  // namespace
 
 std::string_view name(Channel channel) {
-  return entries[static_cast<std::size_t>(channel)].name;
-}
-
-units::Dimension dimension(Channel channel) {
-  return entries[static_cast<std::size_t>(channel)].dimension;
+  return descriptions[static_cast<std::size_t>(channel)].name;
 }
 
 std::optional<Channel> channel_named(std::string_view name) {
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.name == name; });
-  if (found == entries.end()) return std::nullopt;
-  return static_cast<Channel>(found - entries.begin());
+  for (const Description& description : descriptions) {
+    if (description.name == name) return description.channel;
+  }
+  return std::nullopt;
 }
 
 const std::array<Channel, channel_count>& all_channels() {
-  static const std::array<Channel, channel_count> all = [] {
+  static constexpr auto channels = [] {
     std::array<Channel, channel_count> out{};
-    for (std::size_t k = 0; k < channel_count; ++k) out[k] = static_cast<Channel>(k);
+    for (std::size_t k = 0; k < channel_count; ++k) out[k] = descriptions[k].channel;
     return out;
   }();
-  return all;
+  return channels;
+}
+
+units::Dimension dimension(Channel channel) {
+  return descriptions[static_cast<std::size_t>(channel)].dimension;
 }
 
 }  // namespace spoolflow::recording

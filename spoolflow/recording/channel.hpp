@@ -34,8 +34,9 @@ inline constexpr std::size_t channel_count = 16;
 
 /// The name used in file headers and channel maps, such as "oil_temperature".
 [[nodiscard]] std::string_view name(Channel channel);
-[[nodiscard]] units::Dimension dimension(Channel channel);
 [[nodiscard]] std::optional<Channel> channel_named(std::string_view name);
 [[nodiscard]] const std::array<Channel, channel_count>& all_channels();
+/// What its values are; `position_set` and `test` are ratios.
+[[nodiscard]] units::Dimension dimension(Channel channel);
 
 }  // namespace spoolflow::recording

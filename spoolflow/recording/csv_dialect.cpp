@@ -1,74 +1,190 @@
 #include "spoolflow/recording/csv_dialect.hpp"
 
 #include <algorithm>
+#include <array>
 
-#include "spoolflow/recording/decimal.hpp"
+#include <fmt/format.h>
+
+#include "spoolflow/recording/decimal_number.hpp"
+#include "spoolflow/recording/header_name.hpp"
+#include "spoolflow/recording/recording_error.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
-std::string trimmed(std::string text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.back())) text.pop_back();
-  std::size_t first = 0;
-  while (first < text.size() && blank(text[first])) ++first;
-  return text.substr(first);
+constexpr std::size_t sampled_lines = 20;
+
+bool is_number(std::string_view cell) {
+  double value = 0.0;
+  return read_number(cell, '.', value) == Digits::number || read_number(cell, ',', value) == Digits::number;
+}
+
+bool is_blank(std::string_view text) {
+  return text.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
+  std::vector<std::string_view> cells;
+  for (bool last = false; !last;) {
+    const CsvCell cell = take_cell(line, delimiter);
+    cells.push_back(trimmed(cell.text));
+    last = cell.last;
+  }
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();  // trailing delimiters
+  return cells;
+}
+
+/// The delimiter that cuts header and samples into equally many cells.
+char delimiter_of(std::string_view header, std::string_view lines) {
+  constexpr std::array<char, 3> candidates{'\t', ';', ','};
+  char present = ',';
+  for (auto candidate = candidates.rbegin(); candidate != candidates.rend(); ++candidate) {
+    if (cells_of(header, *candidate).size() > 1) present = *candidate;
+  }
+  for (const char candidate : candidates) {
+    const std::size_t cells = cells_of(header, candidate).size();
+    bool everywhere = cells > 1;
+    std::string_view rest = lines;
+    for (std::size_t k = 0; k < sampled_lines && everywhere && !rest.empty(); ++k) {
+      const std::string_view line = take_line(rest);
+      if (rest.empty()) break;  // possibly cut short
+      everywhere = is_blank(line) || line.starts_with('#') || cells_of(line, candidate).size() == cells;
+    }
+    if (everywhere) return candidate;
+  }
+  return present;
+}
+
+void refuse_other_encodings(std::string_view beginning, const std::string& file) {
+  if (beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF")) {
+    throw RecordingError(fmt::format("{}: is UTF-16 text; save it as UTF-8 (\"CSV UTF-8\" in a spreadsheet)", file));
+  }
+  if (beginning.substr(0, 4096).find('\0') != std::string_view::npos) {
+    throw RecordingError(
+        fmt::format("{}: is not text: it holds zero bytes; save the recording as CSV, MAT or HDF5", file));
+  }
+}
+
+/// A row of units below the header: no numbers, and at least one unit that is known.
+bool is_units_row(const std::vector<std::string_view>& cells) {
+  bool known = false;
+  for (const std::string_view cell : cells) {
+    if (is_number(cell)) return false;
+    const std::string_view bracketed = split_brackets(cell).unit;
+    known = known || units::unit_named(bracketed.empty() ? cell : bracketed).has_value();
+  }
+  return known;
 }
 
 }  // namespace
 
-std::vector<std::string> split_fields(std::string_view line, char delimiter) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const char c = line[k];
-    if (c == '"') {
-      if (quoted && k + 1 < line.size() && line[k + 1] == '"') {
-        fields.back() += c;
-        ++k;
-      } else {
-        quoted = !quoted;
+CsvCell take_cell(std::string_view& line, char delimiter) {
+  std::size_t end = line.find(delimiter);
+  const std::size_t start = line.find_first_not_of(' ');
+  if (start != std::string_view::npos && line[start] == '"') {
+    std::size_t close = line.find('"', start + 1);
+    while (close != std::string_view::npos && line.substr(close + 1).starts_with('"'))
+      close = line.find('"', close + 2);
+    if (close != std::string_view::npos) end = line.find(delimiter, close);
+  }
+  std::string_view text = trimmed(line.substr(0, end));
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+  const bool last = end == std::string_view::npos;
+  line.remove_prefix(last ? line.size() : end + 1);
+  return {text, last};
+}
+
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file) {
+  if (beginning.empty()) throw RecordingError(fmt::format("{}: is empty; record it again or name another file", file));
+  refuse_other_encodings(beginning, file);
+  CsvDialect dialect;
+  std::string_view rest = beginning;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+
+  std::optional<char> declared;  // "sep=;", which spreadsheets write and obey
+  const auto next_line = [&](std::string_view& text) {
+    while (!text.empty()) {
+      const std::string_view line = take_line(text);
+      ++dialect.header_lines;
+      if (line.starts_with("sep=") && line.size() == 5) {
+        declared = line.back();
+      } else if (!is_blank(line) && !line.starts_with('#')) {
+        return line;
       }
-    } else if (c == delimiter && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += c;
     }
+    return std::string_view{};
+  };
+  const std::string_view header = next_line(rest);
+  if (header.empty()) {
+    throw RecordingError(
+        fmt::format("{}: holds no header line, only blank lines or comments; the first line names the "
+                    "columns, such as time_s,current_A,position_mm",
+                    file));
   }
-  for (std::string& field : fields) field = trimmed(field);
-  return fields;
+  if (header.find('\r') != std::string_view::npos) {
+    throw RecordingError(fmt::format("{}: its lines end with carriage returns only; save it with line feeds", file));
+  }
+  dialect.delimiter = declared.value_or(delimiter_of(header, rest));
+  const std::vector<std::string_view> names = cells_of(header, dialect.delimiter);
+  if (std::all_of(names.begin(), names.end(), is_number)) {
+    throw RecordingError(
+        fmt::format("{}, line {}: has no header, its first line is numbers; insert a first line that "
+                    "names the columns, such as time_s,current_A,position_mm",
+                    file, dialect.header_lines));
+  }
+  for (const std::string_view name : names) {
+    std::string written(name);
+    for (std::size_t at = 0; (at = written.find("\"\"", at)) != std::string::npos; ++at) written.erase(at, 1);
+    dialect.columns.push_back({written, written, {}});
+  }
+
+  const CsvDialect without_units = dialect;
+  std::string_view after = rest;
+  const std::vector<std::string_view> second = cells_of(next_line(after), dialect.delimiter);
+  if (second.size() <= names.size() && is_units_row(second)) {
+    for (std::size_t k = 0; k < second.size(); ++k) dialect.columns[k].unit = second[k];
+    rest = after;
+  } else {
+    dialect = without_units;
+  }
+  dialect.header_bytes = beginning.size() - rest.size();
+  return dialect;
 }
 
-char delimiter_of(std::string_view header) {
-  for (const char candidate : {';', '\t', ','}) {
-    bool quoted = false;
-    for (const char c : header) {
-      if (c == '"') quoted = !quoted;
-      if (c == candidate && !quoted) return candidate;
+std::optional<char> decimal_sign(std::string_view lines, char delimiter, const std::vector<std::size_t>& wanted) {
+  std::size_t points = 0;
+  std::size_t commas = 0;
+  while (!lines.empty()) {
+    std::string_view line = take_line(lines);
+    if (line.starts_with('#')) continue;
+    bool last = false;
+    for (std::size_t column = 0; !last; ++column) {
+      const CsvCell cell = take_cell(line, delimiter);
+      last = cell.last;
+      if (std::find(wanted.begin(), wanted.end(), column) == wanted.end()) continue;
+      const bool point = cell.text.find('.') != std::string_view::npos;
+      const bool comma = cell.text.find(',') != std::string_view::npos;
+      if (point != comma && is_number(cell.text)) ++(point ? points : commas);
     }
+    if (points + commas >= 64) break;  // enough to tell
   }
-  return ',';
-}
-
-std::string without_brackets(std::string_view text) {
-  if (text.size() >= 2 &&
-      ((text.front() == '[' && text.back() == ']') || (text.front() == '(' && text.back() == ')'))) {
-    text = text.substr(1, text.size() - 2);
-  }
-  return trimmed(std::string(text));
-}
-
-bool is_units_row(const std::vector<std::string>& fields) {
-  bool any = false;
-  for (const std::string& field : fields) {
-    if (field.empty()) continue;
-    const Decimal number = read_decimal(field.data(), field.data() + field.size(), '.');
-    if (number.end == field.data() + field.size() && field != "1") return false;
-    if (!units::unit_named(without_brackets(field))) return false;
-    any = true;
-  }
-  return any;
+  if (points + commas == 0) return std::nullopt;
+  return commas > points ? ',' : '.';
 }
 
 }  // namespace spoolflow::recording

@@ -1,25 +1,40 @@
 #pragma once
-/// How a CSV file is written: its delimiter, its decimal point, its columns with units.
+/// How a CSV file is written: told from its first lines.
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/recording/column_binding.hpp"
+#include "spoolflow/recording/sample_table.hpp"
 
 namespace spoolflow::recording {
 
 struct CsvDialect {
-  char delimiter = ',';
-  char decimal_point = '.';
+  char delimiter = ',';  ///< comma, semicolon or tab
+  std::vector<FileColumn> columns;
+  std::size_t header_bytes = 0;  ///< up to the first row of samples
+  std::uint64_t header_lines = 0;
 };
 
-/// The fields of a line; quotes are taken off, doubled quotes inside become one.
-[[nodiscard]] std::vector<std::string> split_fields(std::string_view line, char delimiter);
-/// From the header: semicolon before tab before comma, whichever stands outside quotes.
-[[nodiscard]] char delimiter_of(std::string_view header);
-/// Whether every filled field is a unit (maybe in brackets) and none a number.
-[[nodiscard]] bool is_units_row(const std::vector<std::string>& fields);
-/// A unit without the brackets around it: "[bar]" is "bar".
-[[nodiscard]] std::string without_brackets(std::string_view text);
+/// Reads byte order mark, comments (lines that begin with #), "sep=;", header and units row from the beginning of a
+/// file. Throws RecordingError: nothing in it, no header, UTF-16, a binary file.
+[[nodiscard]] CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file);
+
+/// The decimal sign, comma or point, of the numbers in these whole lines; nothing where all are integers.
+/// `wanted`: the columns to look at.
+[[nodiscard]] std::optional<char> decimal_sign(std::string_view lines, char delimiter,
+                                               const std::vector<std::size_t>& wanted);
+
+/// Takes the next cell off a line (quotes removed from cells that begin and end with one); `line` is empty after the
+/// last cell, and `last` tells it from an empty cell that follows.
+struct CsvCell {
+  std::string_view text;
+  bool last;
+};
+[[nodiscard]] CsvCell take_cell(std::string_view& line, char delimiter);
+
+/// Takes the next line off, without its line end.
+[[nodiscard]] std::string_view take_line(std::string_view& text);
 
 }  // namespace spoolflow::recording

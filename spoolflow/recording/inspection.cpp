@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "spoolflow/recording/column_binding.hpp"
+#include "spoolflow/recording/header_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
 
 namespace spoolflow::recording {
@@ -93,11 +93,10 @@ class Steps {
 };
 
 bool has_own_names(const FileContents& contents) {
-  Channel channel{};
-  std::string unit;
   return std::any_of(contents.columns.begin(), contents.columns.end(), [&](const std::string& column) {
     const std::size_t last = column.find_last_of("./");
-    return parse_header(last == std::string::npos ? column : column.substr(last + 1), channel, unit) && !unit.empty();
+    const auto header = channel_header({column, last == std::string::npos ? column : column.substr(last + 1), {}});
+    return header && !header->unit.empty();
   });
 }
 

@@ -1,7 +1,8 @@
 #include "spoolflow/recording/plausibility.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,78 +13,156 @@ namespace {
 
 using units::Dimension;
 
-/// Limits in SI. `smallest`: a channel whose largest magnitude stays below it, without being zero throughout, is scaled
-/// wrongly; set a factor of ten or more below what sensors of a valve's bench resolve or reach.
-struct Limits {
-  double lowest;
-  double highest;
-  double smallest;
-  const char* unit;
-  const char* hint;
-};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::optional<Limits> limits_of(Channel channel) {
-  switch (dimension(channel)) {
-    case Dimension::time:
-      return Limits{-1e10, 1e10, 0, "s", "is it in ms or us?"};
-    case Dimension::current:
-      return Limits{-100, 100, 2e-4, "A", "is the unit A or mA?"};  // solenoids: some 0.1 to 10 A
-    case Dimension::voltage:
-      return Limits{-1000, 1000, 0, "V", "is the unit V or mV?"};
-    case Dimension::length:
-      return Limits{-0.1, 0.1, 2e-6, "m", "is the unit m, mm or um?"};  // strokes: 0.5 to 20 mm
-    case Dimension::ratio:
-      return Limits{-10, 10, 0, "of the stroke", "is the unit percent or 1?"};
-    case Dimension::force:
-      return Limits{-1e5, 1e5, 0, "N", "is the unit N or kN?"};
-    case Dimension::pressure:
-      return Limits{-1e7, 2e8, 1000, "Pa", "is the unit Pa, kPa, MPa or bar?"};  // oil: 1 to 1000 bar
-    case Dimension::temperature:
-      return Limits{213, 473, 0, "K", "is the unit C or K?"};  // -60 to 200 C
-    case Dimension::flow:
-      return Limits{-0.1, 0.1, 0, "m3/s", "is the unit L/min, L/s or m3/s?"};
-    case Dimension::none:
-      break;
-  }
-  return std::nullopt;
+// Sampling: a valve moves within 10 to 100 ms, so nobody records it once in half a second; DAQ systems for benches end
+// at 100 kS/s.
+constexpr double longest_step_s = 0.5;
+constexpr double shortest_step_s = 8e-6;
+
+constexpr double much_larger = 99.0;  // mA to A, mm to m, Pa to bar; not bar to MPa, which no value tells apart
+
+bool in_range(double value, double lowest, double highest) {
+  return value >= lowest && value <= highest;
 }
 
 }  // namespace
 
-void Plausibility::take(const SampleBlock& block) {
-  for (const Channel channel : all_channels()) {
-    const auto& column = block.columns[static_cast<std::size_t>(channel)];
-    const auto limits = limits_of(channel);
-    if (column.empty() || !limits) continue;
-    Extremes& extremes = extremes_[static_cast<std::size_t>(channel)];
-    double lowest = extremes.seen ? extremes.lowest : INFINITY;
-    double highest = extremes.seen ? extremes.highest : -INFINITY;
-    for (const double value : column) {
-      lowest = value < lowest ? value : lowest;
-      highest = value > highest ? value : highest;
-    }
-    if (lowest > highest) continue;
-    extremes = {lowest, highest, true};
-    if (lowest < limits->lowest || highest > limits->highest) {
-      throw RecordingError(fmt::format("{}: channel {} reaches {:.4g} {}, plausible are {:g} to {:g}; {}", file_,
-                                       name(channel), lowest < limits->lowest ? lowest : highest, limits->unit,
-                                       limits->lowest, limits->highest, limits->hint));
-    }
+Plausibility::Limits Plausibility::limits_of(Channel channel, std::optional<double> stroke_m) {
+  constexpr double none = 0.0;
+  switch (dimension(channel)) {
+    case Dimension::current:  // proportional solenoids: 0.3 to 4 A; switching ones up to some 10 A
+      return {-50.0, 50.0, 0.01, "solenoids take 0.1 to 10 A", false};
+    case Dimension::voltage:  // 12 and 24 V; 230 V where rectified mains drives the coil
+      return {-500.0, 500.0, 0.1, "solenoids have 5 to 230 V", false};
+    case Dimension::length:  // strokes: 0.5 to 20 mm
+      if (stroke_m) return {-3.0 * *stroke_m, 3.0 * *stroke_m, *stroke_m / 200.0, "the stroke is known", false};
+      return {-0.1, 0.1, 2e-5, "spools move by 0.5 to 20 mm", false};
+    case Dimension::force:  // solenoids: 50 to 300 N; flow forces of the largest valves: below 2 kN
+      return {-5e3, 5e3, 0.5, "forces on a spool are 1 to 2000 N", false};
+    case Dimension::pressure:  // the return line may stay below 0.1 bar, a supply never does while it is on
+      return {-2e6, 1e8, channel == Channel::pressure_downstream ? 1e3 : 1e4, "oil pressures are 0.1 to 1000 bar",
+              true};
+    case Dimension::temperature:  // oils thicken below -40 degC and burn above 200 degC
+      return {213.15, 473.15, none, "oil is between -60 and 200 degC", false};
+    case Dimension::volume_flow:  // size 32 valves: 1000 L/min
+      return {-0.05, 0.05, 3e-7, "spool valves pass 0.1 to 3000 L/min", false};
+    case Dimension::ratio:
+      if (channel == Channel::position_set) return {-1.5, 1.5, none, "a command is a share of the stroke", false};
+      break;
+    default:
+      break;
+  }
+  return {-infinity, infinity, none, "", false};
+}
+
+Plausibility::Plausibility(std::string file, const std::vector<BoundColumn>& columns, std::optional<double> stroke_m)
+    : file_(std::move(file)) {
+  for (const BoundColumn& column : columns) {
+    const bool larger_unit =
+        column.unit.dimension == dimension(column.channel) &&  // not a share of the stroke
+        std::any_of(units::all_units().begin(), units::all_units().end(), [&column](const units::Unit& unit) {
+          return unit.dimension == column.unit.dimension && unit.factor >= much_larger * column.unit.factor;
+        });
+    watched_.push_back({&column, limits_of(column.channel, stroke_m), larger_unit, 0, infinity, -infinity, 0.0, 0.0,
+                        std::numeric_limits<double>::quiet_NaN()});
   }
 }
 
-void Plausibility::check_sizes() const {
-  for (const Channel channel : all_channels()) {
-    const Extremes& extremes = extremes_[static_cast<std::size_t>(channel)];
-    const auto limits = limits_of(channel);
-    if (!extremes.seen || !limits || extremes.lowest == extremes.highest) continue;
-    const double largest = std::fmax(std::abs(extremes.lowest), std::abs(extremes.highest));
-    if (largest < limits->smallest) {
-      throw RecordingError(
-          fmt::format("{}: channel {} moves, but never beyond {:.4g} {}, which is implausibly small; {}", file_,
-                      name(channel), largest, limits->unit, limits->hint));
-    }
+/// " in bar it would be 60 bar, ..." for every unit that would make `value` (in SI, as read now) plausible.
+std::string Plausibility::better_units(const Watched& watched, double value, double least_factor) const {
+  const units::Unit& now = watched.column->unit;
+  if (now.dimension != dimension(watched.column->channel)) return {};  // a share of the stroke
+  const bool is_time = now.dimension == Dimension::time;
+  const double written = now.from_SI(value);
+  std::string out;
+  for (const units::Unit& unit : units::all_units()) {
+    if (unit.dimension != now.dimension || unit.name == now.name || unit.factor < least_factor * now.factor) continue;
+    const double then = unit.to_SI(written);
+    const bool fits = is_time ? in_range(then, shortest_step_s, longest_step_s)
+                              : in_range(then, watched.limits.lowest, watched.limits.highest) &&
+                                    std::abs(then) >= watched.limits.smallest;
+    if (fits) out += fmt::format("{}{}", out.empty() ? "" : " or ", unit.name);
   }
+  return out;
+}
+
+void Plausibility::take(std::size_t column, std::span<const double> values,
+                        const std::function<std::string(std::size_t)>& place) {
+  Watched& watched = watched_[column];
+  const bool first_block = watched.samples == 0;
+  watched.samples += values.size();
+  if (watched.column->channel == Channel::time) {
+    if (first_block) check_sampling(watched, values);
+    return;
+  }
+  const double lowest = watched.limits.lowest;
+  const double highest = watched.limits.highest;
+  std::size_t beyond = 0;
+  for (const double value : values) beyond += value < lowest || value > highest ? 1 : 0;
+  if (100 * beyond > values.size() && (beyond > 1 || values.size() < 20)) {
+    const auto first =
+        std::find_if(values.begin(), values.end(), [=](double value) { return value < lowest || value > highest; });
+    const units::Unit& unit = watched.column->unit;
+    const std::string better = better_units(watched, *first, 0.0);
+    throw RecordingError(fmt::format(
+        "{}, column '{}': channel {} is {:.6g} {}, beyond {:.4g} to {:.4g} {} ({}); {}",
+        place(static_cast<std::size_t>(first - values.begin())), watched.column->name, name(watched.column->channel),
+        unit.from_SI(*first), unit.name, unit.from_SI(lowest), unit.from_SI(highest), unit.name, watched.limits.reason,
+        better.empty() ? "check unit, scale and offset" : fmt::format("is its unit {} instead?", better)));
+  }
+  if (!watched.may_be_too_small || watched.limits.smallest == 0.0) return;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    watched.lowest = std::min(watched.lowest, value);
+    watched.highest = std::max(watched.highest, value);
+    watched.sum += value;
+    if (!std::isnan(watched.last)) watched.steps += std::abs(value - watched.last);
+    watched.last = value;
+  }
+}
+
+void Plausibility::finish() const {
+  for (const Watched& watched : watched_) {
+    if (!watched.may_be_too_small || !(watched.lowest <= watched.highest)) continue;
+    const double largest = std::max(std::abs(watched.lowest), std::abs(watched.highest));
+    if (largest >= watched.limits.smallest) continue;
+    // White noise of any length has a range of 7 to 10 mean steps and a mean that is far smaller than one step; a
+    // signal moves by many steps of its noise, or stands clear of zero.
+    const double mean_step = watched.steps / static_cast<double>(watched.samples);
+    const double mean = std::abs(watched.sum) / static_cast<double>(watched.samples);
+    const bool moves = watched.highest - watched.lowest > 20.0 * mean_step;
+    const bool one_sign = watched.lowest > 0.0 || watched.highest < 0.0;
+    const bool stands_clear = watched.limits.level_is_signal && (one_sign || mean > 5.0 * mean_step);
+    if (!moves && !stands_clear) continue;
+    const std::string better = better_units(watched, largest, much_larger);
+    if (better.empty()) continue;
+    const units::Unit& unit = watched.column->unit;
+    throw RecordingError(
+        fmt::format("{}, column '{}': channel {} carries a signal but never exceeds {:.4g} {} ({}); is "
+                    "its unit {} instead?",
+                    file_, watched.column->name, name(watched.column->channel), std::abs(unit.from_SI(largest)),
+                    unit.name, watched.limits.reason, better));
+  }
+}
+
+/// By the median distance of the first block's time stamps.
+void Plausibility::check_sampling(const Watched& time, std::span<const double> time_s) const {
+  std::vector<double> steps_s;
+  for (std::size_t k = 1; k < time_s.size(); ++k) {
+    if (time_s[k] > time_s[k - 1]) steps_s.push_back(time_s[k] - time_s[k - 1]);
+  }
+  if (steps_s.size() < 2) return;
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  if (in_range(*middle, shortest_step_s, longest_step_s)) return;
+  const std::string better = better_units(time, *middle, 0.0);
+  throw RecordingError(fmt::format(
+      "{}, column '{}': the samples are {:.4g} s apart, which is not the rate of a valve's recording ({:g} to {:g} s); "
+      "{}",
+      file_, time.column->name, *middle, shortest_step_s, longest_step_s,
+      better.empty() ? "check the unit of time"
+                     : fmt::format("is the unit of time {} instead of {}?", better, time.column->unit.name)));
 }
 
 }  // namespace spoolflow::recording

@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/column_binding.hpp"
-#include "spoolflow/recording/csv_dialect.hpp"
+#include "spoolflow/recording/allowed_names.hpp"
+#include "spoolflow/recording/channel_unit.hpp"
+#include "spoolflow/recording/header_name.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
@@ -59,7 +60,7 @@ NameParts parts_of(std::string name, const std::string& told_unit) {
   NameParts out{"", told_unit};
   const std::size_t open = name.find_first_of("[(");
   if (open != std::string::npos) {
-    if (out.unit.empty()) out.unit = without_brackets(name.substr(open));
+    if (out.unit.empty()) out.unit = split_brackets(name).unit;
     name.resize(open);
   } else {
     for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
@@ -90,11 +91,8 @@ bool may_have(Channel channel, const std::string& unit_name) {
 ChannelMap propose_channels(const FileContents& contents) {
   ChannelMap out;
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    Channel channel{};
-    std::string unit;
-    if (parse_header(contents.columns[k], channel, unit)) {
-      out.sources.try_emplace(
-          channel, ChannelSource{contents.columns[k], unit.empty() ? contents.units[k] : unit, 1.0, 0.0, {}});
+    if (const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]})) {
+      out.sources.try_emplace(header->channel, ChannelSource{contents.columns[k], header->unit, 1.0, 0.0, {}});
       continue;
     }
     const NameParts parts = parts_of(contents.columns[k], contents.units[k]);
@@ -121,12 +119,11 @@ std::string written(const ChannelMap& map) {
     const bool raw_signal =
         unit && unit->dimension == units::Dimension::voltage && dimension(channel) != units::Dimension::voltage;
     out += fmt::format("{} = {{ column = \"{}\"", name(channel), column);
-    if (dimension(channel) != units::Dimension::none)
-      out += fmt::format(", unit = \"{}\"", source.unit.empty() ? "?" : source.unit);
+    if (channel != Channel::test) out += fmt::format(", unit = \"{}\"", source.unit.empty() ? "?" : source.unit);
     if (raw_signal) out += ", scale = 1.0, offset = 0.0, to = \"?\"";
     out += " }";
-    if (source.unit.empty() && dimension(channel) != units::Dimension::none) {
-      out += fmt::format("  # fill in the unit: {}", units::units_of(dimension(channel)));
+    if (source.unit.empty() && channel != Channel::test) {
+      out += fmt::format("  # fill in the unit: {}", listed(unit_names(channel)));
     }
     if (raw_signal) out += "  # a sensor signal: value = scale * raw + offset, in `to`";
     out += '\n';

@@ -1,103 +1,162 @@
 #include "spoolflow/recording/reader.hpp"
 
-#include <array>
-#include <fstream>
-#include <string_view>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/csv_reader.hpp"
-#include "spoolflow/recording/hdf5_reader.hpp"
-#include "spoolflow/recording/mat_reader.hpp"
+#include "spoolflow/recording/channel_binding.hpp"
+#include "spoolflow/recording/header_name.hpp"
+#include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/plausibility.hpp"
 #include "spoolflow/recording/recording_error.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
-enum class Format { csv, mat, hdf5 };
+constexpr std::size_t block_rows = 4096;  // five channels of it stay in a core's second-level cache
 
-/// By what the file begins with: MATLAB writes a text header (before an HDF5 block in v7.3), HDF5 its signature at 0 or
-/// 512.
-Format format_of(const std::filesystem::path& file) {
-  if (file == "-") return Format::csv;
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 520> begin{};
-  in.read(begin.data(), begin.size());
-  const std::string_view text(begin.data(), static_cast<std::size_t>(in.gcount()));
-  constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
-  if (text.starts_with("MATLAB ")) return Format::mat;
-  if (text.starts_with(hdf5_signature)) return file.extension() == ".mat" ? Format::mat : Format::hdf5;
-  if (text.size() >= 520 && text.substr(512, 8) == hdf5_signature) return Format::mat;
-  if (file.extension() == ".mat") return Format::mat;
-  if (file.extension() == ".h5" || file.extension() == ".hdf5") return Format::hdf5;
-  return Format::csv;
+std::size_t index(Channel channel) {
+  return static_cast<std::size_t>(channel);
 }
 
-}  // namespace
-
-namespace {
-
-void require_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (file != "-" && !std::filesystem::exists(file, error)) {
-    throw RecordingError(fmt::format("{}: there is no such file; check the path", file.string()));
+/// Raw numbers of any table, brought to SI and watched.
+class ChannelReader final : public Reader {
+ public:
+  ChannelReader(std::unique_ptr<SampleTable> table, const ReadOptions& options, std::string file)
+      : table_(std::move(table)),
+        file_(std::move(file)),
+        bound_(bind_channels(*table_, options, file_)),
+        plausibility_(file_, bound_, options.stroke_m) {
+    std::vector<std::size_t> chosen;
+    for (const BoundColumn& column : bound_) {
+      const auto same = std::find(chosen.begin(), chosen.end(), column.column);
+      source_of_.push_back(static_cast<std::size_t>(same - chosen.begin()));
+      if (same == chosen.end()) chosen.push_back(column.column);
+    }
+    table_->select(chosen);
+    raw_.resize(chosen.size());
   }
-  if (file != "-" && std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) == 0) {
-    throw RecordingError(fmt::format("{}: the file is empty", file.string()));
+
+  [[nodiscard]] bool has(Channel channel) const override {
+    return std::any_of(bound_.begin(), bound_.end(),
+                       [channel](const BoundColumn& column) { return column.channel == channel; });
   }
-}
+
+  bool next(SampleBlock& block) override {
+    for (const Channel channel : all_channels()) {
+      if (!has(channel)) block.columns[index(channel)].clear();
+    }
+    // Each column of the file is read straight into the first channel that it serves.
+    for (std::size_t k = 0; k < bound_.size(); ++k) {
+      auto& values = block.columns[index(bound_[k].channel)];
+      values.resize(block_rows);
+      if (raw_[source_of_[k]] == nullptr) raw_[source_of_[k]] = values.data();
+    }
+    const std::size_t rows = table_->read(raw_, block_rows);
+    for (std::size_t k = bound_.size(); k-- > 0;) {
+      auto& values = block.columns[index(bound_[k].channel)];
+      const double* const raw = raw_[source_of_[k]];
+      if (raw != values.data()) std::copy(raw, raw + rows, values.data());
+    }
+    std::fill(raw_.begin(), raw_.end(), nullptr);
+    for (const BoundColumn& column : bound_) {
+      auto& values = block.columns[index(column.channel)];
+      values.resize(rows);
+      if (column.gain == 1.0 && column.offset == 0.0) continue;
+      for (double& value : values) value = column.gain * value + column.offset;
+    }
+    block.rows = rows;
+    if (rows == 0 && notes_.rows == 0) {
+      throw RecordingError(fmt::format("{}: has a header but no samples; record it again or name another file", file_));
+    }
+    if (rows == 0) {
+      plausibility_.finish();
+      return false;
+    }
+    watch(block);
+    notes_.rows += rows;
+    return true;
+  }
+
+  [[nodiscard]] const ReadNotes& notes() const override { return notes_; }
+  [[nodiscard]] std::optional<double> progress() const override { return table_->progress(); }
+
+ private:
+  void watch(const SampleBlock& block) {
+    const std::vector<double>& time_s = block.columns[index(Channel::time)];
+    for (std::size_t row = 0; row < block.rows; ++row) {
+      if (time_s[row] > last_time_s_) {
+        last_time_s_ = time_s[row];
+      } else if (time_s[row] == last_time_s_) {
+        ++notes_.duplicate_times;
+      } else {
+        refuse_time(row, time_s[row]);
+      }
+    }
+    const auto place = [this](std::size_t row) { return table_->place(row); };
+    for (std::size_t k = 0; k < bound_.size(); ++k) {
+      const std::vector<double>& values = block.columns[index(bound_[k].channel)];
+      std::uint64_t missing = 0;
+      for (const double value : values) missing += std::isnan(value) ? 1 : 0;
+      notes_.missing_values += missing;
+      plausibility_.take(k, values, place);
+    }
+  }
+
+  [[noreturn]] void refuse_time(std::size_t row, double time_s) const {
+    const BoundColumn& column = *std::find_if(bound_.begin(), bound_.end(),
+                                              [](const BoundColumn& one) { return one.channel == Channel::time; });
+    const std::string place = fmt::format("{}, column '{}'", table_->place(row), column.name);
+    if (std::isnan(time_s)) {
+      throw RecordingError(fmt::format("{}: the time stamp is missing; every sample needs one", place));
+    }
+    throw RecordingError(
+        fmt::format("{}: time runs backwards, from {} to {} s; cut the recording there, or sort it by "
+                    "time",
+                    place, last_time_s_, time_s));
+  }
+
+  std::unique_ptr<SampleTable> table_;
+  std::string file_;
+  std::vector<BoundColumn> bound_;
+  std::vector<std::size_t> source_of_;  ///< for each bound column, which of the chosen columns
+  std::vector<double*> raw_;
+  Plausibility plausibility_;
+  ReadNotes notes_;
+  double last_time_s_ = -std::numeric_limits<double>::infinity();
+};
 
 }  // namespace
 
 FileContents contents_of(const std::filesystem::path& file) {
-  require_file(file);
-  FileContents out;
-  std::vector<FileColumn> columns;
-  switch (format_of(file)) {
-    case Format::mat:
-      out.format = "MATLAB";
-      columns = columns_of_mat(file);
-      break;
-    case Format::hdf5:
-      out.format = "HDF5";
-      columns = columns_of_hdf5(file);
-      break;
-    case Format::csv:
-      out.format = "CSV";
-      columns = columns_of_csv(file);
-      break;
-  }
-  for (FileColumn& column : columns) {
-    out.columns.push_back(std::move(column.name));
-    out.units.push_back(std::move(column.unit));
+  const OpenTable open = open_sample_table(file);
+  FileContents out{std::string(name(open.format)), {}, {}};
+  for (const FileColumn& column : open.table->columns()) {
+    out.columns.push_back(column.name);
+    out.units.push_back(stated_unit(column));
   }
   return out;
 }
 
 std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options) {
-  require_file(file);
-  switch (format_of(file)) {
-    case Format::mat:
-      return open_mat(file, options);
-    case Format::hdf5:
-      return open_hdf5(file, options);
-    case Format::csv:
-      break;
-  }
-  return open_csv(file, options);
+  return std::make_unique<ChannelReader>(open_sample_table(file).table, options,
+                                         file == "-" ? std::string("standard input") : file.string());
 }
 
 Recording read_recording(const std::filesystem::path& file, const ReadOptions& options) {
+  Recording recording;
+  recording.file = file;
   const std::unique_ptr<Reader> reader = open_reader(file, options);
-  Recording out;
-  out.file = file;
   SampleBlock block;
   while (reader->next(block)) {
-    for (std::size_t c = 0; c < channel_count; ++c) {
-      out.columns[c].insert(out.columns[c].end(), block.columns[c].begin(), block.columns[c].end());
+    for (const Channel channel : all_channels()) {
+      const std::vector<double>& values = block.columns[index(channel)];
+      recording.column(channel).insert(recording.column(channel).end(), values.begin(), values.end());
     }
   }
-  return out;
+  return recording;
 }
 
 }  // namespace spoolflow::recording

@@ -1,110 +1,159 @@
 #include "spoolflow/units/unit.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
+#include <string>
+#include <utility>
 
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::units {
 namespace {
 
-struct Entry {
-  const char* name;
-  Dimension dimension;
-  double scale;
-  double offset;
-  std::array<const char*, 6> spellings;  ///< in lower case
-};
-
-constexpr double per_minute = 1.0 / litre_per_minute_per_m3_per_s;
-
-/// Spellings are compared in lower case: nobody writes oil pressures in millipascal or currents in megaampere.
-const std::array<Entry, 23> entries{{
-    {"s", Dimension::time, 1, 0, {"s", "sec", "second", "seconds"}},
-    {"ms", Dimension::time, 1e-3, 0, {"ms", "millisecond", "milliseconds"}},
-    {"us", Dimension::time, 1e-6, 0, {"us", "\xc2\xb5s", "\xce\xbcs", "\xb5s", "microseconds"}},
-    {"A", Dimension::current, 1, 0, {"a", "amp", "ampere"}},
-    {"mA", Dimension::current, 1e-3, 0, {"ma"}},
-    {"V", Dimension::voltage, 1, 0, {"v", "volt", "volts"}},
-    {"mV", Dimension::voltage, 1e-3, 0, {"mv"}},
-    {"m", Dimension::length, 1, 0, {"m"}},
-    {"mm", Dimension::length, 1e-3, 0, {"mm"}},
-    {"um", Dimension::length, 1e-6, 0, {"um", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "micron", "microns"}},
-    {"percent", Dimension::ratio, 1e-2, 0, {"percent", "%", "pct"}},
-    {"1", Dimension::ratio, 1, 0, {"1", "-"}},
-    {"N", Dimension::force, 1, 0, {"n", "newton"}},
-    {"kN", Dimension::force, 1e3, 0, {"kn"}},
-    {"Pa", Dimension::pressure, 1, 0, {"pa", "pascal"}},
-    {"kPa", Dimension::pressure, 1e3, 0, {"kpa"}},
-    {"MPa", Dimension::pressure, 1e6, 0, {"mpa"}},
-    {"bar", Dimension::pressure, pascal_per_bar, 0, {"bar"}},
-    {"C",
-     Dimension::temperature,
-     1,
-     kelvin_at_0_degC,
-     {"c", "degc", "deg_c",
-      "\xc2\xb0"
-      "c",
-      "\xb0"
-      "c",
-      "celsius"}},
-    {"K", Dimension::temperature, 1, 0, {"k", "kelvin"}},
-    {"L_min", Dimension::flow, per_minute, 0, {"l_min", "l/min", "lpm", "lmin", "ltr/min"}},
-    {"L_s", Dimension::flow, 1e-3, 0, {"l_s", "l/s"}},
-    {"m3_s", Dimension::flow, 1, 0, {"m3_s", "m3/s", "m^3/s", "m\xc2\xb3/s"}},
+// Factors of the SI brochure; psi and degF by NIST SP 811, appendix B.8.
+constexpr std::array<Unit, 31> table{{
+    {"1", "1", Dimension::ratio, 1.0},
+    {"percent", "percent", Dimension::ratio, 0.01},
+    {"s", "s", Dimension::time, 1.0},
+    {"ms", "ms", Dimension::time, 1e-3},
+    {"us", "us", Dimension::time, 1e-6},
+    {"A", "A", Dimension::current, 1.0},
+    {"mA", "mA", Dimension::current, 1e-3},
+    {"V", "V", Dimension::voltage, 1.0},
+    {"mV", "mV", Dimension::voltage, 1e-3},
+    {"mm", "mm", Dimension::length, 1e-3},
+    {"um", "um", Dimension::length, 1e-6},
+    {"m", "m", Dimension::length, 1.0},
+    {"N", "N", Dimension::force, 1.0},
+    {"kN", "kN", Dimension::force, 1e3},
+    {"bar", "bar", Dimension::pressure, pascal_per_bar},
+    {"mbar", "mbar", Dimension::pressure, 100.0},
+    {"Pa", "Pa", Dimension::pressure, 1.0},
+    {"kPa", "kPa", Dimension::pressure, 1e3},
+    {"MPa", "MPa", Dimension::pressure, 1e6},
+    {"psi", "psi", Dimension::pressure, 6894.757293168361},
+    {"C", "C", Dimension::temperature, 1.0, kelvin_at_0_degC},
+    {"K", "K", Dimension::temperature, 1.0},
+    {"degF", "degF", Dimension::temperature, 5.0 / 9.0, kelvin_at_0_degC - 32.0 * 5.0 / 9.0},
+    {"L/min", "L_min", Dimension::volume_flow, 1.0 / litre_per_minute_per_m3_per_s},
+    {"L/s", "L_s", Dimension::volume_flow, 1e-3},
+    {"m3/s", "m3_s", Dimension::volume_flow, 1.0},
+    {"m3/h", "m3_h", Dimension::volume_flow, 1.0 / 3600.0},
+    {"mm2/s", "mm2_s", Dimension::kinematic_viscosity, m2_per_s_per_mm2_per_s},
+    {"m2/s", "m2_s", Dimension::kinematic_viscosity, 1.0},
+    {"kg/m3", "kg_m3", Dimension::density, 1.0},
+    {"g/cm3", "g_cm3", Dimension::density, 1e3},
 }};
 
-bool spelt(const Entry& entry, const std::string& lower) {
-  return std::any_of(entry.spellings.begin(), entry.spellings.end(),
-                     [&](const char* spelling) { return spelling != nullptr && lower == spelling; });
-}
+// Other spellings, in small letters, after plain() has brought them to ASCII.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 40> spellings{{
+    {"-", "1"},
+    {"%", "percent"},
+    {"pct", "percent"},
+    {"sec", "s"},
+    {"second", "s"},
+    {"seconds", "s"},
+    {"msec", "ms"},
+    {"milliseconds", "ms"},
+    {"microseconds", "us"},
+    {"amp", "A"},
+    {"ampere", "A"},
+    {"volt", "V"},
+    {"volts", "V"},
+    {"micron", "um"},
+    {"microns", "um"},
+    {"newton", "N"},
+    {"pascal", "Pa"},
+    {"degc", "C"},
+    {"deg c", "C"},
+    {"deg_c", "C"},
+    {"celsius", "C"},
+    {"kelvin", "K"},
+    {"degk", "K"},
+    {"f", "degF"},
+    {"deg f", "degF"},
+    {"fahrenheit", "degF"},
+    {"lpm", "L/min"},
+    {"lmin", "L/min"},
+    {"ltr/min", "L/min"},
+    {"dm3/min", "L/min"},
+    {"l_per_min", "L/min"},
+    {"dm3/s", "L/s"},
+    {"l_per_s", "L/s"},
+    {"m3_per_s", "m3/s"},
+    {"m3_per_h", "m3/h"},
+    {"cst", "mm2/s"},
+    {"mm2_per_s", "mm2/s"},
+    {"m2_per_s", "m2/s"},
+    {"kg_per_m3", "kg/m3"},
+    {"g_per_cm3", "g/cm3"},
+}};
 
-}  // namespace
-
-std::optional<Unit> unit_named(std::string_view spelling) {
-  std::string lower;
-  for (const char c : spelling) {
-    if (c != ' ') lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return spelt(entry, lower); });
-  if (found != entries.end()) return Unit{found->name, found->dimension, found->scale, found->offset};
-  return std::nullopt;
-}
-
-std::string units_of(Dimension dimension) {
+/// ASCII for the signs that units are written with: degree, micro, powers of two and three; spaces at the ends dropped.
+std::string plain(std::string_view written) {
+  while (!written.empty() && (written.front() == ' ' || written.front() == '\t')) written.remove_prefix(1);
+  while (!written.empty() && (written.back() == ' ' || written.back() == '\t')) written.remove_suffix(1);
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> signs{{
+      {"\xC2\xB0", "deg"},  // degree sign, UTF-8
+      {"\xC2\xBA", "deg"},  // masculine ordinal, often typed for a degree sign
+      {"\xC2\xB5", "u"},    // micro sign
+      {"\xCE\xBC", "u"},    // Greek mu
+      {"\xC2\xB2", "2"},    // superscript two
+      {"\xC2\xB3", "3"},    // superscript three
+      {"\xB0", "deg"},      // the same in Latin-1
+      {"\xB5", "u"},
+      {"\xB2", "2"},
+      {"\xB3", "3"},
+      {"^", ""},
+  }};
   std::string out;
-  for (const Entry& entry : entries) {
-    if (entry.dimension == dimension) out += (out.empty() ? "" : ", ") + std::string(entry.name);
+  for (std::size_t at = 0; at < written.size();) {
+    bool replaced = false;
+    for (const auto& [sign, letters] : signs) {
+      if (written.substr(at).starts_with(sign)) {
+        out += letters;
+        at += sign.size();
+        replaced = true;
+        break;
+      }
+    }
+    if (!replaced) out += written[at++];
   }
   return out;
 }
 
+std::string in_small_letters(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+}  // namespace
+
 std::string_view name(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::time:
-      return "time";
-    case Dimension::current:
-      return "current";
-    case Dimension::voltage:
-      return "voltage";
-    case Dimension::length:
-      return "length";
-    case Dimension::ratio:
-      return "ratio";
-    case Dimension::force:
-      return "force";
-    case Dimension::pressure:
-      return "pressure";
-    case Dimension::temperature:
-      return "temperature";
-    case Dimension::flow:
-      return "flow rate";
-    case Dimension::none:
-      break;
+  constexpr std::array<std::string_view, 11> names{
+      "ratio",  "time",     "current",     "voltage",     "length",
+      "force",  "pressure", "temperature", "volume flow", "kinematic viscosity",
+      "density"};
+  return names[static_cast<std::size_t>(dimension)];
+}
+
+std::span<const Unit> all_units() {
+  return table;
+}
+
+std::optional<Unit> unit_named(std::string_view written) {
+  const std::string text = plain(written);
+  for (const Unit& unit : table) {
+    if (text == unit.name || text == unit.header) return unit;
   }
-  return "number";
+  std::string small = in_small_letters(text);
+  for (const auto& [other, usual] : spellings) {
+    if (small == other) small = in_small_letters(usual);
+  }
+  for (const Unit& unit : table) {
+    if (small == in_small_letters(unit.name) || small == in_small_letters(unit.header)) return unit;
+  }
+  return std::nullopt;
 }
 
 }  // namespace spoolflow::units

@@ -1,0 +1,16 @@
+#pragma once
+/// Names as messages show them.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spoolflow::recording {
+
+/// "; did you mean 'position'?" for a misspelt name or one that was cut short, or nothing where no allowed name is near
+/// (a third of its letters).
+[[nodiscard]] std::string did_you_mean(std::string_view written, const std::vector<std::string>& allowed);
+
+/// "a, b, c"; a long list is cut and says how many more there are.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+}  // namespace spoolflow::recording

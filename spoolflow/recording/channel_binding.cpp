@@ -1,0 +1,166 @@
+#include "spoolflow/recording/channel_binding.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/allowed_names.hpp"
+#include "spoolflow/recording/channel_unit.hpp"
+#include "spoolflow/recording/header_name.hpp"
+#include "spoolflow/recording/recording_error.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+class Binder {
+ public:
+  Binder(const SampleTable& table, const ReadOptions& options, const std::string& file)
+      : table_(table), columns_(table.columns()), options_(options), file_(file) {}
+
+  std::optional<BoundColumn> bind(Channel channel) const {
+    const auto source = options_.channels.sources.find(channel);
+    return source != options_.channels.sources.end() ? mapped(channel, source->second) : by_header(channel);
+  }
+
+  [[noreturn]] void missing(Channel channel) const {
+    std::string hint;
+    for (const FileColumn& column : columns_) {
+      const std::string_view leaf = split_brackets(column.leaf).stem;
+      if (leaf.starts_with(name(channel)) && leaf.size() > name(channel).size() + 1 && !channel_header(column)) {
+        const std::string_view unit = leaf.substr(name(channel).size() + 1);
+        hint = fmt::format("; '{}' would be it, but '{}' is no known unit{}", column.name, unit,
+                           did_you_mean(unit, unit_names(channel)));
+      }
+    }
+    if (!table_.unread().empty()) hint += fmt::format("; {}", table_.unread());
+    throw RecordingError(
+        fmt::format("{}: channel {} is missing{}; the columns are {}. Name the column {}_<unit> (unit: {}) or say in a "
+                    "channel map which column it is (`spoolflow inspect` proposes one)",
+                    file_, name(channel), hint, columns_.empty() ? "none" : listed(column_names()), name(channel),
+                    listed(unit_names(channel))));
+  }
+
+ private:
+  std::vector<std::string> column_names() const {
+    std::vector<std::string> out;
+    for (const FileColumn& column : columns_) out.push_back(column.name);
+    return out;
+  }
+
+  std::string map_place() const { return options_.channels.place.empty() ? file_ : options_.channels.place; }
+
+  /// Index of the only column of that name.
+  std::size_t column_named(Channel channel, const std::string& wanted) const {
+    const auto same = [&wanted](const FileColumn& column) { return column.name == wanted; };
+    const auto first = std::find_if(columns_.begin(), columns_.end(), same);
+    if (first == columns_.end()) {
+      throw RecordingError(
+          fmt::format("{}: channel {} is mapped to column '{}', which {} does not have{}; its columns "
+                      "are {}",
+                      map_place(), name(channel), wanted, file_, did_you_mean(wanted, column_names()),
+                      columns_.empty() ? "none" : listed(column_names())));
+    }
+    if (std::find_if(first + 1, columns_.end(), same) != columns_.end()) {
+      throw RecordingError(
+          fmt::format("{}: has more than one column named '{}', which channel {} is mapped to; rename "
+                      "one of them",
+                      file_, wanted, name(channel)));
+    }
+    return static_cast<std::size_t>(first - columns_.begin());
+  }
+
+  std::optional<BoundColumn> mapped(Channel channel, const ChannelSource& source) const {
+    const std::size_t index = column_named(channel, source.column);
+    const FileColumn& column = columns_[index];
+    const std::string place = fmt::format("{}, column '{}'", map_place(), column.name);
+    const std::string stated = stated_unit(column);
+    std::string written = source.unit;
+    if (written.empty()) {
+      const auto header = channel_header(column);
+      written = !stated.empty() ? stated : header && header->channel == channel ? header->unit : "";
+    } else if (source.scale == 1.0 && source.offset == 0.0 && !source.to) {
+      refuse_other_unit(channel, column, written, stated);
+    }
+    if (source.to) written = *source.to;
+    if (written.empty()) {
+      throw RecordingError(
+          fmt::format("{}: the unit of channel {} is given neither in the map nor in the file; add "
+                      "unit = \"{}\" or the one that it has ({})",
+                      place, name(channel), unit_names(channel).front(), listed(unit_names(channel))));
+    }
+    const units::Unit unit = channel_unit(channel, written, options_.stroke_m, place);
+    return BoundColumn{index,       channel, unit.factor * source.scale, unit.factor * source.offset + unit.offset,
+                       column.name, unit};
+  }
+
+  void refuse_other_unit(Channel channel, const FileColumn& column, const std::string& mapped,
+                         const std::string& stated) const {
+    const auto said = units::unit_named(stated);
+    const auto given = units::unit_named(mapped);
+    if (stated.empty() || !said || !given || said->name == given->name) return;
+    throw RecordingError(
+        fmt::format("{}: channel {} is mapped with unit {}, but {} states {} for column '{}'; correct "
+                    "the map, or the file if it is wrong",
+                    map_place(), name(channel), mapped, file_, stated, column.name));
+  }
+
+  bool named_by_map(const FileColumn& column) const {
+    return std::any_of(options_.channels.sources.begin(), options_.channels.sources.end(),
+                       [&column](const auto& entry) { return entry.second.column == column.name; });
+  }
+
+  std::optional<BoundColumn> by_header(Channel channel) const {
+    std::optional<BoundColumn> out;
+    for (std::size_t index = 0; index < columns_.size(); ++index) {
+      const FileColumn& column = columns_[index];
+      const auto header = channel_header(column);
+      if (!header || header->channel != channel || named_by_map(column)) continue;
+      if (out) {
+        throw RecordingError(
+            fmt::format("{}: columns '{}' and '{}' are both channel {}; rename one of them or choose "
+                        "one in a channel map",
+                        file_, out->name, column.name, name(channel)));
+      }
+      const std::string place = fmt::format("{}, column '{}'", file_, column.name);
+      if (header->unit.empty()) {
+        throw RecordingError(fmt::format(
+            "{}: tells no unit; name it {}_{} or say its unit in a channel map (allowed: "
+            "{})",
+            place, name(channel), units::unit_named(unit_names(channel).front())->header, listed(unit_names(channel))));
+      }
+      const units::Unit unit = channel_unit(channel, header->unit, options_.stroke_m, place);
+      out = BoundColumn{index, channel, unit.factor, unit.offset, column.name, unit};
+    }
+    return out;
+  }
+
+  const SampleTable& table_;
+  const std::vector<FileColumn>& columns_;
+  const ReadOptions& options_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptions& options, const std::string& file) {
+  const Binder binder(table, options, file);
+  std::vector<BoundColumn> bound;
+  const auto add = [&](Channel channel, bool required) {
+    const auto same = [channel](const BoundColumn& column) { return column.channel == channel; };
+    if (std::any_of(bound.begin(), bound.end(), same)) return;
+    if (auto column = binder.bind(channel)) {
+      bound.push_back(std::move(*column));
+    } else if (required) {
+      binder.missing(channel);
+    }
+  };
+  add(Channel::time, true);
+  for (const Channel channel : options.required) add(channel, true);
+  for (const Channel channel : options.optional) add(channel, false);
+  if (options.required.empty() && options.optional.empty()) {
+    for (const Channel channel : all_channels()) add(channel, false);
+  }
+  return bound;
+}
+
+}  // namespace spoolflow::recording

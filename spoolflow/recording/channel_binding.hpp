@@ -1,0 +1,31 @@
+#pragma once
+/// Which column of an open file is which channel, and how its numbers come to SI.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/recording/sample_table.hpp"
+
+namespace spoolflow::recording {
+
+/// value in SI = gain * raw + offset.
+struct BoundColumn {
+  std::size_t column;  ///< index in the file
+  Channel channel;
+  double gain;
+  double offset;
+  std::string name;  ///< the column's name in the file, for messages
+  units::Unit unit;  ///< the unit that the values were said to be in
+};
+
+/// The columns of all required channels, and of the optional ones where the file has them; of every channel where
+/// neither is named. `time` is always required.
+/// A channel that the map names is taken from there; any other from a header <channel>_<unit>. Throws RecordingError: a
+/// required channel that is missing, a column that the map names and the file lacks, two columns for one channel, a
+/// unit that is unknown, missing, of another quantity, or at odds with the one the file states.
+[[nodiscard]] std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptions& options,
+                                                     const std::string& file);
+
+}  // namespace spoolflow::recording

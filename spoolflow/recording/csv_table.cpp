@@ -1,0 +1,209 @@
+#include "spoolflow/recording/csv_table.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/csv_scan.hpp"
+#include "spoolflow/recording/decimal_number.hpp"
+#include "spoolflow/recording/recording_error.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+constexpr std::size_t block_bytes = std::size_t{256} << 10;
+constexpr std::size_t longest_line = std::size_t{4} << 20;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t shown = 40;
+  std::string out;
+  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  return text.size() > shown ? out + "..." : out;
+}
+
+}  // namespace
+
+CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginning, Text text)
+    : input_(std::move(input)), text_(text), buffer_(std::move(beginning)), filled_(buffer_.size()) {
+  buffer_.resize(std::max(filled_, block_bytes) + scan_padding);
+  if (filled_ < block_bytes) {
+    filled_ += input_->read(buffer_.data() + filled_, block_bytes - filled_);
+    at_end_ = filled_ < block_bytes;
+  }
+  dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name());
+  cursor_ = dialect_.header_bytes;
+  line_ = dialect_.header_lines;
+  look_at_new_bytes();
+}
+
+void CsvTable::select(const std::vector<std::size_t>& columns) {
+  chosen_ = columns;
+  text_cells_.assign(columns.size(), 0);
+  slot_of_column_.assign(dialect_.columns.size(), -1);
+  for (std::size_t slot = 0; slot < columns.size(); ++slot) {
+    slot_of_column_[columns[slot]] = static_cast<std::ptrdiff_t>(slot);
+  }
+  std::size_t next = 0;
+  for (std::size_t column = 0; column < slot_of_column_.size(); ++column) {
+    if (slot_of_column_[column] < 0) continue;
+    steps_.push_back({column - next, static_cast<std::size_t>(slot_of_column_[column])});
+    next = column + 1;
+  }
+  look_at_new_bytes();
+}
+
+/// Whole lines now end at lines_end_; tells what they need.
+void CsvTable::look_at_new_bytes() {
+  if (at_end_ && filled_ > cursor_ && buffer_[filled_ - 1] != '\n') {
+    buffer_.resize(std::max(buffer_.size(), filled_ + 1 + scan_padding));
+    buffer_[filled_++] = '\n';
+  }
+  const std::string_view fresh(buffer_.data() + cursor_, filled_ - cursor_);
+  const std::size_t last = fresh.rfind('\n');
+  lines_end_ = last == std::string_view::npos ? cursor_ : cursor_ + last + 1;
+  const std::string_view lines = fresh.substr(0, lines_end_ - cursor_);
+  quotes_ = lines.find('"') != std::string_view::npos;
+  if (point_known_ || chosen_.empty()) return;
+  if (const auto sign = recording::decimal_sign(lines, dialect_.delimiter, chosen_)) {
+    point_ = *sign;
+    point_known_ = true;
+  }
+}
+
+bool CsvTable::refill() {
+  while (cursor_ == lines_end_) {
+    if (at_end_) return false;
+    const std::size_t begun = filled_ - cursor_;
+    if (begun > longest_line) {
+      throw RecordingError(fmt::format("{}, line {}: goes on for more than {} MiB; this is no CSV recording",
+                                       input_->name(), line_ + 1, longest_line >> 20));
+    }
+    std::memmove(buffer_.data(), buffer_.data() + cursor_, begun);
+    buffer_.resize(begun + block_bytes + scan_padding);
+    const std::size_t got = input_->read(buffer_.data() + begun, block_bytes);
+    at_end_ = got < block_bytes;
+    cursor_ = 0;
+    filled_ = begun + got;
+    look_at_new_bytes();
+  }
+  return true;
+}
+
+/// The fast path: plain decimals, no quotes, the right number of cells; anything else is false and nothing has moved.
+bool CsvTable::plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const {
+  const char* text = cursor;
+  std::size_t cells = 0;
+  bool ended = false;
+  for (const Step& step : steps_) {
+    if (ended) return false;
+    if (step.skip != 0) {
+      text = behind_delimiters(text, dialect_.delimiter, step.skip);
+      if (text == nullptr) return false;
+    }
+    text = read_plain_decimal(text, point_, out[step.slot][row]);
+    if (text == nullptr) return false;
+    cells += step.skip + 1;
+    if (*text == dialect_.delimiter) {
+      ++text;
+    } else {
+      if (*text == '\r') ++text;
+      if (*text != '\n') return false;
+      ended = true;
+    }
+  }
+  if (!ended) {
+    const LineRest rest = rest_of_line(text, dialect_.delimiter);
+    cells += rest.delimiters + 1;
+    text = rest.line_feed;
+  }
+  if (cells != dialect_.columns.size()) return false;
+  cursor = text + 1;
+  return true;
+}
+
+double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size_t slot) {
+  double value = 0.0;
+  const Digits digits = read_number(cell, point_, value);
+  if (digits == Digits::number) return value;
+  if (digits == Digits::empty) return missing;
+  if (text_ == Text::counted) {
+    ++text_cells_[slot];
+    return missing;
+  }
+  const std::string place =
+      fmt::format("{}, line {}, column '{}'", input_->name(), line_, dialect_.columns[column].name);
+  const std::string shown = shortened(cell);
+  if (digits == Digits::not_finite) {
+    throw RecordingError(
+        fmt::format("{}: '{}' is not finite; leave the cell empty where a sample is missing", place, shown));
+  }
+  if (digits == Digits::out_of_range) {
+    throw RecordingError(fmt::format("{}: '{}' is larger than any number that can be kept (1.8e308)", place, shown));
+  }
+  throw RecordingError(
+      fmt::format("{}: '{}' is not a number (decimal sign here: '{}'); correct it, or leave the cell "
+                  "empty where a sample is missing",
+                  place, shown, point_));
+}
+
+void CsvTable::refuse_length(std::size_t cells) const {
+  throw RecordingError(
+      fmt::format("{}, line {}: has {} cells, the header has {} (delimiter '{}'); complete the line or "
+                  "remove it",
+                  input_->name(), line_, cells, dialect_.columns.size(),
+                  dialect_.delimiter == '\t' ? std::string("tab") : std::string(1, dialect_.delimiter)));
+}
+
+/// Any row: quotes, spaces, exponents, empty cells, trailing delimiters; and every refusal.
+void CsvTable::careful_row(std::string_view line, std::span<double* const> out, std::size_t row) {
+  std::size_t cells = 0;
+  std::size_t used = 0;  // up to the last cell that is not empty
+  for (bool last = false; !last; ++cells) {
+    const CsvCell cell = take_cell(line, dialect_.delimiter);
+    last = cell.last;
+    if (!cell.text.empty()) used = cells + 1;
+    if (cells >= slot_of_column_.size() || slot_of_column_[cells] < 0) continue;
+    const auto slot = static_cast<std::size_t>(slot_of_column_[cells]);
+    out[slot][row] = cell_value(cell.text, cells, slot);
+  }
+  if (cells < dialect_.columns.size() || used > dialect_.columns.size()) refuse_length(cells);
+}
+
+std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
+  line_of_row_.clear();
+  std::size_t row = 0;
+  while (row < rows && refill()) {
+    const char* cursor = buffer_.data() + cursor_;
+    const char* const end = buffer_.data() + lines_end_;
+    while (row < rows && cursor != end) {
+      ++line_;
+      if (quotes_ || *cursor == '#' || !plain_row(cursor, out, row)) {
+        std::string_view rest(cursor, static_cast<std::size_t>(end - cursor));
+        const std::string_view line = take_line(rest);
+        cursor = rest.empty() ? end : rest.data();
+        if (line.starts_with('#') || line.find_first_not_of(" \t") == std::string_view::npos) continue;
+        careful_row(line, out, row);
+      }
+      line_of_row_.push_back(line_);
+      ++row;
+    }
+    cursor_ = static_cast<std::size_t>(cursor - buffer_.data());
+  }
+  return row;
+}
+
+std::string CsvTable::place(std::size_t row) const {
+  return fmt::format("{}, line {}", input_->name(), row < line_of_row_.size() ? line_of_row_[row] : line_);
+}
+
+std::optional<double> CsvTable::progress() const {
+  const auto size = input_->size();
+  if (!size || *size == 0) return std::nullopt;
+  const std::uint64_t used = input_->position() - std::min<std::uint64_t>(input_->position(), filled_ - cursor_);
+  return std::min(1.0, static_cast<double>(used) / static_cast<double>(*size));
+}
+
+}  // namespace spoolflow::recording

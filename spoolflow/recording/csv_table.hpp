@@ -1,0 +1,64 @@
+#pragma once
+/// A CSV file as a table of numbers, read in large blocks; columns that were not chosen are stepped over unread.
+#include <memory>
+
+#include "spoolflow/recording/csv_dialect.hpp"
+#include "spoolflow/recording/input_bytes.hpp"
+#include "spoolflow/recording/sample_table.hpp"
+
+namespace spoolflow::recording {
+
+class CsvTable final : public SampleTable {
+ public:
+  /// What to do with a cell that is no number: refuse it, or count it and take the sample as missing (to inspect).
+  enum class Text : std::uint8_t { refused, counted };
+
+  /// Throws RecordingError where the header cannot be read. `beginning`: bytes already taken from `input`.
+  CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginning, Text text = Text::refused);
+
+  [[nodiscard]] const std::vector<FileColumn>& columns() const override { return dialect_.columns; }
+  void select(const std::vector<std::size_t>& columns) override;
+  std::size_t read(std::span<double* const> out, std::size_t rows) override;
+  [[nodiscard]] std::string place(std::size_t row) const override;
+  [[nodiscard]] std::optional<double> progress() const override;
+
+  [[nodiscard]] char delimiter() const { return dialect_.delimiter; }
+  [[nodiscard]] char decimal_sign() const { return point_; }
+  /// Cells of each chosen column that were no number, with Text::counted.
+  [[nodiscard]] const std::vector<std::uint64_t>& text_cells() const { return text_cells_; }
+
+ private:
+  bool refill();
+  void look_at_new_bytes();
+  bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
+  void careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
+  double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
+  [[noreturn]] void refuse_length(std::size_t cells) const;
+
+  /// One chosen column: how many cells to step over from the end of the one before.
+  struct Step {
+    std::size_t skip;
+    std::size_t slot;
+  };
+
+  std::unique_ptr<InputBytes> input_;
+  Text text_;
+  CsvDialect dialect_;
+  char point_ = '.';
+  bool point_known_ = false;
+  bool quotes_ = false;  ///< a quote in the buffer: every row is read carefully
+  std::vector<std::size_t> chosen_;
+  std::vector<Step> steps_;
+  std::vector<std::ptrdiff_t> slot_of_column_;
+  std::vector<std::uint64_t> text_cells_;
+
+  std::vector<char> buffer_;  ///< [cursor_, lines_end_) whole lines, [lines_end_, filled_) the beginning of the next
+  std::size_t cursor_ = 0;
+  std::size_t lines_end_ = 0;
+  std::size_t filled_ = 0;
+  bool at_end_ = false;
+  std::uint64_t line_ = 0;                  ///< of the row before the cursor
+  std::vector<std::uint64_t> line_of_row_;  ///< of the last read()
+};
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,29 @@
+#pragma once
+/// What a column's name says about channel and unit.
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/sample_table.hpp"
+
+namespace spoolflow::recording {
+
+/// A unit in brackets at the end of a name: "I_sol [mA]" or "p1 (bar)" give "I_sol" and "mA", "p1" and "bar".
+struct BracketedName {
+  std::string_view stem;
+  std::string_view unit;  ///< empty: no brackets
+};
+[[nodiscard]] BracketedName split_brackets(std::string_view name);
+
+/// `<channel>_<unit>`, or the bare channel's name with its unit in brackets or in a units row.
+struct ChannelHeader {
+  Channel channel;
+  std::string unit;  ///< "1" for `test`; empty: the file does not say
+};
+[[nodiscard]] std::optional<ChannelHeader> channel_header(const FileColumn& column);
+
+/// The unit that the file itself states for a column, apart from a suffix of its name; empty where it does not.
+[[nodiscard]] std::string stated_unit(const FileColumn& column);
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,63 @@
+#include "spoolflow/recording/input_bytes.hpp"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <stdexcept>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/recording_error.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+}  // namespace
+
+InputBytes::InputBytes(const std::filesystem::path& file)
+    : name_(file == "-" ? "standard input" : file.string()), descriptor_(STDIN_FILENO), owned_(file != "-") {
+  if (owned_) {
+    if (file.empty()) throw RecordingError("the name of the recording is empty; name a file, or - for standard input");
+    descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0) {
+      throw RecordingError(
+          fmt::format("{}: cannot be opened: {}; check the name and the permissions", name_, reason(errno)));
+    }
+  }
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0) {
+    if (S_ISDIR(status.st_mode)) {
+      if (owned_) ::close(descriptor_);
+      throw RecordingError(fmt::format("{}: is a folder; name a recording in it", name_));
+    }
+    if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
+  }
+}
+
+InputBytes::~InputBytes() {
+  if (owned_) ::close(descriptor_);
+}
+
+std::size_t InputBytes::read(char* out, std::size_t room) {
+  std::size_t filled = 0;
+  while (filled < room) {
+    const ::ssize_t got = ::read(descriptor_, out + filled, room - filled);
+    if (got == 0) break;
+    if (got < 0) {
+      if (errno == EINTR) continue;
+      throw std::runtime_error(
+          fmt::format("{}: reading failed after {} bytes: {}", name_, position_ + filled, reason(errno)));
+    }
+    filled += static_cast<std::size_t>(got);
+  }
+  position_ += filled;
+  return filled;
+}
+
+}  // namespace spoolflow::recording

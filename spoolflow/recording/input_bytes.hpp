@@ -1,0 +1,35 @@
+#pragma once
+/// The bytes of a file or of standard input, from the first to the last.
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace spoolflow::recording {
+
+class InputBytes {
+ public:
+  /// "-" is standard input. Throws RecordingError: no such file, a folder, no permission.
+  explicit InputBytes(const std::filesystem::path& file);
+  ~InputBytes();
+  InputBytes(const InputBytes&) = delete;
+  InputBytes& operator=(const InputBytes&) = delete;
+
+  /// Up to `room` bytes; fewer only at the end. Throws std::runtime_error where the device fails.
+  std::size_t read(char* out, std::size_t room);
+  /// As the user named it; "standard input" for "-".
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// The length of a regular file; nothing for a pipe or a terminal.
+  [[nodiscard]] std::optional<std::uint64_t> size() const { return size_; }
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+
+ private:
+  std::string name_;
+  int descriptor_;
+  bool owned_;
+  std::optional<std::uint64_t> size_;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace spoolflow::recording

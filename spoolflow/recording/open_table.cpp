@@ -1,0 +1,30 @@
+#include "spoolflow/recording/open_table.hpp"
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/hdf5_table.hpp"
+#include "spoolflow/recording/input_bytes.hpp"
+#include "spoolflow/recording/mat_table.hpp"
+#include "spoolflow/recording/recording_error.hpp"
+
+namespace spoolflow::recording {
+
+OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text text) {
+  auto input = std::make_unique<InputBytes>(file);
+  std::vector<char> beginning(format_bytes);
+  beginning.resize(input->read(beginning.data(), beginning.size()));
+  const FileFormat format = format_of({beginning.data(), beginning.size()}, input->name());
+  if (format == FileFormat::csv) {
+    return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
+  }
+  if (!input->size()) {
+    throw RecordingError(
+        fmt::format("{}: is a {} file, which can only be read from a file, not from a pipe; save it "
+                    "and name it",
+                    input->name(), name(format)));
+  }
+  if (format == FileFormat::mat) return {format, open_mat_table(file)};
+  return {format, open_hdf5_table(file)};
+}
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,21 @@
+#pragma once
+/// Tells a file's format by its content and opens it.
+#include <filesystem>
+#include <memory>
+
+#include "spoolflow/recording/csv_table.hpp"
+#include "spoolflow/recording/file_format.hpp"
+#include "spoolflow/recording/sample_table.hpp"
+
+namespace spoolflow::recording {
+
+struct OpenTable {
+  FileFormat format;
+  std::unique_ptr<SampleTable> table;
+};
+
+/// "-" is standard input (CSV). Throws RecordingError where the file cannot be read or is of no known format.
+[[nodiscard]] OpenTable open_sample_table(const std::filesystem::path& file,
+                                          CsvTable::Text text = CsvTable::Text::refused);
+
+}  // namespace spoolflow::recording

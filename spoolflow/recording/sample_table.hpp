@@ -1,0 +1,41 @@
+#pragma once
+/// What all file formats have in common: named columns of numbers, read from the first row to the last.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spoolflow::recording {
+
+/// A column of a file before anything is known about its meaning.
+struct FileColumn {
+  std::string name;  ///< as a channel map names it: CSV header, `struct.field`, `rig/time`
+  std::string leaf;  ///< the last part of the name, which <channel>_<unit> is looked for in
+  std::string unit;  ///< written in the file beside the name (units row, attribute); empty where it is not
+};
+
+/// One open file. A new format implements this, and open_sample_table() tells it by its content.
+class SampleTable {
+ public:
+  SampleTable() = default;
+  SampleTable(const SampleTable&) = delete;
+  SampleTable& operator=(const SampleTable&) = delete;
+  virtual ~SampleTable() = default;
+
+  [[nodiscard]] virtual const std::vector<FileColumn>& columns() const = 0;
+  /// What the file holds but is not read, with its remedy, for messages about missing channels; empty: nothing.
+  [[nodiscard]] virtual std::string unread() const { return {}; }
+  /// Chooses the columns that read() fills, by index, each at most once. Once, before the first read().
+  virtual void select(const std::vector<std::size_t>& columns) = 0;
+  /// Fills `out[k]` (room for `rows` numbers) from the k-th chosen column; returns the number of rows, 0 at the end.
+  /// Numbers are finite, or NaN where the sample is missing. Throws RecordingError with file, place and value.
+  virtual std::size_t read(std::span<double* const> out, std::size_t rows) = 0;
+  /// Where row `row` of the last read() stands: "run.csv, line 17" or "run.mat, sample 16".
+  [[nodiscard]] virtual std::string place(std::size_t row) const = 0;
+  /// Share of the file read so far, 0 to 1; nothing where the length is unknown.
+  [[nodiscard]] virtual std::optional<double> progress() const = 0;
+};
+
+}  // namespace spoolflow::recording

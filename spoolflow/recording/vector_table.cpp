@@ -1,0 +1,57 @@
+#include "spoolflow/recording/vector_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/recording_error.hpp"
+
+namespace spoolflow::recording {
+
+void VectorTable::add(Vector vector) {
+  columns_.push_back(std::move(vector.column));
+  lengths_.push_back(vector.length);
+}
+
+void VectorTable::select(const std::vector<std::size_t>& columns) {
+  chosen_ = columns;
+  if (columns.empty()) return;
+  rows_ = lengths_[columns.front()];
+  for (const std::size_t column : columns) {
+    if (lengths_[column] == rows_) continue;
+    throw RecordingError(
+        fmt::format("{}: '{}' holds {} samples but '{}' holds {}; channels of one recording must be "
+                    "equally long, so resample one of them or cut both to the same time",
+                    file_, columns_[columns.front()].name, rows_, columns_[column].name, lengths_[column]));
+  }
+}
+
+std::size_t VectorTable::read(std::span<double* const> out, std::size_t rows) {
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows, rows_ - next_));
+  first_of_block_ = next_;
+  if (count == 0) return 0;
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    copy(chosen_[k], next_, count, out[k]);
+    const double* const wrong =
+        std::find_if(out[k], out[k] + count, [](double value) { return !std::isfinite(value); });
+    if (wrong == out[k] + count) continue;
+    throw RecordingError(
+        fmt::format("{}, '{}': {} is not finite; remove or interpolate the samples that are missing "
+                    "(MATLAB: fillmissing) and save again",
+                    place(static_cast<std::size_t>(wrong - out[k])), columns_[chosen_[k]].name, *wrong));
+  }
+  next_ += count;
+  return count;
+}
+
+std::string VectorTable::place(std::size_t row) const {
+  return fmt::format("{}, sample {}", file_, first_of_block_ + row + 1);
+}
+
+std::optional<double> VectorTable::progress() const {
+  if (rows_ == 0) return std::nullopt;
+  return static_cast<double>(next_) / static_cast<double>(rows_);
+}
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,43 @@
+#pragma once
+/// A file of separate vectors (MATLAB, HDF5) as a table: the chosen ones must be equally long.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "spoolflow/recording/sample_table.hpp"
+
+namespace spoolflow::recording {
+
+class VectorTable : public SampleTable {
+ public:
+  /// A vector, or one column or row of a matrix.
+  struct Vector {
+    FileColumn column;
+    std::uint64_t length;
+  };
+
+  [[nodiscard]] const std::vector<FileColumn>& columns() const final { return columns_; }
+  void select(const std::vector<std::size_t>& columns) final;
+  std::size_t read(std::span<double* const> out, std::size_t rows) final;
+  [[nodiscard]] std::string place(std::size_t row) const final;
+  [[nodiscard]] std::optional<double> progress() const final;
+
+ protected:
+  explicit VectorTable(std::string file) : file_(std::move(file)) {}
+  void add(Vector vector);
+  /// Copies `count` numbers from `first` on; the format's own slab may be larger. Throws RecordingError.
+  virtual void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) = 0;
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] std::uint64_t length(std::size_t column) const { return lengths_[column]; }
+
+ private:
+  std::string file_;
+  std::vector<FileColumn> columns_;
+  std::vector<std::uint64_t> lengths_;
+  std::vector<std::size_t> chosen_;
+  std::uint64_t rows_ = 0;
+  std::uint64_t next_ = 0;
+  std::uint64_t first_of_block_ = 0;
+};
+
+}  // namespace spoolflow::recording

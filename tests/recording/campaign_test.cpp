@@ -1,0 +1,78 @@
+#include "spoolflow/recording/campaign.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/recording/refusal.hpp"
+#include "tests/recording/temporary_file.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::string_view valve = "[valve]\nname = \"A\"\nrated_flow_L_min = 80\nstroke_mm = 2.4\n";
+
+std::string refused(const std::string& campaign) {
+  const TemporaryFile file("campaign.toml", campaign);
+  std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+  return refusal([&] { (void)read_campaign(file.path()); });
+}
+
+std::string with_recording(std::string_view text) {
+  return std::string(valve) + "[[recording]]\n" + std::string(text);
+}
+
+TEST(Campaign, IsReadInSiWithItsChannelMaps) {
+  const TemporaryFile file("campaign.toml",
+                           with_recording("protocol = \"spring\"\nfile = \"spring.csv\"\n"
+                                          "[recording.channels]\n"
+                                          "position = { column = \"LVDT\", unit = \"V\", scale = 0.24, "
+                                          "offset = -0.6, to = \"mm\" }\n"
+                                          "[fluid]\nviscosity_40C_mm2_per_s = 46.0\n"
+                                          "[instruments]\nposition_uncertainty_mm = 0.005\n"));
+  std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+  const Campaign campaign = read_campaign(file.path());
+  EXPECT_DOUBLE_EQ(campaign.valve.rated_flow_m3_per_s, 80.0 / 60000.0);
+  EXPECT_DOUBLE_EQ(campaign.valve.stroke_m, 0.0024);
+  EXPECT_EQ(campaign.valve.direction, "b");
+  EXPECT_DOUBLE_EQ(campaign.fluid.viscosity_40C_m2_per_s.value(), 46e-6);
+  EXPECT_FALSE(campaign.fluid.density_15C_kg_per_m3.has_value());
+  EXPECT_DOUBLE_EQ(campaign.instruments.position_uncertainty_m.value(), 5e-6);
+  ASSERT_EQ(campaign.of(Protocol::spring).size(), 1u);
+  const CampaignRecording& spring = *campaign.of(Protocol::spring).front();
+  EXPECT_EQ(spring.file, file.folder() / "spring.csv");
+  EXPECT_THAT(spring.place, HasSubstr("campaign.toml, line 5"));
+  EXPECT_EQ(spring.channels.sources.at(Channel::position).to, "mm");
+}
+
+TEST(Campaign, NamesFileAndLineOfWhatItRefuses) {
+  EXPECT_THAT(refused(std::string(valve)), HasSubstr("names no recordings"));
+  EXPECT_THAT(
+      refused("[valve]\nname = \"A\"\nrated_flow = 80\nstroke_mm = 2.4\n"),
+      HasSubstr("campaign.toml, line 3: unknown key 'rated_flow' in [valve]; did you mean 'rated_flow_L_min'?"));
+  EXPECT_THAT(refused("[valve]\nname = \"A\"\nrated_flow_L_min = -80\nstroke_mm = 2.4\n"),
+              HasSubstr("line 3: 'rated_flow_L_min' in [valve] is -80; it must be above zero"));
+  EXPECT_THAT(refused("[valve]\nname = \"A\"\nrated_flow_L_min = 80\n"), HasSubstr("[valve] needs a key 'stroke_mm'"));
+  EXPECT_THAT(refused("[valve]\nname = A\n"), HasSubstr("campaign.toml, line 2: "));
+  EXPECT_THAT(refused(with_recording("protocol = \"sprung\"\nfile = \"spring.csv\"\n")),
+              HasSubstr("line 6: unknown protocol \"sprung\"; did you mean 'spring'?"));
+  EXPECT_THAT(refused(with_recording("protocol = \"spring\"\nfile = \"lost.csv\"\n")),
+              HasSubstr("campaign.toml, line 7: the recording"));
+}
+
+TEST(Campaign, RefusesChannelsAndUnitsThatDoNotFit) {
+  const auto channels = [](std::string_view entry) {
+    return with_recording("protocol = \"spring\"\nfile = \"spring.csv\"\n[recording.channels]\n") + std::string(entry);
+  };
+  EXPECT_THAT(refused(channels("presure_upstream = { column = \"p\" }\n")),
+              HasSubstr("line 9: unknown channel 'presure_upstream'; did you mean 'pressure_upstream'?"));
+  EXPECT_THAT(refused(channels("pressure_upstream = { column = \"p\", unit = \"N\" }\n")),
+              HasSubstr("line 9: channel pressure_upstream cannot be in 'N', which is a unit of force; allowed: bar"));
+  EXPECT_THAT(refused(channels("current = { colum = \"p\", unit = \"A\" }\n")), HasSubstr("did you mean 'column'?"));
+  EXPECT_THAT(refused(channels("current = { column = \"p\", unit = \"A\", scale = 0 }\n")),
+              HasSubstr("the scale of channel current is zero"));
+}
+
+}  // namespace
+}  // namespace spoolflow::recording

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/recording/reader.hpp"
+#include "tests/recording/refusal.hpp"
+#include "tests/recording/temporary_file.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const ReadOptions position_over_time{{}, {Channel::time, Channel::position}, {}, {}};
+
+Recording read(std::string_view content, const ReadOptions& options = position_over_time) {
+  const TemporaryFile file("run.csv", content);
+  return read_recording(file.path(), options);
+}
+
+std::string refused(std::string_view content, const ReadOptions& options = position_over_time) {
+  return refusal([&] { (void)read(content, options); });
+}
+
+std::vector<double> column(const Recording& recording, Channel channel) {
+  const auto values = recording[channel];
+  return {values.begin(), values.end()};
+}
+
+TEST(CsvReading, TurnsHeadersOfChannelAndUnitIntoSi) {
+  const Recording run = read("time_s,position_mm\n0.000,1.0\n0.001,-2.5\n");
+  EXPECT_THAT(column(run, Channel::time), ElementsAre(0.0, 0.001));
+  EXPECT_THAT(column(run, Channel::position), ElementsAre(0.001, -0.0025));
+}
+
+TEST(CsvReading, ReadsTheSameNumbersFromEveryDialect) {
+  const Recording plain = read("time_s,current_A,position_mm\n0,0.5,1.25\n0.001,0.6,1.5\n");
+  for (const char* dialect : {
+           "time_s;current_A;position_mm\n0;0.5;1.25\n0.001;0.6;1.5\n",
+           "time_s;current_A;position_mm\n0;0,5;1,25\n0,001;0,6;1,5\n",
+           "time_s\tcurrent_A\tposition_mm\r\n0\t0,5\t1,25\r\n0,001\t0,6\t1,5\r\n",
+           "\xEF\xBB\xBFtime_s,current_A,position_mm\r\n0,0.5,1.25\r\n0.001,0.6,1.5",
+           "sep=;\ntime_s;current_A;position_mm\n0;0,5;1,25\n0,001;0,6;1,5\n",
+           "\"time_s\",\"current_A\",\"position_mm\"\n\"0\",\"0.5\",\"1.25\"\n\"0.001\",\"0.6\",\"1.5\"\n",
+           "\"time_s\",\"current_A\",\"position_mm\"\n\"0\",\"0,5\",\"1,25\"\n\"0,001\",\"0,6\",\"1,5\"\n",
+           "# rig 3\ntime_s,current_A,position_mm\n# warm oil\n0,0.5,1.25\n\n0.001,0.6,1.5\n\n\n",
+           "time_s,current_A,position_mm,\n0,0.5,1.25,\n0.001,0.6,1.5,\n",
+           "time_s,current_A,position_mm\n0,0.5,1.25,\n0.001,0.6,1.5,\n",
+           "time,current,position\ns,A,mm\n0,0.5,1.25\n0.001,0.6,1.5\n",
+           "time;current;position\n[s];[A];[mm]\n0;0,5;1,25\n0,001;0,6;1,5\n",
+           "time [s], current [A], position (mm)\n 0, 5e-1, 1.25\n 1.0E-3, 6.0e-01, +1.5\n",
+           "note,time_s,current_A,position_mm\n\"a, b\",0,0.5,1.25\nc,0.001,0.6,1.5\n",
+       }) {
+    const Recording run = read(dialect);
+    EXPECT_EQ(column(run, Channel::time), column(plain, Channel::time)) << dialect;
+    EXPECT_EQ(column(run, Channel::position), column(plain, Channel::position)) << dialect;
+  }
+}
+
+TEST(CsvReading, TakesAnEmptyCellForAMissingSampleAndCountsIt) {
+  const TemporaryFile file("run.csv", "time_s,position_mm\n0,1\n0.001,\n0.002,3\n0.002,4\n");
+  const auto reader = open_reader(file.path(), position_over_time);
+  SampleBlock block;
+  ASSERT_TRUE(reader->next(block));
+  ASSERT_EQ(block.rows, 4u);
+  EXPECT_TRUE(std::isnan(block.columns[static_cast<std::size_t>(Channel::position)][1]));
+  EXPECT_FALSE(reader->next(block));
+  EXPECT_EQ(reader->notes().rows, 4u);
+  EXPECT_EQ(reader->notes().missing_values, 1u);
+  EXPECT_EQ(reader->notes().duplicate_times, 1u);
+}
+
+TEST(CsvReading, LeavesTextInColumnsThatNobodyAskedFor) {
+  EXPECT_EQ(read("time_s,status,position_mm\n0,fully_open|at_rest,1\n1e-3,,2\n").size(), 2u);
+}
+
+TEST(CsvReading, SaysWhereANumberIsNone) {
+  const std::string text = refused("time_s,position_mm\n0,1\n0.001,abc\n");
+  EXPECT_THAT(text, HasSubstr("run.csv, line 3, column 'position_mm': 'abc' is not a number"));
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,nan\n"), HasSubstr("line 3, column 'position_mm': 'nan' is not"));
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,-inf\n"), HasSubstr("'-inf' is not finite"));
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,1e999\n"), HasSubstr("'1e999' is larger than"));
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n,2\n"),
+              HasSubstr("line 3, column 'time_s': the time stamp is missing"));
+}
+
+TEST(CsvReading, SaysWhereTimeRunsBackwards) {
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.002,1\n0.001,1\n"),
+              HasSubstr("line 4, column 'time_s': time runs backwards, from 0.002 to 0.001 s"));
+}
+
+TEST(CsvReading, RefusesRowsThatAreTooShortOrTooLong) {
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001\n"), HasSubstr("line 3: has 1 cells, the header has 2"));
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,1,2\n"), HasSubstr("line 3: has 3 cells, the header has 2"));
+}
+
+TEST(CsvReading, RefusesFilesWithoutHeaderOrSamples) {
+  EXPECT_THAT(refused("time_s,position_mm\n"), HasSubstr("has a header but no samples"));
+  EXPECT_THAT(refused("\n\n"), HasSubstr("holds no header line"));
+  EXPECT_THAT(refused("0.0,1.0\n0.1,1.1\n"), HasSubstr("insert a first line that names the columns"));
+  EXPECT_THAT(refused(std::string_view("\xFF\xFEt\0i\0", 6)), HasSubstr("UTF-16"));
+  const TemporaryFile empty("empty.csv");
+  empty.write("");
+  EXPECT_THAT(refusal([&] { (void)read_recording(empty.path(), position_over_time); }), HasSubstr("is empty"));
+  EXPECT_THAT(refusal([&] { (void)read_recording(empty.folder() / "no.csv", position_over_time); }),
+              HasSubstr("no.csv: cannot be opened: No such file or directory"));
+  EXPECT_THAT(refusal([&] { (void)read_recording(empty.folder(), position_over_time); }), HasSubstr("is a folder"));
+}
+
+TEST(CsvReading, NamesAMissingChannelWithTheColumnsThatAreThere) {
+  const std::string text = refused("time_s,flow_L_min\n0,1\n");
+  EXPECT_THAT(text, HasSubstr("channel position is missing; the columns are time_s, flow_L_min"));
+  EXPECT_THAT(refused("time_s,position_inch\n0,1\n"), HasSubstr("'inch' is no known unit"));
+}
+
+TEST(CsvReading, DoesNotStumbleOverLatin1DegreeSigns) {
+  const ReadOptions oil{{}, {Channel::oil_temperature}, {}, {}};
+  for (const char* header : {"oil_temperature [\xB0"
+                             "C]",
+                             "oil_temperature [\xC2\xB0"
+                             "C]",
+                             "oil_temperature_\xB0"
+                             "C"}) {
+    const Recording run = read(std::string("time_s;") + header + "\n0;50,0\n", oil);
+    EXPECT_NEAR(run[Channel::oil_temperature][0], 323.15, 1e-9) << header;
+  }
+}
+
+}  // namespace
+}  // namespace spoolflow::recording
