@@ -61,11 +61,8 @@ void calibrate(const CalibrateArguments& arguments) {
     });
   }
   model::write_model(output.stream(), model);
-  output.commit();
-  if (page) {
-    report::write_calibration_report(page->stream(), model);
-    page->commit();
-  }
+  if (page) report::write_calibration_report(page->stream(), model);
+  commit_together({&output, page ? &*page : nullptr});
   if (!arguments.quiet) print_summary(model);
 }
 
@@ -80,8 +77,11 @@ void add_calibrate_command(CLI::App& program) {
        "the model as JSON: maps, their ranges and residuals, and where they came from",
        {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json"}});
   command->add_option("campaign", arguments->campaign, "campaign file (TOML)")->required();
-  command->add_option("-o,--output", arguments->model, "model file to write; - for standard output")->required();
-  command->add_option("--report", arguments->report, "HTML page to write about the calibration");
+  command->add_option("-o,--output", arguments->model, "model file to write; - for standard output")
+      ->type_name("MODEL.json")
+      ->required();
+  command->add_option("--report", arguments->report, "HTML page to write about the calibration")
+      ->type_name("PAGE.html");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { calibrate(*arguments); });
 }

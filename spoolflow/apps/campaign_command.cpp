@@ -56,7 +56,7 @@ void campaign(const CampaignArguments& arguments) {
 void add_campaign_command(CLI::App& program) {
   CLI::App* command = add_command(
       program, {.name = "campaign",
-                .purpose = "Make a whole measuring campaign of a valve on the virtual test rig.",
+                .purpose = "make a whole measuring campaign of a valve on the virtual test rig",
                 .reads = "a valve file (TOML), or the name of a built-in valve: size_6, size_10, fast_dither",
                 .writes = "a folder: bench tests, operating runs and campaign.toml, which spoolflow calibrate reads",
                 .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign"}});

@@ -74,7 +74,7 @@ void add_demo_command(CLI::App& program) {
                             "metrics.json, calibration.html and report.html; "
                             "the path of the report comes last on standard output",
                             {"spoolflow demo -o demo"}});
-  command->add_option("-o,--output", arguments->folder, "folder to write")->capture_default_str();
+  command->add_option("-o,--output", arguments->folder, "folder to write")->type_name("DIR")->capture_default_str();
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { demo(*arguments); });
 }

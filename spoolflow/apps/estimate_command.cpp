@@ -56,7 +56,9 @@ void estimate(const EstimateArguments& arguments) {
   const auto reader =
       recording::open_reader(arguments.recording, validation::sensor_channels(model, std::move(channels)));
   validation::Estimation estimation(model, estimator);
-  OutputFile output(arguments.output, {arguments.model, arguments.recording});
+  std::vector<std::filesystem::path> inputs{arguments.model, arguments.recording};
+  if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
+  OutputFile output(arguments.output, inputs);
   {
     Progress progress("estimating", arguments.quiet);
     recording::CsvWriter writer(output.stream());
@@ -89,12 +91,16 @@ void add_estimate_command(CLI::App& program) {
         "spoolflow estimate valve_a.json run.mat --channels map.toml -o - | head"}});
   command->add_option("model", arguments->model, "model file")->required();
   command->add_option("recording", arguments->recording, "recording")->required();
-  command->add_option("-o,--output", arguments->output, "CSV file to write; - for standard output")->required();
+  command->add_option("-o,--output", arguments->output, "CSV file to write; - for standard output")
+      ->type_name("ESTIMATE.csv")
+      ->required();
   command
       ->add_option("--estimator", arguments->estimator, "condensed or observer; the observer where the model has one")
+      ->type_name("NAME")
       ->check(CLI::IsMember({"condensed", "observer"}));
-  command->add_option("--channels", arguments->channels,
-                      "channel map (TOML) for files with other column names or units");
+  command
+      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
+      ->type_name("MAP.toml");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { estimate(*arguments); });
 }

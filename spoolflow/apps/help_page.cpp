@@ -37,7 +37,9 @@ class HelpPage : public CLI::Formatter {
 
   std::string make_option_opts(const CLI::Option* option) const override {
     if (option->get_positional()) return {};
-    return CLI::Formatter::make_option_opts(option);
+    std::string text = CLI::Formatter::make_option_opts(option);
+    while (text.ends_with(' ')) text.pop_back();
+    return text;
   }
 
  private:

@@ -170,9 +170,11 @@ void add_inspect_command(CLI::App& program) {
                             "on standard output: channels, units, rate, gaps, clipping, and a channel map to paste",
                             {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml"}});
   command->add_option("file", arguments->file, "recording")->required();
-  command->add_option("--channels", arguments->channels,
-                      "channel map (TOML) for files with other column names or units");
+  command
+      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
+      ->type_name("MAP.toml");
   command->add_option("--stroke-mm", arguments->stroke_mm, "the valve's stroke, for positions in percent")
+      ->type_name("MM")
       ->check(CLI::Range(0.01, 50.0));
   command->add_flag("--json", arguments->json, "print JSON instead of text");
   add_quiet(*command, arguments->quiet);

@@ -1,10 +1,13 @@
 /// The spoolflow command: chooses a command, and is the only place that catches what it throws.
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -94,10 +97,20 @@ int help_or_refuse(const CLI::App& program, const CLI::ParseError& error) {
   return wrong_usage;
 }
 
+/// What a command printed counts as written only once it is: `> /dev/full` must not look like success.
+void flush_standard_output() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  if (errno == EPIPE) throw ReaderGone();
+  throw OutputError(fmt::format("cannot write standard output: {}", std::strerror(errno)));
+}
+
 int run(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
-    if (chosen(program) != nullptr) return done;
+    if (chosen(program) != nullptr) {
+      flush_standard_output();
+      return done;
+    }
     fmt::print(stderr, "{0}: no command given; see {0} --help\n", program.get_name());
     return wrong_usage;
   } catch (const CLI::ParseError& error) {
@@ -129,6 +142,10 @@ int run_and_report(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     say(error.what());
     return wrong_usage;
+  } catch (const std::system_error& error) {  // printed text that standard output did not take
+    if (error.code() == std::errc::broken_pipe) end_by_sigpipe();
+    say(error.what());
+    return error.code() == std::errc::no_space_on_device ? wrong_usage : work_failed;
   } catch (const std::bad_alloc&) {
     say("out of memory; try a shorter recording or a machine with more");
     return work_failed;

@@ -98,7 +98,10 @@ std::optional<struct stat> status_of(const fs::path& path) {
 bool same_file(const fs::path& a, const fs::path& b) {
   if (a == "-" || b == "-") return false;
   std::error_code ignored;
-  return fs::equivalent(a, b, ignored) || fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  const auto full_name = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return fs::equivalent(a, b, ignored) || full_name(a) == full_name(b);
 }
 
 void check_target(const fs::path& target, const std::vector<fs::path>& also_used) {
@@ -192,9 +195,13 @@ std::ostream& OutputFile::stream() {
   return target_->stream;
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
   target_->buffer.write_out();
   target_->close();
+}
+
+void OutputFile::commit() {
+  finish();
   if (!target_->unfinished) return;
   const InterruptionPause pause;
   if (::rename(target_->unfinished->path().c_str(), target_->final_name.c_str()) != 0) {
@@ -202,6 +209,15 @@ void OutputFile::commit() {
   }
   target_->unfinished.reset();
   interruption_output_state(OutputState::file_finished);
+}
+
+void commit_together(std::initializer_list<OutputFile*> outputs) {
+  for (OutputFile* output : outputs) {
+    if (output != nullptr) output->finish();
+  }
+  for (OutputFile* output : outputs) {
+    if (output != nullptr) output->commit();
+  }
 }
 
 void make_output_folder(const fs::path& folder) {

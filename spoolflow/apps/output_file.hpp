@@ -1,6 +1,7 @@
 #pragma once
 /// The only place that opens outputs. A file appears under its name only when it is complete.
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
@@ -37,11 +38,16 @@ class OutputFile {
   /// Writes what is buffered, closes, and puts the file under its name. No fsync: the name changes hands at once for
   /// every reader, and a power cut is answered by running the command again.
   void commit();
+  /// The part of commit() that a full disk can stop: writes what is buffered and closes.
+  void finish();
 
  private:
   struct Target;
   std::unique_ptr<Target> target_;
 };
+
+/// Commits several outputs of one run: none appears before all are finished. Null pointers are left out.
+void commit_together(std::initializer_list<OutputFile*> outputs);
 
 /// Makes a folder for outputs, parents included, unless it is there. Throws OutputError.
 void make_output_folder(const std::filesystem::path& folder);

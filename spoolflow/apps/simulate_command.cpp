@@ -39,7 +39,7 @@ void simulate(const SimulateArguments& arguments) {
 void add_simulate_command(CLI::App& program) {
   CLI::App* command = add_command(
       program, {.name = "simulate",
-                .purpose = "Make one recording on the virtual test rig.",
+                .purpose = "make one recording on the virtual test rig",
                 .reads = "a scenario (TOML): the protocol, the valve, and what differs from them",
                 .writes = "the recording as the rig's instruments show it (CSV), and the ground truth beside it",
                 .examples = {"spoolflow simulate examples/scenarios/ramp.toml -o ramp.csv --truth ramp_truth.csv"}});

@@ -9,6 +9,7 @@
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/report/metrics_json.hpp"
 #include "spoolflow/report/validation_report.hpp"
+#include "spoolflow/report/verdict.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -16,26 +17,30 @@ namespace {
 std::vector<validation::Estimator> chosen(const std::string& name, const model::Model& model) {
   if (name == "condensed") return {validation::Estimator::condensed};
   if (name == "observer") return {validation::Estimator::observer};
-  if (!model.observer) return {validation::Estimator::condensed};
-  return {validation::Estimator::condensed, validation::Estimator::observer};
+  return validation::all_estimators(model);
 }
 
-void print_figures(const model::Model& model, const std::vector<validation::ValidatedRun>& runs) {
+void print_figures(const model::Model& model, const validation::Validation& validation) {
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
-  fmt::print("{}\n\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", report::verdict(model, runs), "run", "estimator",
-             "p95 %FS", "RMS %FS", "max %FS", "in band");
-  for (const validation::ValidatedRun& run : runs) {
+  const report::Verdict said = report::verdict(model, validation);
+  fmt::print("{}\n", said.sentence);
+  for (const std::string& limit : said.limits) fmt::print("- {}\n", limit);
+  fmt::print("\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", "run", "estimator", "p95 %FS", "RMS %FS", "max %FS",
+             "in band");
+  for (const validation::RunResult& run : validation.runs) {
     for (const validation::EstimatorResult& result : run.results) {
       if (!result.metrics) {
         fmt::print("{:<24} {:<10} no reference flow\n", run.name, validation::name(result.estimator));
         continue;
       }
+      const validation::GroupFigures& all = result.metrics->all;
       fmt::print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, validation::name(result.estimator),
-                 result.metrics->all.p95 * percent, result.metrics->all.rms * percent,
-                 result.metrics->all.largest * percent, 100 * result.metrics->band_coverage);
+                 all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent,
+                 100 * all.band_coverage);
     }
   }
 }
+
 }  // namespace
 
 void validate(const ValidateArguments& arguments) {
@@ -45,30 +50,22 @@ void validate(const ValidateArguments& arguments) {
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
   std::vector<std::filesystem::path> inputs{arguments.model};
   inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
+  if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
   std::optional<OutputFile> page;
   std::optional<OutputFile> figures;
   if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
   if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
   if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
-  std::vector<validation::ValidatedRun> runs;
+  validation::Validation validation;
   {
     Progress progress("validating", arguments.quiet);
-    const auto total = static_cast<double>(arguments.recordings.size());
-    for (const std::string& recording : arguments.recordings) {
-      const auto done = static_cast<double>(runs.size());
-      runs.push_back(validation::validate_run(model, recording, options,
-                                              [&](double share) { progress.update((done + share) / total); }));
-    }
+    validation = validation::validate(model, {arguments.recordings.begin(), arguments.recordings.end()}, options,
+                                      [&](double share) { progress.update(share); });
   }
-  if (page) {
-    report::write_validation_report(page->stream(), model, runs, options);
-    page->commit();
-  }
-  if (figures) {
-    report::write_metrics(figures->stream(), model, runs, options);
-    figures->commit();
-  }
-  if (arguments.json != "-" && arguments.report != "-") print_figures(model, runs);
+  if (page) report::write_validation_report(page->stream(), model, validation);
+  if (figures) report::write_metrics(figures->stream(), model, validation);
+  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+  if (arguments.json != "-" && arguments.report != "-") print_figures(model, validation);
 }
 
 void add_validate_command(CLI::App& program) {
@@ -82,11 +79,14 @@ void add_validate_command(CLI::App& program) {
        {"spoolflow validate valve_a.json ramp.csv duty.csv --report report.html --json metrics.json"}});
   command->add_option("model", arguments->model, "model file")->required();
   command->add_option("recordings", arguments->recordings, "recordings with a reference flow")->required();
-  command->add_option("--report", arguments->report, "HTML report to write");
-  command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output");
-  command->add_option("--channels", arguments->channels,
-                      "channel map (TOML) for files with other column names or units");
+  command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
+  command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
+      ->type_name("METRICS.json");
+  command
+      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
+      ->type_name("MAP.toml");
   command->add_option("--estimator", arguments->estimator, "both, condensed or observer")
+      ->type_name("NAME")
       ->check(CLI::IsMember({"both", "condensed", "observer"}))
       ->capture_default_str();
   command

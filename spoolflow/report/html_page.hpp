@@ -4,24 +4,39 @@
 #include <string_view>
 #include <vector>
 
+#include "spoolflow/report/figure.hpp"
+#include "spoolflow/report/html_table.hpp"
+
 namespace spoolflow::report {
+
+/// A figure with the sentence below it. `legend` replaces the legend made from the figure.
+struct CaptionedFigure {
+  Figure figure;
+  std::string caption = {};
+  std::string legend = {};
+};
 
 class HtmlPage {
  public:
-  explicit HtmlPage(std::string title) : title_(std::move(title)) {}
+  /// `kind` stands above the title, `origin` below it: where and when the page was made.
+  HtmlPage(std::string kind, std::string title, std::string origin);
 
-  void heading(std::string_view text);  ///< a section; it appears in the contents
-  void subheading(std::string_view text);
+  void section(std::string_view heading);     ///< appears in the contents
+  void subsection(std::string_view heading);  ///< does not
   void paragraph(std::string_view text);
+  void note(std::string_view text);  ///< small print
   void html(std::string_view markup) { body_ += markup; }
-  /// A figure with its caption; `markup` is from svg_of.
-  void figure(std::string_view markup, std::string_view caption);
-  /// Rows of equal length; the first column is text, the others are set right.
-  void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
+  void table(const HtmlTable& table) { body_ += table.str(); }
+  /// Over the whole width; drawn a second time for narrow screens, so that its text keeps its size.
+  void figure(const CaptionedFigure& figure);
+  /// Two beside each other where there is room.
+  void pair(const std::vector<CaptionedFigure>& figures);
   [[nodiscard]] std::string str() const;
 
  private:
-  std::string title_;
+  [[nodiscard]] std::string caption(const std::string& text);
+
+  std::string kind_, title_, origin_;
   std::string body_;
   std::string contents_;
   int sections_ = 0;

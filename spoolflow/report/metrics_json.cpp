@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/report/validation_report.hpp"
+#include "spoolflow/report/verdict.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
@@ -12,62 +12,136 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json figures(const validation::ErrorFigures& figures, double full_scale) {
-  const auto both = [&](double value) {
-    return Json{{"percent_FS", 100 * value / full_scale}, {"L_min", units::L_per_min_from_m3_per_s(value)}};
-  };
-  if (figures.samples == 0) return {{"samples", 0}};
-  return {{"p95", both(figures.p95)},
-          {"rms", both(figures.rms)},
-          {"max", both(figures.largest)},
-          {"bias", both(figures.bias)},
-          {"samples", figures.samples}};
+class MetricsJson {
+ public:
+  explicit MetricsJson(double full_scale_m3_per_s) : percent_(100 / full_scale_m3_per_s) {}
+
+  [[nodiscard]] Json run(const validation::RunResult& run) const;
+  [[nodiscard]] Json pooled(const validation::PooledResult& pooled) const;
+
+ private:
+  [[nodiscard]] Json flow(double flow_m3_per_s) const {
+    return {{"L_min", units::L_per_min_from_m3_per_s(flow_m3_per_s)}, {"percent_FS", flow_m3_per_s * percent_}};
+  }
+  [[nodiscard]] Json group(const validation::GroupFigures& group) const;
+  void add_metrics(Json& to, const validation::Metrics& metrics) const;
+  [[nodiscard]] Json profiles(const std::vector<validation::ErrorProfile>& profiles) const;
+  [[nodiscard]] Json estimator(const validation::EstimatorResult& result) const;
+
+  double percent_;
+};
+
+Json MetricsJson::group(const validation::GroupFigures& group) const {
+  const validation::ErrorFigures& error = group.error;
+  if (error.samples == 0) return {{"samples", 0}};
+  return {
+      {"samples", error.samples},
+      {"p95", flow(error.p95)},
+      {"rms", flow(error.rms)},
+      {"largest", flow(error.largest)},
+      {"bias", flow(error.bias)},
+      {"band_coverage", group.band_coverage},
+      {"band_mean_width", flow(group.band_mean_width_m3_per_s)},
+      {"band_mean_width_over_rms", error.rms > 0 ? Json(group.band_mean_width_m3_per_s / error.rms) : Json(nullptr)}};
 }
 
-Json result(const validation::EstimatorResult& result, double full_scale) {
+void MetricsJson::add_metrics(Json& to, const validation::Metrics& metrics) const {
+  to["error"] = {{"all", group(metrics.all)},
+                 {"moving", group(metrics.moving)},
+                 {"rest", group(metrics.rest)},
+                 {"reversal", group(metrics.reversal)}};
+  const validation::ErrorFigures& reading = metrics.share_of_reading;
+  to["error_of_reading_percent"] = {{"samples", reading.samples}};
+  if (reading.samples == 0) return;
+  to["error_of_reading_percent"].update({{"p95", 100 * reading.p95},
+                                         {"rms", 100 * reading.rms},
+                                         {"largest", 100 * reading.largest},
+                                         {"bias", 100 * reading.bias}});
+}
+
+Json MetricsJson::profiles(const std::vector<validation::ErrorProfile>& profiles) const {
+  struct Key {
+    const char* name;
+    double factor, offset;
+  };
+  constexpr std::array<Key, validation::quantities.size()> keys{
+      {{"flow_L_min", units::litre_per_minute_per_m3_per_s, 0},
+       {"position_mm", units::millimetre_per_metre, 0},
+       {"pressure_difference_bar", 1 / units::pascal_per_bar, 0},
+       {"oil_temperature_C", 1, -units::kelvin_at_0_degC}}};
+  Json out = Json::object();
+  for (std::size_t q = 0; q < profiles.size(); ++q) {
+    Json bins = Json::array();
+    for (const validation::ProfileBin& bin : profiles[q].bins()) {
+      bins.push_back({{"from", bin.from * keys[q].factor + keys[q].offset},
+                      {"to", bin.to * keys[q].factor + keys[q].offset},
+                      {"samples", bin.samples},
+                      {"median_percent_FS", bin.median_m3_per_s * percent_},
+                      {"p95_percent_FS", bin.p95_m3_per_s * percent_}});
+    }
+    if (!bins.empty()) out[keys[q].name] = std::move(bins);
+  }
+  return out;
+}
+
+Json MetricsJson::estimator(const validation::EstimatorResult& result) const {
   Json out{{"estimator", validation::name(result.estimator)}};
-  if (result.metrics) {
-    const validation::Metrics& m = *result.metrics;
-    out["error"] = {{"all", figures(m.all, full_scale)},
-                    {"moving", figures(m.moving, full_scale)},
-                    {"rest", figures(m.rest, full_scale)},
-                    {"reversal", figures(m.reversal, full_scale)}};
-    out["error_of_reading_percent"] = {{"p95", 100 * m.share_of_reading.p95},
-                                       {"rms", 100 * m.share_of_reading.rms},
-                                       {"samples", m.share_of_reading.samples}};
-    out["band"] = {
-        {"coverage", m.band_coverage},
-        {"mean_width_percent_FS", 100 * m.band_mean_width_m3_per_s / full_scale},
-        {"mean_width_over_rms", m.all.rms > 0 ? Json(m.band_mean_width_m3_per_s / m.all.rms) : Json(nullptr)}};
+  if (result.metrics) add_metrics(out, *result.metrics);
+  if (result.worst) {
+    out["worst"] = {{"time_s", result.worst->time_s},
+                    {"error", flow(result.worst->error_m3_per_s)},
+                    {"position_mm", units::mm_from_m(result.worst->position_m)},
+                    {"phase", result.worst->moving ? "moving" : (result.worst->rest ? "rest" : "closed")},
+                    {"status", result.worst->status}};
+    if (result.worst->pressure_difference_Pa) {
+      out["worst"]["pressure_difference_bar"] = units::bar_from_Pa(*result.worst->pressure_difference_Pa);
+    }
   }
   Json status = Json::object();
-  for (const validation::StatusShare& share : result.status) status[share.name] = share.share;
-  out["status_share"] = status;
+  for (const validation::StatusRow& row : result.status) status[row.name] = row.share;
+  out["status_share"] = std::move(status);
+  return out;
+}
+
+Json MetricsJson::run(const validation::RunResult& run) const {
+  Json out{{"file", run.file},
+           {"sha256", run.sha256},
+           {"samples", run.samples},
+           {"duration_s", run.duration_s},
+           {"missing_values", run.missing_values},
+           {"duplicate_times", run.duplicate_times},
+           {"has_reference", run.has_reference},
+           {"also_calibrated_with", run.calibrated_with},
+           {"phases_from", run.phases_from_measured_position ? "position" : "position_set"},
+           {"estimators", Json::array()}};
+  for (const validation::EstimatorResult& result : run.results) out["estimators"].push_back(estimator(result));
+  return out;
+}
+
+Json MetricsJson::pooled(const validation::PooledResult& pooled) const {
+  Json out{{"estimator", validation::name(pooled.estimator)}};
+  if (pooled.metrics) add_metrics(out, *pooled.metrics);
+  out["error_over"] = profiles(pooled.profiles);
   return out;
 }
 
 }  // namespace
 
-void write_metrics(std::ostream& out, const model::Model& model, const std::vector<validation::ValidatedRun>& runs,
-                   const validation::ValidationOptions& options) {
-  Json file{{"valve", model.valve.name},
+void write_metrics(std::ostream& out, const model::Model& model, const validation::Validation& validation) {
+  const MetricsJson json(model.valve.rated_flow_m3_per_s);
+  const Verdict said = verdict(model, validation);
+  Json file{{"format", "spoolflow metrics"},
+            {"version", 1},
+            {"valve", model.valve.name},
             {"full_scale_L_min", units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s)},
-            {"verdict", verdict(model, runs)},
-            {"reference_lag_s", options.reference_lag_s},
-            {"reference_lag_applied", options.apply_reference_lag},
+            {"verdict", said.sentence},
+            {"limits", said.limits},
+            {"reference_lag_s", validation.reference_lag_s},
+            {"reference_lag_applied", validation.reference_lag_applied},
+            {"all_runs", Json::array()},
             {"runs", Json::array()}};
-  for (const validation::ValidatedRun& run : runs) {
-    Json each{{"file", run.file},
-              {"samples", run.time_s.size()},
-              {"duplicate_times", run.notes.duplicate_times},
-              {"missing_values", run.notes.missing_values},
-              {"has_reference", !run.reference_m3_per_s.empty()},
-              {"estimators", Json::array()}};
-    for (const validation::EstimatorResult& estimator : run.results) {
-      each["estimators"].push_back(result(estimator, model.valve.rated_flow_m3_per_s));
-    }
-    file["runs"].push_back(std::move(each));
-  }
+  for (const validation::PooledResult& pooled : validation.pooled) file["all_runs"].push_back(json.pooled(pooled));
+  for (const validation::RunResult& run : validation.runs) file["runs"].push_back(json.run(run));
   out << file.dump(1) << '\n';
 }
 

@@ -7,11 +7,10 @@
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/model/running_sensor.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "spoolflow/validation/estimator.hpp"
 
 namespace spoolflow::validation {
 
-enum class Estimator { condensed, observer };
-[[nodiscard]] std::string_view name(Estimator estimator);
 /// The observer where the model has one.
 [[nodiscard]] Estimator best_estimator(const model::Model& model);
 

@@ -1,106 +1,63 @@
 #include "spoolflow/validation/validate.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "spoolflow/validation/judge_run.hpp"
+#include "spoolflow/validation/run_samples.hpp"
 
 namespace spoolflow::validation {
 namespace {
 
-using recording::Channel;
+/// Gathers one estimator's samples of all runs.
+struct Pool {
+  ComparedSamples samples;
+  std::vector<ErrorProfile> profiles;
+};
 
-void append(EstimatorResult& out, const std::vector<sensor::Estimate<double>>& estimates) {
-  for (const sensor::Estimate<double>& estimate : estimates) {
-    out.flow_m3_per_s.push_back(estimate.flow_m3_per_s);
-    out.lower_m3_per_s.push_back(estimate.flow_lower_m3_per_s);
-    out.upper_m3_per_s.push_back(estimate.flow_upper_m3_per_s);
-    out.pressure_difference_Pa.push_back(estimate.pressure_difference_Pa);
-    out.magnetic_force_N.push_back(estimate.magnetic_force_N);
-    out.spring_force_N.push_back(estimate.spring_force_N);
-    out.flow_force_N.push_back(estimate.flow_force_N);
-    out.friction_force_N.push_back(estimate.friction_force_N);
-  }
-}
-
-using StatusCounts = std::array<std::size_t, sensor::status_names.size()>;
-
-void count(StatusCounts& counts, const std::vector<sensor::Estimate<double>>& estimates) {
-  for (const sensor::Estimate<double>& estimate : estimates) {
-    for (std::size_t b = 0; b < counts.size(); ++b)
-      counts[b] += sensor::has(estimate.status, sensor::status_names[b].bit) ? 1 : 0;
-  }
-}
-
-std::vector<StatusShare> shares(const StatusCounts& counts, std::size_t samples) {
-  std::vector<StatusShare> out;
-  for (std::size_t b = 0; b < counts.size(); ++b) {
-    if (counts[b] > 0)
-      out.push_back({sensor::status_names[b].name, static_cast<double>(counts[b]) / static_cast<double>(samples)});
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const StatusShare& a, const StatusShare& b) { return a.share > b.share; });
-  return out;
-}
-
-void append(std::vector<double>& to, const recording::SampleBlock& block, Channel channel) {
-  const auto& from = block.columns[static_cast<std::size_t>(channel)];
-  to.insert(to.end(), from.begin(), from.end());
+void name_run(RunResult& result, const model::Model& model, const std::filesystem::path& recording) {
+  result.name = recording == "-" ? "standard input" : recording.stem().string();
+  result.file = recording == "-" ? "standard input" : recording.filename().string();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(recording, error)) return;
+  result.sha256 = model::sha256_of_file(recording);
+  result.calibrated_with = std::any_of(model.provenance.inputs.begin(), model.provenance.inputs.end(),
+                                       [&](const model::InputFile& input) { return input.sha256 == result.sha256; });
 }
 
 }  // namespace
 
-ValidatedRun validate_run(const model::Model& model, const std::filesystem::path& recording,
-                          const ValidationOptions& options, const std::function<void(double)>& progress) {
-  recording::ReadOptions channels = sensor_channels(model, options.channels);
-  for (const Channel channel :
-       {Channel::position_set, Channel::flow_reference, Channel::flow, Channel::pressure_difference}) {
-    channels.optional.push_back(channel);
-  }
-  const auto reader = recording::open_reader(recording, channels);
-  ValidatedRun run;
-  run.name = recording.stem().string();
-  run.file = recording.filename().string();
-  std::vector<Estimation> sensors;
-  for (const Estimator estimator : options.estimators) {
-    sensors.emplace_back(model, estimator);
-    run.results.push_back({});
-    run.results.back().estimator = estimator;
-  }
-  std::vector<StatusCounts> counts(sensors.size(), StatusCounts{});
-  std::vector<double> position_set;
-  const Channel reference = reader->has(Channel::flow_reference) ? Channel::flow_reference : Channel::flow;
-  recording::SampleBlock block;
-  std::vector<sensor::Estimate<double>> estimates;
-  while (reader->next(block)) {
-    for (std::size_t s = 0; s < sensors.size(); ++s) {
-      sensors[s].run(block, estimates);
-      append(run.results[s], estimates);
-      count(counts[s], estimates);
+std::vector<Estimator> all_estimators(const model::Model& model) {
+  if (!model.observer) return {Estimator::condensed};
+  return {Estimator::condensed, Estimator::observer};
+}
+
+Validation validate(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
+                    const ValidationOptions& options, const std::function<void(double)>& progress) {
+  Validation out{{}, {}, options.reference_lag_s, options.apply_reference_lag};
+  std::vector<Pool> pools(options.estimators.size(),
+                          {ComparedSamples(model.valve.rated_flow_m3_per_s), empty_profiles(model.valve)});
+  const auto total = static_cast<double>(recordings.size());
+  for (const std::filesystem::path& recording : recordings) {
+    const auto before = static_cast<double>(out.runs.size());
+    RunSamples samples = estimate_run(model, recording, options.channels, options.estimators,
+                                      [&](double share) { progress((before + share) / total); });
+    JudgedRun judged = judge_run(model.valve, samples, options);
+    name_run(judged.result, model, recording);
+    for (std::size_t e = 0; e < judged.compared.size(); ++e) {
+      pools[e].samples.append(judged.compared[e]);
+      for (std::size_t q = 0; q < quantities.size(); ++q) {
+        pools[e].profiles[q].append(judged.result.results[e].profiles[q]);
+      }
     }
-    append(run.time_s, block, Channel::time);
-    append(run.position_m, block, Channel::position);
-    append(run.oil_temperature_K, block, Channel::oil_temperature);
-    append(run.reference_m3_per_s, block, reference);
-    append(run.reference_pressure_difference_Pa, block, Channel::pressure_difference);
-    append(position_set, block, Channel::position_set);
-    progress(reader->progress().value_or(0));
+    out.runs.push_back(std::move(judged.result));
   }
-  run.notes = reader->notes();
-  run.phases = position_set.empty() ? phases_of_position(run.time_s, run.position_m, model.valve.stroke_m)
-                                    : phases_of_command(run.time_s, position_set);
-  for (std::size_t s = 0; s < sensors.size(); ++s) {
-    EstimatorResult& result = run.results[s];
-    result.status = shares(counts[s], run.time_s.size());
-    if (run.reference_m3_per_s.empty()) continue;
-    if (options.apply_reference_lag) {
-      result.flow_m3_per_s = lagged(run.time_s, result.flow_m3_per_s, options.reference_lag_s);
-      result.lower_m3_per_s = lagged(run.time_s, result.lower_m3_per_s, options.reference_lag_s);
-      result.upper_m3_per_s = lagged(run.time_s, result.upper_m3_per_s, options.reference_lag_s);
-    }
-    result.metrics =
-        compare({result.flow_m3_per_s, result.lower_m3_per_s, result.upper_m3_per_s, run.reference_m3_per_s},
-                run.phases, model.valve.rated_flow_m3_per_s);
+  for (std::size_t e = 0; e < pools.size(); ++e) {
+    PooledResult& pooled = out.pooled.emplace_back();
+    pooled.estimator = options.estimators[e];
+    pooled.profiles = std::move(pools[e].profiles);
+    if (pools[e].samples.size() > 0) pooled.metrics = pools[e].samples.metrics();
   }
-  return run;
+  return out;
 }
 
 }  // namespace spoolflow::validation

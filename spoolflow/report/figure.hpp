@@ -1,0 +1,59 @@
+#pragma once
+/// A figure as a plain description: panels above each other that share the x axis. How it looks is decided where it is
+/// drawn (svg_figure.hpp) and in the page's style sheet.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spoolflow::report {
+
+enum class Shape { line, dashed, dots, area };
+
+/// Something drawn over x. NaN breaks lines and areas.
+struct Mark {
+  Shape shape = Shape::line;
+  std::string tone = "ink";         ///< a colour of the style sheet: ink, soft, observer, condensed, a to d
+  std::optional<double> ramp = {};  ///< instead of a tone: 0 to 1 along a family of lines
+  std::string name = {};            ///< in the legend; empty: not there
+  std::string end_label = {};       ///< beside the last point
+  double width_px = 1.6;
+  std::vector<double> x = {}, y = {};
+  std::vector<double> y_upper = {};  ///< areas only: they lie between y and y_upper
+};
+
+/// A stretch of a timeline; `share` of it has the property.
+struct Span {
+  double from, to, share;
+};
+
+/// One line of a timeline.
+struct Row {
+  std::string label;
+  std::string tone;
+  std::vector<Span> spans;
+};
+
+/// A coloured rectangle of a heat map.
+struct Cell {
+  double x_from, x_to, y_from, y_to;
+  int heat;  ///< 0 to 7, a colour of the style sheet
+};
+
+/// One pair of axes: marks over cells, or the rows of a timeline.
+struct Panel {
+  std::string title;  ///< the quantity with its unit: "Flow rate [L/min]"
+  double height_px = 220;
+  std::optional<double> lowest = {}, highest = {};  ///< else from the data; marks beyond are cut off
+  std::vector<Cell> cells = {};
+  std::vector<Mark> marks = {};
+  std::vector<Row> rows = {};
+};
+
+struct Figure {
+  std::string description;  ///< for screen readers
+  std::string x_title;
+  std::optional<double> x_lowest = {}, x_highest = {};
+  std::vector<Panel> panels = {};
+};
+
+}  // namespace spoolflow::report

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace spoolflow::report {
+
+/// How a column is set.
+enum class Set { number, text, sentence, hash };
+
+/// A table; cells are markup (html_text where they are text).
+class HtmlTable {
+ public:
+  struct Column {
+    std::string heading;
+    Set set = Set::number;
+  };
+  explicit HtmlTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  /// `begins_group`: a heavier line above.
+  void row(const std::vector<std::string>& cells, bool begins_group = false);
+  [[nodiscard]] std::string str() const;
+  [[nodiscard]] bool empty() const { return rows_.empty(); }
+
+ private:
+  std::vector<Column> columns_;
+  std::string rows_;
+};
+
+}  // namespace spoolflow::report

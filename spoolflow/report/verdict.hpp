@@ -1,0 +1,20 @@
+#pragma once
+/// The judgement in words: how good, and what limits it.
+#include <string>
+#include <vector>
+
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/validation/validate.hpp"
+
+namespace spoolflow::report {
+
+struct Verdict {
+  std::string sentence;             ///< the figures
+  std::vector<std::string> limits;  ///< what limits them, the most telling first; at most five
+};
+
+[[nodiscard]] Verdict verdict(const model::Model& model, const validation::Validation& validation);
+/// The same of a model alone: what was calibrated and how well the maps hold.
+[[nodiscard]] Verdict calibration_verdict(const model::Model& model);
+
+}  // namespace spoolflow::report

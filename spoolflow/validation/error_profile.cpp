@@ -1,0 +1,51 @@
+#include "spoolflow/validation/error_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spoolflow::validation {
+
+ErrorProfile::ErrorProfile(double bin_width, double full_scale_m3_per_s, double origin)
+    : bin_width_(bin_width), full_scale_m3_per_s_(full_scale_m3_per_s), origin_(origin) {}
+
+void ErrorProfile::add(double quantity, double error_m3_per_s) {
+  if (std::isnan(quantity) || std::isnan(error_m3_per_s)) return;
+  Magnitudes& magnitudes = bins_[static_cast<int>(std::floor((quantity - origin_) / bin_width_))];
+  const double at = std::abs(error_m3_per_s) / full_scale_m3_per_s_ * cells;
+  ++magnitudes.count[static_cast<std::size_t>(std::min(at, static_cast<double>(cells - 1)))];
+  ++magnitudes.samples;
+  ++samples_;
+}
+
+void ErrorProfile::append(const ErrorProfile& others) {
+  for (const auto& [index, magnitudes] : others.bins_) {
+    Magnitudes& mine = bins_[index];
+    for (std::size_t c = 0; c < cells; ++c) mine.count[c] += magnitudes.count[c];
+    mine.samples += magnitudes.samples;
+  }
+  samples_ += others.samples_;
+}
+
+double ErrorProfile::percentile(const Magnitudes& magnitudes, double share) const {
+  const double wanted = share * static_cast<double>(magnitudes.samples);
+  double below = 0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    below += magnitudes.count[c];
+    if (below > wanted) return (static_cast<double>(c) + 0.5) / cells * full_scale_m3_per_s_;
+  }
+  return full_scale_m3_per_s_;
+}
+
+std::vector<ProfileBin> ErrorProfile::bins() const {
+  constexpr std::size_t fewest = 20;
+  std::vector<ProfileBin> out;
+  for (const auto& [index, magnitudes] : bins_) {
+    if (magnitudes.samples < std::max(fewest, samples_ / 1000)) continue;
+    const double from = origin_ + index * bin_width_;
+    out.push_back(
+        {from, from + bin_width_, magnitudes.samples, percentile(magnitudes, 0.5), percentile(magnitudes, 0.95)});
+  }
+  return out;
+}
+
+}  // namespace spoolflow::validation

@@ -1,0 +1,167 @@
+#include "spoolflow/validation/judge_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/phases.hpp"
+
+namespace spoolflow::validation {
+namespace {
+
+constexpr std::size_t drawn_stretches = 1200;
+constexpr std::size_t status_stretches = 500;
+constexpr double worst_window_s = 1.5;  // before and after
+
+template <class Number>
+std::optional<Extent> extent_of(const std::vector<Number>& values) {
+  std::optional<Extent> out;
+  for (const Number value : values) {
+    if (std::isnan(value)) continue;
+    if (!out) out = Extent{value, value};
+    out->lowest = std::min<double>(out->lowest, value);
+    out->highest = std::max<double>(out->highest, value);
+  }
+  return out;
+}
+
+std::vector<OperatingPoint> operating_points(const RunSamples& run, double stroke_m) {
+  if (run.pressure_difference_Pa.empty()) return {};
+  const double position_step_m = 0.01 * stroke_m;
+  constexpr double pressure_step_Pa = 1e5;
+  std::set<std::pair<int, int>> cells;
+  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+    if (std::isnan(run.position_m[k]) || std::isnan(run.pressure_difference_Pa[k])) continue;
+    cells.emplace(static_cast<int>(std::lround(run.position_m[k] / position_step_m)),
+                  static_cast<int>(std::lround(run.pressure_difference_Pa[k] / pressure_step_Pa)));
+  }
+  std::vector<OperatingPoint> out;
+  for (const auto& [x, p] : cells) out.push_back({x * position_step_m, p * pressure_step_Pa});
+  return out;
+}
+
+/// Part of a column around the worst moment.
+template <class Number>
+std::span<const Number> part(const std::vector<Number>& column, std::size_t begin, std::size_t end) {
+  return std::span(column).subspan(begin, end - begin);
+}
+
+WorstMoment worst_moment(const RunSamples& run, const Phases& phases, const Answers& answers, std::size_t at) {
+  const double when_s = run.time_s[at];
+  const auto index = [&](double time_s) {
+    return static_cast<std::size_t>(std::lower_bound(run.time_s.begin(), run.time_s.end(), time_s) -
+                                    run.time_s.begin());
+  };
+  const std::size_t begin = index(when_s - worst_window_s);
+  const std::size_t end = std::max(at + 1, index(when_s + worst_window_s));
+  const std::span<const double> time_s = part(run.time_s, begin, end);
+  WorstMoment out{.time_s = when_s,
+                  .error_m3_per_s = answers.flow_m3_per_s[at] - run.reference_m3_per_s[at],
+                  .position_m = run.position_m[at],
+                  .pressure_difference_Pa = {},
+                  .moving = phases.moving[at],
+                  .rest = phases.rest[at],
+                  .status = {},
+                  .reference_m3_per_s = thinned(time_s, part(run.reference_m3_per_s, begin, end), drawn_stretches / 2),
+                  .band_m3_per_s = thinned_band(time_s, part(answers.lower_m3_per_s, begin, end),
+                                                part(answers.upper_m3_per_s, begin, end), drawn_stretches / 2),
+                  .flow_m3_per_s = {}};
+  if (!run.pressure_difference_Pa.empty()) out.pressure_difference_Pa = run.pressure_difference_Pa[at];
+  for (const sensor::StatusName& entry : sensor::status_names) {
+    if (sensor::has(answers.status[at], entry.bit)) out.status.emplace_back(entry.name);
+  }
+  for (const Answers& each : run.answers) {
+    out.flow_m3_per_s.push_back(thinned(time_s, part(each.flow_m3_per_s, begin, end), drawn_stretches / 2));
+  }
+  return out;
+}
+
+void draw(EstimatorResult& out, const RunSamples& run, const Answers& answers) {
+  const auto line = [&](const std::vector<float>& column) { return thinned(run.time_s, column, drawn_stretches); };
+  out.flow_m3_per_s = line(answers.flow_m3_per_s);
+  out.band_m3_per_s = thinned_band(run.time_s, answers.lower_m3_per_s, answers.upper_m3_per_s, drawn_stretches);
+  out.pressure_difference_Pa = line(answers.pressure_difference_Pa);
+  out.magnetic_force_N = line(answers.magnetic_force_N);
+  out.spring_force_N = line(answers.spring_force_N);
+  out.flow_force_N = line(answers.flow_force_N);
+  out.friction_force_N = line(answers.friction_force_N);
+  out.status = status_rows(run.time_s, answers.status, status_stretches);
+}
+
+/// Figures, profiles and the worst moment of one estimator.
+ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phases& phases, const Answers& answers,
+                        const model::Valve& valve) {
+  ComparedSamples compared(valve.rated_flow_m3_per_s);
+  std::vector<float> errors;
+  out.profiles = empty_profiles(valve);
+  std::size_t worst = run.time_s.size();
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+    const double reference = run.reference_m3_per_s[k];
+    const double error = answers.flow_m3_per_s[k] - reference;
+    errors.push_back(static_cast<float>(error));
+    if (std::isnan(error)) continue;
+    compared.add({answers.flow_m3_per_s[k], answers.lower_m3_per_s[k], answers.upper_m3_per_s[k], reference,
+                  phases.moving[k], phases.rest[k], phases.reversal[k]});
+    if (worst == run.time_s.size() || std::abs(errors[k]) > std::abs(errors[worst])) worst = k;
+    const std::array values{
+        std::max(reference, 0.0), run.position_m[k],
+        run.pressure_difference_Pa.empty() ? nothing : static_cast<double>(run.pressure_difference_Pa[k]),
+        run.oil_temperature_K.empty() ? nothing : static_cast<double>(run.oil_temperature_K[k])};
+    for (std::size_t q = 0; q < values.size(); ++q) out.profiles[q].add(values[q], error);
+  }
+  if (compared.size() == 0) return compared;
+  out.metrics = compared.metrics();
+  out.error_m3_per_s = thinned(run.time_s, errors, drawn_stretches);
+  out.worst = worst_moment(run, phases, answers, worst);
+  return compared;
+}
+
+}  // namespace
+
+std::vector<ErrorProfile> empty_profiles(const model::Valve& valve) {
+  const double full_scale = valve.rated_flow_m3_per_s;
+  return {ErrorProfile(full_scale / 16, full_scale), ErrorProfile(valve.stroke_m / 16, full_scale),
+          ErrorProfile(5e5, full_scale), ErrorProfile(2.5, full_scale, units::kelvin_at_0_degC)};
+}
+
+JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options) {
+  JudgedRun out;
+  RunResult& result = out.result;
+  result.samples = run.time_s.size();
+  result.duplicate_times = run.notes.duplicate_times;
+  result.missing_values = run.notes.missing_values;
+  result.duration_s = run.time_s.empty() ? 0 : run.time_s.back() - run.time_s.front();
+  result.has_reference = !run.reference_m3_per_s.empty();
+  result.current_A = extent_of(run.current_A);
+  result.position_m = extent_of(run.position_m);
+  result.oil_temperature_K = extent_of(run.oil_temperature_K);
+  result.pressure_difference_Pa = extent_of(run.pressure_difference_Pa);
+  result.reference_m3_per_s = extent_of(run.reference_m3_per_s);
+  result.operating_points = operating_points(run, valve.stroke_m);
+  const std::vector<float> position_m(run.position_m.begin(), run.position_m.end());
+  result.position_line_m = thinned(run.time_s, position_m, drawn_stretches);
+  if (result.has_reference) {
+    result.reference_line_m3_per_s = thinned(run.time_s, run.reference_m3_per_s, drawn_stretches);
+  }
+  if (!run.pressure_difference_Pa.empty()) {
+    result.pressure_difference_line_Pa = thinned(run.time_s, run.pressure_difference_Pa, drawn_stretches);
+  }
+  const Phases phases = run.position_set.empty() ? phases_of_position(run.time_s, run.position_m, valve.stroke_m)
+                                                 : phases_of_command(run.time_s, run.position_set);
+  result.phases_from_measured_position = phases.from_measured_position;
+  if (result.has_reference && options.apply_reference_lag) {
+    for (Answers& answers : run.answers) apply_lag(run.time_s, answers, options.reference_lag_s);
+  }
+  for (const Answers& answers : run.answers) {
+    EstimatorResult& each = result.results.emplace_back();
+    each.estimator = answers.estimator;
+    if (result.has_reference) out.compared.push_back(compare(each, run, phases, answers, valve));
+    draw(each, run, answers);
+  }
+  return out;
+}
+
+}  // namespace spoolflow::validation

@@ -1,0 +1,67 @@
+#pragma once
+/// What is known of a run after it was judged: figures, and lines short enough to draw.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/validation/error_profile.hpp"
+#include "spoolflow/validation/estimator.hpp"
+#include "spoolflow/validation/metrics.hpp"
+#include "spoolflow/validation/status_timeline.hpp"
+#include "spoolflow/validation/trace.hpp"
+
+namespace spoolflow::validation {
+
+/// Smallest and largest recorded value.
+struct Extent {
+  double lowest, highest;
+};
+
+/// The instant of the largest error, and the seconds around it.
+struct WorstMoment {
+  double time_s;
+  double error_m3_per_s;
+  double position_m;
+  std::optional<double> pressure_difference_Pa;
+  bool moving, rest;
+  std::vector<std::string> status;
+  Line reference_m3_per_s;
+  Ribbon band_m3_per_s;
+  std::vector<Line> flow_m3_per_s;  ///< of every estimator, in the run's order
+};
+
+/// One estimator over a run; lines in SI.
+struct EstimatorResult {
+  Estimator estimator;
+  std::optional<Metrics> metrics;      ///< absent without reference flow
+  std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`; empty without reference flow
+  std::vector<StatusRow> status;
+  std::optional<WorstMoment> worst;
+  Line flow_m3_per_s, error_m3_per_s, pressure_difference_Pa;
+  Ribbon band_m3_per_s;
+  Line magnetic_force_N, spring_force_N, flow_force_N, friction_force_N;
+};
+
+/// A spool position and pressure difference at which the valve worked, to a hundredth of the stroke and 1 bar.
+struct OperatingPoint {
+  double position_m, pressure_difference_Pa;
+};
+
+struct RunResult {
+  std::string name;  ///< file name without its ending
+  std::string file;
+  std::string sha256;            ///< empty for standard input
+  bool calibrated_with = false;  ///< the model names this very file among its inputs
+  std::uint64_t samples = 0, duplicate_times = 0, missing_values = 0;
+  double duration_s = 0;
+  bool has_reference = false;
+  bool phases_from_measured_position = false;
+  std::optional<Extent> current_A, position_m, oil_temperature_K, pressure_difference_Pa, reference_m3_per_s;
+  Line reference_line_m3_per_s, position_line_m, pressure_difference_line_Pa;
+  std::vector<OperatingPoint> operating_points;
+  std::vector<EstimatorResult> results;  ///< in the order of the options; the leading estimator last
+};
+
+}  // namespace spoolflow::validation

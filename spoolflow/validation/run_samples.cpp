@@ -1,0 +1,93 @@
+#include "spoolflow/validation/run_samples.hpp"
+
+#include <cmath>
+
+namespace spoolflow::validation {
+namespace {
+
+using recording::Channel;
+
+void append(Answers& to, const std::vector<sensor::Estimate<double>>& estimates) {
+  const auto keep = [](std::vector<float>& column, double value) { column.push_back(static_cast<float>(value)); };
+  for (const sensor::Estimate<double>& estimate : estimates) {
+    keep(to.flow_m3_per_s, estimate.flow_m3_per_s);
+    keep(to.lower_m3_per_s, estimate.flow_lower_m3_per_s);
+    keep(to.upper_m3_per_s, estimate.flow_upper_m3_per_s);
+    keep(to.pressure_difference_Pa, estimate.pressure_difference_Pa);
+    keep(to.magnetic_force_N, estimate.magnetic_force_N);
+    keep(to.spring_force_N, estimate.spring_force_N);
+    keep(to.flow_force_N, estimate.flow_force_N);
+    keep(to.friction_force_N, estimate.friction_force_N);
+    to.status.push_back(estimate.status);
+  }
+}
+
+template <class Number>
+void append(std::vector<Number>& to, const recording::SampleBlock& block, Channel channel) {
+  for (const double value : block.columns[static_cast<std::size_t>(channel)]) to.push_back(static_cast<Number>(value));
+}
+
+void append_pressure_difference(std::vector<float>& to, const recording::SampleBlock& block) {
+  const auto column = [&](Channel channel) -> const std::vector<double>& {
+    return block.columns[static_cast<std::size_t>(channel)];
+  };
+  if (!column(Channel::pressure_difference).empty()) return append(to, block, Channel::pressure_difference);
+  const auto& upstream_Pa = column(Channel::pressure_upstream);
+  const auto& downstream_Pa = column(Channel::pressure_downstream);
+  if (upstream_Pa.empty() || downstream_Pa.empty()) return;
+  for (std::size_t k = 0; k < block.rows; ++k) to.push_back(static_cast<float>(upstream_Pa[k] - downstream_Pa[k]));
+}
+
+void lag(std::span<const double> time_s, std::vector<float>& values, double lag_s) {
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double share = lag_s > 0 ? -std::expm1(-(time_s[k] - time_s[k - 1]) / lag_s) : 1;
+    values[k] = static_cast<float>(values[k - 1] + share * (values[k] - values[k - 1]));
+  }
+}
+
+}  // namespace
+
+RunSamples estimate_run(const model::Model& model, const std::filesystem::path& recording,
+                        const recording::ChannelMap& channels, const std::vector<Estimator>& estimators,
+                        const std::function<void(double)>& progress) {
+  recording::ReadOptions options = sensor_channels(model, channels);
+  for (const Channel channel :
+       {Channel::position_set, Channel::flow_reference, Channel::flow, Channel::pressure_difference,
+        Channel::pressure_upstream, Channel::pressure_downstream}) {
+    options.optional.push_back(channel);
+  }
+  const auto reader = recording::open_reader(recording, options);
+  const Channel reference = reader->has(Channel::flow_reference) ? Channel::flow_reference : Channel::flow;
+  RunSamples run;
+  std::vector<Estimation> sensors;
+  for (const Estimator estimator : estimators) {
+    sensors.emplace_back(model, estimator);
+    run.answers.emplace_back().estimator = estimator;
+  }
+  recording::SampleBlock block;
+  std::vector<sensor::Estimate<double>> estimates;
+  while (reader->next(block)) {
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+      sensors[s].run(block, estimates);
+      append(run.answers[s], estimates);
+    }
+    append(run.time_s, block, Channel::time);
+    append(run.position_m, block, Channel::position);
+    append(run.position_set, block, Channel::position_set);
+    append(run.current_A, block, Channel::current);
+    append(run.oil_temperature_K, block, Channel::oil_temperature);
+    append(run.reference_m3_per_s, block, reference);
+    append_pressure_difference(run.pressure_difference_Pa, block);
+    progress(reader->progress().value_or(0));
+  }
+  run.notes = reader->notes();
+  return run;
+}
+
+void apply_lag(std::span<const double> time_s, Answers& answers, double lag_s) {
+  for (std::vector<float>* column : {&answers.flow_m3_per_s, &answers.lower_m3_per_s, &answers.upper_m3_per_s}) {
+    lag(time_s, *column, lag_s);
+  }
+}
+
+}  // namespace spoolflow::validation

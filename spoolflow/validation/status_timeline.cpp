@@ -1,0 +1,82 @@
+#include "spoolflow/validation/status_timeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spoolflow::validation {
+namespace {
+
+/// Shares are told in quarters, upwards: the rarest status still shows.
+double in_quarters(std::size_t having, std::size_t samples) {
+  return std::ceil(4.0 * static_cast<double>(having) / static_cast<double>(samples)) / 4;
+}
+
+std::vector<StatusSpan> spans_of(std::span<const double> time_s, std::span<const sensor::Status> status,
+                                 sensor::Status bit, double stretch_s) {
+  std::vector<StatusSpan> out;
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k <= time_s.size(); ++k) {
+    if (k < time_s.size() && time_s[k] - time_s[begin] < stretch_s) continue;
+    std::size_t having = 0;
+    for (std::size_t j = begin; j < k; ++j) having += sensor::has(status[j], bit) ? 1 : 0;
+    const double until_s = k < time_s.size() ? std::min(time_s[k], time_s[k - 1] + stretch_s) : time_s[k - 1];
+    const double share = in_quarters(having, k - begin);
+    if (share > 0 && !out.empty() && out.back().share == share && out.back().to_s >= time_s[begin]) {
+      out.back().to_s = until_s;
+    } else if (share > 0) {
+      out.push_back({time_s[begin], until_s, share});
+    }
+    begin = k;
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* meaning(sensor::Status bit) {
+  using sensor::Status;
+  switch (bit) {
+    case Status::none:
+      break;
+    case Status::closed:
+      return "The spool covers the metering edge: no flow but leakage.";
+    case Status::spool_at_rest:
+      return "The spool rests: friction lies anywhere within its limits, and the band is as wide as that.";
+    case Status::outside_force_map:
+      return "Current or position left the magnetic-force map; answered at its edge. Calibrate over more of them.";
+    case Status::outside_flow_force_map:
+      return "The flow force left what was measured at this position; answered at the map's edge.";
+    case Status::outside_temperature:
+      return "The oil is colder or warmer than in the calibration's recordings.";
+    case Status::current_saturated:
+      return "The current sits at the end of its range: the force may be larger than it tells.";
+    case Status::position_fault:
+      return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
+    case Status::sample_missing:
+      return "An input was missing; the last answer was held.";
+    case Status::not_calibrated:
+      return "The model lacks what this estimator needs; calibrate again with the recordings for it.";
+    case Status::time_fault:
+      return "The time did not advance; where it ran backwards, the last answer was held. Look at the time stamps.";
+  }
+  return "";
+}
+
+std::vector<StatusRow> status_rows(std::span<const double> time_s, std::span<const sensor::Status> status,
+                                   std::size_t stretches) {
+  std::vector<StatusRow> out;
+  if (time_s.empty()) return out;
+  const double stretch_s = (time_s.back() - time_s.front()) / static_cast<double>(stretches);
+  for (const sensor::StatusName& entry : sensor::status_names) {
+    const auto having =
+        std::count_if(status.begin(), status.end(), [&](sensor::Status each) { return sensor::has(each, entry.bit); });
+    if (having == 0) continue;
+    out.push_back({entry.name, meaning(entry.bit), (static_cast<std::uint32_t>(entry.bit) & sensor::fault_bits) != 0,
+                   static_cast<double>(having) / static_cast<double>(time_s.size()),
+                   spans_of(time_s, status, entry.bit, stretch_s)});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const StatusRow& a, const StatusRow& b) { return a.share > b.share; });
+  return out;
+}
+
+}  // namespace spoolflow::validation

@@ -1,0 +1,95 @@
+#include "spoolflow/validation/phases.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace spoolflow::validation {
+namespace {
+
+constexpr double step_s = 0.01;
+constexpr double stroke_m = 2e-3;
+
+/// A triangle: 5 % of the stroke a second up to fully open, 4 s of hold, down again, straight up to a tenth.
+struct Triangle {
+  std::vector<double> time_s, share;
+
+  Triangle() {
+    run(0.05, 20);
+    run(0, 4);
+    run(-0.05, 20);
+    run(0.05, 2);
+  }
+  void run(double rate_per_s, double duration_s) {
+    const double from = share.empty() ? 0 : share.back();
+    const int samples = static_cast<int>(std::lround(duration_s / step_s));
+    for (int k = 1; k <= samples; ++k) {
+      time_s.push_back(static_cast<double>(time_s.size()) * step_s);
+      share.push_back(from + rate_per_s * k * step_s);
+    }
+  }
+  [[nodiscard]] std::size_t at(double when_s) const { return static_cast<std::size_t>(std::lround(when_s / step_s)); }
+};
+
+TEST(Phases, OfACommandAreMotionHoldAndTheSecondsAroundEachTurn) {
+  const Triangle triangle;
+  const Phases phases = phases_of_command(triangle.time_s, triangle.share);
+  EXPECT_FALSE(phases.from_measured_position);
+  EXPECT_TRUE(phases.moving[triangle.at(10)]);
+  EXPECT_FALSE(phases.rest[triangle.at(10)]);
+  EXPECT_TRUE(phases.rest[triangle.at(22)]);
+  for (const double turn_s : {20.0, 24.0, 44.0}) {
+    EXPECT_TRUE(phases.reversal[triangle.at(turn_s - 1.9)]) << turn_s;
+    EXPECT_TRUE(phases.reversal[triangle.at(std::min(turn_s + 1.9, 45.9))]) << turn_s;
+  }
+  EXPECT_FALSE(phases.reversal[triangle.at(17.5)]);
+  EXPECT_FALSE(phases.reversal[triangle.at(30)]);
+}
+
+TEST(Phases, OfANoisyMeasuredPositionAreThoseOfTheCommandButForTheEdges) {
+  const Triangle triangle;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise_m(0, 1e-6);
+  std::vector<double> position_m;
+  for (const double share : triangle.share) position_m.push_back(share * stroke_m + noise_m(generator));
+  const Phases commanded = phases_of_command(triangle.time_s, triangle.share);
+  const Phases measured = phases_of_position(triangle.time_s, position_m, stroke_m);
+  EXPECT_TRUE(measured.from_measured_position);
+  int different = 0;
+  for (std::size_t k = 0; k < position_m.size(); ++k) {
+    different += measured.moving[k] != commanded.moving[k] || measured.reversal[k] != commanded.reversal[k] ? 1 : 0;
+  }
+  // The rate is taken over half a second: at each of the turns and ends up to that long may differ.
+  EXPECT_LT(different * step_s, 2.0);
+}
+
+TEST(Phases, OfASpoolThatOnlyShakesByNoiseAreRest) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise_m(0, 1e-6);
+  std::vector<double> time_s;
+  std::vector<double> position_m;
+  for (int k = 0; k < 2000; ++k) {
+    time_s.push_back(k * 1e-3);
+    position_m.push_back(1e-3 + noise_m(generator));
+  }
+  const Phases phases = phases_of_position(time_s, position_m, stroke_m);
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    EXPECT_TRUE(phases.rest[k]) << k;
+    EXPECT_FALSE(phases.reversal[k]) << k;
+  }
+}
+
+TEST(Phases, SurviveMissingPositionsGapsAndASingleSample) {
+  const double nothing = std::nan("");
+  const Phases single = phases_of_position(std::vector{0.0}, std::vector{nothing}, stroke_m);
+  EXPECT_FALSE(single.moving[0]);
+  const Phases holes =
+      phases_of_position(std::vector{0.0, 0.001, 5.0, 5.001}, std::vector{1e-3, nothing, nothing, 1e-3}, stroke_m);
+  EXPECT_EQ(holes.moving, std::vector<bool>(4, false));
+  EXPECT_EQ(phases_of_command(std::vector{0.0}, std::vector{0.5}).rest, std::vector<bool>{true});
+  EXPECT_TRUE(phases_of_command({}, {}).moving.empty());
+}
+
+}  // namespace
+}  // namespace spoolflow::validation

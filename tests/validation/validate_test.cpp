@@ -1,0 +1,133 @@
+/// Whole recordings through the sensor: with and without a reference, with gaps, of one sample.
+#include "spoolflow/validation/validate.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/sensor/linear_valve.hpp"
+
+namespace spoolflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Validate : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "spoolflow-validate-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder = name;
+    model.valve = {"linear valve", 1e-3, 2.4e-3, "b"};  // full scale 60 L/min
+    model.condensed.parameters = sensor::linear_valve();
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name) << text;
+    return folder / name;
+  }
+  [[nodiscard]] Validation run(const std::vector<fs::path>& recordings, ValidationOptions options = {}) const {
+    options.estimators = {Estimator::condensed};
+    return validate(model, recordings, options, [](double) {});
+  }
+  /// 1.5 A at 1 mm are 20 N of flow force: this flow.
+  const double flow_L_min = 60 * std::sqrt(20.0 / 50);
+
+  model::Model model{};
+  fs::path folder;
+};
+
+std::string number(double value) {
+  return std::to_string(value);
+}
+
+TEST_F(Validate, AReferenceThatIsOffByAKnownFlowGivesThatError) {
+  std::string text = "time_s,current_A,position_mm,flow_reference_L_min,oil_temperature_C\n";
+  for (int k = 0; k < 100; ++k) text += number(k * 0.01) + ",1.5,1," + number(flow_L_min - 3) + ",50\n";
+  const Validation validation = run({write("run.csv", text)});
+  ASSERT_EQ(validation.runs.size(), 1U);
+  const RunResult& result = validation.runs.front();
+  EXPECT_EQ(result.name, "run");
+  EXPECT_EQ(result.samples, 100U);
+  EXPECT_NEAR(result.duration_s, 0.99, 1e-9);
+  EXPECT_EQ(result.sha256.size(), 64U);
+  EXPECT_TRUE(result.phases_from_measured_position);
+  ASSERT_TRUE(result.results.front().metrics);
+  EXPECT_NEAR(result.results.front().metrics->all.error.p95, 3 / 60e3, 1e-8);
+  EXPECT_NEAR(result.results.front().metrics->all.error.bias, 3 / 60e3, 1e-8);
+  EXPECT_EQ(result.results.front().metrics->moving.error.samples, 0U);
+  EXPECT_EQ(result.results.front().metrics->rest.error.samples, 100U);
+  EXPECT_NEAR(result.oil_temperature_K->lowest, 323.15, 1e-3);
+  EXPECT_FALSE(result.pressure_difference_Pa);
+}
+
+TEST_F(Validate, PoolsTheRunsThatHaveAReference) {
+  const std::string head = "time_s,current_A,position_mm,flow_reference_L_min\n";
+  const fs::path first = write("a.csv", head + "0,1.5,1," + number(flow_L_min - 1) + "\n");
+  const fs::path second = write("b.csv", head + "0,1.5,1," + number(flow_L_min + 2) + "\n");
+  const fs::path without = write("c.csv", "time_s,current_A,position_mm\n0,1.5,1\n");
+  const Validation validation = run({first, second, without});
+  ASSERT_EQ(validation.runs.size(), 3U);
+  EXPECT_FALSE(validation.runs.back().has_reference);
+  EXPECT_FALSE(validation.runs.back().results.front().metrics);
+  ASSERT_TRUE(validation.pooled.front().metrics);
+  EXPECT_EQ(validation.pooled.front().metrics->all.error.samples, 2U);
+  EXPECT_NEAR(validation.pooled.front().metrics->all.error.largest, 2 / 60e3, 1e-8);
+}
+
+TEST_F(Validate, SkipsSamplesWhoseReferenceIsMissingAndStillEstimatesThem) {
+  const std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n0,1.5,1," + number(flow_L_min) +
+                           "\n0.01,1.5,1,\n0.02,1.5,1," + number(flow_L_min) + "\n";
+  const RunResult result = run({write("gaps.csv", text)}).runs.front();
+  EXPECT_EQ(result.samples, 3U);
+  EXPECT_EQ(result.results.front().metrics->all.error.samples, 2U);
+  EXPECT_EQ(result.results.front().flow_m3_per_s.time_s.size(), 3U);
+}
+
+TEST_F(Validate, TellsTheWorstMoment) {
+  std::string text = "time_s,current_A,position_mm,position_set_percent,flow_reference_L_min\n";
+  for (int k = 0; k < 1000; ++k) {
+    text += number(k * 0.01) + ",1.5,1,41.7," + number(flow_L_min - (k == 700 ? 20 : 1)) + "\n";
+  }
+  const RunResult result = run({write("run.csv", text)}).runs.front();
+  ASSERT_TRUE(result.results.front().worst);
+  const WorstMoment& worst = *result.results.front().worst;
+  EXPECT_NEAR(worst.time_s, 7, 1e-9);
+  EXPECT_NEAR(worst.error_m3_per_s, 20 / 60e3, 1e-8);
+  EXPECT_TRUE(worst.rest);
+  EXPECT_NEAR(worst.reference_m3_per_s.time_s.front(), 5.5, 0.011);
+  EXPECT_NEAR(worst.reference_m3_per_s.time_s.back(), 8.5, 0.011);
+  EXPECT_FALSE(result.phases_from_measured_position);
+}
+
+TEST_F(Validate, AppliesTheMetersLagToTheEstimateOnRequest) {
+  // The current steps at 1 s; the meter follows with 0.1 s. The lagged estimate agrees with it, the plain one does not.
+  std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n";
+  double meter_L_min = 60 * std::sqrt(10.0 / 50);
+  for (int k = 0; k < 3000; ++k) {
+    const double flow = 60 * std::sqrt((k < 1000 ? 10.0 : 30.0) / 50);
+    meter_L_min += (1 - std::exp(-1e-3 / 0.1)) * (flow - meter_L_min);
+    text += number(k * 1e-3) + (k < 1000 ? ",1.0,1," : ",2.0,1,") + number(meter_L_min) + "\n";
+  }
+  const fs::path file = write("step.csv", text);
+  const auto largest = [&](bool apply) {
+    const Validation validation =
+        run({file}, {.estimators = {}, .channels = {}, .reference_lag_s = 0.1, .apply_reference_lag = apply});
+    return validation.runs.front().results.front().metrics->all.error.largest * 60e3;
+  };
+  EXPECT_GT(largest(false), 15);
+  EXPECT_LT(largest(true), 0.01);
+}
+
+TEST_F(Validate, SaysThatARunWasAlreadyUsedForTheCalibration) {
+  const fs::path file = write("run.csv", "time_s,current_A,position_mm,flow_reference_L_min\n0,1.5,1,30\n");
+  EXPECT_FALSE(run({file}).runs.front().calibrated_with);
+  model.provenance.inputs.push_back({"operation", "run.csv", model::sha256_of_file(file), 1});
+  EXPECT_TRUE(run({file}).runs.front().calibrated_with);
+}
+
+}  // namespace
+}  // namespace spoolflow::validation
