@@ -58,24 +58,25 @@ struct PositionPoint {
 
 namespace detail {
 
-/// Mean of `count` blocks that end `back` blocks before the newest.
-template <class T>
-constexpr T block_mean(const PositionState<T>& state, int back, int count) {
+/// Mean of `Count` blocks that end `back` blocks before the newest.
+template <int Count, class T>
+constexpr T block_mean(const PositionState<T>& state, int back) {
   T sum{};
-  for (int k = 0; k < count; ++k) {
+#pragma GCC unroll 4
+  for (int k = 0; k < Count; ++k) {
     sum += state.block_m[static_cast<unsigned>((state.newest - back - k) & (position_blocks - 1))];
   }
-  return sum / T(count);
+  return sum * T(1.0 / Count);
 }
 
-/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `apart`
+/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `Apart`
 /// blocks.
-template <class T>
-constexpr Motion even_travel(const PositionState<T>& state, int apart, int count, T threshold_m) {
-  const T now = block_mean(state, 0, count);
-  const T before = block_mean(state, apart, count);
-  const T earlier = block_mean(state, 2 * apart, count);
-  const T first = block_mean(state, 3 * apart, count);
+template <int Apart, int Count, class T>
+constexpr Motion even_travel(const PositionState<T>& state, T threshold_m) {
+  const T now = block_mean<Count>(state, 0);
+  const T before = block_mean<Count>(state, Apart);
+  const T earlier = block_mean<Count>(state, 2 * Apart);
+  const T first = block_mean<Count>(state, 3 * Apart);
   const T travel[3] = {now - before, before - earlier, earlier - first};
   const T least = smaller(smaller(magnitude(travel[0]), magnitude(travel[1])), magnitude(travel[2]));
   const T most = larger(larger(magnitude(travel[0]), magnitude(travel[1])), magnitude(travel[2]));
@@ -96,11 +97,11 @@ constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& st
   const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);  // of the difference of two blocks
 
   Motion motion = Motion::rest;
-  if (state.blocks > 6) motion = even_travel(state, 2, 1, T(3) * noise_m);
-  if (motion == Motion::rest && state.blocks > 27) motion = even_travel(state, 8, 4, T(1.5) * noise_m);
+  if (state.blocks > 6) motion = even_travel<2, 1>(state, T(3) * noise_m);
+  if (motion == Motion::rest && state.blocks > 27) motion = even_travel<8, 4>(state, T(1.5) * noise_m);
   const bool even = motion != Motion::rest;
   if (!even && state.blocks > 2) {
-    const T signed_travel_m = block_mean(state, 0, 1) - block_mean(state, 2, 1);
+    const T signed_travel_m = block_mean<1>(state, 0) - block_mean<1>(state, 2);
     const T travel_m = magnitude(signed_travel_m);
     // A slip: faster than 0.5 mm/s and beyond five times the noise.
     if (travel_m > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m)) {

@@ -29,11 +29,12 @@ struct Cell {
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
+  if (raw >= T(0) && raw < T(Points - 1)) {  // first, for it is what nearly always holds
+    const int index = table_index(raw);
+    return {index, raw - T(index), true};
+  }
   const bool inside = raw >= T(-0.25) && raw <= T(Points - 0.75);  // noise at an end is no extrapolation
-  const T kept = select(raw > T(0), smaller(raw, T(Points - 1)), T(0));
-  int index = table_index(kept);
-  index = index > Points - 2 ? Points - 2 : index;
-  return {index, kept - T(index), inside};
+  return raw > T(0) ? Cell<T>{Points - 2, T(1), inside} : Cell<T>{0, T(0), inside};
 }
 
 /// What a curve answers.
