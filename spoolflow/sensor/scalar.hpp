@@ -54,9 +54,11 @@ constexpr T magnitude(T value) {
   return select(value < T(0), -value, value);
 }
 
-template <std::floating_point T>
-constexpr T magnitude(T value) {
-  return std::same_as<T, float> ? T(__builtin_fabsf(static_cast<float>(value))) : T(__builtin_fabs(value));
+constexpr float magnitude(float value) {
+  return __builtin_fabsf(value);
+}
+constexpr double magnitude(double value) {
+  return __builtin_fabs(value);
 }
 
 template <class T>

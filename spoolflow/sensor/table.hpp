@@ -86,14 +86,11 @@ struct Map {
   }
 
   [[nodiscard]] constexpr MapPoint<T> at(const Cell<T>& row, const Cell<T>& column) const {
-    const T low_low = node(row.index, column.index);
-    const T low_high = node(row.index, column.index + 1);
-    const T high_low = node(row.index + 1, column.index);
-    const T high_high = node(row.index + 1, column.index + 1);
-    const T low = low_low + column.share * (low_high - low_low);
-    const T high = high_low + column.share * (high_high - high_low);
-    const T low_rise = low_high - low_low;
-    const T high_rise = high_high - high_low;
+    const T* const corner = &node(row.index, column.index);
+    const T low_rise = corner[1] - corner[0];
+    const T high_rise = corner[Columns + 1] - corner[Columns];
+    const T low = corner[0] + column.share * low_rise;
+    const T high = corner[Columns] + column.share * high_rise;
     return {low + row.share * (high - low), (high - low) * row_axis.per_spacing,
             (low_rise + row.share * (high_rise - low_rise)) * column_axis.per_spacing, row.inside && column.inside};
   }
@@ -123,18 +120,19 @@ struct Volume {
   }
   [[nodiscard]] constexpr VolumePoint<T> at(const Cell<T>& layer, const Cell<T>& row, const Cell<T>& column,
                                             T per_row_spacing) const {
-    const T low = line(layer, row.index, column);
-    const T high = line(layer, row.index + 1, column);
+    const T* const corner = &node(layer.index, row.index, column.index);
+    const T low = line(corner, layer.share, column.share);
+    const T high = line(corner + Columns, layer.share, column.share);
     return {low + row.share * (high - low), (high - low) * per_row_spacing};
   }
 
  private:
-  [[nodiscard]] constexpr T line(const Cell<T>& layer, int row, const Cell<T>& column) const {
-    const T first = node(layer.index, row, column.index);
-    const T second = node(layer.index + 1, row, column.index);
-    const T low = first + column.share * (node(layer.index, row, column.index + 1) - first);
-    const T high = second + column.share * (node(layer.index + 1, row, column.index + 1) - second);
-    return low + layer.share * (high - low);
+  /// Between two layers and two columns.
+  [[nodiscard]] static constexpr T line(const T* corner, T layer_share, T column_share) {
+    const T* const above = corner + Rows * Columns;
+    const T low = corner[0] + column_share * (corner[1] - corner[0]);
+    const T high = above[0] + column_share * (above[1] - above[0]);
+    return low + layer_share * (high - low);
   }
 };
 
