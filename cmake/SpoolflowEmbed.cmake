@@ -1,7 +1,13 @@
 # spoolflow_embed(TARGET NAMESPACE FUNCTION file…): the files' bytes become part of the target, so that the program needs
 # no files beside it. The header spoolflow/…/FUNCTION.hpp declares, in NAMESPACE, `std::span<const EmbeddedFile> FUNCTION()`
-# with EmbeddedFile{name, bytes}; the definition is made here. The assembler reads the files, not the compiler.
+# with EmbeddedFile{name, bytes}; the definition is made here. The assembler reads the files, not the compiler. A file is
+# named without its folder; after RELATIVE FOLDER, by its path from there.
 function(spoolflow_embed target namespace function)
+  set(base "")
+  if(ARGC GREATER 4 AND ARGV3 STREQUAL RELATIVE)
+    set(base ${ARGV4})
+    list(REMOVE_AT ARGN 0 1)
+  endif()
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   set(header ${folder}/${function}.hpp)
   set(blobs "")
@@ -10,7 +16,11 @@ function(spoolflow_embed target namespace function)
   foreach(file IN LISTS ARGN)
     list(LENGTH paths index)
     get_filename_component(path ${file} ABSOLUTE)
-    get_filename_component(leaf ${file} NAME)
+    if(base)
+      file(RELATIVE_PATH leaf ${base} ${path})
+    else()
+      get_filename_component(leaf ${file} NAME)
+    endif()
     set(symbol ${function}_${index})
     string(APPEND blobs [[__asm__(".section .rodata\n.balign 16\n]] "${symbol}:" [[\n.incbin \"]] "${path}" [[\"\n]]
            "${symbol}_end:" [[\n.byte 0\n.previous\n");]] "\n"

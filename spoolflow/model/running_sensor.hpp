@@ -68,6 +68,7 @@ class RunningSensor {
 
   [[nodiscard]] bool runs_condensed() const { return parameters_.index() == 0; }
   [[nodiscard]] const RunningState& state() const { return state_; }
+  [[nodiscard]] RunningState& state() { return state_; }
   void set_state(const RunningState& state) { state_ = state; }
 
  private:

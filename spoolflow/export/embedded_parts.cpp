@@ -1,0 +1,27 @@
+#include "spoolflow/export/embedded_parts.hpp"
+
+#include <stdexcept>
+
+#include "spoolflow/export/fmu_binaries.hpp"
+
+namespace spoolflow::exports {
+
+FmuParts embedded_parts(const std::string& name, std::span<const EmbeddedFile> sources) {
+  const auto binary = [](const std::string& file) {
+    for (const EmbeddedFile& each : fmu_binaries()) {
+      if (each.name == file) return each.bytes;
+    }
+    throw std::logic_error("no embedded binary " + file);
+  };
+  return {binary(name + ".so"), binary(name + ".dll"), sources};
+}
+
+std::vector<std::string> translation_units(std::span<const EmbeddedFile> sources) {
+  std::vector<std::string> units;
+  for (const EmbeddedFile& source : sources) {
+    if (source.name.ends_with(".cpp")) units.emplace_back(source.name);
+  }
+  return units;
+}
+
+}  // namespace spoolflow::exports

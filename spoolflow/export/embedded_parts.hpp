@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "spoolflow/export/fmu_archive.hpp"
+
+namespace spoolflow::exports {
+
+/// Both binaries of "sensor_fmu" or "valve_fmu", with its sources.
+[[nodiscard]] FmuParts embedded_parts(const std::string& name, std::span<const EmbeddedFile> sources);
+/// Those of the files that a compiler is given.
+[[nodiscard]] std::vector<std::string> translation_units(std::span<const EmbeddedFile> sources);
+
+}  // namespace spoolflow::exports

@@ -1,0 +1,41 @@
+#pragma once
+/// What runs inside an FMU: a sampled system with a fixed step. Each FMU links one component and its load_component.
+///
+/// To add one: describe its variables in a file of its own (the exporter needs them, too), derive from Component,
+/// define load_component, and name the files in CMakeLists.txt.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "spoolflow/export/fmu/variable.hpp"
+
+namespace spoolflow::exports::fmu {
+
+class Component {
+ public:
+  Component() = default;
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+  virtual ~Component() = default;
+
+  [[nodiscard]] virtual const std::vector<Variable>& variables() const = 0;
+  /// Identifies model and kind: a state of one FMU is refused by another.
+  [[nodiscard]] virtual std::uint64_t identity() const = 0;
+  /// Seconds between samples [s], by the parameters among `values`.
+  [[nodiscard]] virtual double sample_step_s(std::span<const double> values) const = 0;
+  /// Parameters have been set: takes them over. Called before start and again when a tunable parameter has changed.
+  virtual void tune(std::span<const double> values) = 0;
+  /// The state before the first sample, and among `values` the outputs that the inputs mean there.
+  virtual void start(std::span<double> values) = 0;
+  /// Sample number `number`, 0 at the start time: reads inputs and writes outputs among `values`.
+  virtual void sample(std::span<double> values, std::int64_t number) = 0;
+  /// Everything that a state has to keep beside `values`; trivially copyable bytes.
+  [[nodiscard]] virtual std::span<char> memory() = 0;
+};
+
+/// Reads the FMU's resource. `token` is what the importer took from modelDescription.xml. Throws ResourceError.
+[[nodiscard]] std::unique_ptr<Component> load_component(const std::string& resource_folder, const std::string& token);
+
+}  // namespace spoolflow::exports::fmu

@@ -1,0 +1,80 @@
+#pragma once
+/// One FMU instance, whichever FMI version drives it: values, modes, the grid of samples, and states.
+///
+/// Samples lie at start + n step, counted by an integer. A communication step from t to t + h takes every sample in
+/// [t, t + h) with the inputs as they were set at t; an instant that two steps share belongs to the later one. So the
+/// result depends on the inputs at the sample instants alone, not on how time is cut into communication steps.
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "spoolflow/export/fmu/component.hpp"
+
+namespace spoolflow::exports::fmu {
+
+/// A call that cannot be followed; the instance is as before.
+struct CallError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+/// A communication step that is refused, but the importer may go on: the instance is as before.
+struct StepRefused : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+enum class Mode : std::int32_t { instantiated, initialization, step, terminated };
+
+/// A state in memory: what serialising writes.
+using StateBytes = std::vector<char>;
+
+class Instance {
+ public:
+  explicit Instance(std::unique_ptr<Component> component);
+
+  void set_up(double start_time_s, bool stop_defined, double stop_time_s);
+  void enter_initialization();
+  void exit_initialization();
+  void terminate();
+  /// As just instantiated.
+  void reset();
+  void do_step(double time_s, double step_s);
+
+  [[nodiscard]] double get(std::uint32_t reference, Type type);
+  void set(std::uint32_t reference, Type type, double value);
+
+  [[nodiscard]] StateBytes state();
+  /// Throws StateError; the instance is untouched then.
+  void set_state(const StateBytes& state);
+  /// Throws StateError for bytes that are no state of this FMU.
+  void check_state(const StateBytes& state);
+
+  [[nodiscard]] double time_s() const { return clock_.reached_s; }
+
+ private:
+  /// Everything beside values and component that a state keeps.
+  struct Clock {
+    double start_s = 0;
+    double stop_s = 0;
+    double reached_s = 0;   ///< end of the last communication step
+    double step_s = 0;      ///< between samples
+    std::int64_t next = 0;  ///< number of the next sample
+    Mode mode = Mode::instantiated;
+    std::uint32_t stop_defined = 0;
+    std::uint32_t tuned = 0;  ///< a tunable parameter has changed since the last sample
+    std::uint32_t stale = 0;  ///< outputs wait for a preview of the start
+  };
+
+  [[nodiscard]] const Variable& variable(std::uint32_t reference, Type type) const;
+  void require(Mode mode, const char* call) const;
+  void preview();
+  [[nodiscard]] std::size_t state_size();
+
+  std::unique_ptr<Component> component_;
+  std::vector<double> values_;
+  Clock clock_;
+};
+
+}  // namespace spoolflow::exports::fmu

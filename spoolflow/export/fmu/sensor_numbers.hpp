@@ -1,0 +1,120 @@
+#pragma once
+/// A sensor's parameters as a row of numbers, in the order in which the model describes them.
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "spoolflow/export/checksum.hpp"
+#include "spoolflow/export/fmu/resource.hpp"
+#include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_observer.hpp"
+
+namespace spoolflow::exports::fmu {
+
+/// Visits a description and hands every number to `each`; the keys go into a checksum, so that two orders differ.
+template <class Each>
+class NumberVisitor {
+ public:
+  explicit NumberVisitor(Each each) : each_(each) {}
+
+  template <class Map>
+  void map(const char* key, Map& map, const char*, const char*) {
+    named(key);
+    whole(map.row_axis), whole(map.column_axis);
+    for (int row = 0; row < Map::rows; ++row) {
+      for (int column = 0; column < Map::columns; ++column) each_(map.node(row, column));
+    }
+  }
+  template <class Curve>
+  void curve(const char* key, Curve& curve, const char*) {
+    named(key);
+    whole(curve.axis);
+    for (auto& value : curve.values) each_(value);
+  }
+  template <class Volume>
+  void volume(const char* key, Volume& volume) {
+    named(key);
+    for (auto& value : volume.values) each_(value);
+  }
+  template <class Axis>
+  void axis(const char* key, Axis& axis, int) {
+    named(key);
+    whole(axis);
+  }
+  template <class List>
+  void list(const char* key, List& values, double, double) {
+    named(key);
+    for (auto& value : values) each_(value);
+  }
+  template <class Number>
+  void number(const char* key, Number& value, double, double) {
+    named(key);
+    each_(value);
+  }
+
+  [[nodiscard]] std::uint64_t keys() const { return keys_.value(); }
+
+ private:
+  template <class Axis>
+  void whole(Axis& axis) {
+    each_(axis.first), each_(axis.spacing), each_(axis.per_spacing);
+  }
+  void named(std::string_view key) { keys_.add(key.data(), key.size()); }
+
+  Each each_;
+  Checksum keys_;
+};
+
+/// Calls visitor for the parameters of either estimator.
+template <class T, class Visitor>
+void describe(sensor::CondensedParameters<T>& parameters, Visitor& visitor) {
+  model::describe_condensed(parameters, visitor);
+}
+template <class T, class Visitor>
+void describe(const sensor::CondensedParameters<T>& parameters, Visitor& visitor) {
+  model::describe_condensed(parameters, visitor);
+}
+template <class T, class Visitor>
+void describe(sensor::ObserverParameters<T>& parameters, Visitor& visitor) {
+  model::describe_observer(parameters, visitor);
+}
+template <class T, class Visitor>
+void describe(const sensor::ObserverParameters<T>& parameters, Visitor& visitor) {
+  model::describe_observer(parameters, visitor);
+}
+
+template <class Parameters>
+std::vector<double> numbers_of(const Parameters& parameters) {
+  std::vector<double> out;
+  NumberVisitor visitor([&](const double& value) { out.push_back(value); });
+  describe(parameters, visitor);
+  return out;
+}
+
+/// Name of the order of the numbers: estimator and checksum of its keys.
+template <class Parameters>
+std::string order_of(std::string_view estimator) {
+  NumberVisitor visitor([](const double&) {});
+  static const Parameters any{};
+  describe(any, visitor);
+  return "sensor " + std::string(estimator) + " " + std::to_string(visitor.keys());
+}
+
+/// The inverse of numbers_of. Throws ResourceError where there are too few or too many numbers.
+template <class Parameters>
+void take_numbers(std::span<const double> numbers, Parameters& parameters) {
+  std::size_t next = 0;
+  NumberVisitor visitor([&](double& value) {
+    if (next < numbers.size()) value = numbers[next];
+    ++next;
+  });
+  describe(parameters, visitor);
+  if (next != numbers.size()) {
+    throw ResourceError("the resource holds " + std::to_string(numbers.size()) + " numbers, the sensor has " +
+                        std::to_string(next) + "; export the FMU again with `spoolflow export fmu`");
+  }
+}
+
+}  // namespace spoolflow::exports::fmu

@@ -1,0 +1,159 @@
+#include "spoolflow/export/fmu/sensor_variables.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "spoolflow/export/fmu/sensor_numbers.hpp"
+
+namespace spoolflow::exports::fmu {
+namespace {
+
+constexpr std::array<Tunable, 15> tunables{{
+    // drift and errors of the position sensor
+    {"position_drift_m_per_K", "drift.position_per_temperature",
+     "drift of the position sensor's zero over oil temperature", "m/K", "um/K"},
+    {"position_drift_free_K", "drift.free_temperature", "oil temperature at which the position sensor's zero is right",
+     "K", "degC"},
+    {"coil_resistance_drift_Ohm_per_root_s", "drift.coil_resistance",
+     "random walk of the coil's resistance, per root of a second", "Ohm/s(1/2)", ""},
+    // filter
+    {"position_noise_m", "filter.position_noise", "standard deviation of one position sample", "m", "um"},
+    {"sliding_drift_Pa_per_sqrt_s", "filter.pressure_drift_sliding",
+     "random walk of the pressure difference while the spool slides", "Pa/s(1/2)", "bar/s(1/2)"},
+    {"resting_drift_Pa_per_sqrt_s", "filter.pressure_drift_resting",
+     "random walk of the pressure difference while the spool rests", "Pa/s(1/2)", "bar/s(1/2)"},
+    {"yielding_s", "filter.yielding_time",
+     "how fast the pressure difference gives way to a force that resting friction cannot explain", "s", "ms"},
+    {"band_coverage_factor", "filter.band_coverage", "standard deviations in the 95 % band", "1", ""},
+    {"force_residual_N", "filter.force_residual", "standard deviation of the averaged forces about the maps", "N", ""},
+    {"flow_residual_m3_per_s", "filter.flow_residual", "standard deviation of the flow about its map", "m3/s", "L/min"},
+    {"band_force_residual_N", "filter.band_force_residual", "standard deviation of all force maps together", "N", ""},
+    {"band_flow_residual_m3_per_s", "filter.band_flow_residual", "standard deviation of the flow about its map", "m3/s",
+     "L/min"},
+    // limits
+    {"hardest_acceleration_m_per_s2", "limit.acceleration",
+     "no spool accelerates harder: a jump of the position beyond it is a fault of the signal", "m/s2", ""},
+    {"closed_below_m", "limit.closed_below", "positions below this count as closed", "m", "mm"},
+    {"largest_current_A", "limit.current", "currents above this count as saturated", "A", ""},
+}};
+
+/// Keeps the numbers that a tunable names; passes over everything else.
+struct TunableVisitor {
+  std::vector<TunableNumber>& found;
+
+  void map(const char*, auto&, const char*, const char*) {}
+  void curve(const char*, auto&, const char*) {}
+  void volume(const char*, auto&) {}
+  void axis(const char*, auto&, int) {}
+  void list(const char*, auto&, double, double) {}
+  void number(const char* key, double& value, double lowest, double highest) {
+    const auto it =
+        std::find_if(tunables.begin(), tunables.end(), [&](const Tunable& each) { return each.key == key; });
+    if (it != tunables.end()) found.push_back({*it, &value, lowest, highest});
+  }
+};
+
+template <class Parameters>
+std::vector<TunableNumber> found_in(Parameters& parameters) {
+  std::vector<TunableNumber> found;
+  TunableVisitor visitor{found};
+  describe(parameters, visitor);
+  return found;
+}
+
+Variable input(const char* name, const char* description, const char* unit, const char* display_unit, double start,
+               double nominal) {
+  return {.name = name,
+          .description = description,
+          .causality = Causality::input,
+          .variability = Variability::continuous,
+          .unit = unit,
+          .display_unit = display_unit,
+          .start = start,
+          .nominal = nominal};
+}
+
+Variable output(const char* name, const char* description, const char* unit, const char* display_unit, double nominal) {
+  return {.name = name,
+          .description = description,
+          .causality = Causality::output,
+          .variability = Variability::continuous,
+          .unit = unit,
+          .display_unit = display_unit,
+          .nominal = nominal};
+}
+
+Variable flag(const char* name, const char* description) {
+  return {.name = name,
+          .description = description,
+          .causality = Causality::parameter,
+          .variability = Variability::fixed,
+          .type = Type::boolean,
+          .start = 1,
+          .lowest = 0,
+          .highest = 1};
+}
+
+}  // namespace
+
+std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters) {
+  return found_in(parameters);
+}
+
+std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& parameters) {
+  return found_in(parameters);
+}
+
+std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vector<TunableNumber>& tunable) {
+  const double flow = scale.rated_flow_m3_per_s;
+  std::vector<Variable> all{
+      {.name = "time", .description = "simulation time", .causality = Causality::independent, .unit = "s"},
+      input("current", "coil current, mean since the sample before; NaN: missing", "A", "", 0, 1),
+      input("voltage", "coil voltage, mean since the sample before; NaN: not measured", "V", "", 0, 10),
+      input("position", "spool position, 0 closed, > 0 opens P to B; NaN: missing", "m", "mm", 0, scale.stroke_m),
+      input("oil_temperature", "temperature of the oil; NaN: the last one is held", "K", "degC", 323.15, 300),
+      output("flow", "flow rate", "m3/s", "L/min", flow),
+      output("flow_lower", "lower end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
+      output("flow_upper", "upper end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
+      output("pressure_difference", "pressure difference over the metering edge", "Pa", "bar", 5e6),
+      output("magnetic_force", "magnetic force, opening > 0", "N", "", 50),
+      output("spring_force", "spring force, closing > 0", "N", "", 50),
+      output("flow_force", "steady flow force, closing > 0", "N", "", 50),
+      output("friction_force", "friction of spool and armature, sign of the velocity", "N", "", 5),
+      {.name = "status",
+       .description = "status bits, 0 when all is well; see the documentation",
+       .causality = Causality::output,
+       .variability = Variability::discrete,
+       .type = Type::integer},
+      {.name = "fault",
+       .description = "an input or the model cannot be trusted: a bit of status from 65536 on is set",
+       .causality = Causality::output,
+       .variability = Variability::discrete,
+       .type = Type::boolean},
+      {.name = "sample_step",
+       .description = "time between samples of the sensor, whatever the communication step",
+       .causality = Causality::parameter,
+       .variability = Variability::fixed,
+       .unit = "s",
+       .display_unit = "ms",
+       .start = 1e-3,
+       .lowest = 5e-5,
+       .highest = 5e-3,
+       .nominal = 1e-3},
+      flag("use_voltage", "whether the coil voltage is measured"),
+      flag("use_oil_temperature", "whether the oil temperature is measured")};
+  for (const TunableNumber& number : tunable) {
+    all.push_back({.name = std::string(number.about.name),
+                   .description = std::string(number.about.description),
+                   .causality = Causality::parameter,
+                   .variability = Variability::tunable,
+                   .unit = std::string(number.about.unit),
+                   .display_unit = std::string(number.about.display_unit),
+                   .start = *number.value,
+                   .lowest = number.lowest,
+                   .highest = number.highest});
+  }
+  return all;
+}
+
+}  // namespace spoolflow::exports::fmu

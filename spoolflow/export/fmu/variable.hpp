@@ -1,0 +1,29 @@
+#pragma once
+/// What an FMU shows of itself: each variable is described once, for modelDescription.xml and for the running instance.
+#include <limits>
+#include <string>
+
+namespace spoolflow::exports::fmu {
+
+enum class Causality { independent, parameter, input, output };
+enum class Variability { fixed, tunable, discrete, continuous };
+enum class Type { real, integer, boolean };
+
+inline constexpr double no_limit = std::numeric_limits<double>::quiet_NaN();
+
+/// The place in the list is the value reference; every value is kept as a double.
+struct Variable {
+  std::string name;
+  std::string description;
+  Causality causality = Causality::input;
+  Variability variability = Variability::continuous;
+  Type type = Type::real;
+  std::string unit{};          ///< a name of known_units; empty: none
+  std::string display_unit{};  ///< a display unit of that unit; empty: none
+  double start = 0;            ///< of parameters and inputs
+  double lowest = no_limit;
+  double highest = no_limit;
+  double nominal = no_limit;  ///< the size that the value usually has
+};
+
+}  // namespace spoolflow::exports::fmu

@@ -1,0 +1,85 @@
+#include "spoolflow/export/fmu_archive.hpp"
+
+#include <ctime>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "spoolflow/export/checksum.hpp"
+#include "spoolflow/export/fmu_assets.hpp"
+#include "spoolflow/export/zip_archive.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+std::string asset(std::string_view name) {
+  for (const EmbeddedFile& file : fmu_assets()) {
+    if (file.name == name) return std::string(file.bytes);
+  }
+  throw std::logic_error("no embedded file " + std::string(name));
+}
+
+constexpr const char* terminals_and_icons = R"(<?xml version="1.0" encoding="UTF-8"?>
+<fmiTerminalsAndIcons fmiVersion="3.0">
+  <GraphicalRepresentation>
+    <CoordinateSystem x1="-100" y1="-100" x2="100" y2="100" suggestedScalingFactorTo_mm="0.1"/>
+    <Icon x1="-100" y1="-100" x2="100" y2="100"/>
+  </GraphicalRepresentation>
+</fmiTerminalsAndIcons>
+)";
+
+/// Seconds since 1970 of an ISO 8601 time in UTC.
+std::time_t seconds(const std::string& time) {
+  std::tm utc{};
+  if (::strptime(time.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc) == nullptr) return 0;
+  return ::timegm(&utc);
+}
+
+}  // namespace
+
+std::string instantiation_token(const FmuContent& content, FmiVersion version) {
+  Checksum first, second;
+  const auto add = [&](const std::string& text) {
+    first.add(text.data(), text.size() + 1);
+    second.add(text.data(), text.size() + 1);
+  };
+  second.add("token", 5);
+  add(version == FmiVersion::fmi2 ? "2" : "3");
+  add(content.identifier), add(content.tool_version), add(content.model_name), add(content.resource.kind);
+  for (const fmu::Variable& variable : content.variables) add(variable.name);
+  const auto* numbers = reinterpret_cast<const char*>(content.resource.numbers.data());
+  first.add(numbers, content.resource.numbers.size() * sizeof(double));
+  second.add(numbers, content.resource.numbers.size() * sizeof(double));
+  const std::string digits = fmt::format("{:016x}{:016x}", first.value(), second.value());
+  return fmt::format("{{{}-{}-{}-{}-{}}}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(12, 4),
+                     digits.substr(16, 4), digits.substr(20));
+}
+
+std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion version) {
+  content.resource.token = instantiation_token(content, version);
+  const bool fmi2 = version == FmiVersion::fmi2;
+  const std::string linux64 = fmi2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
+  const std::string win64 = fmi2 ? "binaries/win64/" : "binaries/x86_64-windows/";
+  std::vector<ArchiveMember> members{
+      {"modelDescription.xml", fmi2 ? model_description_fmi2(content) : model_description_fmi3(content)},
+      {linux64 + content.identifier + ".so", std::string(parts.linux64)},
+      {win64 + content.identifier + ".dll", std::string(parts.win64)},
+      {std::string("resources/") + fmu::resource_name, fmu::resource_bytes(content.resource)},
+      {"documentation/index.html", fmu_documentation(content)},
+      {"documentation/licenses/license.txt", asset("LICENSE")}};
+  if (fmi2) {
+    members.push_back({"model.png", asset("icon.png")});
+  } else {
+    members.push_back({"terminalsAndIcons/terminalsAndIcons.xml", terminals_and_icons});
+    members.push_back({"terminalsAndIcons/icon.png", asset("icon.png")});
+    members.push_back({"terminalsAndIcons/icon.svg", asset("icon.svg")});
+    members.push_back({"sources/buildDescription.xml", build_description(content)});
+  }
+  for (const EmbeddedFile& source : parts.sources) {
+    members.push_back({"sources/" + std::string(source.name), std::string(source.bytes)});
+  }
+  return zip_archive(members, seconds(content.generation_time));
+}
+
+}  // namespace spoolflow::exports

@@ -1,0 +1,83 @@
+/// modelDescription.xml by FMI 2.0.
+#include <fmt/format.h>
+
+#include "spoolflow/export/fmu/number_text.hpp"
+#include "spoolflow/export/fmu_content.hpp"
+#include "spoolflow/export/fmu_units.hpp"
+#include "spoolflow/export/fmu_words.hpp"
+#include "spoolflow/export/xml_text.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+using fmu::Causality;
+using fmu::number_text;
+using fmu::Type;
+using fmu::Variable;
+
+/// The element that holds type, unit, range and start value.
+std::string typed(const Variable& variable) {
+  const bool has_start = variable.causality == Causality::parameter || variable.causality == Causality::input;
+  if (variable.type == Type::boolean) {
+    return has_start ? fmt::format("<Boolean start=\"{}\"/>", variable.start != 0 ? "true" : "false") : "<Boolean/>";
+  }
+  std::string out = variable.type == Type::real ? "<Real" : "<Integer";
+  if (!variable.unit.empty()) out += fmt::format(" unit=\"{}\"", variable.unit);
+  if (!variable.display_unit.empty()) out += fmt::format(" displayUnit=\"{}\"", variable.display_unit);
+  out += limits(variable);
+  if (has_start) out += fmt::format(" start=\"{}\"", number_text(variable.start));
+  return out + "/>";
+}
+
+std::string scalar_variable(const Variable& variable, std::size_t reference) {
+  return fmt::format(
+      "    <ScalarVariable name=\"{}\" valueReference=\"{}\" description=\"{}\" causality=\"{}\" "
+      "variability=\"{}\"{}>\n"
+      "      {}\n"
+      "    </ScalarVariable>\n",
+      variable.name, reference, xml_text(variable.description), word(variable.causality), word(variable.variability),
+      initial(variable), typed(variable));
+}
+
+/// Outputs by their place among the variables, from 1.
+std::string outputs(const std::vector<Variable>& variables) {
+  std::string out;
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    if (variables[k].causality == Causality::output) out += fmt::format("      <Unknown index=\"{}\"/>\n", k + 1);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string model_description_fmi2(const FmuContent& content) {
+  std::string files, variables;
+  for (const std::string& source : content.sources) files += fmt::format("      <File name=\"{}\"/>\n", source);
+  for (std::size_t k = 0; k < content.variables.size(); ++k) variables += scalar_variable(content.variables[k], k);
+  const std::string unknowns = outputs(content.variables);
+  return fmt::format(
+      R"(<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="{}" guid="{}" description="{}" license="Apache-2.0" generationTool="spoolflow {}" generationDateAndTime="{}" variableNamingConvention="structured" numberOfEventIndicators="0">
+  <CoSimulation modelIdentifier="{}" needsExecutionTool="false" canHandleVariableCommunicationStepSize="true" canInterpolateInputs="false" maxOutputDerivativeOrder="0" canRunAsynchronuously="false" canBeInstantiatedOnlyOncePerProcess="false" canNotUseMemoryManagementFunctions="true" canGetAndSetFMUstate="true" canSerializeFMUstate="true" providesDirectionalDerivative="false">
+    <SourceFiles>
+{}    </SourceFiles>
+  </CoSimulation>
+{}  <LogCategories>
+{}  </LogCategories>
+  <DefaultExperiment startTime="0" stopTime="{}" stepSize="{}"/>
+  <ModelVariables>
+{}  </ModelVariables>
+  <ModelStructure>
+    <Outputs>
+{}    </Outputs>
+    <InitialUnknowns>
+{}    </InitialUnknowns>
+  </ModelStructure>
+</fmiModelDescription>
+)",
+      xml_text(content.model_name), content.resource.token, xml_text(content.description), content.tool_version,
+      content.generation_time, content.identifier, files, unit_definitions(content.variables), log_categories(),
+      number_text(content.stop_s), number_text(content.step_s), variables, unknowns, unknowns);
+}
+
+}  // namespace spoolflow::exports

@@ -1,0 +1,68 @@
+#include "spoolflow/export/sensor_fmu.hpp"
+
+#include <fmt/format.h>
+
+#include "spoolflow/export/embedded_parts.hpp"
+#include "spoolflow/export/fmu/sensor_numbers.hpp"
+#include "spoolflow/export/fmu/sensor_variables.hpp"
+#include "spoolflow/export/sensor_fmu_sources.hpp"
+#include "spoolflow/export/xml_text.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+template <class Parameters>
+void fill(FmuContent& content, const model::Valve& valve, const Parameters& parameters, std::string_view estimator) {
+  content.resource.kind = fmu::order_of<Parameters>(estimator);
+  content.resource.numbers = {valve.rated_flow_m3_per_s, valve.stroke_m};
+  const std::vector<double> numbers = fmu::numbers_of(parameters);
+  content.resource.numbers.insert(content.resource.numbers.end(), numbers.begin(), numbers.end());
+  Parameters tuned = parameters;
+  content.variables = fmu::sensor_variables({valve.rated_flow_m3_per_s, valve.stroke_m}, fmu::tunable_numbers(tuned));
+}
+
+std::string notes(const model::Model& model, std::string_view estimator) {
+  std::string bits;
+  for (const sensor::StatusName& entry : sensor::status_names) {
+    bits += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", static_cast<std::uint32_t>(entry.bit), entry.name);
+  }
+  return fmt::format(
+      "<p>Valve: {}, full scale {:.4g} L/min, stroke {:.4g} mm, oil {}. Calibrated by spoolflow {} on {}. Estimator: "
+      "{}.</p>\n"
+      "<p>Inputs may be NaN: without current or position the last answer is held and status says sample_missing; the "
+      "sensor recovers with the next complete sample. Where voltage or oil temperature are not measured, set "
+      "use_voltage or "
+      "use_oil_temperature to false.</p>\n"
+      "<h2>Status</h2>\n<p>The sum of these bits; from 65536 on they are faults.</p>\n<table>\n{}</table>\n",
+      xml_text(model.valve.name), model.valve.rated_flow_m3_per_s * units::litre_per_minute_per_m3_per_s,
+      model.valve.stroke_m * units::millimetre_per_metre, xml_text(model.fluid.name),
+      xml_text(model.provenance.tool_version), xml_text(model.provenance.created), estimator, bits);
+}
+
+}  // namespace
+
+std::string sensor_fmu(const model::Model& model, FmiVersion version, std::string_view tool_version) {
+  const char* const estimator = model.observer ? "observer" : "condensed";
+  FmuContent content;
+  content.identifier = "spoolflow_sensor";
+  content.model_name = "spoolflow sensor of " + model.valve.name;
+  content.description = fmt::format(
+      "Soft flow-rate sensor of a spool valve ({}): flow with its 95 % band from coil current, coil voltage, spool "
+      "position "
+      "and oil temperature",
+      estimator);
+  content.notes_html = notes(model, estimator);
+  content.tool_version = tool_version;
+  content.generation_time = model::creation_time();
+  content.resource.name = model.valve.name;
+  if (model.observer) {
+    fill(content, model.valve, model.observer->parameters, estimator);
+  } else {
+    fill(content, model.valve, model.condensed.parameters, estimator);
+  }
+  content.sources = translation_units(sensor_fmu_sources());
+  return fmu_archive(std::move(content), embedded_parts("sensor_fmu", sensor_fmu_sources()), version);
+}
+
+}  // namespace spoolflow::exports
