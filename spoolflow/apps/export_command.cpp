@@ -10,7 +10,9 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
+#include "spoolflow/export/sensor_fmu.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -21,6 +23,7 @@ struct ExportArguments {
   std::string kind;
   std::string model;
   std::string output;
+  std::string fmi = "2";
 };
 
 std::string content_of(const fs::path& file) {
@@ -65,6 +68,21 @@ void export_cpp(const ExportArguments& arguments) {
   }
 }
 
+void export_fmu(const ExportArguments& arguments) {
+  const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
+  const model::Model model = model::read_model(arguments.model);
+  OutputFile output(arguments.output, {arguments.model});
+  output.stream() << exports::sensor_fmu(model, version, tool_version());
+  output.commit();
+  if (!model.observer) {
+    fmt::print(
+        stderr,
+        "{}: the model is not calibrated for the observer, so the FMU runs the condensed sensor; calibrate with a "
+        "solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for the observer\n",
+        model.valve.name);
+  }
+}
+
 }  // namespace
 
 void add_export_command(CLI::App& program) {
@@ -73,13 +91,21 @@ void add_export_command(CLI::App& program) {
       program, {"export",
                 "turn a model into something that other programs and controllers run",
                 "MODEL.json from `spoolflow calibrate`",
-                "cpp: a folder with the sensor's headers, the model as constexpr numbers in single precision, an "
+                "fmu: a co-simulation FMU of the sensor for Linux and Windows (64 bit), with sources. cpp: a folder "
+                "with the sensor's headers, the model as constexpr numbers in single precision, an "
                 "example and a self-test; files of an earlier export are replaced, all else in the folder stays",
-                {"spoolflow export cpp valve_a.json -o valve_a_cpp"}});
-  command->add_option("kind", arguments->kind, "cpp: C++ for firmware")->required()->check(CLI::IsMember({"cpp"}));
+                {"spoolflow export fmu valve_a.json -o valve_a.fmu --fmi 3",
+                 "spoolflow export cpp valve_a.json -o valve_a_cpp"}});
+  command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp: C++ for firmware")
+      ->required()
+      ->check(CLI::IsMember({"fmu", "cpp"}));
   command->add_option("model", arguments->model, "model file")->required();
-  command->add_option("-o,--output", arguments->output, "folder to write")->required();
-  command->callback([arguments] { export_cpp(*arguments); });
+  command->add_option("-o,--output", arguments->output, "file (fmu; - for standard output) or folder (cpp) to write")
+      ->required();
+  command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
+      ->check(CLI::IsMember({"2", "3"}))
+      ->capture_default_str();
+  command->callback([arguments] { arguments->kind == "fmu" ? export_fmu(*arguments) : export_cpp(*arguments); });
 }
 
 }  // namespace spoolflow::apps
