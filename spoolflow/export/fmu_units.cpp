@@ -23,14 +23,14 @@ struct DisplayUnit {
 struct KnownUnit {
   std::string_view name;
   std::string_view base;  ///< attributes of BaseUnit; "none" where the exponents are no integers
-  std::array<DisplayUnit, 1> display{};
+  std::array<DisplayUnit, 2> display{};
 };
 
 const std::array<KnownUnit, 13> known_units{{
     {"s", R"( s="1")", {{{"ms", 1e3}}}},
     {"A", R"( A="1")"},
     {"V", R"( kg="1" m="2" s="-3" A="-1")"},
-    {"m", R"( m="1")", {{{"mm", 1e3}}}},
+    {"m", R"( m="1")", {{{"mm", 1e3}, {"um", 1e6}}}},
     {"K", R"( K="1")", {{{"degC", 1, -units::K_from_degC(0)}}}},
     {"m3/s", R"( m="3" s="-1")", {{{"L/min", units::litre_per_minute_per_m3_per_s}}}},
     {"Pa", R"( kg="1" m="-1" s="-2")", {{{"bar", 1 / units::pascal_per_bar}}}},
@@ -51,7 +51,9 @@ std::string unit_definitions(const std::vector<fmu::Variable>& variables) {
     const auto unit = std::find_if(known_units.begin(), known_units.end(),
                                    [&](const KnownUnit& each) { return each.name == variable.unit; });
     if (unit == known_units.end()) throw std::logic_error("no definition of the unit " + variable.unit);
-    if (!variable.display_unit.empty() && unit->display[0].name != variable.display_unit) {
+    if (!variable.display_unit.empty() &&
+        std::none_of(unit->display.begin(), unit->display.end(),
+                     [&](const DisplayUnit& each) { return each.name == variable.display_unit; })) {
       throw std::logic_error("no definition of the display unit " + variable.display_unit);
     }
     used.insert(unit->name);
