@@ -18,7 +18,7 @@ namespace spoolflow::rig {
 
 struct FlowForce {
   double jet_contraction = 0.75;
-  double boundary_layer_gain = 7.5;
+  double boundary_layer_gain = 8.0;
   double lateral_friction = 0.035;
   double friction_per_pressure_N_per_Pa = 1.7e-7;
 
