@@ -11,6 +11,7 @@
 #include "spoolflow/rig/recording_file.hpp"
 #include "spoolflow/rig/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/phases.hpp"
 
 namespace spoolflow::findings {
 namespace {
@@ -18,17 +19,34 @@ namespace {
 constexpr double full_scale_m3_per_s = units::m3_per_s_from_L_per_min(80.0);
 constexpr double stroke_m = 2.4e-3;
 
+double error_m3_per_s(const validation::RunSamples& run, std::size_t i) {
+  return std::abs(static_cast<double>(run.answers.front().flow_m3_per_s[i]) -
+                  static_cast<double>(run.reference_m3_per_s[i]));
+}
+
 /// Mean size of the error while moving, at a held pressure difference, over a part of the openings [%FS].
-double mean_error_percent(const validation::ValidatedRun& run, double level_bar, double from_m, double to_m) {
+double mean_error_percent(const validation::RunSamples& run, double level_bar, double from_m, double to_m) {
+  const validation::Phases phases = validation::phases_of_command(run.time_s, run.position_set);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < run.time_s.size(); ++i) {
-    const bool at_level = std::abs(units::bar_from_Pa(run.reference_pressure_difference_Pa[i]) - level_bar) < 2;
+    const bool at_level =
+        std::abs(units::bar_from_Pa(static_cast<double>(run.pressure_difference_Pa[i])) - level_bar) < 2;
     const bool at_opening = run.position_m[i] >= from_m && run.position_m[i] < to_m;
-    if (!run.phases.moving[i] || run.phases.reversal[i] || !at_level || !at_opening) continue;
-    sum += std::abs(run.results.front().flow_m3_per_s[i] - run.reference_m3_per_s[i]);
+    if (!phases.moving[i] || phases.reversal[i] || !at_level || !at_opening) continue;
+    sum += error_m3_per_s(run, i);
     ++count;
   }
   return 100 * sum / count / full_scale_m3_per_s;
+}
+
+/// The error that a share of the chosen samples does not exceed [%FS].
+double quantile_percent(const validation::RunSamples& run, const std::vector<bool>& chosen, double share) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (chosen[i]) errors.push_back(error_m3_per_s(run, i));
+  }
+  std::sort(errors.begin(), errors.end());
+  return 100 * errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))] / full_scale_m3_per_s;
 }
 
 }  // namespace
@@ -55,32 +73,32 @@ CondensedRuns condensed_runs(const std::filesystem::path& folder) {
   std::ofstream(folder / "campaign.toml") << rig::campaign_text(asked.valve, items);
   const recording::Campaign campaign = recording::read_campaign(folder / "campaign.toml");
   const model::Model model = calibration::calibrate(campaign, "rig findings", [](const std::string&, double) {});
-  validation::ValidationOptions options;
-  options.estimators = {validation::Estimator::condensed};
-  const auto validated = [&](const std::string& name) {
-    return validation::validate_run(model, folder / name, options, [](double) {});
+  const auto estimated = [&](const std::string& name) {
+    return validation::estimate_run(model, folder / name, {}, {validation::Estimator::condensed}, [](double) {});
   };
-  CondensedRuns runs{.ramp = {}, .ramps = validated("ramps_30_to_70bar.csv")};
+  CondensedRuns runs{.ramp = {}, .ramps = estimated("ramps_30_to_70bar.csv")};
   for (const rig::CampaignItem& item : items) {
-    if (item.file.starts_with("ramp_")) runs.ramp.push_back(validated(item.file));
+    if (item.file.starts_with("ramp_")) runs.ramp.push_back(estimated(item.file));
   }
   return runs;
 }
 
 std::vector<Finding> condensed_findings(const CondensedRuns& runs) {
-  const auto median_percent = [&](auto&& figure) {
-    std::vector<double> values;
-    for (const validation::ValidatedRun& run : runs.ramp) values.push_back(figure(*run.results.front().metrics));
+  std::vector<double> moving, reversal;
+  for (const validation::RunSamples& run : runs.ramp) {
+    const validation::Phases phases = validation::phases_of_command(run.time_s, run.position_set);
+    moving.push_back(quantile_percent(run, phases.moving, 0.95));
+    reversal.push_back(quantile_percent(run, phases.reversal, 1));
+  }
+  const auto median = [](std::vector<double> values) {
     std::sort(values.begin(), values.end());
-    return 100 * values[values.size() / 2] / full_scale_m3_per_s;
+    return values[values.size() / 2];
   };
-  const auto moving = [](const validation::Metrics& metrics) { return metrics.moving.p95; };
-  const auto reversal = [](const validation::Metrics& metrics) { return metrics.reversal.largest; };
   std::vector<Finding> findings{
-      {fmt::format("condensed sensor at 60 bar, p95 while moving, median of {} runs", runs.ramp.size()),
-       median_percent(moving), "% FS", 8, 14, "paper 4"},
-      {fmt::format("condensed sensor at 60 bar, worst around reversal, median of {} runs", runs.ramp.size()),
-       median_percent(reversal), "% FS", 30, 45, "paper 4"}};
+      {fmt::format("condensed sensor at 60 bar, p95 while moving, median of {} runs", moving.size()), median(moving),
+       "% FS", 8, 14, "paper 4"},
+      {fmt::format("condensed sensor at 60 bar, worst around reversal, median of {} runs", reversal.size()),
+       median(reversal), "% FS", 30, 45, "paper 4"}};
   for (const double level_bar : {30.0, 40.0, 50.0, 60.0, 70.0}) {
     const double small = mean_error_percent(runs.ramps, level_bar, 0.15 * stroke_m, 0.45 * stroke_m);
     const double large = mean_error_percent(runs.ramps, level_bar, 0.7 * stroke_m, stroke_m);

@@ -3,7 +3,7 @@
 /// section 4, Figs 9 and 10).
 #include <filesystem>
 
-#include "spoolflow/validation/validate.hpp"
+#include "spoolflow/validation/run_samples.hpp"
 #include "tests/findings/finding.hpp"
 
 namespace spoolflow::findings {
@@ -11,8 +11,8 @@ namespace spoolflow::findings {
 struct CondensedRuns {
   /// 60 bar, 5 %/s, each with other noise: when a sticking spool breaks away is a matter of chance, so figures on one
   /// run vary. The first is the campaign's own.
-  std::vector<validation::ValidatedRun> ramp;
-  validation::ValidatedRun ramps;  ///< 30 to 70 bar
+  std::vector<validation::RunSamples> ramp;
+  validation::RunSamples ramps;  ///< 30 to 70 bar
 };
 
 /// Simulates, calibrates and validates; its files go into `folder`, which exists.

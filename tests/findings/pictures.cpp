@@ -3,213 +3,191 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/svg_chart.hpp"
+#include "spoolflow/report/page_style.hpp"
+#include "spoolflow/report/svg_figure.hpp"
 #include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/trace.hpp"
 
 namespace spoolflow::findings {
 namespace {
 
-using report::Chart;
-using report::Series;
-using report::Stroke;
+using report::Figure;
+using report::Mark;
+using report::Shape;
 
-/// What the reports' page gives a chart; here it travels inside the picture, on white for every reader.
-constexpr std::string_view style =
-    R"(<style>text{font-family:system-ui,sans-serif}.grid{stroke:#dde2e8}.zero{stroke:#5b6675}
-.tick,.mark{fill:#5b6675;font-size:11.5px}.label{fill:#1c2430;font-size:12.5px}.line{fill:none;stroke:currentColor;stroke-width:1.7;
-stroke-linejoin:round}.thin{stroke-width:.9;opacity:.8}.dashed{stroke-dasharray:6 4}.dot{fill:currentColor;opacity:.75}
-.c0{color:#0072b2}.c1{color:#d55e00}.c2{color:#009e73}.c3{color:#cc79a7}.c4{color:#56799a}.c5{color:#b58900}.c6{color:#5a4fcf}
-.c7{color:#8a8f98}.c8{color:#aab2bd}</style><rect width="100%" height="100%" fill="#fff"/>)";
-
-/// A chart as a file that stands alone, its legend written inside.
-void write(const std::filesystem::path& file, const Chart& chart) {
-  std::string svg = report::svg_of(chart);
-  const std::size_t begin = svg.find("<svg");
-  const std::size_t end = svg.find("</svg>");
-  svg = svg.substr(begin, end - begin);
-  const std::size_t opened = svg.find('>') + 1;
-  std::string legend;
-  double y = 30;
-  for (const Series& series : chart.series) {
-    if (series.name.empty()) continue;
-    legend +=
-        fmt::format(R"(<path class="line c{0}" d="M76 {1:.0f}h24"/><text class="tick" x="106" y="{2:.0f}">{3}</text>)",
-                    series.colour, y - 4, y, series.name);
-    y += 16;
+/// A figure as a file that stands alone: the reports' style sheet and the names of its marks inside.
+void write(const std::filesystem::path& file, const Figure& figure) {
+  const report::Layout layout{.width_px = 900};
+  std::string drawing = report::svg_of(figure, layout, "figure");
+  drawing.erase(0, drawing.find('>') + 1);
+  drawing.resize(drawing.rfind("</svg>"));
+  double height_px = 100;  // titles and axis
+  for (const report::Panel& panel : figure.panels) height_px += panel.height_px;
+  std::string names;
+  double x = 60;
+  for (const Mark& mark : figure.panels.front().marks) {
+    if (mark.name.empty()) continue;
+    names += fmt::format(R"(<path class="line {}" stroke-width="2.2" d="M{:.0f} -8h24"/>)", mark.tone, x);
+    names += fmt::format(R"(<text class="label" x="{:.0f}" y="-4">{}</text>)", x + 31, mark.name);
+    x += 60 + 7 * static_cast<double>(mark.name.size());
   }
-  svg = svg.substr(0, opened) + std::string(style) + svg.substr(opened) + legend + "</svg>\n";
-  // Room on the right for the labels at the lines' ends.
-  const std::string box = fmt::format("0 0 {:.0f} ", chart.width);
-  if (const std::size_t at = svg.find(box); at != std::string::npos) {
-    svg.replace(at, box.size(), fmt::format("0 0 {:.0f} ", chart.width + 40));
-  }
-  const std::size_t space = svg.find(' ');
-  if (svg.find("xmlns=") == std::string::npos) svg.insert(space, R"( xmlns="http://www.w3.org/2000/svg")");
   std::ofstream out(file);
-  out << svg;
+  out << fmt::format(
+             R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 -24 950 {:.0f}" font-family="sans-serif" aria-label="{}">)",
+             height_px, figure.description)
+      << "<style>" << report::page_style()
+      << R"svg(</style><rect x="0" y="-24" width="100%" height="100%" fill="var(--paper)"/>)svg" << names << drawing
+      << "</svg>\n";
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
 struct Labels {
-  const char *x_label, *y_label, *description;
+  std::string description, x_title, panel_title;
+  double height_px = 240;
 };
 
-Chart labelled(const Labels& labels) {
-  Chart chart;
-  chart.x_label = labels.x_label;
-  chart.y_label = labels.y_label;
-  chart.description = labels.description;
-  return chart;
+Figure one_panel(const Labels& labels) {
+  Figure figure{.description = labels.description, .x_title = labels.x_title};
+  figure.panels.push_back({.title = labels.panel_title, .height_px = labels.height_px});
+  return figure;
 }
 
-Series line(std::string name, int colour, Stroke stroke = Stroke::solid) {
-  Series series;
-  series.name = std::move(name);
-  series.colour = colour;
-  series.stroke = stroke;
-  return series;
+/// Place of the k-th of n lines along a family.
+double along(std::size_t k, std::size_t n) {
+  return n > 1 ? static_cast<double>(k) / static_cast<double>(n - 1) : 0.5;
 }
 
-Chart solenoid_map(const std::vector<SolenoidLoop>& loops) {
-  Chart chart = labelled({.x_label = "armature position in mm (air gap falls to the right)",
-                          .y_label = "force in N",
-                          .description = "Force of the solenoid over position, to and fro, at each held current"});
-  chart.height = 440;
-  int colour = 0;
-  for (const SolenoidLoop& loop : loops) {
+Figure solenoid_map(const std::vector<SolenoidLoop>& loops) {
+  Figure figure = one_panel({.description = "Force of the solenoid over position, to and fro, at each held current",
+                             .x_title = "Armature position [mm]; the air gap falls to the right",
+                             .panel_title = "Force [N]",
+                             .height_px = 420});
+  for (std::size_t n = 0; n < loops.size(); ++n) {
+    const SolenoidLoop& loop = loops[n];
     const auto farthest = std::max_element(loop.position_mm.begin(), loop.position_mm.end());
     const auto turn = static_cast<std::size_t>(farthest - loop.position_mm.begin());
     const auto way = [&](std::size_t begin, std::size_t end, std::string label) {
-      Series series = line("", colour % 8, Stroke::thin);
+      Mark mark{.ramp = along(n, loops.size()), .end_label = std::move(label), .width_px = 1};
       for (std::size_t i = begin; i < end; i += 4) {
-        series.x.push_back(loop.position_mm[i]);
-        series.y.push_back(loop.force_N[i]);
+        mark.x.push_back(loop.position_mm[i]);
+        mark.y.push_back(loop.force_N[i]);
       }
-      series.label_at_end = std::move(label);
-      chart.series.push_back(std::move(series));
+      figure.panels.front().marks.push_back(std::move(mark));
     };
     way(0, turn, loop.current_A > 0.9 ? fmt::format("{:.1f} A", loop.current_A) : "");
     way(turn, loop.force_N.size(), "");
-    ++colour;
   }
-  return chart;
+  return figure;
 }
 
-Chart loop_widths(const Measured& measured) {
-  Chart chart = labelled({.x_label = "current in A",
-                          .y_label = "loop width at mid stroke in N",
-                          .description = "Width of the solenoid's force loop over current, without and with dither"});
-  const auto add = [&](const char* name, const std::vector<SolenoidLoop>& loops, int colour) {
-    Series series = line(name, colour);
+Figure loop_widths(const Measured& measured) {
+  Figure figure = one_panel({.description = "Width of the solenoid's force loop over current, without and with dither",
+                             .x_title = "Current [A]",
+                             .panel_title = "Width of the force loop at mid stroke [N]"});
+  figure.panels.front().lowest = 0;
+  const auto add = [&](const char* name, const char* tone, const std::vector<SolenoidLoop>& loops) {
+    Mark mark{.tone = tone, .name = name};
     for (const SolenoidLoop& loop : loops) {
-      series.x.push_back(loop.current_A);
-      series.y.push_back(loop.mid_width_N);
+      mark.x.push_back(loop.current_A);
+      mark.y.push_back(loop.mid_width_N);
     }
-    chart.series.push_back(std::move(series));
+    figure.panels.front().marks.push_back(std::move(mark));
   };
-  add("without dither", measured.plain, 0);
-  add("with dither", measured.dithered, 1);
-  chart.y_lowest = 0;
-  return chart;
+  add("without dither", "a", measured.plain);
+  add("with dither", "condensed", measured.dithered);
+  return figure;
 }
 
-Chart flow_force_map(const std::vector<FlowForceCurve>& curves) {
-  Chart chart = labelled({.x_label = "flow force in N",
-                          .y_label = "flow in L/min",
-                          .description = "Flow over flow force at each position, 5 to 70 bar, 50 C"});
-  chart.height = 400;
-  int colour = 0;
-  for (const FlowForceCurve& curve : curves) {
-    Series series = line("", colour++ % 8);
-    series.x = curve.force_N;
-    series.y = curve.flow_L_min;
-    series.label_at_end = fmt::format("{:.1f} mm", curve.position_mm);
-    chart.series.push_back(std::move(series));
+Figure flow_force_map(const std::vector<FlowForceCurve>& curves) {
+  Figure figure = one_panel({.description = "Flow over flow force at each position, 5 to 70 bar, 50 C",
+                             .x_title = "Flow force [N]",
+                             .panel_title = "Flow [L/min] at each position, 5 to 70 bar, 50 C",
+                             .height_px = 380});
+  for (std::size_t n = 0; n < curves.size(); ++n) {
+    figure.panels.front().marks.push_back({.ramp = along(n, curves.size()),
+                                           .end_label = fmt::format("{:.1f} mm", curves[n].position_mm),
+                                           .x = curves[n].force_N,
+                                           .y = curves[n].flow_L_min});
   }
-  return chart;
+  return figure;
 }
 
-Chart temperature_fall(const std::vector<TemperatureEffect>& effects) {
-  Chart chart =
-      labelled({.x_label = "oil temperature in C",
-                .y_label = "flow force over that at 30 C",
-                .description = "Flow force at constant flow over oil temperature, for each position and flow"});
-  int colour = 0;
+Figure temperature_fall(const std::vector<TemperatureEffect>& effects) {
+  Figure figure = one_panel({.description = "Flow force at constant flow over oil temperature",
+                             .x_title = "Oil temperature [C]",
+                             .panel_title = "Flow force over that at 30 C; pale 10 L/min, deep 70 L/min",
+                             .height_px = 280});
   for (const TemperatureEffect& effect : effects) {
-    Series series = line("", colour++ % 8, Stroke::thin);
-    series.x = effect.temperature_C;
-    for (const double force_N : effect.force_N) series.y.push_back(force_N / effect.force_N.front());
-    chart.series.push_back(std::move(series));
+    Mark mark{.ramp = (effect.flow_L_min - 10) / 60, .width_px = 1, .x = effect.temperature_C};
+    for (const double force_N : effect.force_N) mark.y.push_back(force_N / effect.force_N.front());
+    figure.panels.front().marks.push_back(std::move(mark));
   }
-  chart.y_highest = 1.0;
-  return chart;
+  return figure;
 }
 
-Chart flow_over_time(const validation::ValidatedRun& run) {
-  Chart chart = labelled({.x_label = "time in s",
-                          .y_label = "flow in L/min",
-                          .description = "Measured flow and that of the condensed sensor over time"});
-  const auto add = [&](const char* name, const std::vector<double>& flow, int colour, Stroke stroke) {
-    std::vector<double> flow_L_min;
-    for (const double value : flow) flow_L_min.push_back(units::L_per_min_from_m3_per_s(value));
-    const report::Decimated kept = report::decimate(run.time_s, flow_L_min, 700);
-    Series series = line(name, colour, stroke);
-    series.x = kept.x;
-    series.y = kept.y;
-    chart.series.push_back(std::move(series));
+Figure flow_over_time(const validation::RunSamples& run) {
+  Figure figure = one_panel({.description = "Measured flow and that of the condensed sensor over time",
+                             .x_title = "Time [s]",
+                             .panel_title = "Flow [L/min]",
+                             .height_px = 280});
+  const auto add = [&](const char* name, const char* tone, const std::vector<float>& flow) {
+    const validation::Line line = validation::thinned(run.time_s, flow, 700);
+    Mark mark{.tone = tone, .name = name, .width_px = 1.2, .x = line.time_s};
+    for (const float value : line.value) mark.y.push_back(units::L_per_min_from_m3_per_s(value));
+    figure.panels.front().marks.push_back(std::move(mark));
   };
-  add("condensed sensor", run.results.front().flow_m3_per_s, 1, Stroke::thin);
-  add("flow meter", run.reference_m3_per_s, 0, Stroke::solid);
-  return chart;
+  add("condensed sensor", "condensed", run.answers.front().flow_m3_per_s);
+  add("flow meter", "ink", run.reference_m3_per_s);
+  return figure;
 }
 
-Chart force_at_rest(const std::vector<Rest>& rests) {
-  Chart chart =
-      labelled({.x_label = "time at rest in s",
-                .y_label = "magnetic force about its mean in N",
-                .description = "Magnetic force while the spool rests, the liveliest rest near each of three flows"});
-  const auto add = [&](double flow_L_min, int colour) {
+Figure force_at_rest(const std::vector<Rest>& rests) {
+  Figure figure = one_panel({.description = "Magnetic force while the spool rests, the liveliest rest near three flows",
+                             .x_title = "Time at rest [s]",
+                             .panel_title = "Magnetic force about its mean [N]"});
+  const auto add = [&](double flow_L_min, const char* tone) {
+    const auto swing_near_N = [&](const Rest& at) {
+      return std::abs(at.flow_L_min - flow_L_min) < 5 ? at.force_swing_N : 0;
+    };
     const Rest& rest = *std::max_element(rests.begin(), rests.end(), [&](const Rest& one, const Rest& two) {
-      const auto swing_near_N = [&](const Rest& at) {
-        return std::abs(at.flow_L_min - flow_L_min) < 5 ? at.force_swing_N : 0;
-      };
       return swing_near_N(one) < swing_near_N(two);
     });
     double mean_N = 0;
     for (const double force_N : rest.force_N) mean_N += force_N / static_cast<double>(rest.force_N.size());
-    std::vector<double> about_N;
-    for (const double force_N : rest.force_N) about_N.push_back(force_N - mean_N);
-    const report::Decimated kept = report::decimate(rest.time_s, about_N, 500);
-    Series series = line(fmt::format("{:.0f} L/min", rest.flow_L_min), colour);
-    series.x = kept.x;
-    series.y = kept.y;
-    chart.series.push_back(std::move(series));
+    std::vector<float> about_N;
+    for (const double force_N : rest.force_N) about_N.push_back(static_cast<float>(force_N - mean_N));
+    const validation::Line line = validation::thinned(rest.time_s, about_N, 400);
+    figure.panels.front().marks.push_back({.tone = tone,
+                                           .name = fmt::format("{:.0f} L/min", rest.flow_L_min),
+                                           .x = line.time_s,
+                                           .y = {line.value.begin(), line.value.end()}});
   };
-  add(10, 2);
-  add(36, 0);
-  add(66, 1);
-  return chart;
+  add(10, "c");
+  add(36, "a");
+  add(64, "condensed");
+  return figure;
 }
 
-Chart swing_over_flow(const std::vector<Rest>& rests) {
-  Series series = line("", 0, Stroke::dots);
+Figure swing_over_flow(const std::vector<Rest>& rests) {
+  Figure figure = one_panel({.description = "Peak-to-peak magnetic force of each rest over its flow",
+                             .x_title = "Flow [L/min]",
+                             .panel_title = "Swing of the magnetic force in each rest [N]"});
+  figure.panels.front().lowest = 0;
+  Mark mark{.shape = Shape::dots, .tone = "a", .width_px = 5};
   std::vector<const Rest*> by_flow;
   for (const Rest& rest : rests) by_flow.push_back(&rest);
   std::sort(by_flow.begin(), by_flow.end(),
             [](const Rest* one, const Rest* two) { return one->flow_L_min < two->flow_L_min; });
   for (const Rest* rest : by_flow) {
-    series.x.push_back(rest->flow_L_min);
-    series.y.push_back(rest->force_swing_N);
+    mark.x.push_back(rest->flow_L_min);
+    mark.y.push_back(rest->force_swing_N);
   }
-  Chart chart = labelled({.x_label = "flow in L/min",
-                          .y_label = "swing of the magnetic force in N",
-                          .description = "Peak-to-peak magnetic force of each rest over its flow"});
-  chart.series = {series};
-  chart.y_lowest = 0;
-  return chart;
+  figure.panels.front().marks.push_back(std::move(mark));
+  return figure;
 }
 
 }  // namespace
