@@ -1,4 +1,5 @@
 /// `spoolflow export`: a model as something that other programs and controllers run.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +14,8 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
+#include "spoolflow/export/valve_fmu.hpp"
+#include "spoolflow/rig/virtual_campaign.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -68,8 +71,21 @@ void export_cpp(const ExportArguments& arguments) {
   }
 }
 
+/// A valve of the virtual rig rather than a model: a TOML file or the name of a preset.
+bool names_valve(const std::string& name) {
+  const auto& presets = rig::valve_presets();
+  return name.ends_with(".toml") || std::find(presets.begin(), presets.end(), name) != presets.end();
+}
+
 void export_fmu(const ExportArguments& arguments) {
   const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
+  if (names_valve(arguments.model)) {
+    const rig::ValveUnderTest valve = rig::read_valve_and_campaign(arguments.model).valve;
+    OutputFile output(arguments.output, {arguments.model});
+    output.stream() << exports::valve_fmu(valve, version, tool_version());
+    output.commit();
+    return;
+  }
   const model::Model model = model::read_model(arguments.model);
   OutputFile output(arguments.output, {arguments.model});
   output.stream() << exports::sensor_fmu(model, version, tool_version());
@@ -88,18 +104,21 @@ void export_fmu(const ExportArguments& arguments) {
 void add_export_command(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = add_command(
-      program, {"export",
-                "turn a model into something that other programs and controllers run",
-                "MODEL.json from `spoolflow calibrate`",
-                "fmu: a co-simulation FMU of the sensor for Linux and Windows (64 bit), with sources. cpp: a folder "
-                "with the sensor's headers, the model as constexpr numbers in single precision, an "
-                "example and a self-test; files of an earlier export are replaced, all else in the folder stays",
-                {"spoolflow export fmu valve_a.json -o valve_a.fmu --fmi 3",
-                 "spoolflow export cpp valve_a.json -o valve_a_cpp"}});
+      program,
+      {"export",
+       "turn a model into something that other programs and controllers run",
+       "MODEL.json from `spoolflow calibrate`; for fmu also a valve of the virtual rig: a valve file (TOML), or "
+       "size_6, size_10, fast_dither",
+       "fmu: a co-simulation FMU of the sensor, or of the virtual valve, for Linux and Windows (64 bit), with sources. "
+       "cpp: a folder "
+       "with the sensor's headers, the model as constexpr numbers in single precision, an "
+       "example and a self-test; files of an earlier export are replaced, all else in the folder stays",
+       {"spoolflow export fmu valve_a.json -o sensor.fmu --fmi 3", "spoolflow export fmu size_6 -o valve.fmu --fmi 3",
+        "spoolflow export cpp valve_a.json -o valve_a_cpp"}});
   command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp: C++ for firmware")
       ->required()
       ->check(CLI::IsMember({"fmu", "cpp"}));
-  command->add_option("model", arguments->model, "model file")->required();
+  command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
   command->add_option("-o,--output", arguments->output, "file (fmu; - for standard output) or folder (cpp) to write")
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")

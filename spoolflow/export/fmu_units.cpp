@@ -26,8 +26,9 @@ struct KnownUnit {
   std::array<DisplayUnit, 2> display{};
 };
 
-const std::array<KnownUnit, 13> known_units{{
+const std::array<KnownUnit, 14> known_units{{
     {"s", R"( s="1")", {{{"ms", 1e3}}}},
+    {"Hz", R"( s="-1")"},
     {"A", R"( A="1")"},
     {"V", R"( kg="1" m="2" s="-3" A="-1")"},
     {"m", R"( m="1")", {{{"mm", 1e3}, {"um", 1e6}}}},

@@ -6,14 +6,9 @@
 #include "spoolflow/rig/electronics.hpp"
 #include "spoolflow/rig/lvdt.hpp"
 #include "spoolflow/rig/valve_under_test.hpp"
+#include "spoolflow/rig/winding_current.hpp"
 
 namespace spoolflow::rig {
-
-/// Current through the winding's terminals [A]: what the leakage inductance carries beyond the main flux.
-inline double winding_current_A(const Solenoid& solenoid, const SolenoidState& state) {
-  const double turns = active_turns(solenoid.coil);
-  return (state.flux_linkage_Wb - turns * state.flux_Wb) / (turns * turns * solenoid.circuit.leakage_permeance_H);
-}
 
 class CoilSupply {
  public:

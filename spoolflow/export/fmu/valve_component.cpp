@@ -1,0 +1,170 @@
+/// The virtual valve inside an FMU: plant, on-board electronics and instruments, stepped at the electronics' period.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+
+#include "spoolflow/export/fmu/component.hpp"
+#include "spoolflow/export/fmu/instance.hpp"
+#include "spoolflow/export/fmu/valve_numbers.hpp"
+#include "spoolflow/export/fmu/valve_variables.hpp"
+#include "spoolflow/rig/winding_current.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::exports::fmu {
+namespace {
+
+using rig::electronics_period_s;
+
+/// Everything that moves.
+struct ValveMemory {
+  rig::PlantState plant;
+  rig::ElectronicsState electronics;
+  rig::Noise stage_noise;
+  rig::LvdtReading lvdt;
+  rig::Transducer shunt, voltage, thermometer;
+  double current_sum_A = 0;
+  double voltage_sum_V = 0;
+  std::int64_t conversions = 0;
+
+  ValveMemory(const VirtualValve& valve, std::uint64_t seed, const rig::PlantState& at_rest, double oil_temperature_C)
+      : plant(at_rest),
+        stage_noise(seed, "current sensing of the electronics"),
+        lvdt(valve.instruments.lvdt, seed, at_rest.position_m, oil_temperature_C),
+        shunt(errors(valve.instruments.shunt), seed, "shunt", 0),
+        voltage(errors(valve.instruments.voltage), seed, "voltage", 0),
+        thermometer(errors(valve.instruments.thermometer), seed, "thermometer", oil_temperature_C) {}
+};
+static_assert(std::is_trivially_copyable_v<ValveMemory>);
+
+rig::PlantInput surroundings(std::span<const double> values) {
+  rig::PlantInput input;
+  input.supply_pressure_Pa = values[valve_supply_pressure];
+  input.held_pressure_difference_Pa = values[valve_pressure_difference_set];
+  input.load_force_N = values[valve_load_force];
+  input.oil_temperature_C = units::degC_from_K(values[valve_oil_temperature_set]);
+  input.ambient_temperature_C = units::degC_from_K(values[valve_ambient_temperature]);
+  return input;
+}
+
+class ValveComponent : public Component {
+ public:
+  /// `numbers`: rated flow, then the valve.
+  ValveComponent(const Resource& resource, std::uint64_t identity) : identity_(identity) {
+    const std::span<const double> numbers(resource.numbers);
+    take_numbers(numbers.subspan(1), valve_);
+    variables_ = valve_variables(valve_, numbers[0]);
+    std::vector<double> starts;
+    for (const Variable& variable : variables_) starts.push_back(variable.start);
+    begin(starts);
+  }
+
+  [[nodiscard]] const std::vector<Variable>& variables() const override { return variables_; }
+  [[nodiscard]] std::uint64_t identity() const override { return identity_; }
+  [[nodiscard]] double sample_step_s(std::span<const double>) const override { return electronics_period_s; }
+
+  void tune(std::span<const double> values) override {
+    valve_.electronics.dither.amplitude_A = values[valve_dither_amplitude];
+    valve_.electronics.dither.frequency_Hz = values[valve_dither_frequency];
+    valve_.plant.supply.ripple_Pa = values[valve_supply_ripple];
+  }
+
+  void start(std::span<double> values) override {
+    check_inputs(values);
+    begin(values);
+    tell(values, surroundings(values), 0);
+  }
+
+  void sample(std::span<double> values, std::int64_t number) override {
+    check_inputs(values);
+    ValveMemory& memory = *memory_;
+    rig::PlantInput input = surroundings(values);
+    const rig::SolenoidVoltages voltages =
+        step(valve_.electronics, memory.electronics,
+             {.position_set_m =
+                  std::clamp(values[valve_position_set], -valve_.plant.spool.stroke_m, valve_.plant.spool.stroke_m),
+              .position_signal_m = memory.lvdt.valve_signal_m(),
+              .current_a_A = winding_current_A(valve_.plant.solenoid_a, memory.plant.solenoid_a),
+              .current_b_A = winding_current_A(valve_.plant.solenoid_b, memory.plant.solenoid_b)},
+             memory.stage_noise);
+    input.voltage_a_V = voltages.a_V;
+    input.voltage_b_V = voltages.b_V;
+    step(valve_.plant, memory.plant, input, electronics_period_s);
+    if (!std::isfinite(memory.plant.position_m) || !std::isfinite(memory.plant.pressure_P_Pa) ||
+        !std::isfinite(memory.plant.solenoid_b.flux_linkage_Wb)) {
+      throw std::runtime_error("the simulated valve left the finite numbers; check the inputs' sizes and units");
+    }
+    memory.lvdt.follow(memory.plant.position_m, input.oil_temperature_C, electronics_period_s);
+    memory.current_sum_A += winding_current_A(valve_.plant.solenoid_b, memory.plant.solenoid_b) -
+                            winding_current_A(valve_.plant.solenoid_a, memory.plant.solenoid_a);
+    memory.voltage_sum_V += voltages.b_V - voltages.a_V;
+    ++memory.conversions;
+    const auto ticks = std::max<std::int64_t>(1, std::llround(values[valve_sample_step] / electronics_period_s));
+    if ((number + 1) % ticks == 0) {
+      memory.thermometer.follow(input.oil_temperature_C, static_cast<double>(ticks) * electronics_period_s);
+      tell(values, input, static_cast<double>(number + 1) * electronics_period_s);
+    }
+  }
+
+  [[nodiscard]] std::span<char> memory() override { return {reinterpret_cast<char*>(&*memory_), sizeof(ValveMemory)}; }
+
+ private:
+  /// The plant does not survive a NaN: a step with one is refused before anything has moved.
+  void check_inputs(std::span<const double> values) const {
+    for (std::size_t k = 0; k < variables_.size(); ++k) {
+      if (variables_[k].causality == Causality::input && !std::isfinite(values[k])) {
+        throw StepRefused("the input " + variables_[k].name + " is no finite number");
+      }
+    }
+  }
+
+  void begin(std::span<const double> values) {
+    const rig::PlantInput input = surroundings(values);
+    memory_.emplace(valve_, static_cast<std::uint64_t>(values[valve_seed]), plant_at_rest(valve_.plant, input),
+                    input.oil_temperature_C);
+  }
+
+  /// One reading of every instrument, and the truth; starts new means of current and voltage.
+  void tell(std::span<double> values, const rig::PlantInput& input, double time_s) {
+    ValveMemory& memory = *memory_;
+    const auto conversions = static_cast<double>(std::max<std::int64_t>(1, memory.conversions));
+    memory.shunt.follow(memory.current_sum_A / conversions, 0);
+    memory.voltage.follow(memory.voltage_sum_V / conversions, 0);
+    memory.current_sum_A = memory.voltage_sum_V = 0;
+    memory.conversions = 0;
+    values[valve_current] = memory.shunt.reading(1 / std::sqrt(conversions));
+    values[valve_voltage] = memory.voltage.reading(1 / std::sqrt(conversions));
+    values[valve_position] = memory.lvdt.acquired_m(time_s);
+    values[valve_oil_temperature] = units::K_from_degC(memory.thermometer.reading());
+    const rig::PlantOutput truth = observe(valve_.plant, memory.plant, input);
+    values[valve_flow] = truth.flow_m3_per_s;
+    values[valve_pressure_difference] = truth.pressure_difference_Pa;
+    values[valve_true_position] = truth.position_m;
+    values[valve_magnetic_force] = truth.magnetic_force_N;
+    values[valve_flow_force] = truth.flow_force_N;
+    values[valve_friction_force] = truth.armature_friction_force_N + truth.spool_friction_force_N;
+    values[valve_pressure_P] = truth.pressure_P_Pa;
+    values[valve_pressure_A] = truth.pressure_A_Pa;
+    values[valve_pressure_B] = truth.pressure_B_Pa;
+    values[valve_cylinder_position] = truth.cylinder_position_m;
+  }
+
+  std::uint64_t identity_;
+  VirtualValve valve_;
+  std::vector<Variable> variables_;
+  std::optional<ValveMemory> memory_;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> load_component(const std::string& resource_folder, const std::string& token) {
+  const Resource resource = read_resource(resource_folder, token);
+  if (resource.kind != valve_order() || resource.numbers.size() < 3) {
+    throw ResourceError("the resource holds '" + resource.kind +
+                        "', not a virtual valve of this version; export the FMU again with `spoolflow export fmu`");
+  }
+  return std::make_unique<ValveComponent>(resource, checksum(resource.token.data(), resource.token.size()));
+}
+
+}  // namespace spoolflow::exports::fmu

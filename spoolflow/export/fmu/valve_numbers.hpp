@@ -1,0 +1,61 @@
+#pragma once
+/// The virtual valve's parameters as a row of numbers, in the order in which the rig describes them.
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spoolflow/export/checksum.hpp"
+#include "spoolflow/export/fmu/resource.hpp"
+#include "spoolflow/rig/electronics.hpp"
+#include "spoolflow/rig/instruments.hpp"
+#include "spoolflow/rig/valve_plant.hpp"
+
+namespace spoolflow::exports::fmu {
+
+/// A valve as built, with the electronics and instruments that it brings along.
+struct VirtualValve {
+  rig::PlantParameters plant;
+  rig::Electronics electronics;
+  rig::Instruments instruments;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("plant", self.plant);
+    visit("electronics", self.electronics);
+    visit("instruments", self.instruments);
+  }
+};
+
+/// Choices that are no described numbers come first: kind of load, ideal hold.
+inline std::vector<double> numbers_of(const VirtualValve& valve) {
+  std::vector<double> out{static_cast<double>(valve.plant.load.kind), valve.plant.load.ideal_hold ? 1.0 : 0.0};
+  rig::for_each_parameter(valve, [&](std::string_view, const rig::Parameter&, double value) { out.push_back(value); });
+  return out;
+}
+
+/// Name of the order of the numbers.
+inline std::string valve_order() {
+  Checksum keys;
+  const VirtualValve any;
+  rig::for_each_parameter(
+      any, [&](std::string_view path, const rig::Parameter&, double) { keys.add(path.data(), path.size()); });
+  return "valve " + std::to_string(keys.value());
+}
+
+/// The inverse of numbers_of. Throws ResourceError where there are too few or too many numbers.
+inline void take_numbers(std::span<const double> numbers, VirtualValve& valve) {
+  std::size_t next = 2;
+  rig::for_each_parameter(valve, [&](std::string_view, const rig::Parameter&, double& value) {
+    if (next < numbers.size()) value = numbers[next];
+    ++next;
+  });
+  if (next != numbers.size() || !(numbers[0] >= 0 && numbers[0] <= 2)) {
+    throw ResourceError("the resource holds other numbers than this valve has; export the FMU again");
+  }
+  valve.plant.load.kind = static_cast<rig::LoadKind>(static_cast<int>(numbers[0]));
+  valve.plant.load.ideal_hold = numbers[1] != 0;
+}
+
+}  // namespace spoolflow::exports::fmu

@@ -1,0 +1,68 @@
+#include "spoolflow/export/valve_fmu.hpp"
+
+#include <fmt/format.h>
+
+#include "spoolflow/export/embedded_parts.hpp"
+#include "spoolflow/export/fmu/valve_numbers.hpp"
+#include "spoolflow/export/fmu/valve_variables.hpp"
+#include "spoolflow/export/valve_fmu_sources.hpp"
+#include "spoolflow/export/xml_text.hpp"
+#include "spoolflow/model/provenance.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+const char* load_name(rig::LoadKind kind) {
+  switch (kind) {
+    case rig::LoadKind::held_difference:
+      return "a bench that holds the pressure difference over the open edge";
+    case rig::LoadKind::orifice:
+      return "an orifice between the ports";
+    case rig::LoadKind::cylinder:
+      return "a differential cylinder";
+  }
+  return "";
+}
+
+std::string notes(const rig::ValveUnderTest& valve) {
+  return fmt::format(
+      "<p>Valve: {}, full scale {:.4g} L/min, stroke {:.4g} mm, oil {}. Load: {}. It is simulated; the simulation "
+      "shares no "
+      "physics with the sensor.</p>\n"
+      "<p>Outputs current, voltage, position and oil_temperature are what the valve's electronics measure, and connect "
+      "to "
+      "the inputs of the same names of the sensor's FMU; the other outputs are true values that no instrument shows. "
+      "The valve "
+      "steps every 0.1 ms; a communication step that is no multiple of it ends at the next one. An input that is NaN "
+      "is "
+      "refused: the step is discarded.</p>\n",
+      xml_text(valve.name), valve.rating.flow_L_per_min, valve.plant.spool.stroke_m * units::millimetre_per_metre,
+      xml_text(valve.fluid), load_name(valve.plant.load.kind));
+}
+
+}  // namespace
+
+std::string valve_fmu(const rig::ValveUnderTest& valve, FmiVersion version, std::string_view tool_version) {
+  const rig::ValveUnderTest built = rig::as_built(valve);
+  const fmu::VirtualValve inside{built.plant, built.electronics, built.instruments};
+  const double rated_flow_m3_per_s = units::m3_per_s_from_L_per_min(built.rating.flow_L_per_min);
+  FmuContent content;
+  content.identifier = "spoolflow_valve";
+  content.model_name = "virtual valve " + built.name;
+  content.description =
+      "A 4/3 proportional spool valve with its electronics on a virtual test rig: signals and true values";
+  content.notes_html = notes(built);
+  content.tool_version = tool_version;
+  content.generation_time = model::creation_time();
+  content.variables = fmu::valve_variables(inside, rated_flow_m3_per_s);
+  content.resource.kind = fmu::valve_order();
+  content.resource.name = built.name;
+  content.resource.numbers = {rated_flow_m3_per_s};
+  const std::vector<double> numbers = fmu::numbers_of(inside);
+  content.resource.numbers.insert(content.resource.numbers.end(), numbers.begin(), numbers.end());
+  content.sources = translation_units(valve_fmu_sources());
+  return fmu_archive(std::move(content), embedded_parts("valve_fmu", valve_fmu_sources()), version);
+}
+
+}  // namespace spoolflow::exports

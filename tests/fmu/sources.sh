@@ -1,0 +1,21 @@
+#!/bin/sh
+# sources.sh SPOOLFLOW MODEL: what an FMU calls its sources compiles without this project and exports the same functions.
+set -eu
+spoolflow=$1 model=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+for what in "$model" size_6; do
+  rm -rf fmu
+  "$spoolflow" export fmu "$what" -o x.fmu --fmi 3
+  mkdir fmu
+  (cd fmu && cmake -E tar xf ../x.fmu)
+  cd fmu/sources
+  files=$(sed -n 's/.*<SourceFile name="\([^"]*\)".*/\1/p' buildDescription.xml)
+  g++ -std=c++20 -O0 -fPIC -shared -fvisibility=hidden -I. $files -o ../../compiled.so
+  cd ../..
+  nm -D --defined-only compiled.so | sed -n 's/.* T \(fmi[23]\)/\1/p' | sort >compiled
+  nm -D --defined-only fmu/binaries/x86_64-linux/*.so | sed -n 's/.* T \(fmi[23]\)/\1/p' | sort >shipped
+  cmp compiled shipped
+  echo "$what: $(wc -l <compiled) functions"
+done
