@@ -1,12 +1,12 @@
 #include "spoolflow/rig/valve_plant.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "spoolflow/rig/plant_integrator.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -31,12 +31,15 @@ bool holds_ideally(const PlantParameters& p) {
 }
 
 [[noreturn]] void diverged(const PlantState& state, double h) {
-  throw std::runtime_error(fmt::format(
-      "the plant has no finite state {:.3g} s after t = {:.6f} s (position {:.4g} mm, velocity {:.4g} m/s, pressure P "
-      "{:.4g} "
-      "bar): check that every parameter is inside its range, then choose a smaller integration.shortest_step_s",
+  std::array<char, 320> text{};  // no library but the compiler's own: the plant also runs inside an FMU
+  std::snprintf(
+      text.data(), text.size(),
+      "the plant has no finite state %.3g s after t = %.6f s (position %.4g mm, velocity %.4g m/s, pressure P "
+      "%.4g bar): check that every parameter is inside its range, then choose a smaller "
+      "integration.shortest_step_s",
       h, state.time_s, units::mm_from_m(state.position_m), state.velocity_m_per_s,
-      units::bar_from_Pa(state.pressure_P_Pa)));
+      units::bar_from_Pa(state.pressure_P_Pa));
+  throw std::runtime_error(text.data());
 }
 
 EdgeOutput edge_output(const PlantRates& rates, std::size_t index) {
