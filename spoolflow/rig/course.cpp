@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "spoolflow/rig/elementary_functions.hpp"
 
 namespace spoolflow::rig {
 
@@ -59,12 +60,12 @@ double Course::at(double time_s) const {
     return line;
   }
   // Phase of a sweep whose frequency grows exponentially: the integral of f0 (f1/f0)^(t/T).
-  const double octaves = std::log(segment.frequency_end_Hz / segment.frequency_Hz);
+  const double octaves = natural_logarithm(segment.frequency_end_Hz / segment.frequency_Hz);
   const double cycles = std::abs(octaves) < 1e-9
                             ? segment.frequency_Hz * since_s
-                            : segment.frequency_Hz * duration_s / octaves * std::expm1(octaves * share);
+                            : segment.frequency_Hz * duration_s / octaves * (exponential(octaves * share) - 1);
   const double amplitude = segment.amplitude + (segment.amplitude_end - segment.amplitude) * share;
-  return line + amplitude * std::sin(2 * std::numbers::pi * cycles);
+  return line + amplitude * sine_of_turns(cycles);
 }
 
 }  // namespace spoolflow::rig

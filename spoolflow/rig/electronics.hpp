@@ -2,9 +2,9 @@
 /// The valve's on-board electronics: position control, dither, and a current-controlled output stage for each of the
 /// two solenoids, all at one period.
 #include <cmath>
-#include <numbers>
 
 #include "spoolflow/rig/current_control.hpp"
+#include "spoolflow/rig/elementary_functions.hpp"
 #include "spoolflow/rig/noise.hpp"
 #include "spoolflow/rig/parameter.hpp"
 #include "spoolflow/rig/position_control.hpp"
@@ -27,7 +27,7 @@ struct Dither {
 
 /// The dither's share of the set current [A].
 inline double dither_A(const Dither& dither, double time_s) {
-  return dither.amplitude_A * std::sin(2 * std::numbers::pi * dither.frequency_Hz * time_s);
+  return dither.amplitude_A * sine_of_turns(dither.frequency_Hz * time_s);
 }
 
 struct Electronics {

@@ -4,9 +4,9 @@
 ///     passing = Q (1 + pulsation sin(2 pi V/V_tooth)),   dV/dt = Q
 ///     reading = (1 + gain) lag(passing) + noise
 #include <cmath>
-#include <numbers>
 
 #include "spoolflow/rig/acquisition.hpp"
+#include "spoolflow/rig/elementary_functions.hpp"
 #include "spoolflow/rig/noise.hpp"
 #include "spoolflow/rig/parameter.hpp"
 
@@ -45,7 +45,7 @@ class FlowMeterReading {
   void follow(double flow_m3_per_s, double dt_s) {
     teeth_ += flow_m3_per_s * dt_s / meter_.tooth_volume_m3;
     teeth_ -= std::floor(teeth_);
-    const double passing = flow_m3_per_s * (1 + meter_.pulsation * std::sin(2 * std::numbers::pi * teeth_));
+    const double passing = flow_m3_per_s * (1 + meter_.pulsation * sine_of_turns(teeth_));
     lagged_m3_per_s_ = lagged(lagged_m3_per_s_, passing, dt_s, meter_.time_constant_s);
   }
   [[nodiscard]] double reading_m3_per_s() {

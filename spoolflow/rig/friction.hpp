@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 
+#include "spoolflow/rig/elementary_functions.hpp"
 #include "spoolflow/rig/parameter.hpp"
 
 namespace spoolflow::rig {
@@ -73,7 +74,7 @@ struct FrictionConstants {
 
 inline FrictionConstants friction_constants(const Friction& friction, double viscosity_m2_per_s) {
   double factor = friction.wear_factor;
-  if (friction.viscosity_exponent > 0.0) factor *= std::pow(viscosity_m2_per_s / 46e-6, friction.viscosity_exponent);
+  if (friction.viscosity_exponent > 0.0) factor *= power(viscosity_m2_per_s / 46e-6, friction.viscosity_exponent);
   const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
   return {.base_N = factor * friction.base_N,
           .load_factor = factor,

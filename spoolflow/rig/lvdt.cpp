@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "spoolflow/rig/acquisition.hpp"
+#include "spoolflow/rig/elementary_functions.hpp"
 
 namespace spoolflow::rig {
 
@@ -19,7 +19,7 @@ LvdtReading::LvdtReading(const Lvdt& lvdt, std::uint64_t seed, double position_m
       fault_end_s_(fault_begin_s_) {}
 
 double LvdtReading::undelayed_m(double temperature_C) const {
-  const double bow = lvdt_.linearity * lvdt_.range_m * std::sin(2 * std::numbers::pi * core_m_ / lvdt_.range_m);
+  const double bow = lvdt_.linearity * lvdt_.range_m * sine_of_turns(core_m_ / lvdt_.range_m);
   const double zero_m =
       lvdt_.zero_offset_m + lvdt_.zero_drift_per_K * lvdt_.range_m * (temperature_C - lvdt_.reference_temperature_C);
   return (1 + lvdt_.gain_error) * core_m_ + bow + zero_m;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "spoolflow/rig/elementary_functions.hpp"
+
 namespace spoolflow::rig {
 
 /// SplitMix64 (Steele, Lea, Flood 2014): a counter through a 64-bit mix; passes BigCrush, one word of state.
@@ -31,7 +33,9 @@ class Noise {
   double normal() { return inverse_normal(uniform()); }
 
   /// Time to the next event of a Poisson process [s]; infinite where the rate is zero.
-  double waiting_time_s(double rate_per_s) { return rate_per_s > 0 ? -std::log(uniform()) / rate_per_s : HUGE_VAL; }
+  double waiting_time_s(double rate_per_s) {
+    return rate_per_s > 0 ? -natural_logarithm(uniform()) / rate_per_s : HUGE_VAL;
+  }
 
  private:
   static constexpr std::uint64_t golden_gamma = 0x9e3779b97f4a7c15ULL;
@@ -55,10 +59,10 @@ class Noise {
               1.0);
     };
     if (probability < tail) {
-      return outer(std::sqrt(-2.0 * std::log(probability)));
+      return outer(std::sqrt(-2.0 * natural_logarithm(probability)));
     }
     if (probability > 1.0 - tail) {
-      return -outer(std::sqrt(-2.0 * std::log1p(-probability)));
+      return -outer(std::sqrt(-2.0 * natural_logarithm(1.0 - probability)));
     }
     const double q = probability - 0.5;
     const double r = q * q;

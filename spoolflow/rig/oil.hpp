@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/rig/elementary_functions.hpp"
 #include "spoolflow/rig/parameter.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -60,16 +61,18 @@ struct OilState {
 inline constexpr double stiffest_oil_m2_per_s = 0.05;
 
 inline OilState oil_at(const Oil& oil, double temperature_C) {
-  const auto walther = [](double viscosity_m2_per_s) { return std::log10(std::log10(viscosity_m2_per_s * 1e6 + 0.7)); };
-  const double lg_40 = std::log10(units::K_from_degC(40.0));
-  const double lg_100 = std::log10(units::K_from_degC(100.0));
+  const auto walther = [](double viscosity_m2_per_s) {
+    return decimal_logarithm(decimal_logarithm(viscosity_m2_per_s * 1e6 + 0.7));
+  };
+  const double lg_40 = decimal_logarithm(units::K_from_degC(40.0));
+  const double lg_100 = decimal_logarithm(units::K_from_degC(100.0));
   const double w_40 = walther(oil.viscosity_40C_m2_per_s);
   const double b = (w_40 - walther(oil.viscosity_100C_m2_per_s)) / (lg_100 - lg_40);
   const double stiff = walther(stiffest_oil_m2_per_s);
-  const double w = std::min(w_40 - b * (std::log10(units::K_from_degC(temperature_C)) - lg_40), stiff);
+  const double w = std::min(w_40 - b * (decimal_logarithm(units::K_from_degC(temperature_C)) - lg_40), stiff);
   return {.temperature_C = temperature_C,
           .density_kg_per_m3 = oil.density_15C_kg_per_m3 * (1.0 - oil.thermal_expansion_per_K * (temperature_C - 15.0)),
-          .viscosity_m2_per_s = (std::pow(10.0, std::pow(10.0, w)) - 0.7) * 1e-6,
+          .viscosity_m2_per_s = (power(10.0, power(10.0, w)) - 0.7) * 1e-6,
           .bulk_modulus_Pa = oil.bulk_modulus_20C_Pa + oil.bulk_modulus_per_K_Pa * (temperature_C - 20.0)};
 }
 
@@ -79,7 +82,7 @@ inline double density_kg_per_m3(const Oil& oil, const OilState& state, double pr
 }
 
 inline double viscosity_m2_per_s(const Oil& oil, const OilState& state, double pressure_Pa) {
-  return state.viscosity_m2_per_s * std::exp(oil.pressure_viscosity_per_Pa * pressure_Pa);
+  return state.viscosity_m2_per_s * exponential(oil.pressure_viscosity_per_Pa * pressure_Pa);
 }
 
 inline constexpr double ambient_pressure_Pa = 1.013e5;

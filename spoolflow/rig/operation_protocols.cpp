@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "spoolflow/rig/elementary_functions.hpp"
 #include "spoolflow/rig/noise.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -76,12 +77,12 @@ BenchRun plan(const SineProtocol& protocol) {
 BenchRun plan(const DutyCycleProtocol& protocol, std::uint64_t seed) {
   BenchRun run;
   Noise positions(seed, "duty cycle positions");
-  const double rate_span = std::log(protocol.fastest_percent_per_s / protocol.slowest_percent_per_s);
+  const double rate_span = natural_logarithm(protocol.fastest_percent_per_s / protocol.slowest_percent_per_s);
   run.position_set = Course(share(protocol.lowest_percent));
   run.position_set.hold(0.5);
   while (run.position_set.duration_s() < protocol.duration_s) {
     const double to_percent = positions.uniform(protocol.lowest_percent, protocol.highest_percent);
-    const double rate_percent_per_s = protocol.slowest_percent_per_s * std::exp(rate_span * positions.uniform());
+    const double rate_percent_per_s = protocol.slowest_percent_per_s * exponential(rate_span * positions.uniform());
     run.position_set.ramp_at(share(to_percent), share(rate_percent_per_s));
     run.position_set.hold(positions.uniform(0.1, std::fmax(0.1, protocol.longest_hold_s)));
   }
