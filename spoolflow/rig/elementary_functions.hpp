@@ -7,7 +7,7 @@
 ///     ln x   = k ln 2 + 2 artanh((m - 1)/(m + 1)),  m in [sqrt 1/2, sqrt 2], series to the 23rd power
 ///     sin    of turns, folded to a quarter turn, Taylor to the 23rd power
 ///
-/// Within 2 units in the last place (sine: of its amplitude). No care for infinities.
+/// Within 2 units in the last place (sine: of its amplitude).
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -52,9 +52,9 @@ double polynomial(const std::array<double, count>& terms, double x) {
 
 }  // namespace elementary
 
-/// e^x for x <= 700; 0 below -700.
+/// e^x; 0 below -700, infinite above 700, NaN for NaN.
 inline double exponential(double x) {
-  if (x < -700.0) return 0.0;
+  if (!(std::abs(x) <= 700.0)) return x < 0.0 ? 0.0 : x + HUGE_VAL;
   constexpr double per_ln_2 = 1.4426950408889634;
   const double k = std::nearbyint(x * per_ln_2);
   const double r = (x - k * elementary::ln_2_high) - k * elementary::ln_2_low;

@@ -27,6 +27,8 @@ TEST(ElementaryFunctions, AreWithinTwoUnitsInTheLastPlaceOfTheLibrarys) {
 TEST(ElementaryFunctions, MeetTheirExactValues) {
   EXPECT_EQ(exponential(0), 1);
   EXPECT_EQ(exponential(-1e9), 0);
+  EXPECT_EQ(exponential(1e9), HUGE_VAL);
+  EXPECT_TRUE(std::isnan(exponential(std::numeric_limits<double>::quiet_NaN())));
   EXPECT_EQ(natural_logarithm(1), 0);
   EXPECT_EQ(sine_of_turns(0), 0);
   EXPECT_EQ(sine_of_turns(1e6), 0);
