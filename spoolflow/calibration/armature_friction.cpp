@@ -24,11 +24,7 @@ std::vector<double> follow(const SolenoidSamples& samples, const sensor::Coil<do
     const auto& sample = samples.samples[k];
     const auto position =
         sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, sample.position_m);
-    if (samples.restarts[k] != 0) {
-      sensor::begin(coil, state, sample.current_A, position);
-    } else {
-      sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position);
-    }
+    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, samples.restarts[k] != 0);
     out.push_back(state.magnetising_current_A);
   }
   return out;

@@ -42,11 +42,7 @@ void run(const CoilTask& task, const HeldArmature& held, const T* unknowns, cons
       sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, T(held.position_m));
   for (std::size_t k = held.begin; k < held.end; ++k) {
     const auto& sample = task.samples.samples[k];
-    if (k == held.begin) {
-      sensor::begin(coil, state, T(sample.current_A), position);
-    } else {
-      sensor::follow_current(coil, state, {T(sample.time_step_s), T(sample.current_A)}, position);
-    }
+    sensor::follow_current(coil, state, {T(sample.time_step_s), T(sample.current_A)}, position, k == held.begin);
     take(k, state.magnetising_current_A);
   }
 }

@@ -140,11 +140,7 @@ std::vector<TestResidual> residuals_of(const SolenoidSamples& samples, const sen
         sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, held.position_m);
     for (std::size_t k = held.begin; k < held.end; ++k) {
       const auto& sample = samples.samples[k];
-      if (k == held.begin) {
-        sensor::begin(coil, state, sample.current_A, position);
-      } else {
-        sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position);
-      }
+      sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == held.begin);
       const auto deviation_N = [&](double current_A) {
         return samples.force_N[k] - magnetic_force.at(current_A, held.position_m).value;
       };

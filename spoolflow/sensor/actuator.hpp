@@ -61,16 +61,16 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, ActuatorStat
 /// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
 /// must be finite; a voltage that is NaN is one that is not measured. Any time step from 50 us to 5 ms.
 template <class T>
-constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                   const Sample<T>& sample) {
+[[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
+                                                          ActuatorState<T>& state, const Sample<T>& sample) {
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
-  if (!state.started) {
-    begin(actuator.coil, state.coil, sample.current_A, flux_position);
-    state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
+  const bool begins = !state.started;
+  follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
+  if (begins) {
     state.started = true;
+    state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
   } else {
-    follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position);
     follow_resistance(actuator.coil_resistance, state.coil_resistance,
                       {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
   }

@@ -48,50 +48,70 @@ constexpr T end_weight(T time_constant_per_step) {
 ///
 ///     i_m + hysteresis(flux) + eddy(d flux/dt) = i,   flux = flux_linkage(i_m, x),
 ///
-/// in the mean over the step. Newton steps from `guess_A`; what they leave is taken up by the next sample.
+/// in the mean over the step. Newton steps from `guess_A`; what they leave is taken up by the next sample. Only the
+/// first asks every stop of the hysteresis, what follows goes along its slope.
 template <class T>
-constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step, const Cell<T>& position,
-                             T guess_A) {
+[[gnu::always_inline]] constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
+                                                    const Cell<T>& position, T guess_A) {
   const auto& flux_map = coil.flux_linkage.map;
   const T per_step = T(1) / larger(step.time_step_s, T(1e-6));
   const T weight = end_weight(state.time_constant_s * per_step);
   const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
   T current_A = guess_A;
+  T flux_Wb{}, asked_Wb{};
+  HysteresisPoint<T> hysteresis{};
   for (int pass = 0; pass < newton_steps; ++pass) {
     const MapPoint<T> flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position);
-    const HysteresisPoint<T> hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, flux.value);
+    if (pass == 0) {
+      asked_Wb = flux.value;
+      hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, flux.value);
+    }
+    const T hysteresis_A = hysteresis.value + hysteresis.slope * (flux.value - asked_Wb);
     const EddyCurrent<T> eddy = coil.eddy_currents.at((flux.value - state.hysteresis.flux) * per_step);
     state.time_constant_s = eddy.slope_A_per_V * flux.row_slope;
     const T slope = weight * (T(1) + hysteresis.slope * flux.row_slope) + state.time_constant_s * per_step;
-    current_A += (target_A - weight * (current_A + hysteresis.value) - eddy.current_A) / slope;
+    const T change_A = (target_A - weight * (current_A + hysteresis_A) - eddy.current_A) / slope;
+    current_A += change_A;
+    flux_Wb = flux.value + flux.row_slope * change_A;  // exact within a cell of the map
   }
-  const T flux_Wb = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position).value;
   state.flux_rate_V = (flux_Wb - state.hysteresis.flux) * per_step;
   state.magnetising_current_A = current_A;
-  state.static_current_A = current_A + advance(coil.hysteresis, state.hysteresis, flux_Wb);
+  state.static_current_A = current_A + hysteresis.value + hysteresis.slope * (flux_Wb - asked_Wb);
+  advance(coil.hysteresis, state.hysteresis, flux_Wb);
 }
 
-/// Follows the coil current with the flux, from where the last flux rate would lead.
+/// Where the last flux rate would lead the magnetising current.
 template <class T>
-constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                              const Cell<T>& position) {
+constexpr T predicted_current_A(const Coil<T>& coil, const CoilState<T>& state, T time_step_s,
+                                const Cell<T>& position) {
   const auto& flux_map = coil.flux_linkage.map;
   const MapPoint<T> flux =
       flux_map.at(locate<flux_map_currents>(flux_map.row_axis, state.magnetising_current_A), position);
-  const T guess_A = state.magnetising_current_A +
-                    (state.hysteresis.flux + state.flux_rate_V * step.time_step_s - flux.value) / flux.row_slope;
-  solve_current(coil, state, step, position, guess_A);
+  return state.magnetising_current_A +
+         (state.hysteresis.flux + state.flux_rate_V * time_step_s - flux.value) / flux.row_slope;
 }
 
-/// Before the first sample nothing is known of the coil's history: it is taken to have been demagnetised and then
-/// brought to the first current slowly. Costs no more than any other step.
 template <class T>
-constexpr void begin(const Coil<T>& coil, CoilState<T>& state, T current_A, const Cell<T>& position) {
+constexpr void demagnetise(CoilState<T>& state) {
   demagnetise(state.hysteresis);
   state.static_current_A = T(0);
   state.time_constant_s = T(0);
-  solve_current(coil, state, {T(1e6), current_A}, position, current_A);
-  state.flux_rate_V = T(0);
+}
+
+/// Follows the coil current with the flux. The first sample begins: nothing is known of the coil's history, it is taken
+/// to have been demagnetised and then brought to this current slowly. Costs no more than any other step.
+template <class T>
+[[gnu::always_inline]] constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
+                                                     const Cell<T>& position, bool begins) {
+  T guess_A = step.current_A;
+  if (begins) {
+    demagnetise(state);
+    step.time_step_s = T(1e6);
+  } else {
+    guess_A = predicted_current_A(coil, state, step.time_step_s, position);
+  }
+  solve_current(coil, state, step, position, guess_A);
+  if (begins) state.flux_rate_V = T(0);
 }
 
 }  // namespace spoolflow::sensor

@@ -40,20 +40,21 @@ constexpr Estimate<T> step(const CondensedParameters<T>& valve, CondensedState<T
     state.last.status = held;
     return state.last;
   }
-  Estimate<T> out;
+  Estimate<T>& out = state.last;
   const MapPoint<T> magnetic_force = valve.magnetic_force.at(sample.current_A, sample.position_m);
   out.magnetic_force_N = magnetic_force.value;
   out.spring_force_N = valve.spring.at(sample.position_m).value;
   out.flow_force_N = out.magnetic_force_N - out.spring_force_N;  // paper (1) without friction and inertia
 
-  const FlowRatePoint<T> flow = valve.flow_rate.at(out.flow_force_N, sample.position_m);
+  const FlowRatePosition<T> position = valve.flow_rate.located(sample.position_m);
+  const FlowRatePoint<T> flow = valve.flow_rate.at(out.flow_force_N, position);
   out.flow_m3_per_s = flow.flow_m3_per_s;
   out.pressure_difference_Pa = flow.pressure_difference_Pa;
 
   // Friction and hysteresis are bounds, the residuals are random: the first add, the second are covered twice over.
   const T systematic_N = valve.friction_half_width_N.at(sample.position_m).value +
                          valve.magnetic_force.hysteresis_half_width_N.at(sample.current_A).value;
-  const FlowBand<T> band = flow_band(valve.flow_rate, sample.position_m, out.flow_force_N,
+  const FlowBand<T> band = flow_band(valve.flow_rate, position, out.flow_force_N,
                                      systematic_N + T(2) * valve.force_residual_N, T(2) * valve.flow_residual_m3_per_s);
   out.flow_lower_m3_per_s = band.lower_m3_per_s;
   out.flow_upper_m3_per_s = band.upper_m3_per_s;
@@ -61,7 +62,6 @@ constexpr Estimate<T> step(const CondensedParameters<T>& valve, CondensedState<T
   const bool closed = sample.position_m < valve.closed_below_m;
   out.status = when(closed, Status::closed) | when(!magnetic_force.inside, Status::outside_force_map) |
                when(!flow.inside && !closed, Status::outside_flow_force_map);
-  state.last = out;
   return out;
 }
 

@@ -14,6 +14,13 @@ struct FlowRatePoint {
   bool inside;
 };
 
+/// A position in the map, looked up once for several forces.
+template <class T>
+struct FlowRatePosition {
+  T largest_force_N;
+  Cell<T> cell;
+};
+
 /// Flow rate [m3/s] and pressure difference [Pa] over steady flow force [N] and spool position [m]: the inverse of the
 /// measured flow-force map. Paper section 3, Fig 5.
 ///
@@ -26,13 +33,19 @@ struct FlowRate {
   Map<T, flow_map_positions, flow_map_forces> flow_m3_per_s;             ///< over position [m], root of force share
   Map<T, flow_map_positions, flow_map_forces> root_pressure_difference;  ///< sqrt(Pa), same axes
 
-  [[nodiscard]] constexpr FlowRatePoint<T> at(T flow_force_N, T position_m) const {
-    const T largest = largest_force_N.at(position_m).value;
-    const T share = flow_force_N / largest;
+  [[nodiscard]] constexpr FlowRatePosition<T> located(T position_m) const {
+    return {largest_force_N.at(position_m).value, locate<flow_map_positions>(flow_m3_per_s.row_axis, position_m)};
+  }
+  [[nodiscard, gnu::always_inline]] constexpr FlowRatePoint<T> at(T flow_force_N,
+                                                                  const FlowRatePosition<T>& position) const {
+    const T share = flow_force_N / position.largest_force_N;
     const Cell<T> force = locate<flow_map_forces>(flow_m3_per_s.column_axis, sqrt(limited(share, T(0), T(1))));
-    const Cell<T> position = locate<flow_map_positions>(flow_m3_per_s.row_axis, position_m);
-    return {flow_m3_per_s.at(position, force).value, squared(root_pressure_difference.at(position, force).value),
-            share >= T(0) && share <= T(1) && position.inside};
+    return {flow_m3_per_s.at(position.cell, force).value,
+            squared(root_pressure_difference.at(position.cell, force).value),
+            share >= T(0) && share <= T(1) && position.cell.inside};
+  }
+  [[nodiscard]] constexpr FlowRatePoint<T> at(T flow_force_N, T position_m) const {
+    return at(flow_force_N, located(position_m));
   }
 };
 

@@ -63,9 +63,11 @@ constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& frictio
 /// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
 /// while the spool slips it is all there is. Returns where friction may lie at rest.
 template <class T>
-constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, FrictionState<T>& state,
-                                   const FrictionBounds<T>& bounds, const PositionSensor<T>& sensor,
-                                   const PositionPoint<T>& position, T apparent_N, T time_step_s) {
+[[gnu::always_inline]] constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction,
+                                                          FrictionState<T>& state, const FrictionBounds<T>& bounds,
+                                                          const PositionSensor<T>& sensor,
+                                                          const PositionPoint<T>& position, T apparent_N,
+                                                          T time_step_s) {
   if (!state.started) {
     state.started = true;
     state.smooth_m = state.followed_m = position.position_m;

@@ -45,56 +45,43 @@ struct HysteresisPoint {
   T slope;  ///< d value / d flux, >= 0, without the change of stiffness
 };
 
-namespace detail {
-
-/// A change of flux, seen so that it goes upwards: then a stop can only yield at its upper end, one comparison each.
-template <class T>
-struct FluxChange {
-  T sign;
-  T size;
-  T share;  ///< of full flux at its end
-};
-
-template <class T>
-constexpr FluxChange<T> flux_change(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state, T flux) {
-  const T change = flux - state.flux;
-  return {select(change < T(0), T(-1), T(1)), magnitude(change),
-          smaller(magnitude(flux) * hysteresis.per_full_flux, T(1))};
-}
-
-}  // namespace detail
-
+/// The change is seen so that it goes upwards: then a stop can yield at its upper end only, one comparison each.
 template <class T>
 constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state,
                                            T flux) {
-  const detail::FluxChange<T> change = detail::flux_change(hysteresis, state, flux);
+  const T change = flux - state.flux;
+  const T sign = select(change < T(0), T(-1), T(1));
+  const T size = magnitude(change);
+  const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
   T value(0), slope(0);
 #pragma GCC unroll 8
   for (unsigned k = 0; k < hysteresis_elements; ++k) {
     const T threshold = hysteresis.threshold[k];
-    const T stiffness = hysteresis.stiffness[k] + change.share * hysteresis.stiffness_increase[k];
-    const T elastic = change.sign * state.deflection[k] + change.size;
+    const T stiffness = hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k];
+    const T elastic = sign * state.deflection[k] + size;
     const auto yields = elastic > threshold;
     value += stiffness * select(yields, threshold, elastic);
     slope += select(yields, T(0), stiffness);
   }
-  return {change.sign * value, slope};
+  return {sign * value, slope};
 }
 
 /// Moves the memory to a new flux and answers there.
 template <class T>
 constexpr T advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
-  const detail::FluxChange<T> change = detail::flux_change(hysteresis, state, flux);
+  const T change = flux - state.flux;
+  const T sign = select(change < T(0), T(-1), T(1));
+  const T size = magnitude(change);
+  const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
   T value(0);
 #pragma GCC unroll 8
   for (unsigned k = 0; k < hysteresis_elements; ++k) {
-    const T stiffness = hysteresis.stiffness[k] + change.share * hysteresis.stiffness_increase[k];
-    const T deflection = smaller(change.sign * state.deflection[k] + change.size, hysteresis.threshold[k]);
-    state.deflection[k] = change.sign * deflection;
-    value += stiffness * deflection;
+    const T deflection = smaller(sign * state.deflection[k] + size, hysteresis.threshold[k]);
+    state.deflection[k] = sign * deflection;
+    value += (hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k]) * deflection;
   }
   state.flux = flux;
-  return change.sign * value;
+  return sign * value;
 }
 
 /// The largest output, reached far from the last reversal, at a share 0 to 1 of full flux: the coercive current.

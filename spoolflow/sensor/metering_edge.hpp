@@ -39,7 +39,7 @@ struct MeteringEdge {
     return pressure_difference_Pa.at(edge_pressures - 1);
   }
 
-  [[nodiscard]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
+  [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
     const Cell<T> layer = locate<edge_temperatures>(temperature_K, temperature);
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
     const Cell<T> column = locate<edge_positions>(position_m, position);

@@ -155,7 +155,7 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
 
   // Flow rate with its band.
-  Estimate<T> out;
+  Estimate<T>& out = state.last;
   const T root = sqrt(pressure.pressure_difference_Pa);
   const T flow_m3_per_s = larger(edge.conductance * root, T(0));
   const T following =
@@ -195,7 +195,6 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
                when(!edge.temperature_inside, Status::outside_temperature) |
                when(sample.current_A > valve.largest_current_A, Status::current_saturated) |
                when(position.fault, Status::position_fault);
-  state.last = out;
   return out;
 }
 

@@ -32,6 +32,7 @@ inline constexpr int position_blocks = 32;
 template <class T>
 struct PositionState {
   std::array<T, position_blocks> block_m{};
+  std::array<T, position_blocks> four_blocks_m{};  ///< means of the block and the three before
   T sum_m{};
   T sum_s{};
   T block_s{};
@@ -58,38 +59,41 @@ struct PositionPoint {
 
 namespace detail {
 
-/// Mean of `Count` blocks that end `back` blocks before the newest.
-template <int Count, class T>
-constexpr T block_mean(const PositionState<T>& state, int back) {
-  T sum{};
-#pragma GCC unroll 4
-  for (int k = 0; k < Count; ++k) {
-    sum += state.block_m[static_cast<unsigned>((state.newest - back - k) & (position_blocks - 1))];
-  }
-  return sum * T(1.0 / Count);
+/// The mean that is `back` blocks before the newest of a ring.
+template <class T>
+constexpr T block(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int back) {
+  return ring[static_cast<unsigned>((state.newest - back) & (position_blocks - 1))];
 }
 
-/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `Apart`
-/// blocks.
-template <int Apart, int Count, class T>
-constexpr Motion even_travel(const PositionState<T>& state, T threshold_m) {
-  const T now = block_mean<Count>(state, 0);
-  const T before = block_mean<Count>(state, Apart);
-  const T earlier = block_mean<Count>(state, 2 * Apart);
-  const T first = block_mean<Count>(state, 3 * Apart);
-  const T travel[3] = {now - before, before - earlier, earlier - first};
-  const T least = smaller(smaller(magnitude(travel[0]), magnitude(travel[1])), magnitude(travel[2]));
-  const T most = larger(larger(magnitude(travel[0]), magnitude(travel[1])), magnitude(travel[2]));
-  const bool one_way = (travel[0] > T(0)) == (travel[1] > T(0)) && (travel[1] > T(0)) == (travel[2] > T(0));
-  if (!one_way || least < threshold_m || most > T(2) * least + threshold_m) return Motion::rest;
-  return travel[0] > T(0) ? Motion::opening : Motion::closing;
+/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `apart`
+/// blocks of the ring.
+template <class T>
+constexpr Motion even_travel(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int apart,
+                             T threshold_m) {
+  const T now = block(state, ring, 0);
+  const T before = block(state, ring, apart);
+  const T newest_m = now - before;
+  if (magnitude(newest_m) < threshold_m) return Motion::rest;
+  const T direction = select(newest_m > T(0), T(1), T(-1));
+  const T earlier = block(state, ring, 2 * apart);
+  const T middle_m = direction * (before - earlier);
+  if (!(middle_m > T(0)) || middle_m < threshold_m) return Motion::rest;
+  const T oldest_m = direction * (earlier - block(state, ring, 3 * apart));
+  if (!(oldest_m > T(0)) || oldest_m < threshold_m) return Motion::rest;
+  const T size_m = magnitude(newest_m);
+  const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
+  if (larger(larger(size_m, middle_m), oldest_m) > T(2) * least_m + threshold_m) return Motion::rest;
+  return newest_m > T(0) ? Motion::opening : Motion::closing;
 }
 
 template <class T>
-constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& state) {
+[[gnu::always_inline]] constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& state) {
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
-  state.block_m[static_cast<unsigned>(state.newest)] = state.sum_m * state.per_block_samples;
+  const auto newest = static_cast<unsigned>(state.newest);
+  state.block_m[newest] = state.sum_m * state.per_block_samples;
+  state.four_blocks_m[newest] = T(0.25) * (state.block_m[newest] + block(state, state.block_m, 1) +
+                                           block(state, state.block_m, 2) + block(state, state.block_m, 3));
   state.block_s = state.sum_s;
   state.blocks = state.blocks < position_blocks ? state.blocks + 1 : position_blocks;
   state.sum_m = state.sum_s = T(0);
@@ -97,11 +101,12 @@ constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& st
   const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);  // of the difference of two blocks
 
   Motion motion = Motion::rest;
-  if (state.blocks > 6) motion = even_travel<2, 1>(state, T(3) * noise_m);
-  if (motion == Motion::rest && state.blocks > 27) motion = even_travel<8, 4>(state, T(1.5) * noise_m);
+  if (state.blocks > 6) motion = even_travel(state, state.block_m, 2, T(3) * noise_m);
+  if (motion == Motion::rest && state.blocks > 27)
+    motion = even_travel(state, state.four_blocks_m, 8, T(1.5) * noise_m);
   const bool even = motion != Motion::rest;
   if (!even && state.blocks > 2) {
-    const T signed_travel_m = block_mean<1>(state, 0) - block_mean<1>(state, 2);
+    const T signed_travel_m = block(state, state.block_m, 0) - block(state, state.block_m, 2);
     const T travel_m = magnitude(signed_travel_m);
     // A slip: faster than 0.5 mm/s and beyond five times the noise.
     if (travel_m > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m)) {
@@ -119,8 +124,8 @@ constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& st
 /// One sample. A change beyond what the hardest acceleration allows is a fault: its jump is taken out of the signal
 /// until the signal jumps back, or for a quarter of a second, after which the signal is believed.
 template <class T>
-constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T>& state, T time_step_s, T position_m,
-                                T oil_temperature_K) {
+[[gnu::always_inline]] constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T>& state,
+                                                       T time_step_s, T position_m, T oil_temperature_K) {
   const T drift_free_m = position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
   if (state.blocks == 0 && state.samples == 0) state.last_m = drift_free_m;
   const T corrected_m = drift_free_m - state.offset_m;

@@ -2,8 +2,10 @@
 /// The few operations that every scalar of the sensor supports: float in the valve, double on a host, an
 /// automatic-differentiation number in calibration, a SIMD pack across valves. Other scalars overload these for
 /// themselves, found by argument-dependent lookup.
+#include <bit>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 
 namespace spoolflow::sensor {
 
@@ -32,6 +34,16 @@ inline float sqrt(float value) {
 }
 inline double sqrt(double value) {
   return std::sqrt(value);
+}
+
+/// Whether 0 <= value < highest, where highest > 0.
+template <class T>
+constexpr bool within(T value, T highest) {
+  return value >= T(0) && value < highest;
+}
+/// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.
+constexpr bool within(float value, float highest) {
+  return std::bit_cast<std::uint32_t>(value) < std::bit_cast<std::uint32_t>(highest);
 }
 
 template <class T>

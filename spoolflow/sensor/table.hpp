@@ -29,12 +29,13 @@ struct Cell {
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
-  if (raw >= T(0) && raw < T(Points - 1)) {  // first, for it is what nearly always holds
+  if (within(raw, T(Points - 1))) {  // first, for it is what nearly always holds
     const int index = table_index(raw);
     return {index, raw - T(index), true};
   }
-  const bool inside = raw >= T(-0.25) && raw <= T(Points - 0.75);  // noise at an end is no extrapolation
-  return raw > T(0) ? Cell<T>{Points - 2, T(1), inside} : Cell<T>{0, T(0), inside};
+  // Noise at an end is no extrapolation.
+  if (raw > T(0)) return {Points - 2, T(1), raw <= T(Points - 0.75)};
+  return {0, T(0), raw >= T(-0.25)};
 }
 
 /// What a curve answers.
@@ -120,19 +121,19 @@ struct Volume {
   }
   [[nodiscard]] constexpr VolumePoint<T> at(const Cell<T>& layer, const Cell<T>& row, const Cell<T>& column,
                                             T per_row_spacing) const {
+    // Shares of the four grid points around the line that is crossed; the same for all volumes over the same axes.
+    const T upper_right = layer.share * column.share;
+    const T upper_left = layer.share - upper_right;
+    const T lower_right = column.share - upper_right;
+    const T lower_left = T(1) - layer.share - lower_right;
+    const auto between = [&](const T* corner) {
+      const T* const above = corner + Rows * Columns;
+      return lower_left * corner[0] + lower_right * corner[1] + upper_left * above[0] + upper_right * above[1];
+    };
     const T* const corner = &node(layer.index, row.index, column.index);
-    const T low = line(corner, layer.share, column.share);
-    const T high = line(corner + Columns, layer.share, column.share);
-    return {low + row.share * (high - low), (high - low) * per_row_spacing};
-  }
-
- private:
-  /// Between two layers and two columns.
-  [[nodiscard]] static constexpr T line(const T* corner, T layer_share, T column_share) {
-    const T* const above = corner + Rows * Columns;
-    const T low = corner[0] + column_share * (corner[1] - corner[0]);
-    const T high = above[0] + column_share * (above[1] - above[0]);
-    return low + layer_share * (high - low);
+    const T low = between(corner);
+    const T rise = between(corner + Columns) - low;
+    return {low + row.share * rise, rise * per_row_spacing};
   }
 };
 

@@ -38,7 +38,7 @@ class CortexM : public ::testing::TestWithParam<Core> {
 
 TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   const Replay observer = replay(model, Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(observer, {1900, 9});
+  expect_fit_for_a_valve(observer, {1500, 9});
   for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_force_map,
                               Status::outside_temperature, Status::position_fault, Status::sample_missing}) {
     EXPECT_TRUE(has(observer.statuses, status)) << static_cast<std::uint32_t>(status);
@@ -46,7 +46,7 @@ TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
 }
 
 TEST_P(CortexM, CondensedSensorAnswersAsTheHostOverAMinuteOfOperation) {
-  expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {640, 4});
+  expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {390, 4});
 }
 
 INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),
