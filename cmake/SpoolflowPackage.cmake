@@ -14,6 +14,8 @@ foreach(page IN ITEMS man_page:spoolflow.1 completion:spoolflow.bash)
     DEPENDS spoolflow ${PROJECT_SOURCE_DIR}/ci/${script}.sh)
 endforeach()
 add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1 ${made}/spoolflow.bash)
+# All that is installed, for those who build no tests.
+add_custom_target(installable DEPENDS spoolflow spoolflow_pages spoolflow_c_shared spoolflow_c_static)
 
 # The tool.
 install(TARGETS spoolflow RUNTIME COMPONENT tool)

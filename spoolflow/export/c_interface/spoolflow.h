@@ -139,7 +139,7 @@ SPOOLFLOW_API const char* spoolflow_valve_name(const spoolflow_sensor* sensor);
 /* The valve's rated flow [m3/s]: full scale of every figure in percent. */
 SPOOLFLOW_API double spoolflow_rated_flow(const spoolflow_sensor* sensor);
 
-/* One sample in, one estimate out. Takes below a microsecond, allocates nothing.
+/* One sample in, one estimate out; allocates nothing.
  * The first sample's time is any time. After it,
  *   a repeated time:          the sample counts as a second look at the same instant; status has TIME_FAULT;
  *   a time that runs back:    the last answer is held with TIME_FAULT, and time goes on from there;
