@@ -35,9 +35,8 @@ void write_rows(recording::CsvWriter& out, const recording::SampleBlock& block,
 
 void tell(const recording::ReadNotes& notes, const std::string& file) {
   if (notes.duplicate_times > 0) {
-    fmt::print(stderr,
-               "{}: {} samples repeat the time stamp before them; each is estimated, with a time step of zero\n", file,
-               notes.duplicate_times);
+    fmt::print(stderr, "{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n",
+               file, notes.duplicate_times);
   }
   if (notes.missing_values > 0) {
     fmt::print(stderr, "{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
