@@ -36,9 +36,13 @@ static_assert(std::is_trivially_copyable_v<CondensedState<float>>);
 /// backwards: otherwise the last answer is held. Other inputs are not read.
 template <class T>
 constexpr Estimate<T> step(const CondensedParameters<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
-  if (const Status held = unusable(sample); held != Status::none) {
-    state.last.status = held;
-    return state.last;
+  const auto held = unusable(sample);
+  const Estimate<T> before = state.last;
+  if constexpr (one_valve<T>) {
+    if (held != Status::none) {
+      state.last.status = held;
+      return state.last;
+    }
   }
   Estimate<T>& out = state.last;
   const MapPoint<T> magnetic_force = valve.magnetic_force.at(sample.current_A, sample.position_m);
@@ -59,9 +63,10 @@ constexpr Estimate<T> step(const CondensedParameters<T>& valve, CondensedState<T
   out.flow_lower_m3_per_s = band.lower_m3_per_s;
   out.flow_upper_m3_per_s = band.upper_m3_per_s;
 
-  const bool closed = sample.position_m < valve.closed_below_m;
+  const Truth<T> closed = sample.position_m < valve.closed_below_m;
   out.status = when(closed, Status::closed) | when(!magnetic_force.inside, Status::outside_force_map) |
                when(!flow.inside && !closed, Status::outside_flow_force_map);
+  if constexpr (!one_valve<T>) hold(held, before, out);
   return out;
 }
 

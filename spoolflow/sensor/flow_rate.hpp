@@ -11,7 +11,7 @@ template <class T>
 struct FlowRatePoint {
   T flow_m3_per_s;
   T pressure_difference_Pa;
-  bool inside;
+  Truth<T> inside;
 };
 
 /// A position in the map, looked up once for several forces.

@@ -17,7 +17,7 @@ struct Sample {
 
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.
 template <class T>
-constexpr Status unusable(const Sample<T>& sample) {
+constexpr auto unusable(const Sample<T>& sample) {
   return when(!(is_number(sample.current_A) && is_number(sample.position_m)), Status::sample_missing) |
          when(!(sample.time_step_s >= T(0) && is_number(sample.time_step_s)), Status::time_fault);
 }
@@ -34,7 +34,7 @@ struct Estimate {
   T spring_force_N{};
   T flow_force_N{};
   T friction_force_N{};
-  Status status{Status::none};
+  typename ScalarTypes<T>::StatusWord status{};
 };
 
 }  // namespace spoolflow::sensor

@@ -2,12 +2,36 @@
 /// The few operations that every scalar of the sensor supports: float in the valve, double on a host, an
 /// automatic-differentiation number in calibration, a SIMD pack across valves. Other scalars overload these for
 /// themselves, found by argument-dependent lookup.
+#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 
 namespace spoolflow::sensor {
+
+enum class Status : std::uint32_t;
+
+/// What belongs to a scalar: the answer of a comparison, an index into tables, a table's numbers, a status word. A SIMD
+/// pack has packs of them, and specialises this.
+template <class T>
+struct ScalarTypes {
+  template <int Count>
+  using Numbers = std::array<T, Count>;
+  using Truth = bool;
+  using Index = int;
+  using StatusWord = Status;
+};
+template <class T>
+using Truth = typename ScalarTypes<T>::Truth;
+template <class T, int Count>
+using Numbers = typename ScalarTypes<T>::template Numbers<Count>;
+template <class T>
+using Index = typename ScalarTypes<T>::Index;
+
+/// Whether a comparison has one answer, on which the program may branch.
+template <class T>
+inline constexpr bool one_valve = std::same_as<Truth<T>, bool>;
 
 /// `condition ? yes : no`, the one place where data decides; a SIMD pack blends instead.
 template <std::floating_point T>
@@ -80,7 +104,7 @@ constexpr T squared(T value) {
 
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
-constexpr bool is_number(T value) {
+constexpr Truth<T> is_number(T value) {
   return value > T(-1e9) && value < T(1e9);
 }
 

@@ -21,21 +21,35 @@ struct Axis {
 /// The grid cell that holds a point: `index` of its lower grid point and the share of the cell below the point.
 template <class T>
 struct Cell {
-  int index;
+  Index<T> index;
   T share;
-  bool inside;
+  Truth<T> inside;
 };
+
+/// The grid points from one on, to be taken by their distance from it.
+template <class T>
+constexpr const T* corner(const T* values, int index) {
+  return values + index;
+}
 
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
-  if (within(raw, T(Points - 1))) {  // first, for it is what nearly always holds
-    const int index = table_index(raw);
-    return {index, raw - T(index), true};
-  }
   // Noise at an end is no extrapolation.
-  if (raw > T(0)) return {Points - 2, T(1), raw <= T(Points - 0.75)};
-  return {0, T(0), raw >= T(-0.25)};
+  const auto below_end = [&] { return raw <= T(Points - 0.75); };
+  const auto above_begin = [&] { return raw >= T(-0.25); };
+  if constexpr (one_valve<T>) {
+    if (within(raw, T(Points - 1))) {  // first, for it is what nearly always holds
+      const int index = table_index(raw);
+      return {index, raw - T(index), true};
+    }
+    if (raw > T(0)) return {Points - 2, T(1), below_end()};
+    return {0, T(0), above_begin()};
+  } else {
+    const T kept = select(raw > T(0), smaller(raw, T(Points - 1)), T(0));
+    const Index<T> index = table_index(smaller(kept, T(Points - 2)));
+    return {index, kept - T(index), below_end() && above_begin()};
+  }
 }
 
 /// What a curve answers.
@@ -43,7 +57,7 @@ template <class T>
 struct CurvePoint {
   T value;
   T slope;
-  bool inside;
+  Truth<T> inside;
 };
 
 /// y(x), linear between grid points.
@@ -52,12 +66,13 @@ struct Curve {
   static_assert(Points >= 2);
   static constexpr int points = Points;
   Axis<T> axis;
-  std::array<T, Points> values;
+  Numbers<T, Points> values;
 
   [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
     const Cell<T> cell = locate<Points>(axis, x);
-    const T low = values[static_cast<unsigned>(cell.index)];
-    const T rise = values[static_cast<unsigned>(cell.index) + 1] - low;
+    const auto from = corner(values.data(), cell.index);
+    const T low = from[0];
+    const T rise = from[1] - low;
     return {low + cell.share * rise, rise * axis.per_spacing, cell.inside};
   }
 };
@@ -68,7 +83,7 @@ struct MapPoint {
   T value;
   T row_slope;
   T column_slope;
-  bool inside;
+  Truth<T> inside;
 };
 
 /// z(row, column), bilinear in each cell.
@@ -79,7 +94,7 @@ struct Map {
   static constexpr int columns = Columns;
   Axis<T> row_axis;
   Axis<T> column_axis;
-  std::array<T, Rows * Columns> values;  ///< row after row
+  Numbers<T, Rows * Columns> values;  ///< row after row
 
   [[nodiscard]] constexpr T& node(int row, int column) { return values[static_cast<unsigned>(row * Columns + column)]; }
   [[nodiscard]] constexpr const T& node(int row, int column) const {
@@ -87,11 +102,13 @@ struct Map {
   }
 
   [[nodiscard]] constexpr MapPoint<T> at(const Cell<T>& row, const Cell<T>& column) const {
-    const T* const corner = &node(row.index, column.index);
-    const T low_rise = corner[1] - corner[0];
-    const T high_rise = corner[Columns + 1] - corner[Columns];
-    const T low = corner[0] + column.share * low_rise;
-    const T high = corner[Columns] + column.share * high_rise;
+    const auto from = corner(values.data(), row.index * Columns + column.index);
+    const T low_low = from[0];
+    const T high_low = from[Columns];
+    const T low_rise = from[1] - low_low;
+    const T high_rise = from[Columns + 1] - high_low;
+    const T low = low_low + column.share * low_rise;
+    const T high = high_low + column.share * high_rise;
     return {low + row.share * (high - low), (high - low) * row_axis.per_spacing,
             (low_rise + row.share * (high_rise - low_rise)) * column_axis.per_spacing, row.inside && column.inside};
   }
@@ -111,7 +128,7 @@ struct VolumePoint {
 template <class T, int Layers, int Rows, int Columns>
 struct Volume {
   static_assert(Layers >= 2 && Rows >= 2 && Columns >= 2);
-  std::array<T, Layers * Rows * Columns> values;  ///< layer after layer, row after row
+  Numbers<T, Layers * Rows * Columns> values;  ///< layer after layer, row after row
 
   [[nodiscard]] constexpr T& node(int layer, int row, int column) {
     return values[static_cast<unsigned>((layer * Rows + row) * Columns + column)];

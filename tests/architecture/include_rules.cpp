@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> library_prefixes{{
+    {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
     {"toml++/", "toml++"},
