@@ -32,7 +32,7 @@ void calibrate(const CalibrateArguments& arguments);
 
 struct EstimateArguments {
   std::string model;
-  std::string recording;
+  std::vector<std::string> recordings;  ///< of one the estimate is a file, of several a folder
   std::string output;
   std::string estimator;  ///< "condensed" or "observer"; empty: the observer where the model has one
   std::string channels;   ///< channel map; empty: none

@@ -39,7 +39,7 @@ void demo(const Arguments& arguments) {
              .report = in_folder("calibration.html"),
              .quiet = arguments.quiet});
   estimate({.model = in_folder("model.json"),
-            .recording = runs.back(),
+            .recordings = {runs.back()},
             .output = in_folder("estimate.csv"),
             .estimator = {},
             .channels = {},

@@ -1,4 +1,13 @@
 /// `spoolflow estimate`: the flow rate of a recording, sample by sample, from what the sensor may read.
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -8,6 +17,8 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/recording/csv_writer.hpp"
+#include "spoolflow/recording/file_format.hpp"
+#include "spoolflow/recording/recording_error.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/estimation.hpp"
 
@@ -43,23 +54,35 @@ void tell(const recording::ReadNotes& notes, const std::string& file) {
                notes.missing_values);
   }
 }
-}  // namespace
 
-void estimate(const EstimateArguments& arguments) {
-  const model::Model model = model::read_model(arguments.model);
-  validation::Estimator estimator = validation::best_estimator(model);
-  if (arguments.estimator == "condensed") estimator = validation::Estimator::condensed;
-  if (arguments.estimator == "observer") estimator = validation::Estimator::observer;
+/// What all recordings of one command have in common.
+struct Task {
+  model::Model model;
+  validation::Estimator estimator;
   recording::ChannelMap channels;
-  if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
-  const auto reader =
-      recording::open_reader(arguments.recording, validation::sensor_channels(model, std::move(channels)));
-  validation::Estimation estimation(model, estimator);
-  std::vector<std::filesystem::path> inputs{arguments.model, arguments.recording};
-  if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
-  OutputFile output(arguments.output, inputs);
+  std::vector<std::filesystem::path> inputs;
+  bool quiet;
+};
+
+Task task_of(const EstimateArguments& arguments) {
+  Task task{model::read_model(arguments.model), {}, {}, {arguments.model}, arguments.quiet};
+  task.estimator = validation::best_estimator(task.model);
+  if (arguments.estimator == "condensed") task.estimator = validation::Estimator::condensed;
+  if (arguments.estimator == "observer") task.estimator = validation::Estimator::observer;
+  if (!arguments.channels.empty()) {
+    task.channels = recording::read_channel_map(arguments.channels);
+    task.inputs.emplace_back(arguments.channels);
+  }
+  task.inputs.insert(task.inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
+  return task;
+}
+
+recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target) {
+  const auto reader = recording::open_reader(recording, validation::sensor_channels(task.model, task.channels));
+  validation::Estimation estimation(task.model, task.estimator);
+  OutputFile output(target, task.inputs);
   {
-    Progress progress("estimating", arguments.quiet);
+    Progress progress("estimating", task.quiet);
     recording::CsvWriter writer(output.stream());
     writer.header({"time_s", "flow_L_min", "flow_lower_L_min", "flow_upper_L_min", "pressure_difference_bar",
                    "magnetic_force_N", "flow_force_N", "friction_force_N", "status"});
@@ -74,7 +97,83 @@ void estimate(const EstimateArguments& arguments) {
     writer.flush();
   }
   output.commit();
-  tell(reader->notes(), arguments.recording);
+  return reader->notes();
+}
+
+/// FOLDER/NAME.csv for each recording NAME.*. Throws OutputError where two would be the same.
+std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folder,
+                                              const std::vector<std::string>& recordings) {
+  std::map<std::filesystem::path, std::string> made_from;
+  std::vector<std::filesystem::path> targets;
+  for (const std::string& recording : recordings) {
+    if (recording == "-" || folder == "-") {
+      throw OutputError("several recordings are read from files and their estimates written to a folder, not to -");
+    }
+    targets.push_back(folder / std::filesystem::path(recording).stem().concat(".csv"));
+    const auto [other, is_new] = made_from.emplace(targets.back(), recording);
+    if (!is_new) {
+      throw OutputError(fmt::format("the estimates of {} and {} would both be {}; estimate them into different folders",
+                                    other->second, recording, targets.back().string()));
+    }
+  }
+  return targets;
+}
+
+/// The libraries that read HDF5 and MATLAB files work for one thread at a time.
+bool reads_beside_others(const std::string& file) {
+  std::string beginning(recording::format_bytes, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(in.gcount()));
+  try {
+    return recording::format_of(beginning, file) == recording::FileFormat::csv;
+  } catch (const recording::RecordingError&) {
+    return false;  // reading it will tell
+  }
+}
+
+/// All recordings, as many at a time as the machine has cores. The first failure is thrown when the others are done.
+void estimate_all(const Task& task, const std::vector<std::string>& recordings,
+                  const std::vector<std::filesystem::path>& targets) {
+  std::atomic<std::size_t> next{0};
+  std::mutex one_at_a_time, told;
+  std::vector<std::exception_ptr> failures(recordings.size());
+  const auto work = [&] {
+    for (std::size_t k = next++; k < recordings.size(); k = next++) {
+      try {
+        std::unique_lock alone(one_at_a_time, std::defer_lock);
+        if (!reads_beside_others(recordings[k])) alone.lock();
+        const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k]);
+        const std::lock_guard lock(told);
+        tell(notes, recordings[k]);
+      } catch (...) {
+        failures[k] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    const std::size_t count =
+        std::min<std::size_t>(recordings.size(), std::max(1U, std::thread::hardware_concurrency()));
+    while (workers.size() + 1 < count) workers.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+}  // namespace
+
+void estimate(const EstimateArguments& arguments) {
+  Task task = task_of(arguments);
+  if (arguments.recordings.size() == 1) {
+    tell(estimate_one(task, arguments.recordings.front(), arguments.output), arguments.recordings.front());
+    return;
+  }
+  const auto targets = targets_in(arguments.output, arguments.recordings);
+  make_output_folder(arguments.output);
+  task.quiet = true;  // one line cannot tell of many
+  estimate_all(task, arguments.recordings, targets);
 }
 
 void add_estimate_command(CLI::App& program) {
@@ -85,12 +184,16 @@ void add_estimate_command(CLI::App& program) {
        "estimate the flow rate of a recording, with its 95 % band",
        "MODEL.json from `spoolflow calibrate`, and a recording (CSV, MATLAB, HDF5; - for CSV from standard input) "
        "with time, current and position, better also voltage and oil temperature; nothing else of it is read",
-       "CSV, one row a sample: time, flow with its band, pressure difference, forces, status",
+       "CSV, one row a sample: time, flow with its band, pressure difference, forces, status; of several recordings "
+       "DIR/NAME.csv each, worked on in parallel",
        {"spoolflow estimate valve_a.json run.csv -o estimate.csv",
-        "spoolflow estimate valve_a.json run.mat --channels map.toml -o - | head"}});
+        "spoolflow estimate valve_a.json run.mat --channels map.toml -o - | head",
+        "spoolflow estimate valve_a.json monday.csv tuesday.csv -o estimates"}});
   command->add_option("model", arguments->model, "model file")->required();
-  command->add_option("recording", arguments->recording, "recording")->required();
-  command->add_option("-o,--output", arguments->output, "CSV file to write; - for standard output")
+  command->add_option("recording", arguments->recordings, "one or several recordings")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "CSV file to write, - for standard output; a folder for several recordings")
       ->type_name("ESTIMATE.csv")
       ->required();
   command
