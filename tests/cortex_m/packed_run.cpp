@@ -80,6 +80,7 @@ void append(std::string& bytes, std::uint32_t word) {
 std::string packed_run(const model::Model& model, validation::Estimator estimator,
                        const std::filesystem::path& recording) {
   std::vector<Sample> samples = samples_of(model, recording);
+  if (samples.size() > most_samples) samples.resize(most_samples);
   const std::size_t recorded = samples.size();
   append_disturbances(samples, model.valve.stroke_m);
   const std::vector<float> golden =
