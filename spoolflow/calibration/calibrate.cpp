@@ -86,7 +86,7 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
       {"campaign", campaign.file.filename().string(), model::sha256_of_file(campaign.file), 0});
 
   std::deque<Loaded> loaded;
-  constexpr double reading_share = 0.7;
+  constexpr double reading_share = 0.35;
   for (std::size_t k = 0; k < campaign.recordings.size(); ++k) {
     const recording::CampaignRecording& entry = campaign.recordings[k];
     progress(fmt::format("reading {}", entry.file.filename().string()),
@@ -113,11 +113,13 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
                           out.valve);
   out.condensed = std::move(condensed.condensed);
   out.evidence = std::move(condensed.evidence);
-  progress("full sensor", reading_share + 0.1);
+  constexpr double fitting_share = 0.45;
+  progress("full sensor", fitting_share);
   out.observer = calibrate_observer(
       {only(loaded, Protocol::spring, campaign), only(loaded, Protocol::solenoid_force_map, campaign),
        of(loaded, Protocol::solenoid_dynamic), axial_force_maps, of(loaded, Protocol::operation)},
-      out.valve, out.condensed.parameters.closed_below_m);
+      out.valve, out.condensed.parameters.closed_below_m,
+      [&](double share) { progress("full sensor in operation", fitting_share + (1 - fitting_share) * share); });
   progress("done", 1.0);
   return out;
 }

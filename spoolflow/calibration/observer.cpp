@@ -9,26 +9,58 @@
 #include "spoolflow/calibration/actuator.hpp"
 #include "spoolflow/calibration/magnetic_force.hpp"
 #include "spoolflow/calibration/metering_edge.hpp"
+#include "spoolflow/calibration/operation.hpp"
 #include "spoolflow/calibration/position_sensor.hpp"
 #include "spoolflow/calibration/spring.hpp"
 
 namespace spoolflow::calibration {
 namespace {
 
-/// What no bench test shows. These are not fitted by calibration: they were chosen while looking at operating runs of
-/// one simulated valve (docs/accuracy.md), so they are assumptions for every other, and the model file lists them.
-constexpr double assumed_ageing_ratio = 4;
-constexpr double assumed_ageing_s = 2.5;
-constexpr double assumed_contact_stiffness_N_per_m = 5e6;
+/// What no bench test shows, where no operating recording shows it either; else where the fit begins (operation.hpp).
+/// Typical of valves of this class, and judged on the runs of four valves together (docs/accuracy.md).
+constexpr sensor::FrictionParameters<double> assumed_friction{.ageing_ratio = 4,
+                                                              .ageing_s = 2.5,
+                                                              .contact_stiffness_N_per_m = 5e6,
+                                                              .tolerance_N = 0.7,
+                                                              .breakaway_share = 0.12,
+                                                              .operation_ratio = 1};
 constexpr double assumed_backlash_m = 0.45e-6;
-constexpr double assumed_friction_tolerance_N = 0.7;
-constexpr double assumed_breakaway_share = 0.12;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
+/// Of the supply, which may be any: the same for every valve.
+constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
+                                                    .resting_drift_Pa_per_sqrt_s = 1e6,
+                                                    .least_liveliness = 0.03,
+                                                    .first_liveliness = 0.1,
+                                                    .yielding_s = 0.03,
+                                                    .force_correlation_s = 2e-3,
+                                                    .ratio_deviation = 0.03,
+                                                    .ratio_drift_per_sqrt_s = 0.03};
+constexpr double coverage_factor = 1.3;
+/// Nothing of friction in operation is known without a recording of it: the band says so.
+constexpr double blind_coverage_factor = 2.0;
+
+FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
+  FitResidual out;
+  for (const AxialForceFit& fit : fits) {
+    out.largest = std::max(out.largest, (fit.*residual).largest);
+    out.sum_of_squares += (fit.*residual).sum_of_squares;
+    out.samples += (fit.*residual).samples;
+  }
+  return out;
+}
+
+std::vector<const recording::Recording*> with_reference(const std::vector<const recording::Recording*>& operation) {
+  std::vector<const recording::Recording*> out;
+  for (const recording::Recording* recording : operation) {
+    if (recording->has(recording::Channel::flow_reference) && recording->size() > 0) out.push_back(recording);
+  }
+  return out;
+}
 
 }  // namespace
 
 model::Observer calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                   double closed_below_m) {
+                                   double closed_below_m, const std::function<void(double)>& progress) {
   std::vector<const recording::Recording*> bench{&recordings.spring};
   bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
   const PositionSensorFit position = fit_position_sensor(bench, valve.stroke_m);
@@ -41,17 +73,10 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
   const ActuatorFit actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, magnetic, valve.stroke_m);
   std::vector<AxialForceFit> axial;
-  FitResidual flow;
-  FitResidual axial_force;
-  for (const recording::Recording* recording : recordings.axial_force_maps) {
+  for (const recording::Recording* recording : recordings.axial_force_maps)
     axial.push_back(fit_axial_force(without_zero_offset(*recording, valve.stroke_m), valve.stroke_m));
-    flow.largest = std::max(flow.largest, axial.back().flow_residual.largest);
-    flow.sum_of_squares += axial.back().flow_residual.sum_of_squares;
-    flow.samples += axial.back().flow_residual.samples;
-    axial_force.largest = std::max(axial_force.largest, axial.back().force_residual.largest);
-    axial_force.sum_of_squares += axial.back().force_residual.sum_of_squares;
-    axial_force.samples += axial.back().force_residual.samples;
-  }
+  const FitResidual flow = together(axial, &AxialForceFit::flow_residual);
+  const FitResidual axial_force = together(axial, &AxialForceFit::force_residual);
   const MeteringEdgeFit edge = fit_metering_edge(axial, spring.spring, spring.friction_half_width_N);
 
   model::Observer out{};
@@ -61,11 +86,17 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   parameters.edge = edge.edge;
   parameters.position_sensor = {position.noise_m, assumed_backlash_m, position.drift_m_per_K, position.drift_free_K,
                                 assumed_hardest_acceleration_m_per_s2};
-  parameters.friction = {assumed_ageing_ratio, assumed_ageing_s, assumed_contact_stiffness_N_per_m,
-                         assumed_friction_tolerance_N, assumed_breakaway_share};
-  parameters.pressure = {2e5, 1e6, 0.03, 0.03};
-  parameters.band = {
-      0.03, std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()), flow.rms(), 1.1, 2.0, 0.03};
+  parameters.friction = assumed_friction;
+  parameters.pressure = supply;
+  const std::vector<const recording::Recording*> operation = with_reference(recordings.operation);
+  parameters.band = {.friction_share = 0.03,
+                     .force_residual_N = std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()),
+                     .flow_residual_m3_per_s = flow.rms(),
+                     .coverage_factor = operation.empty() ? blind_coverage_factor : coverage_factor,
+                     .force_share = 1,
+                     .creep_per_s = 0.5,
+                     .unseen_factor = 3,
+                     .reference_lag_s = 0.03};
   parameters.closed_below_m = closed_below_m;
   parameters.largest_current_A = magnetic.largest_current_A;
 
@@ -82,14 +113,17 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
       out.residuals.push_back(
           {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});
   }
-  out.defaults = {"friction_ageing",
-                  "contact_stiffness_N_per_m",
-                  "position_backlash_m",
-                  "breakaway_share",
-                  "hardest_acceleration_m_per_s2",
-                  "friction_tolerance_N",
-                  "pressure drift and yielding",
-                  "band factors"};
+  if (!operation.empty()) {
+    const OperationFit fit = fit_operation(parameters, operation, valve.rated_flow_m3_per_s, progress);
+    out.residuals.push_back({"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
+  } else {
+    out.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
+                    "contact_stiffness_N_per_m", "friction_tolerance_N",  "breakaway_share",
+                    "position_backlash_m",       "band_friction_share",   "band_force_share"};
+  }
+  for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
+                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "band_reference_lag_s"})
+    out.defaults.emplace_back(assumed);
   if (!actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");

@@ -1,5 +1,6 @@
 #pragma once
 /// Calibration of the full sensor from a campaign.
+#include <functional>
 #include <vector>
 
 #include "spoolflow/model/model.hpp"
@@ -16,8 +17,9 @@ struct ObserverRecordings {
 };
 
 /// Bench maps free of position drift, then what only operation shows; what no recording shows is assumed, and said so
-/// in `defaults`. `closed_below_m` is the condensed model's. Throws CalibrationError.
+/// in `defaults`. `closed_below_m` is the condensed model's; `progress` is told the share done. Throws
+/// CalibrationError.
 [[nodiscard]] model::Observer calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                                 double closed_below_m);
+                                                 double closed_below_m, const std::function<void(double)>& progress);
 
 }  // namespace spoolflow::calibration

@@ -59,16 +59,23 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.number("contact_stiffness_N_per_m", parameters.friction.contact_stiffness_N_per_m, 0.0, 1e10);
   visitor.number("friction_tolerance_N", parameters.friction.tolerance_N, 0.0, 1e4);
   visitor.number("breakaway_share", parameters.friction.breakaway_share, 0.0, 10.0);
+  visitor.number("operation_friction_ratio", parameters.friction.operation_ratio, 0.05, 2.5);
 
   visitor.number("sliding_drift_Pa_per_sqrt_s", parameters.pressure.sliding_drift_Pa_per_sqrt_s, 0.0, 1e9);
   visitor.number("resting_drift_Pa_per_sqrt_s", parameters.pressure.resting_drift_Pa_per_sqrt_s, 0.0, 1e9);
   visitor.number("least_liveliness", parameters.pressure.least_liveliness, 1e-6, 1.0);
+  visitor.number("first_liveliness", parameters.pressure.first_liveliness, 1e-6, 1.0);
+  visitor.number("force_correlation_s", parameters.pressure.force_correlation_s, 1e-6, 10.0);
+  visitor.number("friction_ratio_deviation", parameters.pressure.ratio_deviation, 1e-3, 2.0);
+  visitor.number("friction_ratio_drift_per_sqrt_s", parameters.pressure.ratio_drift_per_sqrt_s, 0.0, 10.0);
   visitor.number("yielding_s", parameters.pressure.yielding_s, 1e-5, 1e3);
 
   visitor.number("band_friction_share", parameters.band.friction_share, 0.0, 10.0);
   visitor.number("band_force_residual_N", parameters.band.force_residual_N, 0.0, 1e4);
   visitor.number("band_flow_residual_m3_per_s", parameters.band.flow_residual_m3_per_s, 0.0, 1.0);
   visitor.number("band_coverage_factor", parameters.band.coverage_factor, 0.0, 100.0);
+  visitor.number("band_force_share", parameters.band.force_share, 0.0, 10.0);
+  visitor.number("band_creep_per_s", parameters.band.creep_per_s, 0.0, 10.0);
   visitor.number("band_unseen_factor", parameters.band.unseen_factor, 0.0, 100.0);
   visitor.number("band_reference_lag_s", parameters.band.reference_lag_s, 0.0, 10.0);
 

@@ -17,6 +17,7 @@ struct FrictionParameters {
   T contact_stiffness_N_per_m{};  ///< of the contacts in pre-sliding
   T tolerance_N{};                ///< standard deviation of friction told by the pre-sliding displacement
   T breakaway_share{};            ///< standard deviation of the break-away force about ageing, as a share of it
+  T operation_ratio{};            ///< friction in operation over half the width of the bench's loops, to begin with
 };
 
 template <class T>

@@ -21,6 +21,8 @@ struct BandParameters {
   T force_residual_N{};  ///< standard deviation of all maps together
   T flow_residual_m3_per_s{};
   T coverage_factor{};  ///< standard deviations in the 95 % band
+  T force_share{};  ///< how much of the force errors that the parts tell the band counts: they are not all independent
+  T creep_per_s{};  ///< growth of the tolerance of friction with the time at rest, as a share of it
   T unseen_factor{};  ///< how much wider unseen changes of pressure are taken than the drift that the estimate follows
   T reference_lag_s{};  ///< of the flow meter that the band is held against: it still reads what has been
 };
@@ -70,7 +72,9 @@ constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state
       is_number(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1);
   state.pressure.pressure_difference_Pa = T(0.5) * highest_Pa;
   state.pressure.variance_Pa2 = squared(T(0.3) * highest_Pa);
-  state.pressure.liveliness = T(1);
+  state.pressure.liveliness = valve.pressure.first_liveliness;
+  state.pressure.friction_ratio = valve.friction.operation_ratio;
+  state.pressure.ratio_variance = squared(valve.pressure.ratio_deviation);
 }
 
 /// The oil warms slowly and its sensor is noisy.
@@ -112,8 +116,10 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   PressureState<T>& pressure = state.pressure;
   const EdgePoint<T> edge =
       valve.edge.at(state.oil_temperature_K, pressure.pressure_difference_Pa, position.position_m);
-  const FrictionBounds<T> bounds =
-      friction_bounds(valve.friction, state.friction, edge.friction_N, actuator.friction_half_width_N);
+  const T spool_N = pressure.friction_ratio * edge.friction_N;
+  const T spool_per_pressure_N_Pa = pressure.friction_ratio * edge.friction_per_pressure_N_Pa;
+  const T armature_N = pressure.friction_ratio * actuator.friction_half_width_N;
+  const FrictionBounds<T> bounds = friction_bounds(valve.friction, state.friction, spool_N, armature_N);
   const T apparent_friction_N = net_N - edge.flow_force_N;
   const FrictionInterval<T> resting =
       step(valve.friction, state.friction, bounds, valve.position_sensor, position, apparent_friction_N, dt);
@@ -130,25 +136,26 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
                                squared(valve.band.friction_share * bounds.sliding_N));
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   if (sliding) {
-    drift(pressure, valve.pressure.sliding_drift_Pa_per_sqrt_s, dt, highest_Pa);
+    drift(valve.pressure, pressure, dt, highest_Pa);
   } else {
     drift_unseen(valve.pressure, pressure, dt, highest_Pa);
   }
   if (!closed) {
     const T surprise_N = apparent_friction_N - friction_N;
     if (sliding) {
-      const T whole_slope = larger(slope + direction * edge.friction_per_pressure_N_Pa, T(0.3) * slope);
-      update(pressure, {surprise_N, whole_slope, force_noise_N}, dt);
-      if (squared(slope) * pressure.variance_Pa2 < T(0.25) * squared(force_noise_N))
-        learn_liveliness(valve.pressure, pressure, force_noise_N / slope);
+      const T whole_slope = larger(slope + direction * spool_per_pressure_N_Pa, T(0.3) * slope);
+      const T ratio_slope_N = direction * (edge.friction_N + actuator.friction_half_width_N);
+      update_sliding(valve.pressure, pressure, {surprise_N, whole_slope, ratio_slope_N, force_noise_N}, dt);
+      if (settled(pressure, slope, force_noise_N)) learn_liveliness(valve.pressure, pressure, force_noise_N / slope);
     } else if (resting.breakaway_N != T(0) && resting.rested_s > T(0.03) + T(0.5) * dt) {
-      const T ratio = ageing(valve.friction, resting.rested_s);
-      const T expected_N = direction * (ratio * edge.friction_N + actuator.friction_half_width_N);
+      const T aged = ageing(valve.friction, resting.rested_s);
+      const T expected_N = direction * (aged * spool_N + armature_N);
       const T noise_N = sqrt(squared(force_noise_N) + squared(valve.friction.breakaway_share * expected_N));
-      const T whole_slope = larger(slope + direction * ratio * edge.friction_per_pressure_N_Pa, T(0.3) * slope);
-      update(pressure, {resting.breakaway_N - expected_N, whole_slope, noise_N}, T(0));
+      const T whole_slope = larger(slope + direction * aged * spool_per_pressure_N_Pa, T(0.3) * slope);
+      const T ratio_slope_N = direction * (aged * edge.friction_N + actuator.friction_half_width_N);
+      update_breakaway(pressure, {resting.breakaway_N - expected_N, whole_slope, ratio_slope_N, noise_N});
     } else if (position.motion == Motion::rest && surprise_N != T(0)) {
-      const T left_N = yield(pressure, {surprise_N, slope, valve.friction.tolerance_N}, valve.pressure.yielding_s, dt);
+      const T left_N = yield(valve.pressure, pressure, {surprise_N, slope, T(0), valve.friction.tolerance_N}, dt);
       if (magnitude(apparent_friction_N) < bounds.sticking_N) state.friction.gauge_N += left_N;
     }
   }
@@ -165,10 +172,12 @@ constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>&
   out.flow_m3_per_s = state.flow_m3_per_s;
   state.metered_m3_per_s +=
       smaller(dt / (valve.band.reference_lag_s + dt), T(1)) * (out.flow_m3_per_s - state.metered_m3_per_s);
-  const T unseen_Pa2 = pressure.liveliness * pressure.unseen_Pa2 * squared(valve.band.unseen_factor);
+  const T unseen_Pa2 = sliding ? T(0) : pressure.liveliness * pressure.unseen_Pa2 * squared(valve.band.unseen_factor);
+  const T counted_N = valve.band.force_share * force_noise_N;
   const T deviation_Pa =
-      valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + unseen_Pa2 + squared(force_noise_N / slope));
-  const T certain_Pa = valve.band.coverage_factor * (force_noise_N + valve.friction.tolerance_N) / slope;
+      valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + unseen_Pa2 + squared(counted_N / slope));
+  const T tolerance_N = valve.friction.tolerance_N * (T(1) + valve.band.creep_per_s * state.friction.rest_s);
+  const T certain_Pa = valve.band.coverage_factor * (counted_N + tolerance_N) / slope;
   T below_Pa = deviation_Pa;
   T above_Pa = deviation_Pa;
   if (!sliding && !closed) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The hidden state: the pressure difference over the metering edge. Position is measured, so a flow change that the
-/// spool causes costs no lag; only a pressure change must be found through the forces.
+/// spool causes costs no lag; only a pressure change must be found through the forces. Friction in operation over that
+/// on the bench is found with it: a wrong ratio shows as a pressure difference that jumps whenever the spool turns
+/// round.
 #include <cmath>
 #include <type_traits>
 
@@ -8,22 +10,29 @@
 
 namespace spoolflow::sensor {
 
-/// How the pressure difference is believed to move.
+/// How the pressure difference and the friction ratio are believed to move.
 template <class T>
 struct PressureParameters {
   T sliding_drift_Pa_per_sqrt_s{};  ///< random walk while the spool slides and every newton tells
   T resting_drift_Pa_per_sqrt_s{};  ///< random walk while nobody sees it, where the supply is at its liveliest
   T least_liveliness{};             ///< share of that drift where the supply has proved steady, (0, 1]
+  T first_liveliness{};             ///< the same, of a supply of which nothing is known yet
   T yielding_s{};                   ///< how fast it gives way to a force that friction at rest cannot explain
+  T force_correlation_s{};     ///< for how long errors of the forces stay alike: samples within are no new evidence
+  T ratio_deviation{};         ///< standard deviation of the friction ratio at any time
+  T ratio_drift_per_sqrt_s{};  ///< its random walk while the spool slides
 };
 
 template <class T>
 struct PressureState {
   T pressure_difference_Pa{};
   T variance_Pa2{};
-  T liveliness{};  ///< variance of unseen changes over that of the resting drift
-  T settled_Pa{};  ///< when last seen
-  T unseen_Pa2{};  ///< variance that has built up since, at full liveliness
+  T friction_ratio{};  ///< friction in operation over the bench's
+  T ratio_variance{};
+  T covariance_Pa{};  ///< of pressure difference and friction ratio
+  T liveliness{};     ///< variance of unseen changes over that of the resting drift
+  T settled_Pa{};     ///< when last seen
+  T unseen_Pa2{};     ///< variance that has built up since, at full liveliness
 };
 
 /// A force balance as a measurement of the pressure difference.
@@ -31,13 +40,16 @@ template <class T>
 struct ForceSurprise {
   T force_N;         ///< what the believed pressure difference leaves unexplained, > 0 asks for more flow force
   T slope_N_per_Pa;  ///< of the force that is explained over pressure difference
+  T ratio_slope_N;   ///< of the same over the friction ratio
   T noise_N;         ///< one standard deviation
 };
 
 template <class T>
-constexpr void drift(PressureState<T>& state, T drift_Pa_per_sqrt_s, T time_step_s, T highest_Pa) {
-  state.variance_Pa2 =
-      smaller(state.variance_Pa2 + squared(drift_Pa_per_sqrt_s) * time_step_s, squared(T(0.4) * highest_Pa));
+constexpr void drift(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s, T highest_Pa) {
+  if (state.variance_Pa2 < squared(T(0.4) * highest_Pa))
+    state.variance_Pa2 += squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s;
+  if (state.ratio_variance < squared(pressure.ratio_deviation))
+    state.ratio_variance += squared(pressure.ratio_drift_per_sqrt_s) * time_step_s;
 }
 
 /// The same while nothing tells: as lively as the supply has shown itself.
@@ -46,7 +58,7 @@ constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState
                             T highest_Pa) {
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.unseen_Pa2 += variance_Pa2;
-  state.variance_Pa2 = smaller(state.variance_Pa2 + state.liveliness * variance_Pa2, squared(T(0.4) * highest_Pa));
+  if (state.variance_Pa2 < squared(T(0.4) * highest_Pa)) state.variance_Pa2 += state.liveliness * variance_Pa2;
 }
 
 /// The pressure difference is seen again: what it did meanwhile tells how lively the supply is.
@@ -63,27 +75,80 @@ constexpr void learn_liveliness(const PressureParameters<T>& pressure, PressureS
   if (state.unseen_Pa2 == T(0)) state.settled_Pa = state.pressure_difference_Pa;
 }
 
-/// Scalar Kalman update. A surprise beyond three standard deviations opens the variance: the pressure has changed.
+/// What a surprise says of the pressure difference, in the sense of Kalman.
 template <class T>
-constexpr void update(PressureState<T>& state, const ForceSurprise<T>& surprise, T time_step_s) {
-  const T slope2 = squared(surprise.slope_N_per_Pa);
-  const T noise2 = squared(surprise.noise_N);
-  const T expected2 = slope2 * state.variance_Pa2 + noise2;
-  const T excess2 = squared(surprise.force_N) * T(1.0 / 9) - expected2;
+struct Correction {
+  T force_N;          ///< of the surprise
+  T gain_Pa_per_N;    ///< on the pressure difference
+  T covariance_N_Pa;  ///< of surprise and pressure difference
+  T covariance_N;     ///< of surprise and friction ratio
+  T variance_N2;      ///< of the surprise
+};
+
+/// A surprise beyond three standard deviations opens the variance at the pace of `time_step_s`: the pressure has
+/// changed.
+template <class T>
+constexpr Correction<T> correction(PressureState<T>& state, const ForceSurprise<T>& surprise, T noise_N2,
+                                   T time_step_s) {
+  const T slope = surprise.slope_N_per_Pa;
+  T with_pressure = state.variance_Pa2 * slope + state.covariance_Pa * surprise.ratio_slope_N;
+  const T with_ratio = state.covariance_Pa * slope + state.ratio_variance * surprise.ratio_slope_N;
+  T believed2 = slope * with_pressure + surprise.ratio_slope_N * with_ratio;
+  const T excess2 = squared(surprise.force_N) * T(1.0 / 9) - believed2 - squared(surprise.noise_N);
   constexpr T opening_s = T(0.05);
-  if (excess2 > T(0)) state.variance_Pa2 += excess2 / slope2 * smaller(time_step_s / opening_s, T(1));
-  const T gain = state.variance_Pa2 * surprise.slope_N_per_Pa / (slope2 * state.variance_Pa2 + noise2);
-  state.pressure_difference_Pa += gain * surprise.force_N;
-  state.variance_Pa2 *= T(1) - gain * surprise.slope_N_per_Pa;
+  if (excess2 > T(0)) {
+    const T opened2 = excess2 * smaller(time_step_s / opening_s, T(1));
+    state.variance_Pa2 += opened2 / squared(slope);
+    with_pressure += opened2 / slope;
+    believed2 += opened2;
+  }
+  const T variance2 = believed2 + noise_N2;
+  return {surprise.force_N, with_pressure / variance2, with_pressure, with_ratio, variance2};
+}
+
+template <class T>
+constexpr void correct_pressure(PressureState<T>& state, const Correction<T>& told) {
+  state.pressure_difference_Pa += told.gain_Pa_per_N * told.force_N;
+  state.variance_Pa2 -= told.gain_Pa_per_N * told.covariance_N_Pa;
+  state.covariance_Pa -= told.gain_Pa_per_N * told.covariance_N;
+}
+
+/// While the spool slides: Kalman update of pressure difference and friction ratio, no matter how often it is sampled.
+template <class T>
+constexpr void update_sliding(const PressureParameters<T>& pressure, PressureState<T>& state,
+                              const ForceSurprise<T>& surprise, T time_step_s) {
+  if (!(time_step_s > T(0))) return;
+  const T noise_N2 = squared(surprise.noise_N) * (pressure.force_correlation_s / time_step_s);
+  const Correction<T> told = correction(state, surprise, noise_N2, time_step_s);
+  const T ratio_gain_1_per_N = told.covariance_N / told.variance_N2;
+  constexpr T least = T(0.05);  // dither may all but free the spool
+  constexpr T most = T(2.5);
+  state.friction_ratio = limited(state.friction_ratio + ratio_gain_1_per_N * told.force_N, least, most);
+  state.ratio_variance -= ratio_gain_1_per_N * told.covariance_N;
+  correct_pressure(state, told);
+}
+
+/// At a break-away: of the pressure difference alone, since stiction says little of sliding friction.
+template <class T>
+constexpr void update_breakaway(PressureState<T>& state, const ForceSurprise<T>& surprise) {
+  correct_pressure(state, correction(state, surprise, squared(surprise.noise_N), T(0)));
+}
+
+/// Whether the pressure difference, at a given friction ratio, is known to better than half of `noise_N`.
+template <class T>
+constexpr bool settled(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
+  const T variance2 = state.variance_Pa2 * state.ratio_variance - squared(state.covariance_Pa);
+  return squared(slope_N_per_Pa) * variance2 < T(0.25) * squared(noise_N) * state.ratio_variance;
 }
 
 /// Moves the pressure difference by its share in what brings the force back into what friction at rest can explain;
 /// returns the force left to the other explanation, friction.
 template <class T>
-constexpr T yield(PressureState<T>& state, const ForceSurprise<T>& beyond, T yielding_s, T time_step_s) {
+constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state, const ForceSurprise<T>& beyond,
+                  T time_step_s) {
   const T believed2 = squared(beyond.slope_N_per_Pa) * state.variance_Pa2;
   const T share = believed2 / (believed2 + squared(beyond.noise_N));
-  const T force_N = smaller(time_step_s / yielding_s, T(1)) * beyond.force_N;
+  const T force_N = smaller(time_step_s / pressure.yielding_s, T(1)) * beyond.force_N;
   state.pressure_difference_Pa += share * force_N / beyond.slope_N_per_Pa;
   return (T(1) - share) * force_N;
 }

@@ -1,0 +1,39 @@
+#pragma once
+/// What no bench test shows, from recordings of the valve at work with a reference flow: how friction in operation
+/// compares with that on the bench, its growth at rest, the contacts' stiffness, the backlash of the position sensor,
+/// and how wide the band must be. These recordings are then no independent test any more.
+#include <functional>
+#include <vector>
+
+#include "spoolflow/calibration/fit_residual.hpp"
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+
+/// How well the observer does on the operating recordings.
+struct OperationFit {
+  double score_before;  ///< see operation_score
+  double score;
+  FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
+  double band_coverage;       ///< share of the samples with the reference inside the band
+  std::size_t samples;        ///< that were used: at most `operation_samples` of all recordings together
+};
+
+inline constexpr std::size_t operation_samples = 120'000;
+
+/// Mean interval score of the 95 % band (Winkler 1972; Gneiting and Raftery 2007, eq. 43: its width, and 40 times
+/// what the reference lies outside) plus four times the RMS error, as a share of full scale. Small where the estimate
+/// is close and the band as narrow as it may be. Infinite where there is nothing to compare.
+[[nodiscard]] double operation_score(const sensor::ObserverParameters<double>& parameters,
+                                     const std::vector<const recording::Recording*>& recordings,
+                                     double full_scale_m3_per_s);
+
+/// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
+/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference;
+/// `progress` is told the share done.
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
+                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
+                           const std::function<void(double)>& progress);
+
+}  // namespace spoolflow::calibration

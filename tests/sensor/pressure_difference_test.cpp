@@ -1,0 +1,103 @@
+/// The hidden states, fed with forces whose origin is known.
+#include "spoolflow/sensor/pressure_difference.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace spoolflow::sensor {
+namespace {
+
+constexpr PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
+                                            .resting_drift_Pa_per_sqrt_s = 1e6,
+                                            .least_liveliness = 0.03,
+                                            .first_liveliness = 0.1,
+                                            .yielding_s = 0.03,
+                                            .force_correlation_s = 2e-3,
+                                            .ratio_deviation = 0.05,
+                                            .ratio_drift_per_sqrt_s = 0.03};
+constexpr double slope_N_per_Pa = 5e-6;
+constexpr double friction_N = 6;
+constexpr double highest_Pa = 70e5;
+
+PressureState<double> begin(double pressure_Pa) {
+  PressureState<double> state{};
+  state.pressure_difference_Pa = pressure_Pa;
+  state.variance_Pa2 = std::pow(10e5, 2);
+  state.friction_ratio = 1;
+  state.ratio_variance = std::pow(supply.ratio_deviation, 2);
+  state.liveliness = supply.first_liveliness;
+  return state;
+}
+
+/// Slides for `duration_s` at a true pressure difference and friction ratio.
+void slide(PressureState<double>& state, double true_Pa, double true_ratio, double direction, double duration_s,
+           double dt_s) {
+  for (int k = 0; k * dt_s < duration_s; ++k) {
+    drift(supply, state, dt_s, highest_Pa);
+    const double surprise_N = slope_N_per_Pa * (true_Pa - state.pressure_difference_Pa) +
+                              direction * friction_N * (true_ratio - state.friction_ratio);
+    update_sliding(supply, state, {surprise_N, slope_N_per_Pa, direction * friction_N, 0.7}, dt_s);
+  }
+}
+
+TEST(PressureDifference, IsFoundWhileTheSpoolSlides) {
+  PressureState<double> state = begin(35e5);
+  slide(state, 60e5, 1, 1, 1, 1e-3);
+  EXPECT_NEAR(state.pressure_difference_Pa, 60e5, 1e5);
+  EXPECT_LT(std::sqrt(state.variance_Pa2), 1.5e5);
+}
+
+TEST(PressureDifference, IsFoundAsFastAtAnySamplingRate) {
+  for (const double dt_s : {5e-5, 1e-4, 1e-3, 5e-3}) {
+    PressureState<double> state = begin(35e5);
+    slide(state, 60e5, 1, 1, 0.05, dt_s);
+    PressureState<double> reference = begin(35e5);
+    slide(reference, 60e5, 1, 1, 0.05, 1e-3);
+    EXPECT_NEAR(state.pressure_difference_Pa, reference.pressure_difference_Pa, 1e5) << dt_s;
+    EXPECT_NEAR(std::sqrt(state.variance_Pa2 / reference.variance_Pa2), 1, 0.1) << dt_s;
+  }
+}
+
+TEST(PressureDifference, IsNotBlamedForFrictionThatChangedOnceTheSpoolHasTurnedOftenEnough) {
+  PressureState<double> state = begin(60e5);
+  for (int stroke = 0; stroke < 60; ++stroke) slide(state, 60e5, 1.3, stroke % 2 == 0 ? 1 : -1, 0.5, 1e-3);
+  EXPECT_NEAR(state.friction_ratio, 1.3, 0.05);
+  EXPECT_NEAR(state.pressure_difference_Pa, 60e5, 1e5);
+}
+
+TEST(PressureDifference, TakesAStepOfTheSupplyForWhatItIs) {
+  PressureState<double> state = begin(60e5);
+  slide(state, 60e5, 1, 1, 2, 1e-3);
+  slide(state, 30e5, 1, 1, 0.5, 1e-3);
+  EXPECT_NEAR(state.pressure_difference_Pa, 30e5, 2e5);
+  EXPECT_NEAR(state.friction_ratio, 1, 0.1);
+}
+
+TEST(PressureDifference, LearnsFromABreakawayButTheFrictionRatioDoesNot) {
+  PressureState<double> state = begin(60e5);
+  slide(state, 60e5, 1, 1, 1, 1e-3);
+  const PressureState<double> before = state;
+  update_breakaway(state, {2.0, slope_N_per_Pa, friction_N, 0.7});
+  EXPECT_GT(state.pressure_difference_Pa, before.pressure_difference_Pa);
+  EXPECT_LT(state.variance_Pa2, before.variance_Pa2);
+  EXPECT_EQ(state.friction_ratio, before.friction_ratio);
+  EXPECT_EQ(state.ratio_variance, before.ratio_variance);
+}
+
+TEST(PressureDifference, GrowsUncertainAtRestAsFastAsTheSupplyHasProvedLively) {
+  PressureState<double> steady = begin(60e5);
+  PressureState<double> lively = steady;
+  steady.liveliness = 0.001;
+  lively.liveliness = 1;
+  for (int k = 0; k < 500; ++k) {
+    drift_unseen(supply, steady, 1e-3, highest_Pa);
+    drift_unseen(supply, lively, 1e-3, highest_Pa);
+  }
+  EXPECT_GT(lively.variance_Pa2 - begin(60e5).variance_Pa2, 100 * (steady.variance_Pa2 - begin(60e5).variance_Pa2));
+  for (int k = 0; k < 100'000; ++k) drift_unseen(supply, lively, 1e-3, highest_Pa);
+  EXPECT_LT(std::sqrt(lively.variance_Pa2), 0.5 * highest_Pa);
+}
+
+}  // namespace
+}  // namespace spoolflow::sensor
