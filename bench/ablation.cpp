@@ -1,0 +1,136 @@
+/// What each part of the observer brings: the same runs with one part at a time taken away, and at other sampling
+/// rates. Run: ablation MODEL.json RECORDING…   Prints 95th percentile and largest error [% FS], and the share inside
+/// the band.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/sensor/observer.hpp"
+#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/validation/metrics.hpp"
+
+namespace {
+
+using namespace spoolflow;
+using recording::Channel;
+using Parameters = sensor::ObserverParameters<double>;
+
+/// What is done to the sensor and to its inputs.
+struct Variant {
+  const char* name;
+  std::function<void(Parameters&)> change = [](Parameters&) {};
+  bool voltage = true;
+  bool temperature = true;
+  std::size_t every = 1;  ///< sample of the recording
+};
+
+std::vector<Variant> variants() {
+  return {
+      {.name = "all parts"},
+      {.name = "no magnetic hysteresis",
+       .change =
+           [](Parameters& valve) {
+             valve.actuator.coil.hysteresis.stiffness.fill(0);
+             valve.actuator.coil.hysteresis.stiffness_increase.fill(0);
+           }},
+      {.name = "no eddy currents",
+       .change =
+           [](Parameters& valve) {
+             valve.actuator.coil.eddy_currents.classical_A_per_V = 0;
+             valve.actuator.coil.eddy_currents.excess_A_per_rootV = 0;
+           }},
+      {.name = "no voltage", .voltage = false},
+      {.name = "no oil temperature", .temperature = false},
+      {.name = "no drift of the position sensor",
+       .change = [](Parameters& valve) { valve.position_sensor.drift_m_per_K = 0; }},
+      {.name = "no position faults told",
+       .change = [](Parameters& valve) { valve.position_sensor.hardest_acceleration_m_per_s2 = 1e5; }},
+      {.name = "friction as on the bench",
+       .change =
+           [](Parameters& valve) {
+             valve.friction.operation_ratio = 1;
+             valve.pressure.ratio_deviation = 1e-3;
+             valve.pressure.ratio_drift_per_sqrt_s = 0;
+           }},
+      {.name = "friction ratio not followed",
+       .change =
+           [](Parameters& valve) {
+             valve.pressure.ratio_deviation = 1e-3;
+             valve.pressure.ratio_drift_per_sqrt_s = 0;
+           }},
+      {.name = "no growth of stiction at rest", .change = [](Parameters& valve) { valve.friction.ageing_ratio = 1; }},
+      {.name = "no pre-sliding", .change = [](Parameters& valve) { valve.friction.contact_stiffness_N_per_m = 1e10; }},
+      {.name = "every second sample", .every = 2},
+      {.name = "every fifth sample", .every = 5},
+  };
+}
+
+validation::GroupFigures run(const model::Model& model, const recording::Recording& recording, const Variant& variant) {
+  Parameters valve = model.observer->parameters;
+  variant.change(valve);
+  sensor::ObserverState<double> state{};
+  validation::ComparedSamples compared(model.valve.rated_flow_m3_per_s);
+  const auto at = [&](Channel channel, std::size_t k, bool used) {
+    return used && recording.has(channel) ? recording[channel][k] : std::numeric_limits<double>::quiet_NaN();
+  };
+  double last_s = recording[Channel::time][0];
+  for (std::size_t k = 0; k < recording.size(); k += variant.every) {
+    const double time_s = recording[Channel::time][k];
+    const sensor::Estimate<double> estimate =
+        sensor::step(valve, state,
+                     {time_s - last_s, recording[Channel::current][k], at(Channel::voltage, k, variant.voltage),
+                      recording[Channel::position][k], at(Channel::oil_temperature, k, variant.temperature)});
+    last_s = time_s;
+    const double reference = recording[Channel::flow_reference][k];
+    if (std::isfinite(reference)) {
+      compared.add({estimate.flow_m3_per_s, estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s, reference,
+                    false, false, false});
+    }
+  }
+  return compared.metrics().all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 3) {
+    fmt::print(stderr, "usage: ablation MODEL.json RECORDING…\n");
+    return 2;
+  }
+  const model::Model model = model::read_model(argv[1]);
+  if (!model.observer) {
+    fmt::print(stderr, "{}: the model is not calibrated for the observer\n", argv[1]);
+    return 2;
+  }
+  std::vector<recording::Recording> recordings;
+  fmt::print("{:<46}", "p95 / max [% FS], inside the band [%]");
+  for (int k = 2; k < argc; ++k) {
+    recording::ReadOptions options = validation::sensor_channels(model, {});
+    options.required.push_back(Channel::flow_reference);
+    recordings.push_back(recording::read_recording(argv[k], options));
+    fmt::print("{:>22}", std::filesystem::path(argv[k]).stem().string());
+  }
+  fmt::print("\n");
+  for (const Variant& variant : variants()) {
+    fmt::print("{:<46}", variant.name);
+    for (const recording::Recording& recording : recordings) {
+      const validation::GroupFigures figures = run(model, recording, variant);
+      const double percent = 100 / model.valve.rated_flow_m3_per_s;
+      fmt::print("{:>10.2f} /{:5.1f} {:5.1f}", figures.error.p95 * percent, figures.error.largest * percent,
+                 100 * figures.band_coverage);
+    }
+    fmt::print("\n");
+  }
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "ablation: {}\n", error.what());
+  return 1;
+}
