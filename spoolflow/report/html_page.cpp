@@ -13,6 +13,10 @@ constexpr Layout wide{1064, 1};
 constexpr Layout narrow{360, 0.85};
 constexpr Layout half{510, 1};
 
+/// The browser itself refuses whatever a page would fetch.
+constexpr const char* nothing_from_outside =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
 std::string legend(const CaptionedFigure& figure) {
   return figure.legend.empty() ? legend_of(figure.figure) : figure.legend;
 }
@@ -46,9 +50,15 @@ std::string HtmlPage::caption(const std::string& text) {
 
 void HtmlPage::figure(const CaptionedFigure& figure) {
   ++figures_;
-  body_ += fmt::format("<figure>{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>{}</figure>\n",
-                       legend(figure), svg_of(figure.figure, wide, fmt::format("f{}w", figures_)),
-                       svg_of(figure.figure, narrow, fmt::format("f{}n", figures_)), caption(figure.caption));
+  const std::string drawing = fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>",
+                                          legend(figure), svg_of(figure.figure, wide, fmt::format("f{}w", figures_)),
+                                          svg_of(figure.figure, narrow, fmt::format("f{}n", figures_)));
+  if (figure.live.empty()) {
+    body_ += "<figure>" + drawing + caption(figure.caption) + "</figure>\n";
+    return;
+  }
+  body_ += "<figure class=\"run-plots\"><div class=\"static\">" + drawing + "</div>" + caption(figure.caption) +
+           "<script type=\"application/json\">" + figure.live + "</script></figure>\n";
 }
 
 void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
@@ -63,12 +73,14 @@ void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
 
 std::string HtmlPage::str() const {
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
-      "<title>{0}: {1}</title><style>{2}</style></head>\n<body><main>\n"
-      "<header><p class=\"kicker\">{0}</p><h1>{1}</h1><p class=\"kicker\">{3}</p>\n"
-      "<nav aria-label=\"Contents\">{4}</nav></header>\n{5}</main></body></html>\n",
-      html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_, body_);
+             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+             "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
+             "<meta http-equiv=\"Content-Security-Policy\" content=\"{0}\">"
+             "<title>{1}: {2}</title><style>{3}</style></head>\n<body><main>\n"
+             "<header><p class=\"kicker\">{1}</p><h1>{2}</h1><p class=\"kicker\">{4}</p>\n"
+             "<nav aria-label=\"Contents\">{5}</nav></header>\n",
+             nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_) +
+         body_ + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
 }
 
 }  // namespace spoolflow::report

@@ -1,5 +1,6 @@
 #pragma once
-/// One self-contained page: style sheet inside, no script, no network.
+/// One self-contained page: style sheet and script inside, no network. Without script it shows the same, standing
+/// still.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,11 +10,13 @@
 
 namespace spoolflow::report {
 
-/// A figure with the sentence below it. `legend` replaces the legend made from the figure.
+/// A figure with the sentence below it. `legend` replaces the legend made from the figure. `live`: data with which the
+/// page's script puts plots that zoom in the figure's place (trace_json.hpp); print keeps the figure.
 struct CaptionedFigure {
   Figure figure;
   std::string caption = {};
   std::string legend = {};
+  std::string live = {};
 };
 
 class HtmlPage {

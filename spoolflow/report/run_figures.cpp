@@ -7,6 +7,7 @@
 
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/scaled.hpp"
+#include "spoolflow/report/trace_json.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
@@ -96,6 +97,7 @@ CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m
     out.caption += "The measured pressure difference is shown for comparison; no estimator reads it. ";
   }
   if (!leading.status.empty()) out.caption += "A pale status bar: part of that stretch only.";
+  out.live = trace_json(run, full_scale_m3_per_s);
   return out;
 }
 

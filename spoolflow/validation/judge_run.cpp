@@ -127,7 +127,8 @@ std::vector<ErrorProfile> empty_profiles(const model::Valve& valve) {
           ErrorProfile(5e5, full_scale), ErrorProfile(2.5, full_scale, units::kelvin_at_0_degC)};
 }
 
-JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options) {
+JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options,
+                    std::size_t traced_values) {
   JudgedRun out;
   RunResult& result = out.result;
   result.samples = run.time_s.size();
@@ -161,6 +162,7 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
     if (result.has_reference) out.compared.push_back(compare(each, run, phases, answers, valve));
     draw(each, run, answers);
   }
+  result.trace = run_trace(run, traced_values);
   return out;
 }
 

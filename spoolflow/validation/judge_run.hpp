@@ -15,6 +15,8 @@ struct JudgedRun {
 [[nodiscard]] std::vector<ErrorProfile> empty_profiles(const model::Valve& valve);
 
 /// Compares what the estimators answered with the reference. Lags `run`'s answers first where the options ask for it.
-[[nodiscard]] JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options);
+/// `traced_values`: the most numbers in the run's trace.
+[[nodiscard]] JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options,
+                                  std::size_t traced_values);
 
 }  // namespace spoolflow::validation

@@ -9,6 +9,7 @@
 #include "spoolflow/validation/error_profile.hpp"
 #include "spoolflow/validation/estimator.hpp"
 #include "spoolflow/validation/metrics.hpp"
+#include "spoolflow/validation/run_trace.hpp"
 #include "spoolflow/validation/status_timeline.hpp"
 #include "spoolflow/validation/trace.hpp"
 
@@ -60,6 +61,7 @@ struct RunResult {
   bool phases_from_measured_position = false;
   std::optional<Extent> current_A, position_m, oil_temperature_K, pressure_difference_Pa, reference_m3_per_s;
   Line reference_line_m3_per_s, position_line_m, pressure_difference_line_Pa;
+  RunTrace trace;
   std::vector<OperatingPoint> operating_points;
   std::vector<EstimatorResult> results;  ///< in the order of the options; the leading estimator last
 };

@@ -21,6 +21,7 @@ struct StatusRow {
   bool fault;
   double share;  ///< of the samples
   std::vector<StatusSpan> spans;
+  unsigned place = 0;  ///< among the sensor's status names
 };
 
 /// A sentence for people.

@@ -4,24 +4,25 @@
 #include <cmath>
 #include <limits>
 
+#include "spoolflow/validation/stretches.hpp"
+
 namespace spoolflow::validation {
 namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-constexpr double gap_mean_steps = 25;
 
 /// Samples [begin, end) of one stretch of time; `after_gap`: nothing was recorded for long before it.
-struct Stretch {
+struct StretchOfTime {
   std::size_t begin, end;
   bool after_gap;
 };
 
-std::vector<Stretch> stretches_of(std::span<const double> time_s, std::size_t count) {
-  std::vector<Stretch> out;
+std::vector<StretchOfTime> stretches_of(std::span<const double> time_s, std::size_t count) {
+  std::vector<StretchOfTime> out;
   if (time_s.empty()) return out;
   const std::size_t n = time_s.size();
   const double duration_s = time_s.back() - time_s.front();
-  const double gap_s = gap_mean_steps * duration_s / static_cast<double>(std::max<std::size_t>(1, n - 1));
+  const double gap_s = longest_step_s(time_s);
   const double width_s = n <= 2 * count ? 0 : duration_s / static_cast<double>(count);
   std::size_t begin = 0;
   bool after_gap = false;
@@ -43,7 +44,7 @@ Line thinned(std::span<const double> time_s, std::span<const float> value, std::
     out.time_s.push_back(time_s[k]);
     out.value.push_back(y);
   };
-  for (const Stretch& stretch : stretches_of(time_s, stretches)) {
+  for (const StretchOfTime& stretch : stretches_of(time_s, stretches)) {
     if (stretch.after_gap) keep(stretch.begin, nothing);
     std::size_t lowest = stretch.end;
     std::size_t highest = stretch.end;
@@ -71,7 +72,7 @@ Ribbon thinned_band(std::span<const double> time_s, std::span<const float> lower
     out.lower.push_back(low);
     out.upper.push_back(high);
   };
-  for (const Stretch& stretch : stretches_of(time_s, stretches)) {
+  for (const StretchOfTime& stretch : stretches_of(time_s, stretches)) {
     if (stretch.after_gap) keep(stretch.begin, nothing, nothing);
     float low = nothing;
     float high = nothing;

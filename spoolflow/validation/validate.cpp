@@ -41,7 +41,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     const auto before = static_cast<double>(out.runs.size());
     RunSamples samples = estimate_run(model, recording, options.channels, options.estimators,
                                       [&](double share) { progress((before + share) / total); });
-    JudgedRun judged = judge_run(model.valve, samples, options);
+    JudgedRun judged = judge_run(model.valve, samples, options, options.traced_values / recordings.size());
     name_run(judged.result, model, recording);
     for (std::size_t e = 0; e < judged.compared.size(); ++e) {
       pools[e].samples.append(judged.compared[e]);

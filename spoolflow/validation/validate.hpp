@@ -15,6 +15,8 @@ struct ValidationOptions {
   recording::ChannelMap channels;
   double reference_lag_s = 0.03;     ///< of the reference meter
   bool apply_reference_lag = false;  ///< lag the estimate likewise before comparing
+  /// Numbers that the traces of all runs together may hold: 3.5 million are 9 MiB of the report.
+  std::size_t traced_values = 3'500'000;
 };
 
 /// One estimator over all runs with reference flow together.

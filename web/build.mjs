@@ -1,0 +1,43 @@
+// node build.mjs FOLDER: makes page.js and page.css, which the program carries inside.
+import { readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import * as esbuild from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const folder = process.argv[2] ?? join(here, 'built');
+const read = (...path) => readFileSync(join(here, ...path), 'utf8');
+
+const licence = read('node_modules', 'uplot', 'LICENSE').trim();
+const script = await esbuild.build({
+  absWorkingDir: here,
+  entryPoints: ['src/page.ts'],
+  bundle: true,
+  minify: true,
+  format: 'iife',
+  target: 'es2020',
+  charset: 'ascii',
+  legalComments: 'none',
+  banner: { js: `/* Contains uPlot:\n${licence}\n*/` },
+  write: false,
+});
+const page = script.outputFiles[0].text;
+if (/<\/script|<!--/i.test(page)) throw new Error('the script would end the page’s <script> element');
+
+// The dark colours are written once: for systems that are dark, and for readers who chose dark on the page.
+const dark = read('src', 'style', 'dark.css');
+const sheet = [
+  read('src', 'style', 'colours.css'),
+  `@media screen and (prefers-color-scheme:dark){:root:not([data-theme=light]){${dark}}}`,
+  `@media screen{:root[data-theme=dark]{color-scheme:dark;${dark}}:root[data-theme=light]{color-scheme:light}}`,
+  read('src', 'style', 'text.css'),
+  read('src', 'style', 'figures.css'),
+  read('node_modules', 'uplot', 'dist', 'uPlot.min.css'),
+  read('src', 'style', 'plots.css'),
+  read('src', 'style', 'narrow.css'),
+  read('src', 'style', 'print.css'),
+].join('\n');
+const style = await esbuild.transform(sheet, { loader: 'css', minify: true, charset: 'ascii' });
+
+writeFileSync(join(folder, 'page.js'), page);
+writeFileSync(join(folder, 'page.css'), style.code);

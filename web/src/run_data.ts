@@ -1,0 +1,89 @@
+/** A run as the page carries it. Flow and error in L/min, pressure in bar, position in mm, force in N, time in s. */
+import { channelOf, bytesOf, type Channel, type PackedChannel } from './packed_numbers';
+import { SampleTimes, type PackedTimes } from './sample_times';
+import type { Quantity } from './units';
+
+/** `line`: a quantity. `band`: between `low` and `high`. `layer`: stacked on the layer before it, up to `top`. */
+interface PackedSeries extends PackedChannel {
+  name: string;
+  tone: string;
+  shape: 'line' | 'band' | 'layer';
+  width: number;
+  top?: PackedChannel;
+}
+
+interface PackedPanel {
+  title: string;
+  quantity: Quantity;
+  height: number;
+  fromZero: boolean;
+  series: PackedSeries[];
+}
+
+export interface StatusName {
+  name: string;
+  tone: string;
+  share: string;
+  bit: number;
+}
+
+export interface PackedRun {
+  run: string;
+  samplesPerStretch: number;
+  fullScale: number;
+  time: PackedTimes;
+  panels: PackedPanel[];
+  status?: { title: string; names: StatusName[]; values: string };
+}
+
+export interface Series extends Channel {
+  name: string;
+  tone: string;
+  shape: 'line' | 'band' | 'layer';
+  width: number;
+  /** What is drawn: a layer's upper edge, else the quantity itself. */
+  drawn: Channel;
+}
+
+export interface Panel {
+  title: string;
+  quantity: Quantity;
+  height: number;
+  fromZero: boolean;
+  series: Series[];
+}
+
+/** `bits[k]`: what was said in stretch k; each name has its bit. */
+export interface Status {
+  title: string;
+  names: StatusName[];
+  bits: Uint16Array;
+}
+
+export interface Run {
+  name: string;
+  samplesPerStretch: number;
+  fullScale: number;
+  times: SampleTimes;
+  panels: Panel[];
+  status: Status | null;
+}
+
+export function runOf(packed: PackedRun): Run {
+  const status = packed.status;
+  return {
+    name: packed.run,
+    samplesPerStretch: packed.samplesPerStretch,
+    fullScale: packed.fullScale,
+    times: new SampleTimes(packed.time),
+    panels: packed.panels.map((panel) => ({
+      ...panel,
+      series: panel.series.map((series) => {
+        const own = channelOf(series);
+        return { ...own, name: series.name, tone: series.tone, shape: series.shape, width: series.width,
+                 drawn: series.top ? channelOf(series.top) : own };
+      }),
+    })),
+    status: status ? { ...status, bits: new Uint16Array(bytesOf(status.values).buffer) } : null,
+  };
+}
