@@ -1,0 +1,171 @@
+#include "spoolflow/validation/input_uncertainties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace spoolflow::validation {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Of a figure that may be off by a quarter of itself (JCGM 100, G.4.2).
+constexpr double judged_degrees_of_freedom = 8;
+/// LVDT data sheets: 0.015 % of the stroke per kelvin; of oil 20 K about the calibration's.
+constexpr double drift_without_calibration = 0.00015 * 20;
+constexpr double oil_away_without_calibration_K = 20;
+
+InputUncertainty limits(Quantity quantity, const InstrumentFigure& figure) {
+  return {quantity,           figure.value * deviation_per_half_width(Distribution::rectangular),
+          Evaluation::type_b, Distribution::rectangular,
+          infinite,           figure.source};
+}
+
+InputUncertainty residual(Quantity quantity, const std::vector<model::Residual>& residuals, std::string_view of,
+                          double values) {
+  const auto found =
+      std::find_if(residuals.begin(), residuals.end(), [&](const model::Residual& r) { return r.of == of; });
+  const double rms = found == residuals.end() ? 0 : found->rms;
+  // Samples of one sweep hang together: one value for each grid point of a sweep counts.
+  return {quantity,
+          rms,
+          Evaluation::type_a,
+          Distribution::normal,
+          std::max(1.0, values - 1),
+          fmt::format("model, RMS residual of the {}", of)};
+}
+
+class Collection {
+ public:
+  Collection(const model::Model& model, const InstrumentFigures& figures, bool observer)
+      : model_(model), figures_(figures), observer_(observer) {}
+
+  Inputs collected() {
+    position();
+    current();
+    add(limits(Quantity::voltage_offset, figures_.voltage_offset_V));
+    oil_temperature();
+    maps();
+    friction();
+    add(limits(Quantity::oil_density, figures_.oil_density));
+    add(limits(Quantity::oil_viscosity, figures_.oil_viscosity));
+    if (observer_) {
+      add({Quantity::pressure_belief, 0, Evaluation::type_b, Distribution::normal, infinite,
+           "the observer's own filter at this point"});
+    }
+    auto& all = inputs_.uncertainties;
+    std::sort(all.begin(), all.end(),
+              [](const InputUncertainty& a, const InputUncertainty& b) { return a.quantity < b.quantity; });
+    return std::move(inputs_);
+  }
+
+ private:
+  void add(InputUncertainty input) { inputs_.uncertainties.push_back(std::move(input)); }
+
+  void position() {
+    const auto& full = model_.observer;
+    InstrumentFigure zero{drift_without_calibration * model_.valve.stroke_m,
+                          "default: drift of 0.015 % of the stroke per kelvin over 20 K"};
+    if (observer_) {
+      zero = {full->parameters.position_sensor.backlash_m, "model, position_backlash_m"};
+    } else if (full) {
+      zero = {std::abs(full->parameters.position_sensor.drift_m_per_K) * oil_span_K(),
+              "model, position_drift_m_per_K over its oil temperatures, which this sensor does not correct"};
+    }
+    add(limits(Quantity::position_zero, figures_.position_zero_m.value_or(zero)));
+    add(limits(Quantity::position_gain, figures_.position_gain));
+    InstrumentFigure noise{full ? full->parameters.position_sensor.noise_m : 1e-6,
+                           full ? "model, position_noise_m" : "default: 1 um"};
+    noise = figures_.position_noise_m.value_or(noise);
+    add({Quantity::position_noise, noise.value, Evaluation::type_a, Distribution::normal, infinite, noise.source});
+  }
+
+  void current() {
+    add(limits(Quantity::current_gain, figures_.current_gain));
+    add(limits(Quantity::current_offset, figures_.current_offset_A));
+    add({Quantity::current_noise, figures_.current_noise_A.value, Evaluation::type_b, Distribution::normal, infinite,
+         figures_.current_noise_A.source});
+  }
+
+  void oil_temperature() {
+    if (observer_) return add(limits(Quantity::oil_temperature, figures_.thermometer_K));
+    const InstrumentFigure away =
+        model_.observer ? InstrumentFigure{oil_span_K(), "model, oil temperatures calibrated; this sensor reads none"}
+                        : InstrumentFigure{oil_away_without_calibration_K, "default: 20 K about the map's temperature"};
+    add(limits(Quantity::oil_temperature, figures_.oil_temperature_away_K.value_or(away)));
+  }
+
+  void maps() {
+    const auto& residuals = observer_ ? model_.observer->residuals : model_.condensed.residuals;
+    const auto sweeps = [](std::size_t loops, int points) { return 2.0 * static_cast<double>(loops) * points; };
+    add(residual(Quantity::spring, residuals, "spring force", sweeps(1, sensor::spring_positions)));
+    const double spring_N = inputs_.uncertainties.back().standard_uncertainty;
+    InputUncertainty axial = residual(Quantity::flow_force_map, residuals, "axial force",
+                                      sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
+    axial.standard_uncertainty = std::hypot(axial.standard_uncertainty, spring_N);
+    axial.source += " and of the spring, which is taken off it";
+    if (axial.standard_uncertainty > 0 && spring_N > 0) {
+      inputs_.correlations.push_back({Quantity::spring, Quantity::flow_force_map,
+                                      -spring_N / axial.standard_uncertainty,
+                                      "the flow-force map is the axial force less the fitted spring"});
+    }
+    add(std::move(axial));
+    InputUncertainty magnetic = residual(Quantity::magnetic_force_map, residuals, "magnetic force",
+                                         sweeps(model_.evidence.magnetic_force.size(), sensor::force_map_positions));
+    if (observer_) {
+      const auto& actuator = model_.observer->parameters.actuator;
+      magnetic.standard_uncertainty = actuator.force_uncertainty_N;
+      magnetic.source = "model, magnetic_force_uncertainty_N (of the force bench's residuals)";
+      add({Quantity::magnetising_current, actuator.current_uncertainty_A, Evaluation::type_a, Distribution::normal,
+           judged_degrees_of_freedom, "model, magnetising_current_uncertainty_A"});
+    } else {
+      add({Quantity::magnetic_hysteresis, deviation_per_half_width(Distribution::rectangular), Evaluation::type_b,
+           Distribution::rectangular, judged_degrees_of_freedom,
+           "half the width of the measured loops; where in the loop is not known"});
+    }
+    add(std::move(magnetic));
+    InputUncertainty flow = residual(Quantity::flow_map, residuals, "flow rate",
+                                     sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
+    add(std::move(flow));
+    add(limits(Quantity::magnetic_load_cell, figures_.load_cell));
+    add(limits(Quantity::axial_load_cell, figures_.load_cell));
+    add(limits(Quantity::flow_meter, figures_.flow_meter));
+    if (figures_.one_load_cell) {
+      inputs_.correlations.push_back(
+          {Quantity::magnetic_load_cell, Quantity::axial_load_cell, 1, "both maps were measured with one load cell"});
+    }
+  }
+
+  void friction() {
+    if (!observer_) {
+      return add({Quantity::friction, 1, Evaluation::type_b, Distribution::two_point, judged_degrees_of_freedom,
+                  "half the width of the measured loops; this sensor does not know the direction"});
+    }
+    const auto& parameters = model_.observer->parameters;
+    const auto& defaults = model_.observer->defaults;
+    const bool assumed = std::find(defaults.begin(), defaults.end(), "band_friction_share") != defaults.end();
+    add({Quantity::friction, std::hypot(parameters.band.friction_share, parameters.pressure.ratio_deviation),
+         assumed ? Evaluation::type_b : Evaluation::type_a, Distribution::normal, judged_degrees_of_freedom,
+         assumed ? "assumed by the model, no operating recording: band_friction_share, friction_ratio_deviation"
+                 : "model, band_friction_share of the operating recording and friction_ratio_deviation"});
+  }
+
+  [[nodiscard]] double oil_span_K() const {
+    const model::Range& range = model_.observer->oil_temperature_K;
+    return 0.5 * (range.upper - range.lower);
+  }
+
+  const model::Model& model_;
+  const InstrumentFigures& figures_;
+  bool observer_;
+  Inputs inputs_;
+};
+
+}  // namespace
+
+Inputs inputs_of(const model::Model& model, Estimator estimator, const InstrumentFigures& figures) {
+  return Collection(model, figures, estimator == Estimator::observer).collected();
+}
+
+}  // namespace spoolflow::validation

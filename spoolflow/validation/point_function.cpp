@@ -1,0 +1,110 @@
+#include "spoolflow/validation/point_function.hpp"
+
+#include <cmath>
+
+#include "spoolflow/validation/condensed_slopes.hpp"
+
+namespace spoolflow::validation {
+
+std::optional<PointFunction> PointFunction::at(const model::Model& model, Estimator estimator,
+                                               const WorkingPoint& point) {
+  PointFunction out(model, estimator, point);
+  if (estimator == Estimator::condensed) {
+    const std::optional<double> current_A = balanced_current_A(model, point);
+    if (!current_A) return std::nullopt;
+    out.sample_ = {0, *current_A, 0, point.position_m, point.oil_temperature_K};
+    out.surroundings_ = surroundings_at(model, point, *current_A);
+    return out;
+  }
+  auto course = course_to(model, point);
+  if (!course) return std::nullopt;
+  out.course_ = std::move(*course);
+  out.temperature_per_viscosity_K_ = temperature_per_viscosity_K(model.fluid, point.oil_temperature_K);
+  out.learn_filter();
+  return out;
+}
+
+double PointFunction::operator()(const InputErrors<double>& error, SeededNumbers& noise) const {
+  return estimator_ == Estimator::condensed ? condensed(error) : observer(error, noise);
+}
+
+double PointFunction::condensed(const InputErrors<double>& error) const {
+  const auto valve = disturbed<double>(model_->condensed.parameters, error);
+  const sensor::Sample<double> sample = disturbed(sample_, surroundings_, error);
+  model::RunningSensor sensor(&valve, model_->valve.rated_flow_m3_per_s);
+  const auto answer = sensor.step({0, sample.current_A, sample.voltage_V, sample.position_m, sample.oil_temperature_K});
+  return answer.flow_m3_per_s - unseen_flow_m3_per_s(surroundings_, error);
+}
+
+double PointFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
+  const auto valve = disturbed(model_->observer->parameters, error, temperature_per_viscosity_K_);
+  model::RunningSensor sensor(&valve, model_->valve.rated_flow_m3_per_s);
+  const double position_noise_m = error[Quantity::position_noise];
+  const double current_noise_A = error[Quantity::current_noise];
+  InputErrors<double> now = error;
+  sensor::Estimate<double> answer;
+  for (const model::TimedSample& given : course_) {
+    now[Quantity::position_noise] = position_noise_m == 0 ? 0 : position_noise_m * noise.normal();
+    now[Quantity::current_noise] = current_noise_A == 0 ? 0 : current_noise_A * noise.normal();
+    const sensor::Sample<double> read = disturbed<double>(
+        sensor::Sample<double>{0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K}, now);
+    answer = sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
+  }
+  return answer.flow_m3_per_s + error[Quantity::flow_map] +
+         flow_per_pressure_m3_per_s_Pa_ * error[Quantity::pressure_belief];
+}
+
+void PointFunction::learn_filter() {
+  model::RunningSensor sensor(&model_->observer->parameters, model_->valve.rated_flow_m3_per_s);
+  sensor::Estimate<double> answer;
+  for (const model::TimedSample& sample : course_) answer = sensor.step(sample);
+  pressure_deviation_Pa_ = std::sqrt(std::max(0.0, sensor.state().observer.pressure.variance_Pa2));
+  constexpr double least_Pa = 1e4;  // Q ~ sqrt(dp): no slope at zero
+  flow_per_pressure_m3_per_s_Pa_ = 0.5 * answer.flow_m3_per_s / std::max(answer.pressure_difference_Pa, least_Pa);
+}
+
+double PointFunction::current_A() const {
+  return estimator_ == Estimator::condensed ? sample_.current_A : course_.back().current_A;
+}
+
+double PointFunction::position_reading_m() const {
+  return estimator_ == Estimator::condensed ? sample_.position_m : course_.back().position_m;
+}
+
+Budget PointFunction::budget(const Inputs& inputs, int noise_runs) const {
+  std::vector<BudgetLine> lines;
+  SeededNumbers none(0, "");
+  const double undisturbed = (*this)({}, none);
+  PerQuantity<double> slopes;
+  if (estimator_ == Estimator::condensed) slopes = CondensedSlopes(*model_).at(sample_, surroundings_);
+  for (const InputUncertainty& input : inputs.uncertainties) {
+    BudgetLine line{input};
+    line.degrees_of_freedom = input.degrees_of_freedom;
+    double& u = line.input.standard_uncertainty;
+    if (input.quantity == Quantity::pressure_belief) u = pressure_deviation_Pa_;
+    const bool noise = input.quantity == Quantity::position_noise || input.quantity == Quantity::current_noise;
+    InputErrors<double> error;
+    if (estimator_ == Estimator::condensed) {
+      line.sensitivity_m3_per_s = slopes[input.quantity];
+    } else if (noise && u > 0) {
+      double squares = 0;
+      error[input.quantity] = u;
+      for (int run = 0; run < noise_runs; ++run) {
+        SeededNumbers numbers(1, about(input.quantity).name, static_cast<std::uint64_t>(run));
+        squares += std::pow((*this)(error, numbers) - undisturbed, 2);
+      }
+      line.sensitivity_m3_per_s = std::sqrt(squares / noise_runs) / u;
+      line.degrees_of_freedom = std::min(line.degrees_of_freedom, static_cast<double>(noise_runs));
+    } else if (u > 0) {
+      error[input.quantity] = u;
+      const double above = (*this)(error, none);
+      error[input.quantity] = -u;
+      line.sensitivity_m3_per_s = (above - (*this)(error, none)) / (2 * u);
+    }
+    line.contribution_m3_per_s = line.sensitivity_m3_per_s * u;
+    lines.push_back(std::move(line));
+  }
+  return combine(std::move(lines), inputs.correlations);
+}
+
+}  // namespace spoolflow::validation
