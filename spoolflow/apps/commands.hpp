@@ -16,6 +16,7 @@ void add_estimate_command(CLI::App& program);
 void add_validate_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
+void add_analyse_command(CLI::App& program);
 void add_export_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -35,6 +35,7 @@ void add_commands(CLI::App& program) {
   add_validate_command(program);
   add_simulate_command(program);
   add_campaign_command(program);
+  add_analyse_command(program);
   add_export_command(program);
 }
 

@@ -7,7 +7,7 @@
 namespace spoolflow::validation {
 namespace {
 
-double correlation_of(const std::vector<Correlation>& correlations, Quantity a, Quantity b) {
+double correlation_of(const std::vector<Correlation>& correlations, InputQuantity a, InputQuantity b) {
   if (a == b) return 1;
   for (const Correlation& c : correlations) {
     if ((c.one == a && c.other == b) || (c.one == b && c.other == a)) return c.coefficient;
@@ -21,8 +21,8 @@ std::vector<std::size_t> clusters_of(const Budget& budget) {
   for (std::size_t k = 0; k < cluster.size(); ++k) cluster[k] = k;
   for (std::size_t a = 0; a < cluster.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const Quantity one = budget.lines[a].input.quantity;
-      const Quantity other = budget.lines[b].input.quantity;
+      const InputQuantity one = budget.lines[a].input.quantity;
+      const InputQuantity other = budget.lines[b].input.quantity;
       if (correlation_of(budget.correlations, one, other) == 0 || cluster[a] == cluster[b]) continue;
       std::replace(cluster.begin(), cluster.end(), cluster[a], cluster[b]);
     }

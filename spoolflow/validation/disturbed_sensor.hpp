@@ -38,26 +38,27 @@ sensor::Axis<T> as_scalar(const sensor::Axis<double>& axis) {
 template <class T>
 sensor::CondensedParameters<T> disturbed(const sensor::CondensedParameters<double>& valve,
                                          const InputErrors<T>& error) {
-  const T magnetic_gain = T(1) + error[Quantity::magnetic_load_cell];
-  const T axial_gain = T(1) + error[Quantity::axial_load_cell];
-  const T flow_gain = (T(1) + error[Quantity::flow_meter]) * (T(1) - T(0.5) * error[Quantity::oil_density]);
+  const T magnetic_gain = T(1) + error[InputQuantity::magnetic_load_cell];
+  const T axial_gain = T(1) + error[InputQuantity::axial_load_cell];
+  const T flow_gain = (T(1) + error[InputQuantity::flow_meter]) * (T(1) - T(0.5) * error[InputQuantity::oil_density]);
   const auto as_it_is = [](const T& value) { return value; };
   const auto& force = valve.magnetic_force;
   const auto& flow = valve.flow_rate;
   return {
       {{as_scalar<T>(force.map.row_axis), as_scalar<T>(force.map.column_axis),
         changed<T>(force.map.values,
-                   [&](const T& F) { return magnetic_gain * F + error[Quantity::magnetic_force_map]; })},
+                   [&](const T& F) { return magnetic_gain * F + error[InputQuantity::magnetic_force_map]; })},
        {as_scalar<T>(force.hysteresis_half_width_N.axis), changed<T>(force.hysteresis_half_width_N.values, as_it_is)}},
       {{as_scalar<T>(valve.spring.curve.axis), changed<T>(valve.spring.curve.values,
                                                           [&](const T& F) {
-                                                            return axial_gain * F + error[Quantity::spring] +
-                                                                   error[Quantity::flow_force_map];
+                                                            return axial_gain * F + error[InputQuantity::spring] +
+                                                                   error[InputQuantity::flow_force_map];
                                                           })}},
       {{as_scalar<T>(flow.largest_force_N.axis),
         changed<T>(flow.largest_force_N.values, [&](const T& F) { return axial_gain * F; })},
        {as_scalar<T>(flow.flow_m3_per_s.row_axis), as_scalar<T>(flow.flow_m3_per_s.column_axis),
-        changed<T>(flow.flow_m3_per_s.values, [&](const T& Q) { return flow_gain * Q + error[Quantity::flow_map]; })},
+        changed<T>(flow.flow_m3_per_s.values,
+                   [&](const T& Q) { return flow_gain * Q + error[InputQuantity::flow_map]; })},
        {as_scalar<T>(flow.root_pressure_difference.row_axis), as_scalar<T>(flow.root_pressure_difference.column_axis),
         changed<T>(flow.root_pressure_difference.values, as_it_is)}},
       {as_scalar<T>(valve.friction_half_width_N.axis), changed<T>(valve.friction_half_width_N.values, as_it_is)},
@@ -70,19 +71,19 @@ sensor::CondensedParameters<T> disturbed(const sensor::CondensedParameters<doubl
 template <class T>
 sensor::Sample<T> disturbed(const sensor::Sample<double>& sample, const InputErrors<T>& error) {
   return {T(sample.time_step_s),
-          T(sample.current_A) * (T(1) + error[Quantity::current_gain]) + error[Quantity::current_offset] +
-              error[Quantity::current_noise] + error[Quantity::magnetising_current],
-          T(sample.voltage_V) + error[Quantity::voltage_offset],
-          T(sample.position_m) * (T(1) + error[Quantity::position_gain]) + error[Quantity::position_zero] +
-              error[Quantity::position_noise],
-          T(sample.oil_temperature_K) + error[Quantity::oil_temperature]};
+          T(sample.current_A) * (T(1) + error[InputQuantity::current_gain]) + error[InputQuantity::current_offset] +
+              error[InputQuantity::current_noise] + error[InputQuantity::magnetising_current],
+          T(sample.voltage_V) + error[InputQuantity::voltage_offset],
+          T(sample.position_m) * (T(1) + error[InputQuantity::position_gain]) + error[InputQuantity::position_zero] +
+              error[InputQuantity::position_noise],
+          T(sample.oil_temperature_K) + error[InputQuantity::oil_temperature]};
 }
 
 /// How much warmer than believed the oil acts, in temperature and viscosity together.
 template <class T>
 T warmth_K(const Surroundings& surroundings, const InputErrors<T>& error) {
-  return error[Quantity::oil_temperature] +
-         T(surroundings.temperature_per_viscosity_K) * error[Quantity::oil_viscosity];
+  return error[InputQuantity::oil_temperature] +
+         T(surroundings.temperature_per_viscosity_K) * error[InputQuantity::oil_viscosity];
 }
 
 /// The same for the condensed sensor, which also meets the forces that it does not know: they come with a current that
@@ -90,8 +91,8 @@ T warmth_K(const Surroundings& surroundings, const InputErrors<T>& error) {
 template <class T>
 sensor::Sample<T> disturbed(const sensor::Sample<double>& sample, const Surroundings& surroundings,
                             const InputErrors<T>& error) {
-  const T hidden_N = T(surroundings.friction_half_width_N) * error[Quantity::friction] +
-                     T(surroundings.hysteresis_half_width_N) * error[Quantity::magnetic_hysteresis] +
+  const T hidden_N = T(surroundings.friction_half_width_N) * error[InputQuantity::friction] +
+                     T(surroundings.hysteresis_half_width_N) * error[InputQuantity::magnetic_hysteresis] +
                      T(surroundings.force_per_temperature_N_per_K) * warmth_K(surroundings, error);
   sensor::Sample<T> out = disturbed(sample, error);
   out.current_A = out.current_A + hidden_N / T(surroundings.force_per_current_N_per_A);

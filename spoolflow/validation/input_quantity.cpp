@@ -30,7 +30,7 @@ constexpr std::array<QuantityAbout, quantity_count> descriptions{{
 
 }  // namespace
 
-const QuantityAbout& about(Quantity quantity) {
+const QuantityAbout& about(InputQuantity quantity) {
   return descriptions[static_cast<std::size_t>(quantity)];
 }
 

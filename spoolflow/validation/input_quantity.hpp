@@ -10,7 +10,7 @@
 namespace spoolflow::validation {
 
 /// Errors are value less truth. In this order they appear in tables.
-enum class Quantity {
+enum class InputQuantity {
   position_zero,        ///< [m]
   position_gain,        ///< share of the reading; linearity counts as one
   position_noise,       ///< of one sample [m]
@@ -44,11 +44,11 @@ struct QuantityAbout {
   double per_SI;           ///< value in `unit` over value in SI
   bool part_of_model;      ///< of the sensor's model; else of an instrument or the oil
 };
-[[nodiscard]] const QuantityAbout& about(Quantity quantity);
+[[nodiscard]] const QuantityAbout& about(InputQuantity quantity);
 
-inline constexpr std::array<Quantity, quantity_count> all_quantities = [] {
-  std::array<Quantity, quantity_count> all{};
-  for (std::size_t k = 0; k < quantity_count; ++k) all[k] = static_cast<Quantity>(k);
+inline constexpr std::array<InputQuantity, quantity_count> all_quantities = [] {
+  std::array<InputQuantity, quantity_count> all{};
+  for (std::size_t k = 0; k < quantity_count; ++k) all[k] = static_cast<InputQuantity>(k);
   return all;
 }();
 
@@ -56,8 +56,8 @@ inline constexpr std::array<Quantity, quantity_count> all_quantities = [] {
 template <class T>
 struct PerQuantity {
   std::array<T, quantity_count> values{};
-  [[nodiscard]] constexpr T& operator[](Quantity q) { return values[static_cast<std::size_t>(q)]; }
-  [[nodiscard]] constexpr const T& operator[](Quantity q) const { return values[static_cast<std::size_t>(q)]; }
+  [[nodiscard]] constexpr T& operator[](InputQuantity q) { return values[static_cast<std::size_t>(q)]; }
+  [[nodiscard]] constexpr const T& operator[](InputQuantity q) const { return values[static_cast<std::size_t>(q)]; }
 };
 
 /// Type A: from repeated measurements; type B: from anything else (JCGM 100, 3.3.4).
@@ -65,7 +65,7 @@ enum class Evaluation { type_a, type_b };
 
 /// What is known of one quantity's error.
 struct InputUncertainty {
-  Quantity quantity{};
+  InputQuantity quantity{};
   double standard_uncertainty = 0;  ///< in the quantity's SI unit
   Evaluation evaluation = Evaluation::type_b;
   Distribution distribution = Distribution::normal;
@@ -75,7 +75,7 @@ struct InputUncertainty {
 
 /// Two quantities whose errors have something in common.
 struct Correlation {
-  Quantity one, other;
+  InputQuantity one, other;
   double coefficient;  ///< -1 to 1
   std::string source;
 };

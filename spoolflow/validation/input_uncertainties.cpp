@@ -16,13 +16,13 @@ constexpr double judged_degrees_of_freedom = 8;
 constexpr double drift_without_calibration = 0.00015 * 20;
 constexpr double oil_away_without_calibration_K = 20;
 
-InputUncertainty limits(Quantity quantity, const InstrumentFigure& figure) {
+InputUncertainty limits(InputQuantity quantity, const InstrumentFigure& figure) {
   return {quantity,           figure.value * deviation_per_half_width(Distribution::rectangular),
           Evaluation::type_b, Distribution::rectangular,
           infinite,           figure.source};
 }
 
-InputUncertainty residual(Quantity quantity, const std::vector<model::Residual>& residuals, std::string_view of,
+InputUncertainty residual(InputQuantity quantity, const std::vector<model::Residual>& residuals, std::string_view of,
                           double values) {
   const auto found =
       std::find_if(residuals.begin(), residuals.end(), [&](const model::Residual& r) { return r.of == of; });
@@ -44,14 +44,14 @@ class Collection {
   Inputs collected() {
     position();
     current();
-    add(limits(Quantity::voltage_offset, figures_.voltage_offset_V));
+    add(limits(InputQuantity::voltage_offset, figures_.voltage_offset_V));
     oil_temperature();
     maps();
     friction();
-    add(limits(Quantity::oil_density, figures_.oil_density));
-    add(limits(Quantity::oil_viscosity, figures_.oil_viscosity));
+    add(limits(InputQuantity::oil_density, figures_.oil_density));
+    add(limits(InputQuantity::oil_viscosity, figures_.oil_viscosity));
     if (observer_) {
-      add({Quantity::pressure_belief, 0, Evaluation::type_b, Distribution::normal, infinite,
+      add({InputQuantity::pressure_belief, 0, Evaluation::type_b, Distribution::normal, infinite,
            "the observer's own filter at this point"});
     }
     auto& all = inputs_.uncertainties;
@@ -73,79 +73,79 @@ class Collection {
       zero = {std::abs(full->parameters.position_sensor.drift_m_per_K) * oil_span_K(),
               "model, position_drift_m_per_K over its oil temperatures, which this sensor does not correct"};
     }
-    add(limits(Quantity::position_zero, figures_.position_zero_m.value_or(zero)));
-    add(limits(Quantity::position_gain, figures_.position_gain));
+    add(limits(InputQuantity::position_zero, figures_.position_zero_m.value_or(zero)));
+    add(limits(InputQuantity::position_gain, figures_.position_gain));
     InstrumentFigure noise{full ? full->parameters.position_sensor.noise_m : 1e-6,
                            full ? "model, position_noise_m" : "default: 1 um"};
     noise = figures_.position_noise_m.value_or(noise);
-    add({Quantity::position_noise, noise.value, Evaluation::type_a, Distribution::normal, infinite, noise.source});
+    add({InputQuantity::position_noise, noise.value, Evaluation::type_a, Distribution::normal, infinite, noise.source});
   }
 
   void current() {
-    add(limits(Quantity::current_gain, figures_.current_gain));
-    add(limits(Quantity::current_offset, figures_.current_offset_A));
-    add({Quantity::current_noise, figures_.current_noise_A.value, Evaluation::type_b, Distribution::normal, infinite,
-         figures_.current_noise_A.source});
+    add(limits(InputQuantity::current_gain, figures_.current_gain));
+    add(limits(InputQuantity::current_offset, figures_.current_offset_A));
+    add({InputQuantity::current_noise, figures_.current_noise_A.value, Evaluation::type_b, Distribution::normal,
+         infinite, figures_.current_noise_A.source});
   }
 
   void oil_temperature() {
-    if (observer_) return add(limits(Quantity::oil_temperature, figures_.thermometer_K));
+    if (observer_) return add(limits(InputQuantity::oil_temperature, figures_.thermometer_K));
     const InstrumentFigure away =
         model_.observer ? InstrumentFigure{oil_span_K(), "model, oil temperatures calibrated; this sensor reads none"}
                         : InstrumentFigure{oil_away_without_calibration_K, "default: 20 K about the map's temperature"};
-    add(limits(Quantity::oil_temperature, figures_.oil_temperature_away_K.value_or(away)));
+    add(limits(InputQuantity::oil_temperature, figures_.oil_temperature_away_K.value_or(away)));
   }
 
   void maps() {
     const auto& residuals = observer_ ? model_.observer->residuals : model_.condensed.residuals;
     const auto sweeps = [](std::size_t loops, int points) { return 2.0 * static_cast<double>(loops) * points; };
-    add(residual(Quantity::spring, residuals, "spring force", sweeps(1, sensor::spring_positions)));
+    add(residual(InputQuantity::spring, residuals, "spring force", sweeps(1, sensor::spring_positions)));
     const double spring_N = inputs_.uncertainties.back().standard_uncertainty;
-    InputUncertainty axial = residual(Quantity::flow_force_map, residuals, "axial force",
+    InputUncertainty axial = residual(InputQuantity::flow_force_map, residuals, "axial force",
                                       sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
     axial.standard_uncertainty = std::hypot(axial.standard_uncertainty, spring_N);
     axial.source += " and of the spring, which is taken off it";
     if (axial.standard_uncertainty > 0 && spring_N > 0) {
-      inputs_.correlations.push_back({Quantity::spring, Quantity::flow_force_map,
+      inputs_.correlations.push_back({InputQuantity::spring, InputQuantity::flow_force_map,
                                       -spring_N / axial.standard_uncertainty,
                                       "the flow-force map is the axial force less the fitted spring"});
     }
     add(std::move(axial));
-    InputUncertainty magnetic = residual(Quantity::magnetic_force_map, residuals, "magnetic force",
+    InputUncertainty magnetic = residual(InputQuantity::magnetic_force_map, residuals, "magnetic force",
                                          sweeps(model_.evidence.magnetic_force.size(), sensor::force_map_positions));
     if (observer_) {
       const auto& actuator = model_.observer->parameters.actuator;
       magnetic.standard_uncertainty = actuator.force_uncertainty_N;
       magnetic.source = "model, magnetic_force_uncertainty_N (of the force bench's residuals)";
-      add({Quantity::magnetising_current, actuator.current_uncertainty_A, Evaluation::type_a, Distribution::normal,
+      add({InputQuantity::magnetising_current, actuator.current_uncertainty_A, Evaluation::type_a, Distribution::normal,
            judged_degrees_of_freedom, "model, magnetising_current_uncertainty_A"});
     } else {
-      add({Quantity::magnetic_hysteresis, deviation_per_half_width(Distribution::rectangular), Evaluation::type_b,
+      add({InputQuantity::magnetic_hysteresis, deviation_per_half_width(Distribution::rectangular), Evaluation::type_b,
            Distribution::rectangular, judged_degrees_of_freedom,
            "half the width of the measured loops; where in the loop is not known"});
     }
     add(std::move(magnetic));
-    InputUncertainty flow = residual(Quantity::flow_map, residuals, "flow rate",
+    InputUncertainty flow = residual(InputQuantity::flow_map, residuals, "flow rate",
                                      sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
     add(std::move(flow));
-    add(limits(Quantity::magnetic_load_cell, figures_.load_cell));
-    add(limits(Quantity::axial_load_cell, figures_.load_cell));
-    add(limits(Quantity::flow_meter, figures_.flow_meter));
+    add(limits(InputQuantity::magnetic_load_cell, figures_.load_cell));
+    add(limits(InputQuantity::axial_load_cell, figures_.load_cell));
+    add(limits(InputQuantity::flow_meter, figures_.flow_meter));
     if (figures_.one_load_cell) {
-      inputs_.correlations.push_back(
-          {Quantity::magnetic_load_cell, Quantity::axial_load_cell, 1, "both maps were measured with one load cell"});
+      inputs_.correlations.push_back({InputQuantity::magnetic_load_cell, InputQuantity::axial_load_cell, 1,
+                                      "both maps were measured with one load cell"});
     }
   }
 
   void friction() {
     if (!observer_) {
-      return add({Quantity::friction, 1, Evaluation::type_b, Distribution::two_point, judged_degrees_of_freedom,
+      return add({InputQuantity::friction, 1, Evaluation::type_b, Distribution::two_point, judged_degrees_of_freedom,
                   "half the width of the measured loops; this sensor does not know the direction"});
     }
     const auto& parameters = model_.observer->parameters;
     const auto& defaults = model_.observer->defaults;
     const bool assumed = std::find(defaults.begin(), defaults.end(), "band_friction_share") != defaults.end();
-    add({Quantity::friction, std::hypot(parameters.band.friction_share, parameters.pressure.ratio_deviation),
+    add({InputQuantity::friction, std::hypot(parameters.band.friction_share, parameters.pressure.ratio_deviation),
          assumed ? Evaluation::type_b : Evaluation::type_a, Distribution::normal, judged_degrees_of_freedom,
          assumed ? "assumed by the model, no operating recording: band_friction_share, friction_ratio_deviation"
                  : "model, band_friction_share of the operating recording and friction_ratio_deviation"});

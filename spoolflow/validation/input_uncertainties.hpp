@@ -35,7 +35,7 @@ struct InstrumentFigures {
 };
 
 struct Inputs {
-  std::vector<InputUncertainty> uncertainties;  ///< in the order of Quantity; what does not apply is left out
+  std::vector<InputUncertainty> uncertainties;  ///< in the order of InputQuantity; what does not apply is left out
   std::vector<Correlation> correlations;
 };
 

@@ -39,19 +39,19 @@ double PointFunction::condensed(const InputErrors<double>& error) const {
 double PointFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
   const auto valve = disturbed(model_->observer->parameters, error, temperature_per_viscosity_K_);
   model::RunningSensor sensor(&valve, model_->valve.rated_flow_m3_per_s);
-  const double position_noise_m = error[Quantity::position_noise];
-  const double current_noise_A = error[Quantity::current_noise];
+  const double position_noise_m = error[InputQuantity::position_noise];
+  const double current_noise_A = error[InputQuantity::current_noise];
   InputErrors<double> now = error;
   sensor::Estimate<double> answer;
   for (const model::TimedSample& given : course_) {
-    now[Quantity::position_noise] = position_noise_m == 0 ? 0 : position_noise_m * noise.normal();
-    now[Quantity::current_noise] = current_noise_A == 0 ? 0 : current_noise_A * noise.normal();
+    now[InputQuantity::position_noise] = position_noise_m == 0 ? 0 : position_noise_m * noise.normal();
+    now[InputQuantity::current_noise] = current_noise_A == 0 ? 0 : current_noise_A * noise.normal();
     const sensor::Sample<double> read = disturbed<double>(
         sensor::Sample<double>{0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K}, now);
     answer = sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
   }
-  return answer.flow_m3_per_s + error[Quantity::flow_map] +
-         flow_per_pressure_m3_per_s_Pa_ * error[Quantity::pressure_belief];
+  return answer.flow_m3_per_s + error[InputQuantity::flow_map] +
+         flow_per_pressure_m3_per_s_Pa_ * error[InputQuantity::pressure_belief];
 }
 
 void PointFunction::learn_filter() {
@@ -81,8 +81,9 @@ Budget PointFunction::budget(const Inputs& inputs, int noise_runs) const {
     BudgetLine line{input};
     line.degrees_of_freedom = input.degrees_of_freedom;
     double& u = line.input.standard_uncertainty;
-    if (input.quantity == Quantity::pressure_belief) u = pressure_deviation_Pa_;
-    const bool noise = input.quantity == Quantity::position_noise || input.quantity == Quantity::current_noise;
+    if (input.quantity == InputQuantity::pressure_belief) u = pressure_deviation_Pa_;
+    const bool noise =
+        input.quantity == InputQuantity::position_noise || input.quantity == InputQuantity::current_noise;
     InputErrors<double> error;
     if (estimator_ == Estimator::condensed) {
       line.sensitivity_m3_per_s = slopes[input.quantity];

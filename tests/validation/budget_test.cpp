@@ -8,7 +8,7 @@
 namespace spoolflow::validation {
 namespace {
 
-BudgetLine line(Quantity quantity, double contribution, double degrees_of_freedom) {
+BudgetLine line(InputQuantity quantity, double contribution, double degrees_of_freedom) {
   BudgetLine out;
   out.input.quantity = quantity;
   out.contribution_m3_per_s = contribution;
@@ -17,9 +17,10 @@ BudgetLine line(Quantity quantity, double contribution, double degrees_of_freedo
 }
 
 TEST(Budget, ReproducesTheEndGaugeOfJcgm100H1) {
-  const Budget budget = combine({line(Quantity::position_zero, 25, 18), line(Quantity::current_gain, 9.7, 25.6),
-                                 line(Quantity::spring, 2.9, 50), line(Quantity::friction, 16.6, 2)},
-                                {});
+  const Budget budget =
+      combine({line(InputQuantity::position_zero, 25, 18), line(InputQuantity::current_gain, 9.7, 25.6),
+               line(InputQuantity::spring, 2.9, 50), line(InputQuantity::friction, 16.6, 2)},
+              {});
   EXPECT_NEAR(budget.combined_m3_per_s, 31.7, 0.1);
   EXPECT_NEAR(budget.degrees_of_freedom, 16.7, 0.5);
   EXPECT_NEAR(budget.coverage_factor, 2.11, 0.02);
@@ -27,9 +28,9 @@ TEST(Budget, ReproducesTheEndGaugeOfJcgm100H1) {
 }
 
 TEST(Budget, SharesAddUpToOneWithCorrelationsToo) {
-  const Budget budget = combine({line(Quantity::spring, -3, 8), line(Quantity::flow_force_map, -5, 8),
-                                 line(Quantity::friction, 2, std::numeric_limits<double>::infinity())},
-                                {{Quantity::spring, Quantity::flow_force_map, -0.6, ""}});
+  const Budget budget = combine({line(InputQuantity::spring, -3, 8), line(InputQuantity::flow_force_map, -5, 8),
+                                 line(InputQuantity::friction, 2, std::numeric_limits<double>::infinity())},
+                                {{InputQuantity::spring, InputQuantity::flow_force_map, -0.6, ""}});
   double sum = 0;
   for (const BudgetLine& each : budget.lines) sum += each.share;
   EXPECT_NEAR(sum, 1, 1e-12);
@@ -37,8 +38,8 @@ TEST(Budget, SharesAddUpToOneWithCorrelationsToo) {
 }
 
 TEST(Budget, ErrorsInCommonThatOpposeEachOtherCancel) {
-  const Budget budget = combine({line(Quantity::spring, 4, 8), line(Quantity::flow_force_map, 4, 8)},
-                                {{Quantity::spring, Quantity::flow_force_map, -1, ""}});
+  const Budget budget = combine({line(InputQuantity::spring, 4, 8), line(InputQuantity::flow_force_map, 4, 8)},
+                                {{InputQuantity::spring, InputQuantity::flow_force_map, -1, ""}});
   EXPECT_NEAR(budget.combined_m3_per_s, 0, 1e-12);
   EXPECT_TRUE(std::isfinite(budget.expanded_m3_per_s));
 }

@@ -1,0 +1,30 @@
+#pragma once
+/// All results of one analysis, and what they advise.
+#include <optional>
+#include <string>
+
+#include "spoolflow/analysis/point_analysis.hpp"
+
+namespace spoolflow::analysis {
+
+/// A group of quantities with its mean share of the variance over the points of the leading estimator.
+struct GroupShare {
+  std::string group;
+  bool part_of_model;  ///< else an instrument or the oil
+  double share;
+};
+
+struct Analysis {
+  Scenario scenario;
+  std::vector<PointResult> points;
+  std::vector<OperatingMap> maps;
+};
+
+/// The estimator that the advice is about: the observer where the model has one.
+[[nodiscard]] validation::Estimator leading_estimator(const Analysis& analysis);
+
+/// The largest first.
+[[nodiscard]] std::vector<GroupShare> mean_shares(const std::vector<PointResult>& points,
+                                                  validation::Estimator estimator);
+
+}  // namespace spoolflow::analysis

@@ -1,0 +1,139 @@
+/// `spoolflow analyse`: how uncertain the flow rate is, why, and what to improve next.
+#include <iostream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/analysis/analysis.hpp"
+#include "spoolflow/analysis/ishigami.hpp"
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/report/analysis_json.hpp"
+#include "spoolflow/report/analysis_verdict.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct Arguments {
+  std::string model;
+  std::string scenario;
+  std::string json;
+  std::string self_check;
+  std::uint32_t samples = 0;  ///< 0: as the scenario says
+  std::uint64_t seed = 0;     ///< 0: as the scenario says
+  unsigned jobs = 0;          ///< 0: all cores
+  bool print_scenario = false;
+  bool quiet = false;
+};
+
+/// Status 1 where the check fails: the program is at fault, not its input.
+struct SelfCheckFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+void print_text(const std::string& text) {
+  OutputFile output("-");
+  output.stream() << text;
+  output.commit();
+}
+
+void self_check(const Arguments& arguments) {
+  const analysis::SelfCheck check = analysis::check_ishigami(arguments.samples == 0 ? 1024 : arguments.samples,
+                                                             arguments.seed == 0 ? 1 : arguments.seed);
+  if (!arguments.json.empty()) {
+    OutputFile output(arguments.json);
+    report::write_self_check_json(output.stream(), check);
+    output.commit();
+  }
+  if (arguments.json != "-") {
+    std::string text = fmt::format("Ishigami function, {} base samples, seed {}\n", check.base_samples, check.seed);
+    for (std::size_t f = 0; f < check.found.factors.size(); ++f) {
+      const auto& [first, total] = check.found.factors[f];
+      text += fmt::format(
+          "x{}: first order {:6.3f} [{:6.3f}, {:6.3f}], exact {:.3f}; total {:6.3f} [{:6.3f}, {:6.3f}], exact {:.3f}\n",
+          f + 1, first.value, first.lower, first.upper, check.first_order[f], total.value, total.lower, total.upper,
+          check.total[f]);
+    }
+    print_text(text);
+  }
+  if (!check.passed) throw SelfCheckFailed("self-check: a known index lies outside its confidence interval");
+}
+
+analysis::Scenario scenario_of(const Arguments& arguments) {
+  analysis::Scenario scenario;
+  if (!arguments.scenario.empty()) scenario = analysis::read_scenario(arguments.scenario);
+  if (arguments.samples != 0) scenario.study.base_samples = arguments.samples;
+  if (arguments.seed != 0) scenario.seed = arguments.seed;
+  return scenario;
+}
+
+void analyse(const Arguments& arguments) {
+  if (arguments.print_scenario) return print_text(analysis::scenario_template());
+  if (!arguments.self_check.empty()) return self_check(arguments);
+  if (arguments.model.empty()) {
+    throw std::invalid_argument("MODEL.json is missing; make one with `spoolflow calibrate`");
+  }
+  const model::Model model = model::read_model(arguments.model);
+  analysis::Analysis results{scenario_of(arguments), {}, {}};
+  std::vector<std::filesystem::path> inputs{arguments.model};
+  if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
+  std::optional<OutputFile> figures;
+  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  const unsigned workers = arguments.jobs == 0 ? std::max(1U, std::thread::hardware_concurrency()) : arguments.jobs;
+  {
+    Progress progress("budget", arguments.quiet);
+    results.points =
+        analysis::analyse_points(model, results.scenario, workers, [&](double share) { progress.update(0.7 * share); });
+    results.maps = analysis::operating_maps(model, results.scenario, workers,
+                                            [&](double share) { progress.update(0.7 + 0.3 * share); });
+  }
+  if (figures) {
+    report::write_analysis_json(figures->stream(), model, results);
+    figures->commit();
+  }
+  if (arguments.json != "-") {
+    const report::AnalysisVerdict verdict = report::analysis_verdict(model, results);
+    std::string text = verdict.sentence + "\n";
+    for (const std::string& remark : verdict.remarks) text += "- " + remark + "\n";
+    print_text(text);
+  }
+}
+
+}  // namespace
+
+void add_analyse_command(CLI::App& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(
+      program,
+      {"analyse",
+       "how uncertain the flow rate is, why, and what to improve next",
+       "MODEL.json; a scenario (TOML) may name working points, instruments and spreads, --print-scenario prints one",
+       "the uncertainty budget with its check by Monte Carlo and the sensitivities as JSON; the verdict on standard "
+       "output",
+       {"spoolflow analyse valve_a.json --json analysis.json"}});
+  command->add_option("model", arguments->model, "model file");
+  command->add_option("--scenario", arguments->scenario, "what to analyse; every key has a default")
+      ->type_name("S.toml");
+  command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
+      ->type_name("OUT.json");
+  command->add_option("--samples", arguments->samples, "base samples of the global study")
+      ->type_name("N")
+      ->check(CLI::Range(2U, 65536U));
+  command->add_option("--seed", arguments->seed, "of all random numbers, instead of the scenario's")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--jobs", arguments->jobs, "threads; all cores where not given; the result is the same")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 1024U));
+  command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
+  command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"ishigami"}));
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { analyse(*arguments); });
+}
+
+}  // namespace spoolflow::apps

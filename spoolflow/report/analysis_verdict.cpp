@@ -1,0 +1,87 @@
+#include "spoolflow/report/analysis_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/number_text.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using analysis::GroupShare;
+
+const GroupShare* largest(const std::vector<GroupShare>& shares, bool part_of_model) {
+  const auto found = std::find_if(shares.begin(), shares.end(),
+                                  [&](const GroupShare& group) { return group.part_of_model == part_of_model; });
+  return found == shares.end() ? nullptr : &*found;
+}
+
+std::string range_of_expanded(const model::Model& model, const analysis::Analysis& analysis,
+                              validation::Estimator estimator) {
+  double lowest = INFINITY;
+  double highest = 0;
+  for (const analysis::PointResult& point : analysis.points) {
+    if (point.estimator != estimator || !point.reachable) continue;
+    lowest = std::min(lowest, point.budget.expanded_m3_per_s);
+    highest = std::max(highest, point.budget.expanded_m3_per_s);
+  }
+  const double percent = 100 / model.valve.rated_flow_m3_per_s;
+  return fmt::format("{} to {} % of full scale", fixed(lowest * percent, 1), fixed(highest * percent, 1));
+}
+
+std::string agreement(const analysis::Analysis& analysis, validation::Estimator estimator) {
+  std::size_t points = 0;
+  std::size_t validated = 0;
+  double lowest = INFINITY;
+  double highest = 0;
+  for (const analysis::PointResult& point : analysis.points) {
+    if (point.estimator != estimator || !point.reachable) continue;
+    ++points;
+    validated += point.check.comparison.validated ? 1 : 0;
+    lowest = std::min(lowest, point.check.comparison.deviation_ratio);
+    highest = std::max(highest, point.check.comparison.deviation_ratio);
+  }
+  return fmt::format(
+      "{}: Monte Carlo's standard deviation is {} to {} times the budget's; the budget's interval is validated after "
+      "JCGM 101, clause 8, at {} of {} points. Where it is not, the interval of the trials is the one to use.",
+      validation::name(estimator), fixed(lowest, 2), fixed(highest, 2), validated, points);
+}
+
+}  // namespace
+
+AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Analysis& analysis) {
+  const validation::Estimator estimator = analysis::leading_estimator(analysis);
+  const std::vector<GroupShare> shares = analysis::mean_shares(analysis.points, estimator);
+  AnalysisVerdict out;
+  if (shares.empty()) {
+    out.sentence = "No point of the scenario lies inside the calibrated maps: there is no budget.";
+    return out;
+  }
+  const GroupShare* const sub_model = largest(shares, true);
+  const GroupShare* const instrument = largest(shares, false);
+  out.sentence = fmt::format(
+      "Improve the {} next: it makes {} % of the variance of the {}'s flow rate, the mean over the working points. Of "
+      "instruments and oil the {} counts most ({} %).",
+      sub_model->group, fixed(100 * sub_model->share, 0), validation::name(estimator), instrument->group,
+      fixed(100 * instrument->share, 0));
+  if (instrument->share > sub_model->share) {
+    out.sentence = fmt::format(
+        "Improve the {} next: it makes {} % of the variance of the {}'s flow rate, the mean over the working points. "
+        "Of the sub-models the {} counts most ({} %).",
+        instrument->group, fixed(100 * instrument->share, 0), validation::name(estimator), sub_model->group,
+        fixed(100 * sub_model->share, 0));
+  }
+  out.remarks.push_back(fmt::format("Expanded uncertainty (95 %) at the working points: {}.",
+                                    range_of_expanded(model, analysis, estimator)));
+  for (const validation::Estimator each : {validation::Estimator::condensed, validation::Estimator::observer}) {
+    const bool there = std::any_of(analysis.points.begin(), analysis.points.end(),
+                                   [&](const auto& point) { return point.estimator == each && point.reachable; });
+    if (there) out.remarks.push_back(agreement(analysis, each));
+  }
+  return out;
+}
+
+}  // namespace spoolflow::report
