@@ -73,9 +73,7 @@ analysis::Scenario scenario_of(const Arguments& arguments) {
 void analyse(const Arguments& arguments) {
   if (arguments.print_scenario) return print_text(analysis::scenario_template());
   if (!arguments.self_check.empty()) return self_check(arguments);
-  if (arguments.model.empty()) {
-    throw std::invalid_argument("MODEL.json is missing; make one with `spoolflow calibrate`");
-  }
+  if (arguments.model.empty()) throw CLI::RequiredError("model");
   const model::Model model = model::read_model(arguments.model);
   analysis::Analysis results{scenario_of(arguments), {}, {}};
   std::vector<std::filesystem::path> inputs{arguments.model};
