@@ -12,9 +12,17 @@ if ! command -v dpkg-query >/dev/null; then
   echo "this is not a Debian system: the packages of packages.txt must be there by other means" >&2
   exit 0
 fi
-installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' || true)
+# A command that is there by other means stands in for its package.
+needed=
+for entry in $wanted; do
+  case "$entry" in
+    *"|"*) command -v "${entry#*|}" >/dev/null || needed="$needed ${entry%|*}" ;;
+    *) needed="$needed $entry" ;;
+  esac
+done
+installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $needed 2>/dev/null | sed -n 's/^installed //p' || true)
 missing=
-for package in $wanted; do
+for package in $needed; do
   case "
 $installed
 " in

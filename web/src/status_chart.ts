@@ -70,15 +70,14 @@ export class StatusChart {
     ctx.font = `${11.5 * devicePixelRatio}px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif`;
     ctx.textAlign = 'left';
     ctx.textBaseline = 'middle';
-    ctx.lineJoin = 'round';
     this.status.names.forEach((status, n) => {
       const x = bbox.left + 4 * devicePixelRatio;
       const y = bbox.top + (n + 0.5) * row;
-      ctx.strokeStyle = colour('paper');
-      ctx.lineWidth = 3 * devicePixelRatio;
-      ctx.strokeText(`${status.name} (${status.share})`, x, y);
+      const text = `${status.name} (${status.share})`;
+      ctx.fillStyle = paleColour('paper', 0.85);
+      ctx.fillRect(bbox.left, y - 0.5 * row, ctx.measureText(text).width + 9 * devicePixelRatio, row);
       ctx.fillStyle = colour('ink');
-      ctx.fillText(`${status.name} (${status.share})`, x, y);
+      ctx.fillText(text, x, y);
     });
     ctx.restore();
   }

@@ -1,0 +1,38 @@
+// node make_reports.mjs FOLDER COMMAND MODEL: recordings that have something special, and the reports on them.
+import { execFileSync } from 'node:child_process';
+import { existsSync, statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { channels, gap, long } from './recordings.mjs';
+
+const [, , folder, command, model] = process.argv;
+const newest = Math.max(statSync(command).mtimeMs, statSync(model).mtimeMs);
+
+function run(...args) {
+  execFileSync(command, [...args, '-q'], { cwd: folder, stdio: ['ignore', 'ignore', 'inherit'] });
+}
+
+function write(name, rows, { reference = true } = {}) {
+  const head = ['time_s', 'current_A', 'position_mm', 'oil_temperature_C', 'pressure_difference_bar'];
+  if (reference) head.push('flow_reference_L_min');
+  const lines = [head.join(',')];
+  for (const k of rows) {
+    const sample = channels(k);
+    lines.push(head.map((channel) => sample[channel]).join(','));
+  }
+  writeFileSync(join(folder, `${name}.csv`), lines.join('\n') + '\n');
+}
+
+const range = (from, to) => Array.from({ length: to - from }, (_value, k) => from + k);
+const made = join(folder, 'million.html');
+if (!existsSync(made) || statSync(made).mtimeMs < newest) {
+  write('usual', range(0, 20000));
+  write('unmeasured', range(0, 5000), { reference: false });
+  write('gaps', [...range(0, gap.from), ...range(gap.to, 10000)]);
+  write('single', [0]);
+  write('million', range(0, long));
+  run('estimate', model, 'usual.csv', '-o', 'usual_estimate.csv');
+  run('validate', model, 'usual.csv', 'unmeasured.csv', '--report', 'usual.html', '--json', 'usual.json');
+  for (const name of ['unmeasured', 'gaps', 'single', 'million']) {
+    run('validate', model, `${name}.csv`, '--report', `${name}.html`);
+  }
+}

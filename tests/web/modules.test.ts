@@ -1,0 +1,101 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
+import { SampleTimes } from './src/sample_times';
+import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './src/thinning';
+import { numberText, ReadersUnits } from './src/units';
+import { View } from './src/view';
+
+function packed(codes: number[], scale = 1): PackedNumbers {
+  return { offset: 0, scale, values: Buffer.from(new Int16Array(codes).buffer).toString('base64') };
+}
+
+function spike(length: number, at: number, code: number): number[] {
+  const codes = new Array<number>(length).fill(0);
+  codes[at] = code;
+  return codes;
+}
+
+test('a peak of one sample in a million is drawn, at its time', () => {
+  const times = new SampleTimes({ start: 0, count: 1_000_000, step: 0.001 });
+  const channel = channelOf({ low: packed(spike(1_000_000, 654_321, 9999)) });
+  const range = drawnRange(times, 0, 1000, 1000, true);
+  const x = drawnTimes(times, range);
+  const y = drawnLine(channel, range, 1);
+  assert.equal(y.length, 2000);
+  assert.equal(x.length, 2000);
+  assert.equal(y.filter((value) => value === 9999).length, 1);
+  assert.ok(Math.abs(x[y.indexOf(9999)] - 654.321) < 1);
+  assert.ok(x.every((time, k) => k === 0 || time >= x[k - 1]));
+});
+
+test('zoomed in, every sample is drawn by itself', () => {
+  const times = new SampleTimes({ start: 0, count: 1000, step: 1 });
+  const channel = channelOf({ low: packed(Array.from({ length: 1000 }, (_value, k) => k), 0.5) });
+  const range = drawnRange(times, 100, 200, 500, true);
+  const x = drawnTimes(times, range);
+  assert.ok(x.length >= 101 && x.length <= 105);
+  assert.deepEqual(drawnLine(channel, range, 2), x);
+});
+
+test('what is not known breaks the line and does not hide a neighbour', () => {
+  const times = new SampleTimes({ start: 0, count: 8, step: 1 });
+  const channel = channelOf({ low: packed([missing, missing, missing, missing, missing, 5, 7, missing]) });
+  const range = { from: 0, to: 8, buckets: 2, everySample: false };
+  assert.deepEqual(drawnLine(channel, range, 1), [null, null, 5, 7]);
+  assert.deepEqual(drawnEdge(channel.lowest, range, 1, true), [null, null, 7, 7]);
+  assert.equal(drawnTimes(times, range).length, 4);
+});
+
+test('smallest and largest of a stretch come from their own columns', () => {
+  const channel = channelOf({ low: packed([-3, -2]), high: packed([4, 9]) });
+  assert.deepEqual(drawnLine(channel, { from: 0, to: 2, buckets: 1, everySample: false }, 1), [-3, 9]);
+});
+
+test('times of uneven steps are found', () => {
+  const counts = new Uint32Array([0, 10, 11, 4_000_000_000]);
+  const times = new SampleTimes({ start: 5, count: 4, tick: 0.5, values: Buffer.from(counts.buffer).toString('base64') });
+  assert.equal(times.at(3), 5 + 2_000_000_000);
+  assert.equal(times.countUntil(4.9), 0);
+  assert.equal(times.countUntil(10), 2);
+  assert.equal(times.indexAt(10.4, true), 2);
+  assert.equal(times.indexAt(10.4, false), 1);
+  assert.equal(times.indexAt(-100, true), 0);
+});
+
+test('the view stays inside the run, zooms about the cursor, and comes back', () => {
+  const view = new View(0, 100, 1);
+  view.putCursor(80);
+  view.zoomBy(0.5);
+  assert.deepEqual([view.from, view.to], [40, 90]);
+  view.moveBy(1);
+  assert.deepEqual([view.from, view.to], [50, 100]);
+  view.zoomTo(30, 30.0001);
+  assert.ok(view.to - view.from >= 8);
+  view.putCursor(99, true);
+  assert.ok(view.from <= 99 && 99 <= view.to);
+  view.reset();
+  assert.deepEqual([view.from, view.to, view.zoomed], [0, 100, false]);
+});
+
+test('a run of one sample has a picture', () => {
+  const view = new View(3, 3, 0);
+  assert.ok(view.from < 3 && 3 < view.to);
+  view.zoomBy(0.1);
+  assert.ok(view.from < view.to);
+});
+
+test('numbers have a true minus sign, no negative zero, and a dash where nothing is known', () => {
+  assert.equal(numberText(-1.26, 1), '−1.3');
+  assert.equal(numberText(-0.001, 2), '0.00');
+  assert.equal(numberText(NaN, 2), '–');
+});
+
+test('errors are told in percent of full scale or in the unit of the flow', () => {
+  const units = new ReadersUnits();
+  assert.equal(units.unitOf('error', 80).factor * 8, 10);
+  units.choose('error', 1);
+  units.choose('flow', 1);
+  assert.equal(units.unitOf('error', 80).name, 'm³/h');
+  assert.equal(units.unitOf('flow', 80).factor * 1000, 60);
+});
