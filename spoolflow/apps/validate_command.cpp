@@ -8,6 +8,7 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/report/metrics_json.hpp"
+#include "spoolflow/report/requirements_table.hpp"
 #include "spoolflow/report/validation_report.hpp"
 #include "spoolflow/report/verdict.hpp"
 
@@ -25,6 +26,11 @@ void print_figures(const model::Model& model, const validation::Validation& vali
   const report::Verdict said = report::verdict(model, validation);
   fmt::print("{}\n", said.sentence);
   for (const std::string& limit : said.limits) fmt::print("- {}\n", limit);
+  if (!validation.limits.empty()) fmt::print("\n{}\n", report::requirements_sentence(validation));
+  for (const validation::JudgedLimit& judged : validation.limits) {
+    fmt::print("{}  {}: {}; found {}\n", judged.met ? "met    " : "NOT MET", judged.run, report::limit_text(judged),
+               report::value_text(judged));
+  }
   fmt::print("\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", "run", "estimator", "p95 %FS", "RMS %FS", "max %FS",
              "in band");
   for (const validation::RunResult& run : validation.runs) {
@@ -48,9 +54,11 @@ void validate(const ValidateArguments& arguments) {
   validation::ValidationOptions options{
       chosen(arguments.estimator, model), {}, arguments.reference_lag_ms * 1e-3, arguments.apply_reference_lag};
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
+  if (!arguments.requirements.empty()) options.requirements = validation::read_requirements(arguments.requirements);
   std::vector<std::filesystem::path> inputs{arguments.model};
   inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
   if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
+  if (!arguments.requirements.empty()) inputs.emplace_back(arguments.requirements);
   std::optional<OutputFile> page;
   std::optional<OutputFile> figures;
   if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
@@ -85,6 +93,8 @@ void add_validate_command(CLI::App& program) {
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");
+  command->add_option("--requirements", arguments->requirements, "limits (TOML) against which the figures are judged")
+      ->type_name("LIMITS.toml");
   command->add_option("--estimator", arguments->estimator, "both, condensed or observer")
       ->type_name("NAME")
       ->check(CLI::IsMember({"both", "condensed", "observer"}))

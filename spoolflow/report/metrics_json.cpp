@@ -1,5 +1,6 @@
 #include "spoolflow/report/metrics_json.hpp"
 
+#include <algorithm>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
@@ -125,6 +126,25 @@ Json MetricsJson::pooled(const validation::PooledResult& pooled) const {
   return out;
 }
 
+Json requirements(const validation::Validation& validation) {
+  Json limits = Json::array();
+  for (const validation::JudgedLimit& judged : validation.limits) {
+    const validation::Limit& limit = judged.limit;
+    const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+    limits.push_back({{"run", judged.run},
+                      {"estimator", validation::name(judged.estimator)},
+                      {"figure", name_of(validation::figure_names, limit.figure)},
+                      {"when", name_of(validation::when_names, limit.when)},
+                      {"unit", name_of(validation::limit_unit_names, limit.unit)},
+                      {"at_least", number(limit.at_least)},
+                      {"at_most", number(limit.at_most)},
+                      {"value", number(judged.value)},
+                      {"met", judged.met}});
+  }
+  const bool all = std::all_of(validation.limits.begin(), validation.limits.end(), [](auto& each) { return each.met; });
+  return {{"file", validation.requirements_file}, {"met", all}, {"limits", std::move(limits)}};
+}
+
 }  // namespace
 
 void write_metrics(std::ostream& out, const model::Model& model, const validation::Validation& validation) {
@@ -140,6 +160,7 @@ void write_metrics(std::ostream& out, const model::Model& model, const validatio
             {"reference_lag_applied", validation.reference_lag_applied},
             {"all_runs", Json::array()},
             {"runs", Json::array()}};
+  if (!validation.limits.empty()) file["requirements"] = requirements(validation);
   for (const validation::PooledResult& pooled : validation.pooled) file["all_runs"].push_back(json.pooled(pooled));
   for (const validation::RunResult& run : validation.runs) file["runs"].push_back(json.run(run));
   out << file.dump(1) << '\n';

@@ -7,6 +7,7 @@
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/model_sections.hpp"
 #include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/requirements_table.hpp"
 #include "spoolflow/report/results_table.hpp"
 #include "spoolflow/report/run_figures.hpp"
 #include "spoolflow/report/verdict.hpp"
@@ -99,6 +100,7 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
   HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin(model));
   show_verdict(page, verdict(model, validation));
   show_tiles(page, validation, 100 / full_scale);
+  show_requirements(page, validation);
   page.table(results_table(validation, full_scale));
   show_valve(page, model, validation.runs);
   show_maps(page, model);

@@ -39,6 +39,7 @@ struct EstimatorResult {
   std::optional<Metrics> metrics;      ///< absent without reference flow
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`; empty without reference flow
   std::vector<StatusRow> status;
+  double fault_share = 0;  ///< of the samples: with any fault
   std::optional<WorstMoment> worst;
   Line flow_m3_per_s, error_m3_per_s, pressure_difference_Pa;
   Ribbon band_m3_per_s;

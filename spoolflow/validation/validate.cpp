@@ -14,8 +14,12 @@ struct Pool {
   std::vector<ErrorProfile> profiles;
 };
 
+std::string run_name(const std::filesystem::path& recording) {
+  return recording == "-" ? "standard input" : recording.stem().string();
+}
+
 void name_run(RunResult& result, const model::Model& model, const std::filesystem::path& recording) {
-  result.name = recording == "-" ? "standard input" : recording.stem().string();
+  result.name = run_name(recording);
   result.file = recording == "-" ? "standard input" : recording.filename().string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(recording, error)) return;
@@ -33,7 +37,12 @@ std::vector<Estimator> all_estimators(const model::Model& model) {
 
 Validation validate(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
                     const ValidationOptions& options, const std::function<void(double)>& progress) {
-  Validation out{{}, {}, options.reference_lag_s, options.apply_reference_lag};
+  if (options.requirements) {
+    std::vector<std::string> runs;
+    for (const std::filesystem::path& recording : recordings) runs.push_back(run_name(recording));
+    check_names(*options.requirements, runs, options.estimators);
+  }
+  Validation out{{}, {}, options.reference_lag_s, options.apply_reference_lag, {}, {}};
   std::vector<Pool> pools(options.estimators.size(),
                           {ComparedSamples(model.valve.rated_flow_m3_per_s), empty_profiles(model.valve)});
   const auto total = static_cast<double>(recordings.size());
@@ -56,6 +65,10 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     pooled.estimator = options.estimators[e];
     pooled.profiles = std::move(pools[e].profiles);
     if (pools[e].samples.size() > 0) pooled.metrics = pools[e].samples.metrics();
+  }
+  if (options.requirements) {
+    out.requirements_file = options.requirements->file;
+    out.limits = judge(*options.requirements, out, model.valve.rated_flow_m3_per_s);
   }
   return out;
 }

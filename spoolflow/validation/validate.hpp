@@ -6,6 +6,7 @@
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/validation/requirements.hpp"
 #include "spoolflow/validation/run_result.hpp"
 
 namespace spoolflow::validation {
@@ -17,6 +18,7 @@ struct ValidationOptions {
   bool apply_reference_lag = false;  ///< lag the estimate likewise before comparing
   /// Numbers that the traces of all runs together may hold: 3.5 million are 9 MiB of the report.
   std::size_t traced_values = 3'500'000;
+  std::optional<Requirements> requirements = {};
 };
 
 /// One estimator over all runs with reference flow together.
@@ -31,6 +33,8 @@ struct Validation {
   std::vector<PooledResult> pooled;  ///< in the order of the options
   double reference_lag_s = 0;
   bool reference_lag_applied = false;
+  std::string requirements_file;    ///< empty: nothing was asked
+  std::vector<JudgedLimit> limits;  ///< in the file's order
 };
 
 /// Both where the model has both.

@@ -1,0 +1,132 @@
+#include "spoolflow/validation/requirements.hpp"
+
+#include <cmath>
+
+#include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/validate.hpp"
+
+namespace spoolflow::validation {
+namespace {
+
+const GroupFigures& group_of(const Metrics& metrics, When when) {
+  switch (when) {
+    case When::moving:
+      return metrics.moving;
+    case When::rest:
+      return metrics.rest;
+    case When::reversal:
+      return metrics.reversal;
+    case When::always:
+      break;
+  }
+  return metrics.all;
+}
+
+/// A figure of the errors: SI, or a share. Absent without samples.
+std::optional<double> figure_of(const Metrics& metrics, const Limit& limit) {
+  const GroupFigures& group = group_of(metrics, limit.when);
+  const bool of_reading = limit.figure == Figure::p95_of_reading;
+  if ((of_reading ? metrics.share_of_reading.samples : group.error.samples) == 0) return std::nullopt;
+  switch (limit.figure) {
+    case Figure::p95:
+      return group.error.p95;
+    case Figure::rms:
+      return group.error.rms;
+    case Figure::largest:
+      return group.error.largest;
+    case Figure::bias:
+      return std::abs(group.error.bias);
+    case Figure::band_mean_width:
+      return group.band_mean_width_m3_per_s;
+    case Figure::band_coverage:
+      return group.band_coverage;
+    case Figure::p95_of_reading:
+      return metrics.share_of_reading.p95;
+    case Figure::fault_share:
+      break;
+  }
+  return std::nullopt;
+}
+
+double in_unit(double value, LimitUnit unit, double full_scale_m3_per_s) {
+  switch (unit) {
+    case LimitUnit::percent_FS:
+      return 100 * value / full_scale_m3_per_s;
+    case LimitUnit::litre_per_minute:
+      return units::L_per_min_from_m3_per_s(value);
+    case LimitUnit::percent:
+      break;
+  }
+  return 100 * value;
+}
+
+const EstimatorResult& result_of(const RunResult& run, Estimator estimator) {
+  for (const EstimatorResult& result : run.results) {
+    if (result.estimator == estimator) return result;
+  }
+  return run.results.back();
+}
+
+class Judge {
+ public:
+  Judge(const Validation& validation, double full_scale_m3_per_s)
+      : validation_(validation), full_scale_m3_per_s_(full_scale_m3_per_s) {}
+
+  [[nodiscard]] JudgedLimit together(const Limit& limit) const {
+    const Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
+    if (limit.figure == Figure::fault_share) return judged(limit, "all runs", estimator, fault_share(estimator));
+    for (const PooledResult& pooled : validation_.pooled) {
+      if (pooled.estimator != estimator || !pooled.metrics) continue;
+      return judged(limit, "all runs", estimator, figure_of(*pooled.metrics, limit));
+    }
+    return judged(limit, "all runs", estimator, std::nullopt);
+  }
+  [[nodiscard]] JudgedLimit alone(const Limit& limit, const RunResult& run) const {
+    const Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
+    const EstimatorResult& result = result_of(run, estimator);
+    if (limit.figure == Figure::fault_share) {
+      return judged(limit, run.name, estimator,
+                    run.samples == 0 ? std::nullopt : std::optional<double>(result.fault_share));
+    }
+    return judged(limit, run.name, estimator, result.metrics ? figure_of(*result.metrics, limit) : std::nullopt);
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> fault_share(Estimator estimator) const {
+    double samples = 0;
+    double faulty = 0;
+    for (const RunResult& run : validation_.runs) {
+      samples += static_cast<double>(run.samples);
+      faulty += static_cast<double>(run.samples) * result_of(run, estimator).fault_share;
+    }
+    if (samples == 0) return std::nullopt;
+    return faulty / samples;
+  }
+  [[nodiscard]] JudgedLimit judged(const Limit& limit, const std::string& run, Estimator estimator,
+                                   std::optional<double> value) const {
+    if (value) value = in_unit(*value, limit.unit, full_scale_m3_per_s_);
+    const bool met =
+        value && (!limit.at_least || *value >= *limit.at_least) && (!limit.at_most || *value <= *limit.at_most);
+    return {limit, run, estimator, value, met};
+  }
+
+  const Validation& validation_;
+  double full_scale_m3_per_s_;
+};
+
+}  // namespace
+
+std::vector<JudgedLimit> judge(const Requirements& requirements, const Validation& validation,
+                               double full_scale_m3_per_s) {
+  const Judge judge_of(validation, full_scale_m3_per_s);
+  std::vector<JudgedLimit> out;
+  for (const Limit& limit : requirements.limits) {
+    if (limit.run == "all") out.push_back(judge_of.together(limit));
+    for (const RunResult& run : validation.runs) {
+      if (limit.run == "each" || limit.run == run.name) out.push_back(judge_of.alone(limit, run));
+    }
+  }
+  return out;
+}
+
+}  // namespace spoolflow::validation

@@ -1,0 +1,132 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/allowed_names.hpp"
+#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/toml_input.hpp"
+#include "spoolflow/validation/requirements.hpp"
+
+namespace spoolflow::validation {
+namespace {
+
+using recording::RecordingError;
+using recording::TomlTable;
+
+constexpr std::array estimator_names{Named<Estimator>{Estimator::condensed, "condensed"},
+                                     Named<Estimator>{Estimator::observer, "observer"}};
+
+/// The value of a key that holds one of some names.
+template <class Value, std::size_t count>
+std::optional<Value> one_of(const TomlTable& table, std::string_view key,
+                            const std::array<Named<Value>, count>& names) {
+  const std::optional<std::string> written = table.optional_text(key);
+  if (!written) return std::nullopt;
+  std::vector<std::string> allowed;
+  for (const Named<Value>& each : names) {
+    if (each.name == *written) return each.value;
+    allowed.emplace_back(each.name);
+  }
+  throw RecordingError(fmt::format("{}: '{}' in {} is \"{}\"{}; allowed: {}", table.place(key), key, table.name,
+                                   *written, recording::did_you_mean(*written, allowed), recording::listed(allowed)));
+}
+
+bool is_share(Figure figure) {
+  return figure == Figure::band_coverage || figure == Figure::p95_of_reading || figure == Figure::fault_share;
+}
+
+void check_unit(const Limit& limit, const TomlTable& table) {
+  const bool share = is_share(limit.figure);
+  if (share == (limit.unit == LimitUnit::percent)) return;
+  throw RecordingError(fmt::format("{}: {} cannot be told in \"{}\"; write unit = {}", table.place("unit"),
+                                   name_of(figure_names, limit.figure), name_of(limit_unit_names, limit.unit),
+                                   share ? "\"%\"" : "\"% FS\" or \"L/min\""));
+}
+
+void check_bounds(const Limit& limit, const TomlTable& table) {
+  if (!limit.at_least && !limit.at_most) {
+    throw RecordingError(
+        fmt::format("{}: {} bounds nothing; give it at_most, at_least or both", limit.place, table.name));
+  }
+  const bool share_of_samples = limit.figure == Figure::band_coverage || limit.figure == Figure::fault_share;
+  for (const auto& [key, bound] : {std::pair{"at_least", limit.at_least}, std::pair{"at_most", limit.at_most}}) {
+    if (!bound) continue;
+    if (*bound < 0 || (share_of_samples && *bound > 100)) {
+      throw RecordingError(fmt::format("{}: '{}' in {} is {}; {} lies {}", table.place(key), key, table.name, *bound,
+                                       name_of(figure_names, limit.figure),
+                                       share_of_samples ? "between 0 and 100 %" : "at or above zero"));
+    }
+  }
+  if (limit.at_least && limit.at_most && *limit.at_least > *limit.at_most) {
+    throw RecordingError(fmt::format("{}: at_least = {} is above at_most = {}; nothing can meet that",
+                                     table.place("at_least"), *limit.at_least, *limit.at_most));
+  }
+}
+
+Limit read_limit(const TomlTable& table) {
+  table.allow_only({"figure", "at_most", "at_least", "unit", "run", "when", "estimator"});
+  Limit limit;
+  limit.place = recording::place_of(table.table, table.file);
+  (void)table.text("figure");
+  limit.figure = one_of(table, "figure", figure_names).value_or(Figure::p95);
+  limit.run = table.optional_text("run").value_or("all");
+  limit.when = one_of(table, "when", when_names).value_or(When::always);
+  limit.estimator = one_of(table, "estimator", estimator_names);
+  limit.unit = one_of(table, "unit", limit_unit_names)
+                   .value_or(is_share(limit.figure) ? LimitUnit::percent : LimitUnit::percent_FS);
+  limit.at_least = table.optional_number("at_least");
+  limit.at_most = table.optional_number("at_most");
+  check_unit(limit, table);
+  check_bounds(limit, table);
+  const bool of_all_samples = limit.figure == Figure::p95_of_reading || limit.figure == Figure::fault_share;
+  if (of_all_samples && limit.when != When::always) {
+    throw RecordingError(fmt::format("{}: {} is told of all samples only; leave 'when' out", table.place("when"),
+                                     name_of(figure_names, limit.figure)));
+  }
+  return limit;
+}
+
+}  // namespace
+
+Requirements read_requirements(const std::filesystem::path& file) {
+  const toml::table document = recording::read_toml(file);
+  TomlTable{document, file, "the file"}.allow_only({"limit"});
+  Requirements out{file.filename().string(), {}};
+  const toml::array* limits = document["limit"].as_array();
+  if (limits == nullptr || limits->empty()) {
+    throw RecordingError(
+        fmt::format("{}: holds no limit; write [[limit]] with figure = \"p95\" and at_most = 5, and so "
+                    "on (docs/formats/requirements.md)",
+                    file.string()));
+  }
+  for (const toml::node& node : *limits) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      throw RecordingError(fmt::format("{}: a limit is a table; write [[limit]] with its keys below it",
+                                       recording::place_of(node, file)));
+    }
+    out.limits.push_back(read_limit({*table, file, fmt::format("limit {}", out.limits.size() + 1)}));
+  }
+  return out;
+}
+
+void check_names(const Requirements& requirements, const std::vector<std::string>& runs,
+                 const std::vector<Estimator>& estimators) {
+  for (const Limit& limit : requirements.limits) {
+    std::vector<std::string> allowed{"all", "each"};
+    allowed.insert(allowed.end(), runs.begin(), runs.end());
+    if (std::find(allowed.begin(), allowed.end(), limit.run) == allowed.end()) {
+      throw RecordingError(fmt::format("{}: run = \"{}\" is none of the recordings{}; allowed: {}", limit.place,
+                                       limit.run, recording::did_you_mean(limit.run, allowed),
+                                       recording::listed(allowed)));
+    }
+    if (limit.estimator && std::find(estimators.begin(), estimators.end(), *limit.estimator) == estimators.end()) {
+      throw RecordingError(
+          fmt::format("{}: estimator = \"{}\" is not run here; choose it with --estimator, or leave the "
+                      "limit's estimator out",
+                      limit.place, name(*limit.estimator)));
+    }
+  }
+}
+
+}  // namespace spoolflow::validation
