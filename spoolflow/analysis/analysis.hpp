@@ -4,6 +4,7 @@
 #include <string>
 
 #include "spoolflow/analysis/point_analysis.hpp"
+#include "spoolflow/analysis/study.hpp"
 
 namespace spoolflow::analysis {
 
@@ -18,6 +19,7 @@ struct Analysis {
   Scenario scenario;
   std::vector<PointResult> points;
   std::vector<OperatingMap> maps;
+  std::optional<Study> study;
 };
 
 /// The estimator that the advice is about: the observer where the model has one.

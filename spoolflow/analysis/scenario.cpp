@@ -77,6 +77,8 @@ Scenario read_scenario(const std::filesystem::path& file) {
   Scenario scenario;
   rig::apply(source, settings_of(scenario));
   check(scenario, source.name);
+  std::string& valve = scenario.study.valve;
+  if (valve.ends_with(".toml")) valve = (file.parent_path() / valve).string();
   return scenario;
 }
 

@@ -1,5 +1,5 @@
 /// `spoolflow analyse`: how uncertain the flow rate is, why, and what to improve next.
-#include <iostream>
+#include <fstream>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +11,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/report/analysis_json.hpp"
 #include "spoolflow/report/analysis_verdict.hpp"
 
@@ -21,6 +22,7 @@ struct Arguments {
   std::string model;
   std::string scenario;
   std::string json;
+  std::string report;
   std::string self_check;
   std::uint32_t samples = 0;  ///< 0: as the scenario says
   std::uint64_t seed = 0;     ///< 0: as the scenario says
@@ -28,6 +30,9 @@ struct Arguments {
   bool print_scenario = false;
   bool quiet = false;
 };
+
+/// Of the whole work, where there is a global study.
+constexpr double budget_share = 0.25;
 
 /// Status 1 where the check fails: the program is at fault, not its input.
 struct SelfCheckFailed : std::runtime_error {
@@ -62,6 +67,10 @@ void self_check(const Arguments& arguments) {
   if (!check.passed) throw SelfCheckFailed("self-check: a known index lies outside its confidence interval");
 }
 
+unsigned workers(const Arguments& arguments) {
+  return arguments.jobs == 0 ? std::max(1U, std::thread::hardware_concurrency()) : arguments.jobs;
+}
+
 analysis::Scenario scenario_of(const Arguments& arguments) {
   analysis::Scenario scenario;
   if (!arguments.scenario.empty()) scenario = analysis::read_scenario(arguments.scenario);
@@ -70,28 +79,66 @@ analysis::Scenario scenario_of(const Arguments& arguments) {
   return scenario;
 }
 
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Where an interrupted study keeps its finished runs: beside the output, if that is a file.
+std::optional<std::filesystem::path> state_file(const Arguments& arguments) {
+  for (const std::string& output : {arguments.json, arguments.report}) {
+    if (!output.empty() && output != "-" && !output.starts_with("/dev/")) return output + ".study";
+  }
+  return std::nullopt;
+}
+
+analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
+                      const Arguments& arguments, Progress& progress) {
+  analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
+  const std::optional<std::filesystem::path> state = state_file(arguments);
+  if (state) {
+    work.saved = text_of(*state);
+    work.save = [&](const std::string& text) {
+      OutputFile output(*state);
+      output.stream() << text;
+      output.commit();
+    };
+  }
+  work.progress = [&](const std::string& task, double share) {
+    progress.task(task);
+    progress.update(budget_share + (1 - budget_share) * share);
+  };
+  return analysis::global_study(model, scenario, valve, work);
+}
+
 void analyse(const Arguments& arguments) {
   if (arguments.print_scenario) return print_text(analysis::scenario_template());
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
   const model::Model model = model::read_model(arguments.model);
-  analysis::Analysis results{scenario_of(arguments), {}, {}};
+  analysis::Analysis results{scenario_of(arguments), {}, {}, {}};
   std::vector<std::filesystem::path> inputs{arguments.model};
   if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
   std::optional<OutputFile> figures;
   if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
-  const unsigned workers = arguments.jobs == 0 ? std::max(1U, std::thread::hardware_concurrency()) : arguments.jobs;
+  const bool whole = !results.scenario.study.skip;
+  std::optional<rig::ValveAndCampaign> valve;
+  if (whole) valve = analysis::study_valve(model, results.scenario);
   {
-    Progress progress("budget", arguments.quiet);
-    results.points =
-        analysis::analyse_points(model, results.scenario, workers, [&](double share) { progress.update(0.7 * share); });
-    results.maps = analysis::operating_maps(model, results.scenario, workers,
-                                            [&](double share) { progress.update(0.7 + 0.3 * share); });
+    const double share_of_budget = whole ? budget_share : 1;
+    Progress progress("uncertainty budget", arguments.quiet);
+    results.points = analysis::analyse_points(model, results.scenario, workers(arguments),
+                                              [&](double share) { progress.update(0.7 * share_of_budget * share); });
+    results.maps = analysis::operating_maps(model, results.scenario, workers(arguments), [&](double share) {
+      progress.update(share_of_budget * (0.7 + 0.3 * share));
+    });
+    if (whole) results.study = study(model, results.scenario, *valve, arguments, progress);
   }
   if (figures) {
     report::write_analysis_json(figures->stream(), model, results);
     figures->commit();
   }
+  if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
   if (arguments.json != "-") {
     const report::AnalysisVerdict verdict = report::analysis_verdict(model, results);
     std::string text = verdict.sentence + "\n";

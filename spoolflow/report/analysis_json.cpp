@@ -118,6 +118,33 @@ Json index(const analysis::Index& index) {
   return {{"value", index.value}, {"lower_95", index.lower}, {"upper_95", index.upper}};
 }
 
+Json study(const analysis::Study& study) {
+  Json outputs = Json::array();
+  for (std::size_t o = 0; o < analysis::study_outputs; ++o) {
+    const analysis::StudyOutput& output = analysis::study_output_list()[o];
+    const analysis::SobolIndices& found = study.indices[o];
+    Json factors = Json::array();
+    for (std::size_t f = 0; f < found.factors.size(); ++f) {
+      const analysis::Factor& factor = analysis::valve_factors()[f];
+      factors.push_back({{"factor", factor.name},
+                         {"kind", factor.kind == analysis::FactorKind::instrument ? "instrument" : "sub-model"},
+                         {"first_order", index(found.factors[f].first_order)},
+                         {"total", index(found.factors[f].total)}});
+    }
+    outputs.push_back({{"estimator", validation::name(output.estimator)},
+                       {"error", output.p95 ? "p95" : "rms"},
+                       {"mean_percent_FS", 100 * found.mean},
+                       {"standard_deviation_percent_FS", 100 * found.standard_deviation},
+                       {"factors", factors}});
+  }
+  return {{"valve", study.valve},
+          {"model", study.given_model ? "MODEL.json" : "calibrated on the virtual valve's own bench"},
+          {"base_samples", study.base_samples},
+          {"runs", study.runs},
+          {"run_s", study.run_s},
+          {"outputs", outputs}};
+}
+
 }  // namespace
 
 void write_analysis_json(std::ostream& out, const model::Model& model, const analysis::Analysis& analysis) {
@@ -139,6 +166,7 @@ void write_analysis_json(std::ostream& out, const model::Model& model, const ana
   Json maps = Json::array();
   for (const analysis::OperatingMap& each : analysis.maps) maps.push_back(map(each));
   file["operating_maps"] = std::move(maps);
+  if (analysis.study) file["study"] = study(*analysis.study);
   out << file.dump(1) << '\n';
 }
 

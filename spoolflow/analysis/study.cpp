@@ -1,0 +1,187 @@
+#include "spoolflow/analysis/study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "spoolflow/analysis/in_parallel.hpp"
+#include "spoolflow/analysis/study_state.hpp"
+#include "spoolflow/analysis/virtual_model.hpp"
+#include "spoolflow/rig/protocol.hpp"
+#include "spoolflow/rig/simulate.hpp"
+#include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/validation/metrics.hpp"
+
+namespace spoolflow::analysis {
+namespace {
+
+using recording::Channel;
+using validation::Estimator;
+
+/// The preset whose rated flow is nearest to the model's.
+std::string nearest_preset(const model::Model& model) {
+  std::string nearest;
+  double least = INFINITY;
+  for (const std::string& preset : rig::valve_presets()) {
+    const double rated_L_min = rig::read_valve_and_campaign(preset).valve.rating.flow_L_per_min;
+    const double distance =
+        std::abs(std::log(rated_L_min / units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s)));
+    if (distance < least) {
+      least = distance;
+      nearest = preset;
+    }
+  }
+  return nearest;
+}
+
+/// Everything that the results follow from, as text.
+std::string everything(const model::Model& given, const Scenario& scenario, const rig::ValveUnderTest& valve,
+                       const std::string& identity) {
+  std::ostringstream out;
+  out << identity << ' ' << scenario.seed << ' ' << scenario.study.given_model << '\n';
+  const auto write = [&](std::string_view path, const rig::Parameter&, const double& value) {
+    out << path << fmt::format(" {:a}\n", value);
+  };
+  rig::for_each_parameter(scenario.study, write);
+  rig::for_each_parameter(valve.plant, write);
+  rig::for_each_parameter(valve.electronics, write);
+  rig::for_each_parameter(valve.instruments, write);
+  if (scenario.study.given_model) model::write_model(out, given);
+  return out.str();
+}
+
+/// A random duty cycle over the valve's rating, the same for every valve of the series.
+rig::BenchRun duty_cycle(const rig::ValveUnderTest& valve, double oil_temperature_C, const Scenario& scenario) {
+  rig::DutyCycleProtocol protocol;
+  protocol.conditions.oil_temperature_start_C = oil_temperature_C;
+  protocol.conditions.oil_temperature_end_C = oil_temperature_C;
+  protocol.duration_s = scenario.study.run_s;
+  protocol.highest_pressure_bar = valve.rating.pressure_difference_bar;
+  protocol.lowest_pressure_bar = std::min(protocol.lowest_pressure_bar, 0.2 * protocol.highest_pressure_bar);
+  protocol.longest_hold_s = 0.6;  // a short run is to hold many motions
+  protocol.longest_pressure_hold_s = 2;
+  return rig::plan(protocol, scenario.seed);
+}
+
+/// The sensor over one simulated run, against the true flow of the plant.
+RunErrors run_errors(const model::Model& model, const DrawnValve& drawn, const Scenario& scenario) {
+  const rig::Simulation run = rig::simulate(drawn.valve, duty_cycle(drawn.valve, drawn.oil_temperature_C, scenario),
+                                            scenario.seed, {.with_truth = true});
+  const std::vector<double>& flow_L_min = run.truth["flow_L_min"];
+  recording::SampleBlock block;
+  block.columns = run.recording.columns;
+  block.rows = run.recording.size();
+  const auto& time_s = block.columns[static_cast<std::size_t>(Channel::time)];
+  constexpr double finding_s = 0.5;  // until then nothing moves and nothing is known
+  RunErrors out{};
+  std::size_t k = 0;
+  for (const Estimator estimator : {Estimator::condensed, Estimator::observer}) {
+    validation::Estimation sensor(model, estimator);
+    std::vector<sensor::Estimate<double>> estimates;
+    sensor.run(block, estimates);
+    std::vector<float> errors;
+    for (std::size_t s = 0; s < block.rows; ++s) {
+      if (time_s[s] < finding_s) continue;
+      const double error_m3_per_s = estimates[s].flow_m3_per_s - units::m3_per_s_from_L_per_min(flow_L_min[s]);
+      errors.push_back(static_cast<float>(error_m3_per_s / model.valve.rated_flow_m3_per_s));
+    }
+    const validation::ErrorFigures figures = validation::error_figures(std::move(errors));
+    out[k++] = figures.p95;
+    out[k++] = figures.rms;
+  }
+  return out;
+}
+
+/// Keeps finished runs, counts them and saves them now and then.
+class Ledger {
+ public:
+  Ledger(FinishedRuns& runs, std::uint64_t fingerprint, const std::function<void(const std::string&)>& save,
+         std::function<void(double)> progress)
+      : runs_(runs), fingerprint_(fingerprint), save_(save), progress_(std::move(progress)) {
+    for (const auto& run : runs_) open_ += run ? 0 : 1;
+  }
+  void finished(std::size_t index, const RunErrors& errors) {
+    const std::lock_guard lock(mutex_);
+    runs_[index] = errors;
+    ++done_;
+    progress_(static_cast<double>(done_) / static_cast<double>(open_));
+    const auto now = std::chrono::steady_clock::now();
+    if (now - saved_ < std::chrono::seconds(1)) return;
+    saved_ = now;
+    save_(study_state(fingerprint_, runs_));
+  }
+
+ private:
+  FinishedRuns& runs_;
+  std::uint64_t fingerprint_;
+  const std::function<void(const std::string&)>& save_;
+  std::function<void(double)> progress_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+  std::size_t done_ = 0, open_ = 0;
+};
+
+std::vector<unsigned> numbers_per_factor() {
+  std::vector<unsigned> out;
+  for (const Factor& factor : valve_factors()) out.push_back(factor.numbers);
+  return out;
+}
+
+}  // namespace
+
+const std::array<StudyOutput, study_outputs>& study_output_list() {
+  static constexpr std::array<StudyOutput, study_outputs> all{{{Estimator::condensed, true},
+                                                               {Estimator::condensed, false},
+                                                               {Estimator::observer, true},
+                                                               {Estimator::observer, false}}};
+  return all;
+}
+
+rig::ValveAndCampaign study_valve(const model::Model& given, const Scenario& scenario) {
+  if (scenario.study.given_model && !given.observer) {
+    throw model::ModelError(
+        fmt::format("the model of {} is not calibrated for the observer, which the global study runs; "
+                    "set study.given_model = false or study.skip = true in the scenario",
+                    given.valve.name));
+  }
+  return rig::read_valve_and_campaign(scenario.study.valve == "auto" ? nearest_preset(given) : scenario.study.valve);
+}
+
+Study global_study(const model::Model& given, const Scenario& scenario, const rig::ValveAndCampaign& asked,
+                   const StudyWork& work) {
+  const rig::ValveUnderTest nominal = rig::as_built(asked.valve);
+  const auto base_samples = static_cast<std::uint32_t>(scenario.study.base_samples);
+  const SaltelliDesign design(numbers_per_factor(), base_samples, scenario.seed);
+  const std::uint64_t fingerprint = fingerprint_of(everything(given, scenario, nominal, work.identity));
+  FinishedRuns runs = finished_runs(work.saved, fingerprint, design.points());
+
+  constexpr double calibrating_share = 0.2;
+  const bool own_model = !scenario.study.given_model;
+  const model::Model model =
+      own_model ? virtual_model(
+                      asked, work.workers,
+                      [&](double share) { work.progress("calibrating the virtual valve", calibrating_share * share); })
+                : given;
+  const double before = own_model ? calibrating_share : 0;
+  Ledger ledger(runs, fingerprint, work.save,
+                [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
+  in_parallel(design.points(), work.workers, [&](std::size_t k) {
+    if (runs[k]) return;
+    ledger.finished(k, run_errors(model, drawn_valve(nominal, scenario.study.spread, design.point(k)), scenario));
+  });
+
+  Study out{nominal.name, scenario.study.given_model, base_samples, design.points(), scenario.study.run_s, {}};
+  for (std::size_t o = 0; o < study_outputs; ++o) {
+    std::vector<double> outputs;
+    for (const auto& run : runs) outputs.push_back((*run)[o]);
+    out.indices[o] = sobol_indices(design, outputs, scenario.seed);
+  }
+  return out;
+}
+
+}  // namespace spoolflow::analysis

@@ -1,0 +1,57 @@
+#pragma once
+/// Global sensitivity over the virtual rig: what share of the sensor's error each sub-model and each instrument makes
+/// from one valve of a series to the next.
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/analysis/scenario.hpp"
+#include "spoolflow/analysis/sobol_indices.hpp"
+#include "spoolflow/analysis/valve_factors.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/validation/estimator.hpp"
+
+namespace spoolflow::analysis {
+
+/// What one simulated run gives, of each estimator, as shares of full scale.
+inline constexpr std::size_t study_outputs = 4;
+using RunErrors = std::array<double, study_outputs>;
+
+/// One of the outputs.
+struct StudyOutput {
+  validation::Estimator estimator;
+  bool p95;  ///< 95th percentile of the errors' magnitudes; else root mean square
+};
+[[nodiscard]] const std::array<StudyOutput, study_outputs>& study_output_list();
+
+struct Study {
+  std::string valve;
+  bool given_model;
+  std::uint32_t base_samples;
+  std::size_t runs;  ///< simulated, of all starts together
+  double run_s;
+  std::array<SobolIndices, study_outputs> indices;
+};
+
+/// How a study is run. None of it changes the result.
+struct StudyWork {
+  std::string identity;  ///< of the program: another's saved runs are not used
+  unsigned workers = 1;
+  std::string saved = {};  ///< what an interrupted study saved; empty: nothing. Another study's is not used
+  /// Gets all finished runs as text about once a second, from one thread at a time.
+  std::function<void(const std::string&)> save = [](const std::string&) {};
+  /// Task and share of the whole.
+  std::function<void(const std::string&, double)> progress = [](const std::string&, double) {};
+};
+
+/// The virtual valve that the scenario names. Throws rig::SettingsError for an unknown one, ModelError where the study
+/// is to run with a model that has no observer.
+[[nodiscard]] rig::ValveAndCampaign study_valve(const model::Model& given, const Scenario& scenario);
+
+/// The result follows from scenario, valve and model alone, whatever the threads and interruptions.
+[[nodiscard]] Study global_study(const model::Model& given, const Scenario& scenario,
+                                 const rig::ValveAndCampaign& asked, const StudyWork& work);
+
+}  // namespace spoolflow::analysis

@@ -1,0 +1,23 @@
+#pragma once
+/// The text in which a study keeps its finished runs.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/analysis/study.hpp"
+
+namespace spoolflow::analysis {
+
+using FinishedRuns = std::vector<std::optional<RunErrors>>;  // by the index in the design
+
+/// One line of heading with the study's fingerprint, one line a finished run with its exact numbers.
+[[nodiscard]] std::string study_state(std::uint64_t fingerprint, const FinishedRuns& runs);
+
+/// What such a text holds of `count` runs; nothing of another study's, nor of damaged lines.
+[[nodiscard]] FinishedRuns finished_runs(const std::string& text, std::uint64_t fingerprint, std::size_t count);
+
+/// A number that changes with any letter of the text.
+[[nodiscard]] std::uint64_t fingerprint_of(const std::string& text);
+
+}  // namespace spoolflow::analysis
