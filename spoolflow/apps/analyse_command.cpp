@@ -13,6 +13,7 @@
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/report/analysis_json.hpp"
+#include "spoolflow/report/analysis_report.hpp"
 #include "spoolflow/report/analysis_verdict.hpp"
 
 namespace spoolflow::apps {
@@ -119,7 +120,10 @@ void analyse(const Arguments& arguments) {
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}};
   std::vector<std::filesystem::path> inputs{arguments.model};
   if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
+  std::optional<OutputFile> page;
   std::optional<OutputFile> figures;
+  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
+  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
   if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
   const bool whole = !results.scenario.study.skip;
   std::optional<rig::ValveAndCampaign> valve;
@@ -134,12 +138,11 @@ void analyse(const Arguments& arguments) {
     });
     if (whole) results.study = study(model, results.scenario, *valve, arguments, progress);
   }
-  if (figures) {
-    report::write_analysis_json(figures->stream(), model, results);
-    figures->commit();
-  }
+  if (page) report::write_analysis_report(page->stream(), model, results);
+  if (figures) report::write_analysis_json(figures->stream(), model, results);
+  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
   if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
-  if (arguments.json != "-") {
+  if (arguments.json != "-" && arguments.report != "-") {
     const report::AnalysisVerdict verdict = report::analysis_verdict(model, results);
     std::string text = verdict.sentence + "\n";
     for (const std::string& remark : verdict.remarks) text += "- " + remark + "\n";
@@ -162,6 +165,7 @@ void add_analyse_command(CLI::App& program) {
   command->add_option("model", arguments->model, "model file");
   command->add_option("--scenario", arguments->scenario, "what to analyse; every key has a default")
       ->type_name("S.toml");
+  command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
       ->type_name("OUT.json");
   command->add_option("--samples", arguments->samples, "base samples of the global study")

@@ -50,6 +50,33 @@ std::string agreement(const analysis::Analysis& analysis, validation::Estimator 
       validation::name(estimator), fixed(lowest, 2), fixed(highest, 2), validated, points);
 }
 
+/// The factor of one kind with the largest total index.
+std::string leading_factor(const analysis::SobolIndices& found, analysis::FactorKind kind) {
+  std::size_t leading = found.factors.size();
+  for (std::size_t f = 0; f < found.factors.size(); ++f) {
+    if (analysis::valve_factors()[f].kind != kind) continue;
+    if (leading == found.factors.size() || found.factors[f].total.value > found.factors[leading].total.value)
+      leading = f;
+  }
+  const analysis::Index& total = found.factors[leading].total;
+  return fmt::format("{} (total index {}, 95 % confidence {} to {})", analysis::valve_factors()[leading].name,
+                     fixed(total.value, 2), fixed(total.lower, 2), fixed(total.upper, 2));
+}
+
+std::string across_the_series(const analysis::Study& study) {
+  for (std::size_t o = 0; o < analysis::study_outputs; ++o) {
+    const analysis::StudyOutput& output = analysis::study_output_list()[o];
+    if (output.estimator != validation::Estimator::observer || !output.p95) continue;
+    const analysis::SobolIndices& found = study.indices[o];
+    return fmt::format(
+        "From one valve of a series to the next (virtual rig, {} runs) the observer's 95th percentile of the error "
+        "changes most with the {}; of the instruments, with the {}.",
+        study.runs, leading_factor(found, analysis::FactorKind::sub_model),
+        leading_factor(found, analysis::FactorKind::instrument));
+  }
+  return {};
+}
+
 }  // namespace
 
 AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Analysis& analysis) {
@@ -74,6 +101,7 @@ AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Anal
         instrument->group, fixed(100 * instrument->share, 0), validation::name(estimator), sub_model->group,
         fixed(100 * sub_model->share, 0));
   }
+  if (analysis.study) out.remarks.push_back(across_the_series(*analysis.study));
   out.remarks.push_back(fmt::format("Expanded uncertainty (95 %) at the working points: {}.",
                                     range_of_expanded(model, analysis, estimator)));
   for (const validation::Estimator each : {validation::Estimator::condensed, validation::Estimator::observer}) {

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "spoolflow/analysis/point_analysis.hpp"
+
+namespace spoolflow::report {
+
+/// How uncertain an estimator is over position and pressure difference, and which group of inputs makes the most of it
+/// there: two maps beside each other, as markup.
+[[nodiscard]] std::string operating_map_figures(const analysis::OperatingMap& map, double full_scale_m3_per_s);
+
+}  // namespace spoolflow::report
