@@ -54,9 +54,6 @@ void check(const Scenario& scenario, const std::string& name) {
                                          scenario.study.spread.oil_coldest_C, scenario.study.spread.oil_warmest_C));
   }
   const PointSettings& points = scenario.points;
-  if (points.positions_percent.empty()) {
-    throw rig::SettingsError(fmt::format("{}: points.positions_percent is empty; name at least one", name));
-  }
   if (points.pairs && points.positions_percent.size() != points.pressure_differences_bar.size()) {
     throw rig::SettingsError(
         fmt::format("{}: points.pairs wants as many pressure_differences_bar ({}) as positions_percent ({})", name,

@@ -100,29 +100,30 @@ RunErrors run_errors(const model::Model& model, const DrawnValve& drawn, const S
 /// Keeps finished runs, counts them and saves them now and then.
 class Ledger {
  public:
-  Ledger(FinishedRuns& runs, std::uint64_t fingerprint, const std::function<void(const std::string&)>& save,
-         std::function<void(double)> progress)
-      : runs_(runs), fingerprint_(fingerprint), save_(save), progress_(std::move(progress)) {
+  Ledger(FinishedRuns& runs, std::uint64_t fingerprint, const StudyWork& work, std::function<void(double)> progress)
+      : runs_(runs), fingerprint_(fingerprint), work_(work), progress_(std::move(progress)) {
     for (const auto& run : runs_) open_ += run ? 0 : 1;
   }
   void finished(std::size_t index, const RunErrors& errors) {
     const std::lock_guard lock(mutex_);
     runs_[index] = errors;
     ++done_;
+    const Clock::time_point now = Clock::now();
+    if (std::chrono::duration<double>(now - saved_).count() >= work_.saving_interval_s) {
+      saved_ = now;
+      work_.save(study_state(fingerprint_, runs_));
+    }
     progress_(static_cast<double>(done_) / static_cast<double>(open_));
-    const auto now = std::chrono::steady_clock::now();
-    if (now - saved_ < std::chrono::seconds(1)) return;
-    saved_ = now;
-    save_(study_state(fingerprint_, runs_));
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
   FinishedRuns& runs_;
   std::uint64_t fingerprint_;
-  const std::function<void(const std::string&)>& save_;
+  const StudyWork& work_;
   std::function<void(double)> progress_;
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+  Clock::time_point saved_ = Clock::now();
   std::size_t done_ = 0, open_ = 0;
 };
 
@@ -168,7 +169,7 @@ Study global_study(const model::Model& given, const Scenario& scenario, const ri
                       [&](double share) { work.progress("calibrating the virtual valve", calibrating_share * share); })
                 : given;
   const double before = own_model ? calibrating_share : 0;
-  Ledger ledger(runs, fingerprint, work.save,
+  Ledger ledger(runs, fingerprint, work,
                 [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
   in_parallel(design.points(), work.workers, [&](std::size_t k) {
     if (runs[k]) return;

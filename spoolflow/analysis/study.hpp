@@ -40,8 +40,9 @@ struct StudyWork {
   std::string identity;  ///< of the program: another's saved runs are not used
   unsigned workers = 1;
   std::string saved = {};  ///< what an interrupted study saved; empty: nothing. Another study's is not used
-  /// Gets all finished runs as text about once a second, from one thread at a time.
+  /// Gets all finished runs as text every now and then, from one thread at a time.
   std::function<void(const std::string&)> save = [](const std::string&) {};
+  double saving_interval_s = 1;
   /// Task and share of the whole.
   std::function<void(const std::string&, double)> progress = [](const std::string&, double) {};
 };

@@ -111,6 +111,8 @@ std::optional<std::vector<model::TimedSample>> course_to(const model::Model& mod
   constexpr double sample_s = 1e-3;
   constexpr int samples = 400;
   const sensor::ObserverParameters<double>& valve = model.observer->parameters;
+  const auto at_point = valve.edge.at(point.oil_temperature_K, point.pressure_difference_Pa, point.position_m);
+  if (!at_point.inside || !at_point.temperature_inside) return std::nullopt;
   const double direction = point.opening ? 1 : -1;
   const double speed_m_per_s = 0.1 * model.valve.stroke_m;
   const double drift_m =
