@@ -64,8 +64,8 @@ double per_valve(double ns, int valves) {
 
 template <int N>
 void compare(const model::Model& model) {
-  const auto single = exports::single_precision(model.condensed.parameters);
-  std::array<sensor::CondensedParameters<float>, N> valves;
+  const auto single = exports::single_precision(sensor::laid_out(model.condensed.parameters));
+  std::array<sensor::CondensedTables<float>, N> valves;
   valves.fill(single);
   std::array<sensor::CondensedState<float>, N> states{};
   Signals<N> signals(model);
@@ -81,7 +81,7 @@ void compare(const model::Model& model) {
       }
     }
   });
-  std::array<const sensor::CondensedParameters<float>*, N> in_batch;
+  std::array<const sensor::CondensedTables<float>*, N> in_batch;
   for (std::size_t valve = 0; valve < N; ++valve) in_batch[valve] = &valves[valve];
   validation::ValveBatch<N> batch(in_batch);
   using Pack = validation::ValvePack<N>;

@@ -1,5 +1,6 @@
 #include "spoolflow/export/cpp_folder.hpp"
 
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -53,11 +54,12 @@ std::string definition(const std::string& type, const std::string& name, const s
 }
 
 std::string condensed_definition(const model::Model& model) {
-  const auto& parameters = model.condensed.parameters;
-  const std::vector<double> numbers = numbers_of(parameters);
-  NumberGroups groups(&parameters);
-  model::describe_condensed(parameters, groups);
-  return definition("CondensedParameters", "condensed", numbers, groups.in_order(numbers.size()));
+  const auto tables = std::make_unique<sensor::CondensedTables<double>>();
+  sensor::lay_out(model.condensed.parameters, *tables);
+  const std::vector<double> numbers = numbers_of(*tables);
+  NumberGroups groups(tables.get());
+  model::describe_condensed_tables(*tables, groups);
+  return definition("CondensedTables", "condensed", numbers, groups.in_order(numbers.size()));
 }
 
 std::string observer_definition(const model::Observer& observer) {

@@ -125,7 +125,7 @@ std::vector<double> flows(const Parameters& parameters, State state,
 std::vector<GoldenPoint> golden_points(const model::Model& model) {
   const std::vector<sensor::Sample<float>> inputs = strokes(model);
   const std::vector<double> condensed =
-      flows<double>(model.condensed.parameters, sensor::CondensedState<double>{}, inputs);
+      flows<double>(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, inputs);
   const std::vector<double> best =
       model.observer ? flows<double>(model.observer->parameters, sensor::ObserverState<double>{}, inputs) : condensed;
   std::vector<GoldenPoint> points;
@@ -136,8 +136,8 @@ std::vector<GoldenPoint> golden_points(const model::Model& model) {
 SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<GoldenPoint>& points) {
   std::vector<sensor::Sample<float>> inputs;
   for (const GoldenPoint& point : points) inputs.push_back(point.sample);
-  const std::vector<double> condensed =
-      flows<float>(single_precision(model.condensed.parameters), sensor::CondensedState<float>{}, inputs);
+  const std::vector<double> condensed = flows<float>(single_precision(sensor::laid_out(model.condensed.parameters)),
+                                                     sensor::CondensedState<float>{}, inputs);
   const std::vector<double> best = model.observer ? flows<float>(single_precision(model.observer->parameters),
                                                                  sensor::ObserverState<float>{}, inputs)
                                                   : condensed;

@@ -76,6 +76,11 @@ class NumberGroups {
     add(value, 1, key);
   }
 
+  template <std::size_t Count>
+  void table(const std::string& key, const std::array<double, Count>& numbers, int per_record) {
+    add(numbers, static_cast<std::size_t>(per_record), key);
+  }
+
   /// In memory order. Throws std::logic_error where the descriptions leave one of `count` numbers out.
   [[nodiscard]] std::vector<NumberGroup> in_order(std::size_t count) const;
 

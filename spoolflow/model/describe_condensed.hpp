@@ -22,4 +22,15 @@ void describe_condensed(Parameters& parameters, Visitor&& visitor) {
   visitor.number("flow_residual_m3_per_s", parameters.flow_residual_m3_per_s, 0.0, 1.0);
 }
 
+/// The same of what the step reads; calls visitor.number and visitor.table(key, numbers, numbers a record).
+template <class Tables, class Visitor>
+void describe_condensed_tables(Tables& tables, Visitor&& visitor) {
+  visitor.number("cells_per_m", tables.cells_per_m, 0.0, 1e9);
+  visitor.number("cells_per_A", tables.cells_per_A, 0.0, 1e9);
+  visitor.number("closed_below_cells", tables.closed_below_cells, -1e6, 1e6);
+  visitor.number("twice_the_flow_residual_m3_per_s", tables.flow_residual_m3_per_s, 0.0, 2.0);
+  visitor.table("records of the position cells (a line each), as CondensedLayout has them", tables.records,
+                sensor::CondensedLayout::record);
+}
+
 }  // namespace spoolflow::model

@@ -3,6 +3,7 @@
 /// share. Needs nothing but the core.
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <type_traits>
 #include <variant>
 
@@ -37,7 +38,17 @@ class RunningSensor {
       std::variant<const sensor::CondensedParameters<double>*, const sensor::ObserverParameters<double>*>;
 
   RunningSensor(Parameters parameters, double rated_flow_m3_per_s)
-      : parameters_(parameters), rated_flow_m3_per_s_(rated_flow_m3_per_s) {}
+      : parameters_(parameters), rated_flow_m3_per_s_(rated_flow_m3_per_s) {
+    parameters_changed();
+  }
+
+  /// To be called after the parameters were written to.
+  void parameters_changed() {
+    if (!runs_condensed()) return;
+    const auto tables = std::make_shared<sensor::CondensedTables<double>>();
+    sensor::lay_out(*std::get<0>(parameters_), *tables);
+    condensed_ = tables;
+  }
 
   /// One sample. A repeated time is a second look at the same instant, a time that runs backwards holds the last
   /// answer; both say time_fault, and the next time step counts from the new time. Before the first complete sample the
@@ -54,7 +65,7 @@ class RunningSensor {
         sample.voltage_V, sample.position_m, sample.oil_temperature_K};
     sensor::Estimate<double> out = std::holds_alternative<const sensor::ObserverParameters<double>*>(parameters_)
                                        ? sensor::step(*std::get<1>(parameters_), state_.observer, measured)
-                                       : sensor::step(*std::get<0>(parameters_), state_.condensed, measured);
+                                       : sensor::step(*condensed_, state_.condensed, measured);
     if (!state_.answered) {
       state_.answered = sensor::unusable(measured) == sensor::Status::none;
       if (!state_.answered) out.flow_upper_m3_per_s = rated_flow_m3_per_s_;
@@ -73,6 +84,7 @@ class RunningSensor {
 
  private:
   Parameters parameters_;
+  std::shared_ptr<const sensor::CondensedTables<double>> condensed_;  ///< the parameters, laid out
   double rated_flow_m3_per_s_;
   RunningState state_;
 };

@@ -6,21 +6,6 @@ namespace spoolflow::sensor {
 inline constexpr int flow_map_positions = 49;
 inline constexpr int flow_map_forces = 17;
 
-/// What the inverse flow-force map answers.
-template <class T>
-struct FlowRatePoint {
-  T flow_m3_per_s;
-  T pressure_difference_Pa;
-  Truth<T> inside;
-};
-
-/// A position in the map, looked up once for several forces.
-template <class T>
-struct FlowRatePosition {
-  T largest_force_N;
-  Cell<T> cell;
-};
-
 /// Flow rate [m3/s] and pressure difference [Pa] over steady flow force [N] and spool position [m]: the inverse of the
 /// measured flow-force map. Paper section 3, Fig 5.
 ///
@@ -32,21 +17,6 @@ struct FlowRate {
   Curve<T, flow_map_positions> largest_force_N;                          ///< over position [m]
   Map<T, flow_map_positions, flow_map_forces> flow_m3_per_s;             ///< over position [m], root of force share
   Map<T, flow_map_positions, flow_map_forces> root_pressure_difference;  ///< sqrt(Pa), same axes
-
-  [[nodiscard]] constexpr FlowRatePosition<T> located(T position_m) const {
-    return {largest_force_N.at(position_m).value, locate<flow_map_positions>(flow_m3_per_s.row_axis, position_m)};
-  }
-  [[nodiscard, gnu::always_inline]] constexpr FlowRatePoint<T> at(T flow_force_N,
-                                                                  const FlowRatePosition<T>& position) const {
-    const T share = flow_force_N / position.largest_force_N;
-    const Cell<T> force = locate<flow_map_forces>(flow_m3_per_s.column_axis, sqrt(limited(share, T(0), T(1))));
-    return {flow_m3_per_s.at(position.cell, force).value,
-            squared(root_pressure_difference.at(position.cell, force).value),
-            share >= T(0) && share <= T(1) && position.cell.inside};
-  }
-  [[nodiscard]] constexpr FlowRatePoint<T> at(T flow_force_N, T position_m) const {
-    return at(flow_force_N, located(position_m));
-  }
 };
 
 }  // namespace spoolflow::sensor

@@ -90,9 +90,10 @@ constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& samp
 
 /// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
 /// otherwise the last answer is held. A missing oil temperature is held, a missing voltage means a force map by current
-/// alone.
+/// alone. The answer stays in the state.
 template <class T>
-constexpr Estimate<T> step(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
+constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                  const Sample<T>& sample) {
   if (const Status held = unusable(sample); held != Status::none) {
     state.last.status = held;
     return state.last;

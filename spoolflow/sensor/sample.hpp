@@ -15,6 +15,9 @@ struct Sample {
   T oil_temperature_K{};
 };
 
+/// A time step beyond this is none.
+inline constexpr int longest_step_s = 1 << 30;
+
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.
 template <class T>
 constexpr auto unusable(const Sample<T>& sample) {

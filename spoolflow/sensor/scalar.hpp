@@ -70,6 +70,16 @@ constexpr bool within(float value, float highest) {
   return std::bit_cast<std::uint32_t>(value) < std::bit_cast<std::uint32_t>(highest);
 }
 
+/// Whether value < limit, where neither is below zero; NaN lies below nothing.
+template <class T>
+constexpr Truth<T> lies_below(T value, T limit) {
+  return value < limit;
+}
+/// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
+constexpr bool lies_below(float value, float limit) {
+  return std::bit_cast<std::int32_t>(value) < std::bit_cast<std::int32_t>(limit);
+}
+
 template <class T>
 constexpr T smaller(T a, T b) {
   return select(b < a, b, a);
@@ -78,6 +88,17 @@ constexpr T smaller(T a, T b) {
 template <class T>
 constexpr T larger(T a, T b) {
   return select(a < b, b, a);
+}
+
+/// The larger of a number and zero.
+template <class T>
+constexpr T at_least_zero(T value) {
+  return larger(value, T(0));
+}
+/// The sign bit, spread over the word, takes all bits away: no comparison, no branch.
+constexpr float at_least_zero(float value) {
+  const auto bits = std::bit_cast<std::int32_t>(value);
+  return std::bit_cast<float>(bits & ~(bits >> 31));
 }
 
 template <class T>
@@ -105,7 +126,11 @@ constexpr T squared(T value) {
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
 constexpr Truth<T> is_number(T value) {
-  return value > T(-1e9) && value < T(1e9);
+  return value > T(-(1 << 30)) && value < T(1 << 30);
+}
+/// The same by the bits without their sign.
+constexpr bool is_number(float value) {
+  return std::bit_cast<std::uint32_t>(value) << 1U < std::bit_cast<std::uint32_t>(0x1p30F) << 1U;
 }
 
 }  // namespace spoolflow::sensor

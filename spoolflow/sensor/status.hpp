@@ -38,6 +38,11 @@ constexpr Status when(bool condition, Status bit) {
   return condition ? bit : Status::none;
 }
 
+/// Adds a bit where the condition holds.
+constexpr void mark(Status& status, bool condition, Status bit) {
+  if (condition) status |= bit;
+}
+
 struct StatusName {
   Status bit;
   const char* name;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/status.hpp"
 
 namespace spoolflow::sensor {
 
@@ -32,6 +33,12 @@ constexpr const T* corner(const T* values, int index) {
   return values + index;
 }
 
+/// The same from there on.
+template <class T>
+constexpr const T* onward(const T* from, int index) {
+  return from + index;
+}
+
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
@@ -50,6 +57,67 @@ constexpr Cell<T> locate(const Axis<T>& axis, T value) {
     const Index<T> index = table_index(smaller(kept, T(Points - 2)));
     return {index, kept - T(index), below_end() && above_begin()};
   }
+}
+
+/// A point on an axis that begins at zero, counted in cells, with the cell that holds it.
+template <class T>
+struct Place {
+  T cells;
+  Index<T> index;
+};
+
+/// How far beyond the end of an axis is still noise and no extrapolation, in cells.
+inline constexpr double noise_cells = 0.25;
+/// What is this far from an axis, in cells, was not measured.
+template <class T>
+inline constexpr T wild_cells = T(1 << 30);
+
+/// Where a value lies on an axis of `Cells` cells. Beyond an end it is taken to that end; further than noise, `status`
+/// tells it by `beyond`. False, and no place, where the value is NaN or wild.
+template <int Cells, class T>
+[[nodiscard]] constexpr bool find_place(T cells_per_unit, T value, Status beyond, Place<T>& place, Status& status) {
+  place.cells = value * cells_per_unit;
+  if (within(place.cells, T(Cells))) [[likely]] {
+    place.index = table_index(place.cells);
+    return true;
+  }
+  if (lies_below(T(0), place.cells)) {
+    if (!lies_below(place.cells, wild_cells<T>)) return false;
+    if (!lies_below(place.cells, T(Cells + noise_cells))) status |= beyond;
+    place = {T(Cells), Cells - 1};
+    return true;
+  }
+  const T short_of = -place.cells;
+  if (!lies_below(short_of, wild_cells<T>)) return false;
+  if (!lies_below(short_of, T(noise_cells))) status |= beyond;
+  place = {T(0), 0};
+  return true;
+}
+
+/// The root of `cells2` on an axis of `Cells` cells. Beyond an end both are taken to that end, and `status` tells it by
+/// `beyond`. Not for NaN.
+template <int Cells, class T>
+constexpr Place<T> root_place(T& cells2, Status beyond, Status& status) {
+  if (within(cells2, T(Cells * Cells))) [[likely]] {
+    const T cells = sqrt(cells2);
+    return {cells, table_index(cells)};
+  }
+  status |= beyond;
+  const bool above = lies_below(T(0), cells2);
+  cells2 = above ? T(Cells * Cells) : T(0);
+  return above ? Place<T>{T(Cells), Cells - 1} : Place<T>{T(0), 0};
+}
+
+/// Places of several valves at once: nothing branches, and the caller keeps apart what is wild.
+template <int Cells, class T>
+constexpr Place<T> blended_place(T cells) {
+  const T kept = select(cells > T(0), smaller(cells, T(Cells)), T(0));
+  return {kept, table_index(smaller(kept, T(Cells - 1)))};
+}
+/// Whether such a point lies on the axis but for noise.
+template <int Cells, class T>
+constexpr Truth<T> is_near(T cells) {
+  return cells < T(Cells + noise_cells) && cells > T(-noise_cells);
 }
 
 /// What a curve answers.

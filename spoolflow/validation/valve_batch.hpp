@@ -11,71 +11,40 @@
 
 namespace spoolflow::validation {
 
-/// One valve's parameters in the order in which they are described: visitor of describe_condensed.
+/// One valve's numbers in the order in which they are described: visitor of describe_condensed_tables.
 struct DescribedInOrder {
   std::vector<const float*> tables;
-  std::vector<sensor::Axis<float>> axes;
   std::vector<float> numbers;
 
-  template <class Map>
-  void map(std::string_view /*key*/, const Map& map, std::string_view /*rows*/, std::string_view /*columns*/) {
-    axes.push_back(map.row_axis);
-    axes.push_back(map.column_axis);
-    tables.push_back(map.values.data());
-  }
-  template <class Curve>
-  void curve(std::string_view /*key*/, const Curve& curve, std::string_view /*axis*/) {
-    axes.push_back(curve.axis);
-    tables.push_back(curve.values.data());
+  template <class Table>
+  void table(std::string_view /*key*/, const Table& table, int /*per_record*/) {
+    tables.push_back(table.data());
   }
   void number(std::string_view /*key*/, float value, double /*lowest*/, double /*highest*/) {
     numbers.push_back(value);
   }
 };
 
-/// Puts several valves' parameters side by side: visitor of describe_condensed over packs.
+/// Puts several valves' numbers side by side: visitor of describe_condensed_tables over packs.
 template <int N>
 class SideBySide {
  public:
   explicit SideBySide(const std::array<DescribedInOrder, N>& valves) : valves_(valves) {}
 
-  template <class Map>
-  void map(std::string_view /*key*/, Map& map, std::string_view /*rows*/, std::string_view /*columns*/) {
-    axis(map.row_axis);
-    axis(map.column_axis);
-    table(map.values);
-  }
-  template <class Curve>
-  void curve(std::string_view /*key*/, Curve& curve, std::string_view /*axis*/) {
-    axis(curve.axis);
-    table(curve.values);
+  void table(std::string_view /*key*/, PackTable<N>& table, int /*per_record*/) {
+    for (std::size_t k = 0; k < N; ++k) table.of_valve[k] = valves_[k].tables[tables_];
+    ++tables_;
   }
   void number(std::string_view /*key*/, ValvePack<N>& value, double /*lowest*/, double /*highest*/) {
-    value = pack([this](const DescribedInOrder& valve) { return valve.numbers[numbers_]; });
+    std::array<float, N> out;
+    for (std::size_t k = 0; k < N; ++k) out[k] = valves_[k].numbers[numbers_];
+    value = ValvePack<N>(out);
     ++numbers_;
   }
 
  private:
-  template <class Of>
-  ValvePack<N> pack(const Of& of) const {
-    std::array<float, N> out;
-    for (std::size_t k = 0; k < N; ++k) out[k] = of(valves_[k]);
-    return ValvePack<N>(out);
-  }
-  void axis(sensor::Axis<ValvePack<N>>& axis) {
-    axis.first = pack([this](const DescribedInOrder& valve) { return valve.axes[axes_].first; });
-    axis.spacing = pack([this](const DescribedInOrder& valve) { return valve.axes[axes_].spacing; });
-    axis.per_spacing = pack([this](const DescribedInOrder& valve) { return valve.axes[axes_].per_spacing; });
-    ++axes_;
-  }
-  void table(PackTable<N>& table) {
-    for (std::size_t k = 0; k < N; ++k) table.of_valve[k] = valves_[k].tables[tables_];
-    ++tables_;
-  }
-
   const std::array<DescribedInOrder, N>& valves_;
   std::size_t tables_ = 0;
-  std::size_t axes_ = 0;
   std::size_t numbers_ = 0;
 };
 
@@ -85,21 +54,21 @@ class ValveBatch {
  public:
   using Pack = ValvePack<N>;
 
-  /// Keeps references to the valves' parameters; the same valve may stand in several places.
-  explicit ValveBatch(const std::array<const sensor::CondensedParameters<float>*, N>& valves) {
+  /// Keeps references to the valves' tables; the same valve may stand in several places.
+  explicit ValveBatch(const std::array<const sensor::CondensedTables<float>*, N>& valves) {
     std::array<DescribedInOrder, N> described;
-    for (std::size_t k = 0; k < N; ++k) model::describe_condensed(*valves[k], described[k]);
-    model::describe_condensed(parameters_, SideBySide<N>(described));
+    for (std::size_t k = 0; k < N; ++k) model::describe_condensed_tables(*valves[k], described[k]);
+    model::describe_condensed_tables(tables_, SideBySide<N>(described));
   }
 
   /// Flattened: a call with packs as arguments would carry them through memory.
   [[gnu::flatten]] const sensor::Estimate<Pack>& step(const sensor::Sample<Pack>& sample) {
-    sensor::step(parameters_, state_, sample);
+    sensor::step(tables_, state_, sample);
     return state_.last;
   }
 
  private:
-  sensor::CondensedParameters<Pack> parameters_;
+  sensor::CondensedTables<Pack> tables_;
   sensor::CondensedState<Pack> state_;
 };
 

@@ -159,6 +159,12 @@ PackCorner<N> corner(const PackTable<N>& table, const PackIndex<N>& index) {
   return out;
 }
 
+template <int N>
+PackCorner<N> onward(PackCorner<N> corner, const PackIndex<N>& index) {
+  for (std::size_t k = 0; k < N; ++k) corner.from[k] += index.lanes[k];
+  return corner;
+}
+
 /// Status words. As sums of powers of two they are whole numbers that a float holds exactly (bits below 2^24); each bit
 /// is added once at most.
 template <int N>
@@ -175,6 +181,11 @@ template <int N>
 PackStatus<N> when(const PackTruth<N>& condition, sensor::Status bit) {
   const auto word = static_cast<float>(static_cast<std::uint32_t>(bit));
   return {select(condition, ValvePack<N>(word), ValvePack<N>(0))};
+}
+
+template <int N>
+void mark(PackStatus<N>& status, const PackTruth<N>& condition, sensor::Status bit) {
+  status = status | when(condition, bit);
 }
 
 /// Valves whose sample is unusable keep the answer that they had before, with the reason as status.

@@ -85,18 +85,30 @@ TEST(FlowRate, InvertsTheFlowForceMapItWasMadeFrom) {
   const SpringFit spring = fit_spring(axial_force_recording({{}}, 0), stroke_m);
   const AxialForceFit axial = fit_axial_force(axial_force_recording(pressures, 1e-6), stroke_m);
   const auto columns = flow_force_columns(axial.loops, spring.spring);
-  const sensor::FlowRate<double> flow_rate = invert_flow_force(columns, 0.05);
+  // A magnet of 10 N/A without springs: the current chooses the flow force.
+  sensor::CondensedParameters<double> valve{};
+  valve.flow_rate = invert_flow_force(columns, 0.05);
+  valve.magnetic_force.map.row_axis = {0, 1, 1};
+  for (int row = 0; row < sensor::force_map_currents; ++row) {
+    for (int column = 0; column < sensor::force_map_positions; ++column)
+      valve.magnetic_force.map.node(row, column) = 10 * row;
+  }
+  const auto tables = sensor::laid_out(valve);
+  const auto answer = [&](double force_N, double x) {
+    sensor::CondensedState<double> state;
+    return sensor::step(tables, state, {1e-3, force_N / 10, 0, x, 0});
+  };
   for (double x = 0.4e-3; x <= stroke_m; x += 0.25e-3) {
     for (const double p : {7e5, 15e5, 33e5, 66e5}) {
-      const auto found = flow_rate.at(flow_force_N(x, p), x);
+      const auto found = answer(flow_force_N(x, p), x);
       EXPECT_NEAR(found.flow_m3_per_s, flow_m3_per_s(x, p), 0.01 * flow_m3_per_s(stroke_m, 70e5))
           << x << " m, " << p << " Pa";
       EXPECT_NEAR(found.pressure_difference_Pa, p, 0.04 * p + 1e4);
-      EXPECT_TRUE(found.inside);
+      EXPECT_EQ(found.status, sensor::Status::none);
     }
   }
-  EXPECT_FALSE(flow_rate.at(1000, 1e-3).inside);
-  EXPECT_NEAR(flow_rate.at(1000, 1e-3).flow_m3_per_s, flow_m3_per_s(1e-3, 70e5), 1e-5);
+  EXPECT_EQ(answer(300, 1e-3).status, sensor::Status::outside_flow_force_map);
+  EXPECT_NEAR(answer(300, 1e-3).flow_m3_per_s, flow_m3_per_s(1e-3, 70e5), 1e-5);
 }
 
 TEST(Uniqueness, IsBlindOnlyBelowTheOpening) {

@@ -86,7 +86,7 @@ std::string packed_run(const model::Model& model, validation::Estimator estimato
   const std::vector<float> golden =
       estimator == validation::Estimator::observer
           ? flows(model.observer.value().parameters, sensor::ObserverState<double>{}, samples)
-          : flows(model.condensed.parameters, sensor::CondensedState<double>{}, samples);
+          : flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, samples);
   std::string bytes;
   append(bytes, static_cast<std::uint32_t>(samples.size()));
   append(bytes, static_cast<std::uint32_t>(recorded));

@@ -3,7 +3,7 @@
 
 namespace sensor = spoolflow::sensor;
 
-extern "C" void condensed_step(const sensor::CondensedParameters<float>* valve, sensor::CondensedState<float>* state,
+extern "C" void condensed_step(const sensor::CondensedTables<float>* valve, sensor::CondensedState<float>* state,
                                const sensor::Sample<float>* sample, sensor::Estimate<float>* estimate) {
   *estimate = sensor::step(*valve, *state, *sample);
 }

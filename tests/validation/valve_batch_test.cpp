@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -49,11 +50,11 @@ sensor::CondensedParameters<float> valve(int k) {
 
 template <int N>
 void expect_as_single_valves() {
-  std::array<sensor::CondensedParameters<float>, N> valves;
+  std::vector<sensor::CondensedTables<float>> valves(N);
   std::array<sensor::CondensedState<float>, N> states;
-  std::array<const sensor::CondensedParameters<float>*, N> in_batch;
+  std::array<const sensor::CondensedTables<float>*, N> in_batch;
   for (std::size_t k = 0; k < N; ++k) {
-    valves[k] = valve(static_cast<int>(k));
+    sensor::lay_out(valve(static_cast<int>(k)), valves[k]);
     in_batch[k] = &valves[k];
   }
   ValveBatch<N> batch(in_batch);

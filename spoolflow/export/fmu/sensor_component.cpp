@@ -21,6 +21,7 @@ class SensorComponent : public Component {
       : identity_(identity), running_(&parameters_, resource.numbers.at(0)) {
     const std::span<const double> numbers(resource.numbers);
     take_numbers(numbers.subspan(2), parameters_);
+    running_.parameters_changed();
     tunable_ = tunable_numbers(parameters_);
     variables_ = sensor_variables({numbers[0], numbers[1]}, tunable_);
   }
@@ -32,6 +33,7 @@ class SensorComponent : public Component {
   }
   void tune(std::span<const double> values) override {
     for (std::size_t k = 0; k < tunable_.size(); ++k) *tunable_[k].value = values[sensor_first_tunable + k];
+    running_.parameters_changed();
   }
   void start(std::span<double> values) override {
     running_.reset();

@@ -21,10 +21,10 @@ extern "C" const Run run_begin;
 constexpr std::uint32_t most_instructions = 8192;
 std::uint32_t histogram[modes][most_instructions];
 State state, other_state;
-spoolflow::sensor::Estimate<float> estimate;
 
-[[gnu::noinline]] void one_step(State& state, const spoolflow::sensor::Sample<float>& sample) {
-  estimate = step(parameters, state, sample);
+[[gnu::noinline, gnu::flatten]] const spoolflow::sensor::Estimate<float>& one_step(
+    State& state, const spoolflow::sensor::Sample<float>& sample) {
+  return step(parameters, state, sample);
 }
 
 /// Ticks of reading the counter twice.
@@ -66,7 +66,7 @@ int main() {
   for (std::uint32_t k = 0; k < run.points; ++k) {
     const Point& point = run.point[k];
     const std::uint32_t before = board::ticks_left;
-    one_step(state, point.sample);
+    const spoolflow::sensor::Estimate<float>& estimate = one_step(state, point.sample);
     const std::uint32_t ticks = ((before - board::ticks_left) & 0xFFFFFFU) - overhead;
     const std::uint32_t count = board::instructions(ticks);
     if (count >= most_instructions) ++overflowing;

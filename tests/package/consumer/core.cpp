@@ -4,7 +4,7 @@
 
 int main() {
   using namespace spoolflow::sensor;
-  static CondensedParameters<float> valve{};
+  static CondensedTables<float> valve{};
   CondensedState<float> state{};
   return has(step(valve, state, Sample<float>{}).status, Status::sample_missing) ? 1 : 0;
 }
