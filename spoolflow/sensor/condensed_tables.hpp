@@ -82,23 +82,59 @@ struct CondensedGrid {
     return (valve.friction_half_width_N.at(T(p) * cell_m).value + hysteresis_N + T(2) * valve.force_residual_N) /
            force_per_cells2_N(p);
   }
-  [[nodiscard]] constexpr T root_share(int root) const { return T(root) / T(CondensedLayout::root_cells); }
 };
 
-template <class T, class ValueAt>
-constexpr void put_line(T* to, int cell, const ValueAt& value_at) {
-  const T low = value_at(cell);
-  const T rise = value_at(cell + 1) - low;
-  to[0] = low - T(cell) * rise;
-  to[1] = rise;
+/// The line through the values at both ends of a position cell.
+template <class T>
+constexpr void put_line(T* to, int cell, T low, T high) {
+  to[1] = high - low;
+  to[0] = low - T(cell) * to[1];
 }
 
-/// `value_at` of the other axis' point and of the position's.
+/// The plane through `value_at` the four corners of a cell of the other axis and a position cell.
 template <class T, class ValueAt>
 constexpr void put_plane(T* to, int other, int cell, const ValueAt& value_at) {
-  const auto rise_at = [&](int p) { return value_at(other + 1, p) - value_at(other, p); };
-  put_line(to, cell, [&](int p) { return value_at(other, p) - T(other) * rise_at(p); });
-  put_line(to + CondensedLayout::line, cell, rise_at);
+  const T near[] = {value_at(other, cell), value_at(other, cell + 1)};
+  const T rise[] = {value_at(other + 1, cell) - near[0], value_at(other + 1, cell + 1) - near[1]};
+  put_line(to, cell, near[0] - T(other) * rise[0], near[1] - T(other) * rise[1]);
+  put_line(to + CondensedLayout::line, cell, rise[0], rise[1]);
+}
+
+template <class T>
+constexpr CondensedGrid<T> grid_of(const CondensedParameters<T>& valve) {
+  using Layout = CondensedLayout;
+  return {valve, valve.flow_rate.flow_m3_per_s.row_axis.at(Layout::position_cells) / T(Layout::position_cells),
+          valve.magnetic_force.map.row_axis.at(Layout::current_cells) / T(Layout::current_cells)};
+}
+
+template <class T>
+constexpr void put_scales(const CondensedGrid<T>& grid, CondensedTables<T>& out) {
+  out.cells_per_m = T(1) / grid.cell_m;
+  out.cells_per_A = T(1) / grid.cell_A;
+  out.closed_below_cells = grid.valve.closed_below_m * out.cells_per_m;
+  out.flow_residual_m3_per_s = T(2) * grid.valve.flow_residual_m3_per_s;
+}
+
+template <class T>
+constexpr void put_record(const CondensedGrid<T>& grid, int cell, T* record) {
+  using Layout = CondensedLayout;
+  const auto& flow_rate = grid.valve.flow_rate;
+  put_line(record + Layout::spring, cell, grid.spring_N(cell), grid.spring_N(cell + 1));
+  put_line(record + Layout::force_per_cells2, cell, grid.force_per_cells2_N(cell), grid.force_per_cells2_N(cell + 1));
+  put_line(record + Layout::uncertainty, cell, grid.uncertainty_cells2(cell), grid.uncertainty_cells2(cell + 1));
+  for (int current = 0; current < Layout::current_cells; ++current) {
+    put_plane(record + Layout::magnetic_force + Layout::plane * current, current, cell,
+              [&](int k, int p) { return grid.magnetic_N(k, p); });
+  }
+  for (int root = 0; root < Layout::root_cells; ++root) {
+    T* const flow = record + Layout::flow + Layout::flow_cell * root;
+    const auto share = [](int k) { return T(k) / T(Layout::root_cells); };
+    put_plane(flow, root, cell,
+              [&](int k, int p) { return flow_rate.flow_m3_per_s.at(T(p) * grid.cell_m, share(k)).value; });
+    put_plane(flow + Layout::root_pressure, root, cell,
+              [&](int k, int p) { return flow_rate.root_pressure_difference.at(T(p) * grid.cell_m, share(k)).value; });
+  }
+  for (int k = Layout::flow + Layout::flow_cell * Layout::root_cells; k < Layout::record; ++k) record[k] = T(0);
 }
 
 }  // namespace detail
@@ -106,35 +142,20 @@ constexpr void put_plane(T* to, int other, int cell, const ValueAt& value_at) {
 /// Lays a calibrated valve out for the step: all maps over the positions of the flow map.
 template <class T>
 constexpr void lay_out(const CondensedParameters<T>& valve, CondensedTables<T>& out) {
-  using Layout = CondensedLayout;
-  const Axis<T>& positions = valve.flow_rate.flow_m3_per_s.row_axis;
-  const Axis<T>& currents = valve.magnetic_force.map.row_axis;
-  const detail::CondensedGrid<T> grid{valve, positions.at(Layout::position_cells) / T(Layout::position_cells),
-                                      currents.at(Layout::current_cells) / T(Layout::current_cells)};
-  out.cells_per_m = T(1) / grid.cell_m;
-  out.cells_per_A = T(1) / grid.cell_A;
-  out.closed_below_cells = valve.closed_below_m * out.cells_per_m;
-  out.flow_residual_m3_per_s = T(2) * valve.flow_residual_m3_per_s;
-  for (int cell = 0; cell < Layout::position_cells; ++cell) {
-    T* const record = out.records.data() + Layout::record * cell;
-    detail::put_line(record + Layout::spring, cell, [&](int p) { return grid.spring_N(p); });
-    detail::put_line(record + Layout::force_per_cells2, cell, [&](int p) { return grid.force_per_cells2_N(p); });
-    detail::put_line(record + Layout::uncertainty, cell, [&](int p) { return grid.uncertainty_cells2(p); });
-    for (int current = 0; current < Layout::current_cells; ++current) {
-      detail::put_plane(record + Layout::magnetic_force + Layout::plane * current, current, cell,
-                        [&](int k, int p) { return grid.magnetic_N(k, p); });
-    }
-    for (int root = 0; root < Layout::root_cells; ++root) {
-      T* const flow = record + Layout::flow + Layout::flow_cell * root;
-      detail::put_plane(flow, root, cell, [&](int k, int p) {
-        return valve.flow_rate.flow_m3_per_s.at(T(p) * grid.cell_m, grid.root_share(k)).value;
-      });
-      detail::put_plane(flow + Layout::root_pressure, root, cell, [&](int k, int p) {
-        return valve.flow_rate.root_pressure_difference.at(T(p) * grid.cell_m, grid.root_share(k)).value;
-      });
-    }
-    for (int k = Layout::flow + Layout::flow_cell * Layout::root_cells; k < Layout::record; ++k) record[k] = T(0);
-  }
+  const auto grid = detail::grid_of(valve);
+  detail::put_scales(grid, out);
+  for (int cell = 0; cell < CondensedLayout::position_cells; ++cell)
+    detail::put_record(grid, cell, out.records.data() + CondensedLayout::record * cell);
+}
+
+/// Only what a step at this position reads; for tools that change the valve before each step.
+template <class T>
+constexpr void lay_out_at(const CondensedParameters<T>& valve, T position_m, CondensedTables<T>& out) {
+  const auto grid = detail::grid_of(valve);
+  detail::put_scales(grid, out);
+  const T cells = position_m * out.cells_per_m;
+  const int cell = table_index(select(cells > T(0), smaller(cells, T(CondensedLayout::position_cells - 1)), T(0)));
+  detail::put_record(grid, cell, out.records.data() + CondensedLayout::record * cell);
 }
 
 template <class T>

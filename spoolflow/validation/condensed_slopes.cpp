@@ -28,8 +28,10 @@ CondensedSlopes::CondensedSlopes(const model::Model& model)
 
 PerQuantity<double> CondensedSlopes::at(const sensor::Sample<double>& sample, const Surroundings& surroundings) const {
   sensor::CondensedState<Scalar> state;
-  const auto answer = sensor::step(seeded_->valve, state, disturbed(sample, surroundings, seeded_->error));
-  const Scalar flow = answer.flow_m3_per_s - unseen_flow_m3_per_s(surroundings, seeded_->error);
+  const sensor::Sample<Scalar> read = disturbed(sample, surroundings, seeded_->error);
+  const auto tables = std::make_unique<sensor::CondensedTables<Scalar>>();
+  sensor::lay_out_at(seeded_->valve, read.position_m, *tables);
+  const Scalar flow = sensor::step(*tables, state, read).flow_m3_per_s - unseen_flow_m3_per_s(surroundings, seeded_->error);
   return {flow.slope};
 }
 

@@ -1,6 +1,7 @@
 #include "spoolflow/validation/point_function.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "spoolflow/validation/condensed_slopes.hpp"
 
@@ -31,9 +32,10 @@ double PointFunction::operator()(const InputErrors<double>& error, SeededNumbers
 double PointFunction::condensed(const InputErrors<double>& error) const {
   const auto valve = disturbed<double>(model_->condensed.parameters, error);
   const sensor::Sample<double> sample = disturbed(sample_, surroundings_, error);
-  model::RunningSensor sensor(&valve, model_->valve.rated_flow_m3_per_s);
-  const auto answer = sensor.step({0, sample.current_A, sample.voltage_V, sample.position_m, sample.oil_temperature_K});
-  return answer.flow_m3_per_s - unseen_flow_m3_per_s(surroundings_, error);
+  const auto tables = std::make_unique_for_overwrite<sensor::CondensedTables<double>>();
+  sensor::lay_out_at(valve, sample.position_m, *tables);
+  sensor::CondensedState<double> state;
+  return sensor::step(*tables, state, sample).flow_m3_per_s - unseen_flow_m3_per_s(surroundings_, error);
 }
 
 double PointFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {

@@ -46,7 +46,7 @@ TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
 }
 
 TEST_P(CortexM, CondensedSensorAnswersAsTheHostOverAMinuteOfOperation) {
-  expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {390, 4});
+  expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {120, 4});
 }
 
 INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),

@@ -58,6 +58,73 @@ TEST(Condensed, SaysClosedBelowTheOpening) {
   EXPECT_EQ(step(valve, state, {1e-3, 0.1, 0, 0.05e-3, 323}).status, Status::closed);
 }
 
+/// The linear valve, bent: all maps curved, so that their cells differ.
+CondensedParameters<double> curved_valve() {
+  CondensedParameters<double> valve = linear_valve();
+  for (double& force_N : valve.magnetic_force.map.values) force_N += 0.02 * force_N * force_N;
+  for (double& force_N : valve.spring.curve.values) force_N += 5 + 0.05 * force_N * force_N;
+  for (int p = 0; p < flow_map_positions; ++p) {
+    valve.flow_rate.largest_force_N.values[static_cast<unsigned>(p)] = 1 + p;
+    for (int f = 0; f < flow_map_forces; ++f) valve.flow_rate.flow_m3_per_s.node(p, f) *= (1 + 0.01 * f) * p / 48;
+  }
+  return valve;
+}
+
+TEST(CondensedTables, AnswerAsTheCalibratedMapsDo) {
+  const auto valve = curved_valve();
+  const auto tables = laid_out(valve);
+  CondensedState<double> state;
+  for (double x = 0.13e-3; x < 2.4e-3; x += 0.11e-3) {
+    for (double current_A = 0.9; current_A < 3.2; current_A += 0.17) {
+      const auto out = step(tables, state, {1e-3, current_A, 12, x, 323});
+      EXPECT_NEAR(out.magnetic_force_N, valve.magnetic_force.at(current_A, x).value, 1e-9);
+      EXPECT_NEAR(out.spring_force_N, valve.spring.at(x).value, 0.01);  // its positions lie otherwise
+      const auto flow = valve.flow_rate.at(out.flow_force_N, x);
+      EXPECT_NEAR(out.flow_m3_per_s, flow.flow_m3_per_s, 2e-6) << x << ' ' << current_A;  // half its cells: 0.2 %
+      EXPECT_NEAR(out.pressure_difference_Pa, flow.pressure_difference_Pa, 1);
+      EXPECT_EQ(has(out.status, Status::outside_flow_force_map), !flow.inside) << x << ' ' << current_A;
+    }
+  }
+}
+
+TEST(CondensedTables, LaidOutForOnePositionAnswerThereAsTheWholeDoes) {
+  const auto valve = curved_valve();
+  const auto tables = laid_out(valve);
+  for (const double x : {-1e-3, 0.0, 0.3e-3, 1.37e-3, 2.4e-3, 3e-3}) {
+    CondensedTables<double> part{};
+    lay_out_at(valve, x, part);
+    CondensedState<double> one, other;
+    const Sample<double> sample{1e-3, 1.7, 12, x, 323};
+    EXPECT_EQ(step(part, one, sample).flow_m3_per_s, step(tables, other, sample).flow_m3_per_s) << x;
+    EXPECT_EQ(one.last.flow_upper_m3_per_s, other.last.flow_upper_m3_per_s) << x;
+    EXPECT_EQ(one.last.status, other.last.status) << x;
+  }
+}
+
+TEST(Condensed, HoldsItsAnswerForWhatNoInstrumentReads) {
+  CondensedTables<float> tables{};
+  {
+    const auto valve = laid_out(curved_valve());
+    tables.cells_per_m = static_cast<float>(valve.cells_per_m);
+    tables.cells_per_A = static_cast<float>(valve.cells_per_A);
+    for (std::size_t k = 0; k < valve.records.size(); ++k) tables.records[k] = static_cast<float>(valve.records[k]);
+  }
+  CondensedState<float> state;
+  const float flow = step(tables, state, {1e-3F, 1.7F, 12, 1e-3F, 323}).flow_m3_per_s;
+  EXPECT_GT(flow, 0);
+  const float infinite = std::numeric_limits<float>::infinity();
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  for (const float wild : {infinite, -infinite, nothing, -nothing, 1e30F, -1e30F, 1e9F, -1e9F}) {
+    EXPECT_EQ(step(tables, state, {1e-3F, wild, 12, 1e-3F, 323}).status, Status::sample_missing) << wild;
+    EXPECT_EQ(step(tables, state, {1e-3F, 1.7F, 12, wild, 323}).status, Status::sample_missing) << wild;
+    if (wild != 1e9F) {  // a time step of thirty years is one
+      EXPECT_EQ(step(tables, state, {wild, 1.7F, 12, 1e-3F, 323}).status, Status::time_fault) << wild;
+    }
+    EXPECT_EQ(state.last.flow_m3_per_s, flow) << wild;
+  }
+  EXPECT_EQ(step(tables, state, {0.0F, -0.0F, 12, -0.0F, 323}).status, Status::outside_flow_force_map);
+}
+
 TEST(Table, AnswersAtTheEdgeWithTheOutermostSlopeAndNeverIndexesWithNaN) {
   Curve<double, 3> curve{{1.0, 0.5, 2.0}, {0.0, 1.0, 4.0}};
   EXPECT_DOUBLE_EQ(curve.at(1.25).value, 0.5);
