@@ -31,7 +31,8 @@ PerQuantity<double> CondensedSlopes::at(const sensor::Sample<double>& sample, co
   const sensor::Sample<Scalar> read = disturbed(sample, surroundings, seeded_->error);
   const auto tables = std::make_unique<sensor::CondensedTables<Scalar>>();
   sensor::lay_out_at(seeded_->valve, read.position_m, *tables);
-  const Scalar flow = sensor::step(*tables, state, read).flow_m3_per_s - unseen_flow_m3_per_s(surroundings, seeded_->error);
+  const Scalar flow =
+      sensor::step(*tables, state, read).flow_m3_per_s - unseen_flow_m3_per_s(surroundings, seeded_->error);
   return {flow.slope};
 }
 
