@@ -49,10 +49,17 @@ struct Panel {
   std::vector<Row> rows = {};
 };
 
+/// A number written beside an axis.
+struct AxisMark {
+  double at;
+  std::string text;
+};
+
 struct Figure {
   std::string description;  ///< for screen readers
   std::string x_title;
   std::optional<double> x_lowest = {}, x_highest = {};
+  std::vector<AxisMark> x_marks = {};  ///< else round numbers
   std::vector<Panel> panels = {};
 };
 

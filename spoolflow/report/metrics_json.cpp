@@ -1,6 +1,8 @@
 #include "spoolflow/report/metrics_json.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
@@ -27,6 +29,8 @@ class MetricsJson {
   [[nodiscard]] Json group(const validation::GroupFigures& group) const;
   void add_metrics(Json& to, const validation::Metrics& metrics) const;
   [[nodiscard]] Json profiles(const std::vector<validation::ErrorProfile>& profiles) const;
+  void add_directions(Json& to, const validation::DirectionProfile& profile) const;
+  [[nodiscard]] static Json steps(const validation::StepResponse& response);
   [[nodiscard]] Json estimator(const validation::EstimatorResult& result) const;
 
   double percent_;
@@ -78,7 +82,8 @@ Json MetricsJson::profiles(const std::vector<validation::ErrorProfile>& profiles
                       {"to", bin.to * keys[q].factor + keys[q].offset},
                       {"samples", bin.samples},
                       {"median_percent_FS", bin.median_m3_per_s * percent_},
-                      {"p95_percent_FS", bin.p95_m3_per_s * percent_}});
+                      {"p95_percent_FS", bin.p95_m3_per_s * percent_},
+                      {"band_coverage", bin.band_coverage}});
     }
     if (!bins.empty()) out[keys[q].name] = std::move(bins);
   }
@@ -98,9 +103,54 @@ Json MetricsJson::estimator(const validation::EstimatorResult& result) const {
       out["worst"]["pressure_difference_bar"] = units::bar_from_Pa(*result.worst->pressure_difference_Pa);
     }
   }
+  if (result.direction) add_directions(out, *result.direction);
+  if (result.frequency_response) {
+    const validation::FrequencyResponse& response = *result.frequency_response;
+    Json points = Json::array();
+    for (const validation::FrequencyPoint& point : response.points) {
+      points.push_back({{"frequency_Hz", point.frequency_Hz},
+                        {"gain", point.gain},
+                        {"phase_rad", point.phase_rad},
+                        {"coherence", point.coherence}});
+    }
+    out["frequency_response"] = {{"corner_Hz", response.corner_Hz ? Json(*response.corner_Hz) : Json(nullptr)},
+                                 {"points", std::move(points)}};
+  }
   Json status = Json::object();
   for (const validation::StatusRow& row : result.status) status[row.name] = row.share;
   out["status_share"] = std::move(status);
+  return out;
+}
+
+void MetricsJson::add_directions(Json& to, const validation::DirectionProfile& profile) const {
+  constexpr std::array names{"opening", "closing", "rest"};
+  Json out = Json::object();
+  for (const validation::Direction direction : validation::directions) {
+    const auto figures = profile.magnitudes(direction);
+    if (!figures) continue;
+    out[names[static_cast<std::size_t>(direction)]] = {{"samples", figures->samples},
+                                                       {"median_percent_FS", figures->median_m3_per_s * percent_},
+                                                       {"p95_percent_FS", figures->p95_m3_per_s * percent_}};
+  }
+  if (const auto hysteresis = profile.hysteresis()) {
+    out["hysteresis"] = {{"opening_less_closing", flow(hysteresis->difference_m3_per_s)},
+                         {"position_mm", units::mm_from_m(hysteresis->position_m)}};
+  }
+  to["error_by_direction"] = std::move(out);
+}
+
+Json MetricsJson::steps(const validation::StepResponse& response) {
+  const auto milliseconds = [](double seconds) { return std::isnan(seconds) ? Json(nullptr) : Json(1e3 * seconds); };
+  Json out{{"steps", response.steps},
+           {"reference_rise_ms", milliseconds(response.reference_rise_s)},
+           {"estimators", Json::array()}};
+  for (const validation::StepAnswer& answer : response.answers) {
+    out["estimators"].push_back({{"estimator", validation::name(answer.estimator)},
+                                 {"followed", answer.followed},
+                                 {"delay_ms", milliseconds(answer.delay_s)},
+                                 {"rise_ms", milliseconds(answer.rise_s)},
+                                 {"overshoot", std::isnan(answer.overshoot) ? Json(nullptr) : Json(answer.overshoot)}});
+  }
   return out;
 }
 
@@ -116,6 +166,7 @@ Json MetricsJson::run(const validation::RunResult& run) const {
            {"phases_from", run.phases_from_measured_position ? "position" : "position_set"},
            {"estimators", Json::array()}};
   for (const validation::EstimatorResult& result : run.results) out["estimators"].push_back(estimator(result));
+  if (run.step_response) out["step_response"] = steps(*run.step_response);
   return out;
 }
 
@@ -123,6 +174,7 @@ Json MetricsJson::pooled(const validation::PooledResult& pooled) const {
   Json out{{"estimator", validation::name(pooled.estimator)}};
   if (pooled.metrics) add_metrics(out, *pooled.metrics);
   out["error_over"] = profiles(pooled.profiles);
+  if (pooled.direction) add_directions(out, *pooled.direction);
   return out;
 }
 

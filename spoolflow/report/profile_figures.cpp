@@ -44,6 +44,23 @@ Mark profile_line(const std::vector<validation::ProfileBin>& bins, const Present
   return mark;
 }
 
+Panel coverage_panel(const validation::Validation& validation, std::size_t quantity, const Presentation& as) {
+  Panel panel{.title = "Inside the 95 % band [%]", .height_px = 80, .lowest = 0.0, .highest = 100.0};
+  Mark promised{.shape = Shape::dashed, .tone = "muted", .width_px = 1};
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    Mark mark{.tone = std::string(validation::name(pooled.estimator)), .width_px = 1.6};
+    for (const validation::ProfileBin& bin : pooled.profiles[quantity].bins()) {
+      mark.x.push_back(0.5 * (bin.from + bin.to) * as.factor + as.offset);
+      mark.y.push_back(100 * bin.band_coverage);
+    }
+    if (mark.x.size() > promised.x.size()) promised.x = mark.x;
+    panel.marks.push_back(std::move(mark));
+  }
+  promised.y.assign(promised.x.size(), 95);
+  panel.marks.push_back(std::move(promised));
+  return panel;
+}
+
 }  // namespace
 
 std::vector<CaptionedFigure> profile_figures(const validation::Validation& validation, double full_scale_m3_per_s) {
@@ -61,9 +78,13 @@ std::vector<CaptionedFigure> profile_figures(const validation::Validation& valid
       }
     }
     if (most_bins < 3) continue;
+    Panel coverage = coverage_panel(validation, q, as);
     out.push_back(
-        {{.description = fmt::format("Error over {}", as.name), .x_title = as.axis, .panels = {std::move(panel)}},
-         fmt::format("Size of the error over {}, all runs.", as.name),
+        {{.description = fmt::format("Error over {}", as.name),
+          .x_title = as.axis,
+          .panels = {std::move(panel), std::move(coverage)}},
+         fmt::format("Size of the error over {}, all runs; below it the share of the samples inside the 95 % band.",
+                     as.name),
          {}});
   }
   return out;

@@ -101,17 +101,38 @@ CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m
   return out;
 }
 
+namespace {
+
+/// A force stacked on those below it: from their upper edge to its own.
+Mark layer(const validation::RunTrace& trace, const std::vector<float>& from_N, const validation::TracedChannel& to_N,
+           const std::string& tone, const std::string& name) {
+  constexpr std::size_t stretches = 400;
+  const std::vector<float>& upper_N = to_N.highest.empty() ? to_N.lowest : to_N.highest;
+  return band(validation::thinned_band(trace.time_s, from_N, upper_N, stretches), 1, tone, name);
+}
+
+}  // namespace
+
 CaptionedFigure force_figure(const validation::RunResult& run) {
   const validation::EstimatorResult& leading = run.results.back();
   Panel panel{.title = "Force [N]", .height_px = 230};
-  panel.marks = {line(leading.magnetic_force_N, 1, "ink", "magnetic"), line(leading.spring_force_N, 1, "b", "spring"),
-                 line(leading.flow_force_N, 1, "a", "flow"), line(leading.friction_force_N, 1, "d", "friction", 1)};
-  return {{.description = "Forces on the spool over time, run " + run.name,
-           .x_title = "Time [s]",
-           .panels = {std::move(panel)}},
-          fmt::format("Forces as the {} sees them: the magnetic force carries spring, flow force and friction.",
-                      text(leading.estimator)),
-          {}};
+  if (!run.trace.estimators.empty()) {
+    const validation::TracedEstimator& says = run.trace.estimators.back();
+    const std::vector<float> nothing(run.trace.time_s.size(), 0.0F);
+    panel.marks = {layer(run.trace, nothing, says.spring_force_N, "b", "spring"),
+                   layer(run.trace, says.spring_force_N.lowest, says.spring_and_flow_N, "a", "flow force"),
+                   layer(run.trace, says.spring_and_flow_N.lowest, says.all_forces_N, "d", "friction")};
+  }
+  panel.marks.push_back(line(leading.magnetic_force_N, 1, "ink", "magnetic"));
+  return {
+      {.description = "Forces on the spool over time, run " + run.name,
+       .x_title = "Time [s]",
+       .panels = {std::move(panel)}},
+      fmt::format("Forces as the {} sees them, stacked: the magnetic force carries spring, flow force and friction. "
+                  "While the spool closes, friction helps and lies over the flow force.",
+                  text(leading.estimator)),
+      {},
+      {}};
 }
 
 CaptionedFigure worst_moment_figure(const validation::RunResult& run, double full_scale_m3_per_s) {

@@ -97,8 +97,14 @@ std::string svg_of(const Figure& figure, const Layout& layout, const std::string
   std::string out = fmt::format(R"(<svg viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", layout.width_px,
                                 height, html_text(figure.description));
   const PlotWidth width = plot_width(figure, layout.width_px);
-  const Ticks x_ticks =
+  Ticks x_ticks =
       round_ticks(width.x_lowest, width.x_highest, std::max(3, static_cast<int>((width.right - width.left) / 95)));
+  if (!figure.x_marks.empty()) x_ticks = {};
+  for (const AxisMark& mark : figure.x_marks) {
+    if (mark.at < width.x_lowest || mark.at > width.x_highest) continue;
+    x_ticks.at.push_back(mark.at);
+    x_ticks.text.push_back(mark.text);
+  }
   double top = 2;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];

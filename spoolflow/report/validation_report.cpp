@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/direction_figures.hpp"
+#include "spoolflow/report/dynamics_figures.hpp"
+#include "spoolflow/report/envelope_figures.hpp"
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/model_sections.hpp"
 #include "spoolflow/report/number_text.hpp"
@@ -72,6 +75,8 @@ void show_run(HtmlPage& page, const validation::RunResult& run, double full_scal
   if (run.results.back().worst) details.push_back(worst_moment_figure(run, full_scale_m3_per_s));
   details.push_back(force_figure(run));
   page.pair(details);
+  const std::vector<CaptionedFigure> dynamics = dynamics_figures(run);
+  if (!dynamics.empty()) page.pair(dynamics);
 }
 
 void show_definitions(HtmlPage& page, const validation::Validation& validation, double full_scale_m3_per_s) {
@@ -103,12 +108,15 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
   show_requirements(page, validation);
   page.table(results_table(validation, full_scale));
   show_valve(page, model, validation.runs);
+  show_envelope(page, model, validation.runs);
   show_maps(page, model);
   for (const validation::RunResult& run : validation.runs) show_run(page, run, full_scale);
   const std::vector<CaptionedFigure> profiles = profile_figures(validation, full_scale);
   if (!profiles.empty()) {
     page.section("Where the errors are");
     page.pair(profiles);
+    page.pair(direction_and_distribution_figures(validation, full_scale));
+    page.table(direction_table(validation, full_scale));
   }
   show_blindness(page, model, validation.runs);
   page.section("What the sensor said of itself");

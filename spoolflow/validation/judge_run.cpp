@@ -27,18 +27,20 @@ std::optional<Extent> extent_of(const std::vector<Number>& values) {
   return out;
 }
 
-std::vector<OperatingPoint> operating_points(const RunSamples& run, double stroke_m) {
-  if (run.pressure_difference_Pa.empty()) return {};
-  const double position_step_m = 0.01 * stroke_m;
-  constexpr double pressure_step_Pa = 1e5;
+/// The pairs of position and another quantity that occur, to the given steps.
+template <class Point>
+std::vector<Point> used_points(const std::vector<double>& position_m, const std::vector<float>& other,
+                               const Point& steps) {
+  if (other.empty()) return {};
+  const auto& [position_step_m, other_step] = steps;
   std::set<std::pair<int, int>> cells;
-  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
-    if (std::isnan(run.position_m[k]) || std::isnan(run.pressure_difference_Pa[k])) continue;
-    cells.emplace(static_cast<int>(std::lround(run.position_m[k] / position_step_m)),
-                  static_cast<int>(std::lround(run.pressure_difference_Pa[k] / pressure_step_Pa)));
+  for (std::size_t k = 0; k < position_m.size(); ++k) {
+    if (std::isnan(position_m[k]) || std::isnan(other[k])) continue;
+    cells.emplace(static_cast<int>(std::lround(position_m[k] / position_step_m)),
+                  static_cast<int>(std::lround(other[k] / other_step)));
   }
-  std::vector<OperatingPoint> out;
-  for (const auto& [x, p] : cells) out.push_back({x * position_step_m, p * pressure_step_Pa});
+  std::vector<Point> out;
+  for (const auto& [x, y] : cells) out.push_back({x * position_step_m, y * other_step});
   return out;
 }
 
@@ -102,6 +104,7 @@ ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phase
   ComparedSamples compared(valve.rated_flow_m3_per_s);
   std::vector<float> errors;
   out.profiles = empty_profiles(valve);
+  out.direction = empty_direction(valve);
   std::size_t worst = run.time_s.size();
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < run.time_s.size(); ++k) {
@@ -116,7 +119,11 @@ ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phase
         std::max(reference, 0.0), run.position_m[k],
         run.pressure_difference_Pa.empty() ? nothing : static_cast<double>(run.pressure_difference_Pa[k]),
         run.oil_temperature_K.empty() ? nothing : static_cast<double>(run.oil_temperature_K[k])};
-    for (std::size_t q = 0; q < values.size(); ++q) out.profiles[q].add(values[q], error);
+    const bool inside = answers.lower_m3_per_s[k] <= reference && reference <= answers.upper_m3_per_s[k];
+    for (std::size_t q = 0; q < values.size(); ++q) out.profiles[q].add(values[q], error, inside);
+    const Direction direction =
+        !phases.moving[k] ? Direction::rest : (phases.opening[k] ? Direction::opening : Direction::closing);
+    if (phases.moving[k] || phases.rest[k]) out.direction->add(direction, run.position_m[k], error);
   }
   if (compared.size() == 0) return compared;
   out.metrics = compared.metrics();
@@ -133,6 +140,10 @@ std::vector<ErrorProfile> empty_profiles(const model::Valve& valve) {
           ErrorProfile(5e5, full_scale), ErrorProfile(2.5, full_scale, units::kelvin_at_0_degC)};
 }
 
+DirectionProfile empty_direction(const model::Valve& valve) {
+  return DirectionProfile({valve.stroke_m, valve.rated_flow_m3_per_s});
+}
+
 JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options,
                     std::size_t traced_values) {
   JudgedRun out;
@@ -147,7 +158,12 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
   result.oil_temperature_K = extent_of(run.oil_temperature_K);
   result.pressure_difference_Pa = extent_of(run.pressure_difference_Pa);
   result.reference_m3_per_s = extent_of(run.reference_m3_per_s);
-  result.operating_points = operating_points(run, valve.stroke_m);
+  result.operating_points =
+      used_points(run.position_m, run.pressure_difference_Pa, OperatingPoint{0.01 * valve.stroke_m, 1e5});
+  result.flow_points = used_points(
+      run.position_m, run.reference_m3_per_s.empty() ? run.answers.back().flow_m3_per_s : run.reference_m3_per_s,
+      FlowPoint{0.01 * valve.stroke_m, 0.01 * valve.rated_flow_m3_per_s});
+  result.solenoid_points = used_points(run.position_m, run.current_A, SolenoidPoint{0.01 * valve.stroke_m, 0.02});
   const std::vector<float> position_m(run.position_m.begin(), run.position_m.end());
   result.position_line_m = thinned(run.time_s, position_m, drawn_stretches);
   if (result.has_reference) {
@@ -165,9 +181,14 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
   for (const Answers& answers : run.answers) {
     EstimatorResult& each = result.results.emplace_back();
     each.estimator = answers.estimator;
-    if (result.has_reference) out.compared.push_back(compare(each, run, phases, answers, valve));
+    if (result.has_reference) {
+      out.compared.push_back(compare(each, run, phases, answers, valve));
+      each.frequency_response = frequency_response({run.time_s, run.reference_m3_per_s, answers.flow_m3_per_s,
+                                                    options.apply_reference_lag ? 0 : options.reference_lag_s});
+    }
     draw(each, run, answers);
   }
+  result.step_response = step_response(run, valve.rated_flow_m3_per_s);
   result.trace = run_trace(run, traced_values);
   return out;
 }

@@ -13,6 +13,7 @@ struct JudgedRun {
 
 /// A profile without samples for each of `quantities`.
 [[nodiscard]] std::vector<ErrorProfile> empty_profiles(const model::Valve& valve);
+[[nodiscard]] DirectionProfile empty_direction(const model::Valve& valve);
 
 /// Compares what the estimators answered with the reference. Lags `run`'s answers first where the options ask for it.
 /// `traced_values`: the most numbers in the run's trace.

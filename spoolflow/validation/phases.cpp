@@ -33,6 +33,7 @@ Phases phases_of_rate(std::span<const double> time_s, std::span<const double> sh
   for (std::size_t k = 0; k < rate.size(); ++k) {
     const bool moving = std::abs(rate[k]) > moving_rate_per_s;
     out.moving.push_back(moving);
+    out.opening.push_back(moving && rate[k] > 0);
     out.rest.push_back(!moving && share[k] > open_share);
     if (k == 0) continue;
     const bool stops_or_starts = moving != out.moving[k - 1] && share[k] > half_open_share;

@@ -9,6 +9,7 @@ namespace spoolflow::validation {
 /// 2 s of a reversal or a stop of the motion. A sample may belong to none, or to reversal and another.
 struct Phases {
   std::vector<bool> moving;
+  std::vector<bool> opening;  ///< of the moving samples: the spool opens; the others close
   std::vector<bool> rest;
   std::vector<bool> reversal;
   bool from_measured_position = false;  ///< no position_set was recorded

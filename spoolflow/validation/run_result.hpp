@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/validation/direction_profile.hpp"
 #include "spoolflow/validation/error_profile.hpp"
 #include "spoolflow/validation/estimator.hpp"
+#include "spoolflow/validation/frequency_response.hpp"
 #include "spoolflow/validation/metrics.hpp"
 #include "spoolflow/validation/run_trace.hpp"
 #include "spoolflow/validation/status_timeline.hpp"
+#include "spoolflow/validation/step_response.hpp"
 #include "spoolflow/validation/trace.hpp"
 
 namespace spoolflow::validation {
@@ -38,6 +41,8 @@ struct EstimatorResult {
   Estimator estimator;
   std::optional<Metrics> metrics;      ///< absent without reference flow
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`; empty without reference flow
+  std::optional<DirectionProfile> direction;
+  std::optional<FrequencyResponse> frequency_response;
   std::vector<StatusRow> status;
   double fault_share = 0;  ///< of the samples: with any fault
   std::optional<WorstMoment> worst;
@@ -49,6 +54,16 @@ struct EstimatorResult {
 /// A spool position and pressure difference at which the valve worked, to a hundredth of the stroke and 1 bar.
 struct OperatingPoint {
   double position_m, pressure_difference_Pa;
+};
+
+/// A spool position and flow rate (measured, else estimated), to a hundredth of the stroke and of full scale.
+struct FlowPoint {
+  double position_m, flow_m3_per_s;
+};
+
+/// A spool position and coil current at which the solenoid worked, to a hundredth of the stroke and 0.02 A.
+struct SolenoidPoint {
+  double position_m, current_A;
 };
 
 struct RunResult {
@@ -64,6 +79,9 @@ struct RunResult {
   Line reference_line_m3_per_s, position_line_m, pressure_difference_line_Pa;
   RunTrace trace;
   std::vector<OperatingPoint> operating_points;
+  std::vector<FlowPoint> flow_points;
+  std::vector<SolenoidPoint> solenoid_points;
+  std::optional<StepResponse> step_response;
   std::vector<EstimatorResult> results;  ///< in the order of the options; the leading estimator last
 };
 

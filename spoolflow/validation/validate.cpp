@@ -12,6 +12,7 @@ namespace {
 struct Pool {
   ComparedSamples samples;
   std::vector<ErrorProfile> profiles;
+  DirectionProfile direction;
 };
 
 std::string run_name(const std::filesystem::path& recording) {
@@ -43,8 +44,8 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     check_names(*options.requirements, runs, options.estimators);
   }
   Validation out{{}, {}, options.reference_lag_s, options.apply_reference_lag, {}, {}};
-  std::vector<Pool> pools(options.estimators.size(),
-                          {ComparedSamples(model.valve.rated_flow_m3_per_s), empty_profiles(model.valve)});
+  std::vector<Pool> pools(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
+                                                      empty_profiles(model.valve), empty_direction(model.valve)});
   const auto total = static_cast<double>(recordings.size());
   for (const std::filesystem::path& recording : recordings) {
     const auto before = static_cast<double>(out.runs.size());
@@ -57,6 +58,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
       for (std::size_t q = 0; q < quantities.size(); ++q) {
         pools[e].profiles[q].append(judged.result.results[e].profiles[q]);
       }
+      if (judged.result.results[e].direction) pools[e].direction.append(*judged.result.results[e].direction);
     }
     out.runs.push_back(std::move(judged.result));
   }
@@ -64,7 +66,9 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     PooledResult& pooled = out.pooled.emplace_back();
     pooled.estimator = options.estimators[e];
     pooled.profiles = std::move(pools[e].profiles);
-    if (pools[e].samples.size() > 0) pooled.metrics = pools[e].samples.metrics();
+    if (pools[e].samples.size() == 0) continue;
+    pooled.metrics = pools[e].samples.metrics();
+    pooled.direction = std::move(pools[e].direction);
   }
   if (options.requirements) {
     out.requirements_file = options.requirements->file;

@@ -26,6 +26,7 @@ struct PooledResult {
   Estimator estimator;
   std::optional<Metrics> metrics;
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`
+  std::optional<DirectionProfile> direction = {};
 };
 
 struct Validation {

@@ -50,5 +50,23 @@ TEST(ErrorProfile, CountsErrorsBeyondFullScaleAsFullScale) {
   EXPECT_NEAR(profile.bins().front().p95_m3_per_s, 1.0, 5e-4);
 }
 
+TEST(ErrorProfile, TellsTheShareInsideTheBandOfEachBin) {
+  ErrorProfile profile(1, 1.0);
+  for (int k = 0; k < 200; ++k) profile.add(k < 100 ? 0.5 : 1.5, 0.1, k < 100 || k % 4 == 0);
+  EXPECT_DOUBLE_EQ(profile.bins()[0].band_coverage, 1);
+  EXPECT_DOUBLE_EQ(profile.bins()[1].band_coverage, 0.25);
+}
+
+TEST(ErrorProfile, DistributionRisesToEverySample) {
+  ErrorProfile profile(1, 1.0);
+  EXPECT_EQ(profile.distribution().size(), 1U);
+  for (int k = 0; k < 1000; ++k) profile.add(k, k * 1e-4);
+  const std::vector<DistributionPoint> points = profile.distribution();
+  EXPECT_DOUBLE_EQ(points.back().share, 1);
+  EXPECT_NEAR(points.back().error_m3_per_s, 0.1, 1e-3);
+  EXPECT_LE(points.size(), 202U);
+  for (const DistributionPoint& point : points) EXPECT_NEAR(point.share, 10 * point.error_m3_per_s, 0.01);
+}
+
 }  // namespace
 }  // namespace spoolflow::validation
