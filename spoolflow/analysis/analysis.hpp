@@ -4,6 +4,7 @@
 #include <string>
 
 #include "spoolflow/analysis/point_analysis.hpp"
+#include "spoolflow/analysis/run_analysis.hpp"
 #include "spoolflow/analysis/study.hpp"
 
 namespace spoolflow::analysis {
@@ -19,6 +20,7 @@ struct Analysis {
   Scenario scenario;
   std::vector<PointResult> points;
   std::vector<OperatingMap> maps;
+  std::optional<RunAnalysis> run;
   std::optional<Study> study;
 };
 

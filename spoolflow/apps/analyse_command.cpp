@@ -15,6 +15,7 @@
 #include "spoolflow/report/analysis_json.hpp"
 #include "spoolflow/report/analysis_report.hpp"
 #include "spoolflow/report/analysis_verdict.hpp"
+#include "spoolflow/validation/estimation.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -24,6 +25,8 @@ struct Arguments {
   std::string scenario;
   std::string json;
   std::string report;
+  std::string recording;
+  std::string channels;
   std::string self_check;
   std::uint32_t samples = 0;  ///< 0: as the scenario says
   std::uint64_t seed = 0;     ///< 0: as the scenario says
@@ -93,6 +96,15 @@ std::optional<std::filesystem::path> state_file(const Arguments& arguments) {
   return std::nullopt;
 }
 
+analysis::RunSamples run_of(const model::Model& model, const Arguments& arguments) {
+  recording::ChannelMap channels;
+  if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
+  recording::ReadOptions options = validation::sensor_channels(model, std::move(channels));
+  options.optional.push_back(recording::Channel::flow_reference);
+  options.optional.push_back(recording::Channel::flow);
+  return analysis::run_samples(recording::read_recording(arguments.recording, options));
+}
+
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
                       const Arguments& arguments, Progress& progress) {
   analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
@@ -117,25 +129,39 @@ void analyse(const Arguments& arguments) {
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
   const model::Model model = model::read_model(arguments.model);
-  analysis::Analysis results{scenario_of(arguments), {}, {}, {}};
+  analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
   std::vector<std::filesystem::path> inputs{arguments.model};
   if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
+  for (const std::string& file : {arguments.recording, arguments.channels}) {
+    if (!file.empty()) inputs.emplace_back(file);
+  }
   std::optional<OutputFile> page;
   std::optional<OutputFile> figures;
   if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
   if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
   if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
   const bool whole = !results.scenario.study.skip;
+  std::optional<analysis::RunSamples> run;
+  if (!arguments.recording.empty()) run = run_of(model, arguments);
   std::optional<rig::ValveAndCampaign> valve;
   if (whole) valve = analysis::study_valve(model, results.scenario);
   {
     const double share_of_budget = whole ? budget_share : 1;
     Progress progress("uncertainty budget", arguments.quiet);
-    results.points = analysis::analyse_points(model, results.scenario, workers(arguments),
-                                              [&](double share) { progress.update(0.7 * share_of_budget * share); });
-    results.maps = analysis::operating_maps(model, results.scenario, workers(arguments), [&](double share) {
-      progress.update(share_of_budget * (0.7 + 0.3 * share));
+    const double points_until = run ? 0.35 : 0.7;
+    const double run_from = run ? 0.5 : 1;
+    results.points = analysis::analyse_points(model, results.scenario, workers(arguments), [&](double share) {
+      progress.update(share_of_budget * points_until * share);
     });
+    results.maps = analysis::operating_maps(model, results.scenario, workers(arguments), [&](double share) {
+      progress.update(share_of_budget * (points_until + (run_from - points_until) * share));
+    });
+    if (run) {
+      progress.task("budget along the run");
+      results.run = analysis::analyse_run(model, *run, results.scenario, workers(arguments), [&](double share) {
+        progress.update(share_of_budget * (run_from + (1 - run_from) * share));
+      });
+    }
     if (whole) results.study = study(model, results.scenario, *valve, arguments, progress);
   }
   if (page) report::write_analysis_report(page->stream(), model, results);
@@ -165,6 +191,10 @@ void add_analyse_command(CLI::App& program) {
   command->add_option("model", arguments->model, "model file");
   command->add_option("--scenario", arguments->scenario, "what to analyse; every key has a default")
       ->type_name("S.toml");
+  command->add_option("--recording", arguments->recording, "a run along which the budget is made up as well")
+      ->type_name("RECORDING");
+  command->add_option("--channels", arguments->channels, "channel map (TOML) of a recording with other column names")
+      ->type_name("MAP.toml");
   command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
       ->type_name("OUT.json");

@@ -118,6 +118,42 @@ Json index(const analysis::Index& index) {
   return {{"value", index.value}, {"lower_95", index.lower}, {"upper_95", index.upper}};
 }
 
+Json run_result(const analysis::RunResult& result) {
+  Json budget = Json::array();
+  for (const analysis::RunLine& line : result.lines) {
+    Json entry = input(line.input);
+    entry["rms_contribution_L_min"] = L_per_min_from_m3_per_s(line.rms_contribution_m3_per_s);
+    entry["share"] = line.share;
+    budget.push_back(std::move(entry));
+  }
+  double squares = 0;
+  for (const double u : result.combined_m3_per_s) squares += u * u;
+  const double instants = static_cast<double>(result.combined_m3_per_s.size());
+  Json out{{"estimator", validation::name(result.estimator)},
+           {"instants", result.time_s.size()},
+           {"trials", result.trials},
+           {"combined_standard_rms_L_min", L_per_min_from_m3_per_s(std::sqrt(squares / instants))},
+           {"coverage_factor", result.coverage_factor},
+           {"deviation_over_budget", finite(result.deviation_ratio)},
+           {"budget", budget}};
+  if (result.shares) {
+    out["samples_in_band"] = {{"instants_with_reference", result.shares->instants},
+                              {"share", result.shares->in_band},
+                              {"predicted_by_budget", result.shares->in_band_by_budget},
+                              {"predicted_by_trials", result.shares->in_band_by_trials},
+                              {"share_in_budget_interval_95", result.shares->in_budget_interval}};
+  }
+  Json course = Json::array();
+  for (std::size_t k = 0; k < result.time_s.size(); ++k) {
+    course.push_back({result.time_s[k], L_per_min_from_m3_per_s(result.flow_m3_per_s[k]),
+                      L_per_min_from_m3_per_s(result.combined_m3_per_s[k]),
+                      L_per_min_from_m3_per_s(result.deviation_m3_per_s[k])});
+  }
+  out["course_columns"] = {"time_s", "flow_L_min", "combined_standard_L_min", "standard_deviation_of_trials_L_min"};
+  out["course"] = std::move(course);
+  return out;
+}
+
 Json study(const analysis::Study& study) {
   Json outputs = Json::array();
   for (std::size_t o = 0; o < analysis::study_outputs; ++o) {
@@ -166,6 +202,11 @@ void write_analysis_json(std::ostream& out, const model::Model& model, const ana
   Json maps = Json::array();
   for (const analysis::OperatingMap& each : analysis.maps) maps.push_back(map(each));
   file["operating_maps"] = std::move(maps);
+  if (analysis.run) {
+    Json results = Json::array();
+    for (const analysis::RunResult& each : analysis.run->results) results.push_back(run_result(each));
+    file["run"] = {{"recording", analysis.run->recording}, {"samples", analysis.run->samples}, {"results", results}};
+  }
   if (analysis.study) file["study"] = study(*analysis.study);
   out << file.dump(1) << '\n';
 }

@@ -12,6 +12,7 @@
 #include "spoolflow/report/model_sections.hpp"
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/operating_map_figure.hpp"
+#include "spoolflow/report/run_budget_section.hpp"
 #include "spoolflow/report/study_figure.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -134,6 +135,7 @@ void write_analysis_report(std::ostream& out, const model::Model& model, const A
   show_verdict(page, analysis_verdict(model, analysis));
   show_budget(page, model, analysis);
   show_maps(page, model, analysis);
+  if (analysis.run) show_run_budget(page, *analysis.run, model.valve.rated_flow_m3_per_s);
   if (analysis.study) show_study(page, *analysis.study);
   show_inputs(page, model, {});
   out << page.str();

@@ -58,17 +58,18 @@ HtmlTable budget_table(const validation::Budget& budget) {
 }
 
 HtmlTable points_table(const std::vector<analysis::PointResult>& points, double full_scale_m3_per_s) {
-  HtmlTable table({{"estimator", Set::text},
-                   {"position<br>[mm]"},
-                   {"pressure<br>difference [bar]"},
-                   {"flow rate<br>[L/min]"},
-                   {"standard<br>[L/min]"},
-                   {"k"},
-                   {"expanded<br>[L/min]"},
-                   {"expanded<br>[% FS]"},
-                   {"interval of<br>the trials [L/min]"},
-                   {"deviation of the trials<br>over the budget's"},
-                   {"budget<br>validated"}});
+  const bool any_tried =
+      std::any_of(points.begin(), points.end(), [](const auto& point) { return point.check.figures.trials > 0; });
+  std::vector<HtmlTable::Column> columns{{"estimator", Set::text},         {"position<br>[mm]"},
+                                         {"pressure<br>difference [bar]"}, {"flow rate<br>[L/min]"},
+                                         {"standard<br>[L/min]"},          {"k"},
+                                         {"expanded<br>[L/min]"},          {"expanded<br>[% FS]"}};
+  if (any_tried) {
+    for (const char* heading :
+         {"interval of<br>the trials [L/min]", "deviation of the trials<br>over the budget's", "budget<br>validated"})
+      columns.push_back({heading});
+  }
+  HtmlTable table(std::move(columns));
   const validation::Estimator* before = nullptr;
   for (const analysis::PointResult& result : points) {
     const bool begins = before != nullptr && *before != result.estimator;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/budget_section.hpp"
 #include "spoolflow/report/direction_figures.hpp"
 #include "spoolflow/report/dynamics_figures.hpp"
 #include "spoolflow/report/envelope_figures.hpp"
@@ -119,6 +120,7 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
     page.table(direction_table(validation, full_scale));
   }
   show_blindness(page, model, validation.runs);
+  budget_section(page, model);
   page.section("What the sensor said of itself");
   page.table(status_table(validation));
   page.section("All figures");

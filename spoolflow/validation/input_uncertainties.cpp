@@ -52,7 +52,7 @@ class Collection {
     add(limits(InputQuantity::oil_viscosity, figures_.oil_viscosity));
     if (observer_) {
       add({InputQuantity::pressure_belief, 0, Evaluation::type_b, Distribution::normal, infinite,
-           "the observer's own filter at this point"});
+           "the observer's own filter here; band_coverage_factor of its deviations are 95 %"});
     }
     auto& all = inputs_.uncertainties;
     std::sort(all.begin(), all.end(),

@@ -60,7 +60,8 @@ void PointFunction::learn_filter() {
   model::RunningSensor sensor(&model_->observer->parameters, model_->valve.rated_flow_m3_per_s);
   sensor::Estimate<double> answer;
   for (const model::TimedSample& sample : course_) answer = sensor.step(sample);
-  pressure_deviation_Pa_ = std::sqrt(std::max(0.0, sensor.state().observer.pressure.variance_Pa2));
+  pressure_deviation_Pa_ = believed_share_of_deviation(model_->observer->parameters) *
+                           std::sqrt(std::max(0.0, sensor.state().observer.pressure.variance_Pa2));
   constexpr double least_Pa = 1e4;  // Q ~ sqrt(dp): no slope at zero
   flow_per_pressure_m3_per_s_Pa_ = 0.5 * answer.flow_m3_per_s / std::max(answer.pressure_difference_Pa, least_Pa);
 }

@@ -1,0 +1,260 @@
+#include "spoolflow/analysis/run_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+
+#include "spoolflow/analysis/in_parallel.hpp"
+#include "spoolflow/analysis/monte_carlo.hpp"
+#include "spoolflow/analysis/run_function.hpp"
+#include "spoolflow/validation/validate.hpp"
+
+namespace spoolflow::analysis {
+namespace {
+
+using validation::Estimator;
+using validation::InputErrors;
+using validation::InputQuantity;
+using validation::InputUncertainty;
+using validation::SeededNumbers;
+
+constexpr int noise_runs = 16;
+/// Samples of all trials together: longer runs get fewer trials.
+constexpr double most_samples = 1.5e8;
+constexpr std::size_t fewest_trials = 50;
+
+bool is_noise(InputQuantity quantity) {
+  return quantity == InputQuantity::position_noise || quantity == InputQuantity::current_noise;
+}
+
+/// Where the oil's temperature was recorded, how far it really was from the map's.
+void know_oil_temperature(std::vector<InputUncertainty>& inputs, const model::Model& model, const RunSamples& run) {
+  double squares = 0;
+  double count = 0;
+  for (const std::size_t k : run.instants) {
+    const double away_K = run.samples[k].oil_temperature_K - validation::map_temperature_K(model);
+    if (!std::isfinite(away_K)) continue;
+    squares += away_K * away_K;
+    count += 1;
+  }
+  if (count == 0) return;
+  for (InputUncertainty& input : inputs) {
+    if (input.quantity != InputQuantity::oil_temperature) continue;
+    input.standard_uncertainty = std::sqrt(squares / count);
+    input.distribution = validation::Distribution::normal;
+    input.source = "recording: root mean square of the oil about the map's temperature";
+  }
+}
+
+/// Contributions [m3/s] of one input at the instants, with their signs.
+using Contributions = std::vector<double>;
+
+class RunBudget {
+ public:
+  RunBudget(const model::Model& model, Estimator estimator, const RunSamples& run, const Scenario& scenario)
+      : function_(model, estimator, run),
+        inputs_(validation::inputs_of(model, estimator, instrument_figures(scenario.instruments))),
+        scenario_(scenario),
+        run_(run) {
+    if (estimator == Estimator::condensed) know_oil_temperature(inputs_.uncertainties, model, run);
+    for (InputUncertainty& input : inputs_.uncertainties) {
+      // Along a run it counts in units of what the filter claims at each instant.
+      if (input.quantity == InputQuantity::pressure_belief) input.standard_uncertainty = 1;
+    }
+    trials_ = std::max(fewest_trials,
+                       static_cast<std::size_t>(std::min(scenario.monte_carlo.trials_along_run,
+                                                         most_samples / static_cast<double>(run.samples.size()))));
+  }
+
+  [[nodiscard]] std::size_t pieces() const { return inputs_.uncertainties.size() + trials_; }
+  /// Piece by piece, in any order and from any thread.
+  void prepare() {
+    contributions_.resize(inputs_.uncertainties.size());
+    answers_.resize(trials_);
+    if (function_.estimator() == Estimator::condensed) slopes_ = function_.slopes();
+    budget_.correlations = inputs_.correlations;
+    for (const InputUncertainty& input : inputs_.uncertainties) budget_.lines.push_back({input});
+  }
+  void work(std::size_t piece) {
+    if (piece < contributions_.size()) {
+      contributions_[piece] = contributions(inputs_.uncertainties[piece]);
+    } else {
+      answers_[piece - contributions_.size()] = trial(piece - contributions_.size());
+    }
+  }
+  [[nodiscard]] RunResult result();
+
+ private:
+  [[nodiscard]] Contributions contributions(const InputUncertainty& input) const;
+  [[nodiscard]] std::vector<float> trial(std::size_t number) const;
+  void combine_instants(RunResult& out);
+  void take_trials(RunResult& out) const;
+  [[nodiscard]] BandShares band_shares(const RunResult& result) const;
+
+  RunFunction function_;
+  validation::Inputs inputs_;
+  const Scenario& scenario_;
+  const RunSamples& run_;
+  std::size_t trials_;
+  validation::Budget budget_;  ///< the lines from which trials are drawn
+  std::vector<validation::PerQuantity<double>> slopes_;
+  std::vector<Contributions> contributions_;
+  std::vector<std::vector<float>> answers_;
+};
+
+Contributions RunBudget::contributions(const InputUncertainty& input) const {
+  const double u = input.standard_uncertainty;
+  Contributions out(run_.instants.size());
+  SeededNumbers none(0, "");
+  InputErrors<double> error;
+  if (function_.estimator() == Estimator::condensed) {
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = u * slopes_[k][input.quantity];
+  } else if (input.quantity == InputQuantity::pressure_belief) {
+    out = function_.belief_m3_per_s();
+  } else if (is_noise(input.quantity)) {
+    error[input.quantity] = u;
+    for (int run = 0; run < noise_runs; ++run) {
+      SeededNumbers numbers(1, validation::about(input.quantity).name, static_cast<std::uint64_t>(run));
+      const std::vector<double> noisy = function_(error, numbers);
+      for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] += std::pow(noisy[k] - function_.flow_m3_per_s()[k], 2) / noise_runs;
+    }
+    for (double& value : out) value = std::sqrt(value);
+  } else {
+    error[input.quantity] = u;
+    const std::vector<double> above = function_(error, none);
+    error[input.quantity] = -u;
+    const std::vector<double> below = function_(error, none);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = 0.5 * (above[k] - below[k]);
+  }
+  return out;
+}
+
+std::vector<float> RunBudget::trial(std::size_t number) const {
+  SeededNumbers numbers(scenario_.seed, "trial along a run", number);
+  InputErrors<double> error = drawn_errors(budget_, numbers);
+  for (const InputUncertainty& input : inputs_.uncertainties) {
+    if (is_noise(input.quantity)) error[input.quantity] = input.standard_uncertainty;
+  }
+  const std::vector<double> flow = function_(error, numbers);
+  return {flow.begin(), flow.end()};
+}
+
+void RunBudget::combine_instants(RunResult& out) {
+  std::vector<validation::BudgetLine> mean = budget_.lines;
+  std::vector<double> squares(mean.size());
+  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
+    std::vector<validation::BudgetLine> lines = budget_.lines;
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      lines[j].contribution_m3_per_s = contributions_[j][k];
+      lines[j].degrees_of_freedom = lines[j].input.degrees_of_freedom;
+      squares[j] += lines[j].contribution_m3_per_s * lines[j].contribution_m3_per_s;
+    }
+    const validation::Budget budget = validation::combine(std::move(lines), inputs_.correlations);
+    out.combined_m3_per_s.push_back(budget.combined_m3_per_s);
+    for (std::size_t j = 0; j < mean.size(); ++j)
+      mean[j].share += budget.lines[j].share * budget.combined_m3_per_s * budget.combined_m3_per_s;
+  }
+  double variance = 0;
+  for (const validation::BudgetLine& line : mean) variance += line.share;
+  double welch = 0;
+  for (std::size_t j = 0; j < mean.size(); ++j) {
+    const double share = variance > 0 ? mean[j].share / variance : 0;
+    const auto n = static_cast<double>(run_.instants.size());
+    out.lines.push_back({mean[j].input, std::sqrt(squares[j] / n), share});
+    if (std::isfinite(mean[j].input.degrees_of_freedom)) welch += share * share / mean[j].input.degrees_of_freedom;
+  }
+  out.coverage_factor = validation::coverage_factor_95(welch > 0 ? std::max(1.0, 1 / welch) : INFINITY);
+}
+
+void RunBudget::take_trials(RunResult& out) const {
+  const auto n = static_cast<double>(trials_);
+  double of_trials = 0;
+  double of_budget = 0;
+  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
+    double mean = 0;
+    for (const std::vector<float>& answer : answers_) mean += static_cast<double>(answer[k]) / n;
+    double squares = 0;
+    for (const std::vector<float>& answer : answers_) squares += std::pow(static_cast<double>(answer[k]) - mean, 2);
+    out.deviation_m3_per_s.push_back(std::sqrt(squares / (n - 1)));
+    of_trials += squares / (n - 1);
+    of_budget += out.combined_m3_per_s[k] * out.combined_m3_per_s[k];
+  }
+  out.deviation_ratio = of_budget > 0 ? std::sqrt(of_trials / of_budget) : std::nan("");
+}
+
+BandShares RunBudget::band_shares(const RunResult& result) const {
+  const std::vector<double> lagged = function_.lagged_m3_per_s(1e-3 * scenario_.run.reference_lag_ms);
+  BandShares out;
+  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
+    const double reference = result.reference_m3_per_s[k];
+    if (!std::isfinite(reference)) continue;
+    ++out.instants;
+    const double meter = 0.01 * scenario_.run.reference_meter_percent / std::numbers::sqrt3 * std::abs(reference);
+    const double u = std::max(std::hypot(result.combined_m3_per_s[k], meter), 1e-12);
+    const double lower = result.lower_m3_per_s[k];
+    const double upper = result.upper_m3_per_s[k];
+    out.in_band += lower <= reference && reference <= upper ? 1 : 0;
+    out.in_band_by_budget += validation::normal_share_below((upper - lagged[k]) / u) -
+                             validation::normal_share_below((lower - lagged[k]) / u);
+    double inside = 0;
+    SeededNumbers numbers(scenario_.seed, "reference meter", k);
+    for (const std::vector<float>& answer : answers_) {
+      const double error = static_cast<double>(answer[k]) - result.flow_m3_per_s[k];
+      const double shown =
+          lagged[k] + error + meter * validation::quantile(validation::Distribution::rectangular, numbers.uniform());
+      inside += lower <= shown && shown <= upper ? 1 : 0;
+    }
+    out.in_band_by_trials += inside / static_cast<double>(trials_);
+    out.in_budget_interval += std::abs(reference - lagged[k]) <= result.coverage_factor * u ? 1 : 0;
+  }
+  const double n = std::max(1.0, static_cast<double>(out.instants));
+  for (double* share : {&out.in_band, &out.in_band_by_budget, &out.in_band_by_trials, &out.in_budget_interval})
+    *share /= n;
+  return out;
+}
+
+RunResult RunBudget::result() {
+  RunResult out;
+  out.estimator = function_.estimator();
+  out.trials = trials_;
+  for (const std::size_t k : run_.instants) {
+    out.time_s.push_back(run_.samples[k].time_s);
+    if (!run_.reference_m3_per_s.empty()) out.reference_m3_per_s.push_back(run_.reference_m3_per_s[k]);
+  }
+  out.flow_m3_per_s = function_.flow_m3_per_s();
+  out.lower_m3_per_s = function_.lower_m3_per_s();
+  out.upper_m3_per_s = function_.upper_m3_per_s();
+  combine_instants(out);
+  take_trials(out);
+  if (!out.reference_m3_per_s.empty()) {
+    const BandShares shares = band_shares(out);
+    if (shares.instants > 0) out.shares = shares;
+  }
+  return out;
+}
+
+}  // namespace
+
+RunAnalysis analyse_run(const model::Model& model, const RunSamples& run, const Scenario& scenario, unsigned workers,
+                        const std::function<void(double)>& progress) {
+  RunAnalysis out{run.name, run.samples.size(), {}};
+  const std::vector<Estimator> estimators = validation::all_estimators(model);
+  for (const Estimator estimator : estimators) {
+    RunBudget budget(model, estimator, run, scenario);
+    budget.prepare();
+    std::mutex mutex;  // guards progress
+    double done = 0;
+    in_parallel(budget.pieces(), workers, [&](std::size_t piece) {
+      budget.work(piece);
+      const std::lock_guard lock(mutex);
+      done += 1 / static_cast<double>(budget.pieces());
+      progress((static_cast<double>(out.results.size()) + done) / static_cast<double>(estimators.size()));
+    });
+    out.results.push_back(budget.result());
+  }
+  return out;
+}
+
+}  // namespace spoolflow::analysis

@@ -1,0 +1,169 @@
+#include "spoolflow/analysis/run_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spoolflow/analysis/run_samples.hpp"
+
+namespace spoolflow::analysis {
+namespace {
+
+using validation::Estimator;
+using validation::InputErrors;
+using validation::InputQuantity;
+using validation::SeededNumbers;
+
+sensor::Sample<double> as_sample(const model::TimedSample& given) {
+  return {0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K};
+}
+
+/// The errors with this sample's own noise.
+class Noisy {
+ public:
+  Noisy(const InputErrors<double>& error, SeededNumbers& numbers)
+      : now_(error),
+        position_m_(error[InputQuantity::position_noise]),
+        current_A_(error[InputQuantity::current_noise]),
+        numbers_(numbers) {}
+  const InputErrors<double>& next() {
+    now_[InputQuantity::position_noise] = position_m_ == 0 ? 0 : position_m_ * numbers_.normal();
+    now_[InputQuantity::current_noise] = current_A_ == 0 ? 0 : current_A_ * numbers_.normal();
+    return now_;
+  }
+
+ private:
+  InputErrors<double> now_;
+  double position_m_, current_A_;
+  SeededNumbers& numbers_;
+};
+
+/// What the observer's filter leaves open of the pressure difference, one standard deviation. At rest no more than what
+/// friction can hide: it lies within the reach of the pre-sliding gauge.
+double pressure_deviation_Pa(const sensor::ObserverParameters<double>& valve,
+                             const sensor::ObserverState<double>& state, const model::TimedSample& sample,
+                             double step_s) {
+  const bool rests = sensor::has(state.last.status, sensor::Status::spool_at_rest);
+  const double filter_Pa = std::sqrt(
+      std::max(0.0, state.pressure.variance_Pa2 + (rests ? state.pressure.liveliness * state.pressure.unseen_Pa2 : 0)));
+  if (!rests) return filter_Pa;
+  const auto edge = valve.edge.at(state.oil_temperature_K, state.pressure.pressure_difference_Pa, sample.position_m);
+  constexpr double smoothing_s = 0.03;  // as in friction.hpp
+  const double slack_m = 2 * valve.position_sensor.noise_m * std::sqrt(0.5 * step_s / (smoothing_s + step_s));
+  const double reach_N = valve.friction.contact_stiffness_N_per_m * (valve.position_sensor.backlash_m + slack_m);
+  const double tolerance_N = valve.friction.tolerance_N * (1 + valve.band.creep_per_s * state.friction.rest_s);
+  const double hidden_N =
+      std::hypot(reach_N * validation::deviation_per_half_width(validation::Distribution::rectangular), tolerance_N);
+  return std::min(filter_Pa, hidden_N / std::max(edge.flow_force_per_pressure_N_Pa, 1e-8));
+}
+
+}  // namespace
+
+RunFunction::RunFunction(const model::Model& model, Estimator estimator, const RunSamples& run)
+    : model_(model),
+      estimator_(estimator),
+      run_(run),
+      temperature_per_viscosity_K_(
+          validation::temperature_per_viscosity_K(model.fluid, validation::map_temperature_K(model))) {
+  run_undisturbed();
+  if (estimator == Estimator::condensed) learn_surroundings();
+}
+
+void RunFunction::run_undisturbed() {
+  model::RunningSensor::Parameters parameters = &model_.condensed.parameters;
+  if (estimator_ == Estimator::observer) parameters = &model_.observer->parameters;
+  model::RunningSensor sensor(parameters, model_.valve.rated_flow_m3_per_s);
+  auto instant = run_.instants.begin();
+  for (std::size_t k = 0; k < run_.samples.size(); ++k) {
+    const sensor::Estimate<double> answer = sensor.step(run_.samples[k]);
+    every_flow_m3_per_s_.push_back(answer.flow_m3_per_s);
+    if (instant == run_.instants.end() || *instant != k) continue;
+    ++instant;
+    flow_m3_per_s_.push_back(answer.flow_m3_per_s);
+    lower_m3_per_s_.push_back(answer.flow_lower_m3_per_s);
+    upper_m3_per_s_.push_back(answer.flow_upper_m3_per_s);
+    pressure_Pa_.push_back(answer.pressure_difference_Pa);
+    const double step_s = k == 0 ? 0 : run_.samples[k].time_s - run_.samples[k - 1].time_s;
+    constexpr double least_Pa = 1e4;  // Q ~ sqrt(dp): no slope at zero
+    double deviation_Pa = 0;
+    if (estimator_ == Estimator::observer) {
+      const auto& valve = model_.observer->parameters;
+      deviation_Pa = validation::believed_share_of_deviation(valve) *
+                     pressure_deviation_Pa(valve, sensor.state().observer, run_.samples[k], step_s);
+    }
+    belief_m3_per_s_.push_back(0.5 * answer.flow_m3_per_s / std::max(answer.pressure_difference_Pa, least_Pa) *
+                               deviation_Pa);
+  }
+}
+
+void RunFunction::learn_surroundings() {
+  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
+    const model::TimedSample& sample = run_.samples[run_.instants[k]];
+    surroundings_.push_back(validation::surroundings_at(
+        model_, {sample.position_m, pressure_Pa_[k], validation::map_temperature_K(model_)}, sample.current_A));
+  }
+}
+
+std::vector<double> RunFunction::lagged_m3_per_s(double lag_s) const {
+  const std::vector<double> all = lagged(run_, every_flow_m3_per_s_, lag_s);
+  std::vector<double> out;
+  for (const std::size_t k : run_.instants) out.push_back(all[k]);
+  return out;
+}
+
+std::vector<double> RunFunction::operator()(const InputErrors<double>& error, SeededNumbers& noise) const {
+  return estimator_ == Estimator::condensed ? condensed(error, noise) : observer(error, noise);
+}
+
+std::vector<double> RunFunction::condensed(const InputErrors<double>& error, SeededNumbers& noise) const {
+  const auto valve = validation::disturbed<double>(model_.condensed.parameters, error);
+  model::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);  // has no memory: the instants are enough
+  Noisy noisy(error, noise);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
+    const model::TimedSample& given = run_.samples[run_.instants[k]];
+    const InputErrors<double>& now = noisy.next();
+    const sensor::Sample<double> read = validation::disturbed<double>(as_sample(given), surroundings_[k], now);
+    const auto answer =
+        sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
+    out.push_back(answer.flow_m3_per_s - validation::unseen_flow_m3_per_s(surroundings_[k], now));
+  }
+  return out;
+}
+
+std::vector<double> RunFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
+  const auto valve = validation::disturbed(model_.observer->parameters, error, temperature_per_viscosity_K_);
+  model::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);
+  Noisy noisy(error, noise);
+  std::vector<double> out;
+  auto instant = run_.instants.begin();
+  for (std::size_t k = 0; k < run_.samples.size(); ++k) {
+    const model::TimedSample& given = run_.samples[k];
+    const sensor::Sample<double> read = validation::disturbed<double>(as_sample(given), noisy.next());
+    const auto answer =
+        sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
+    if (instant == run_.instants.end() || *instant != k) continue;
+    ++instant;
+    out.push_back(answer.flow_m3_per_s + error[InputQuantity::flow_map] +
+                  error[InputQuantity::pressure_belief] * belief_m3_per_s_[out.size()]);
+  }
+  return out;
+}
+
+std::vector<validation::PerQuantity<double>> RunFunction::slopes() const {
+  const validation::CondensedSlopes all(model_);
+  std::vector<validation::PerQuantity<double>> out;
+  const auto& valve = model_.condensed.parameters;
+  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
+    sensor::Sample<double> sample = as_sample(run_.samples[run_.instants[k]]);
+    // Beyond the measured forces the sensor answers at the map's edge, whose slope is that of its outermost cell.
+    const double force_N =
+        valve.magnetic_force.at(sample.current_A, sample.position_m).value - valve.spring.at(sample.position_m).value;
+    const double largest_N = valve.flow_rate.largest_force_N.at(sample.position_m).value;
+    const double inside_N = std::clamp(force_N, 0.01 * largest_N, 0.99 * largest_N);
+    sample.current_A += (inside_N - force_N) / surroundings_[k].force_per_current_N_per_A;
+    out.push_back(all.at(sample, surroundings_[k]));
+  }
+  return out;
+}
+
+}  // namespace spoolflow::analysis
