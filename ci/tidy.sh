@@ -1,6 +1,8 @@
 #!/bin/sh
-# ci/tidy.sh BUILD FOLDER: clang-tidy over the folder's *.cpp with BUILD's compile commands. A file that passed is looked
-# at again only when it, a header of the project that it includes, its compile command or the checks change.
+# ci/tidy.sh BUILD FOLDER: clang-tidy over the folder's *.cpp with BUILD's compile commands. All files are looked at as one
+# translation unit, since most of the time goes into the libraries' headers; where two files use the same name for
+# different things, one by one. A folder that passed is looked at again only when it, a header of the project or the
+# checks change.
 set -eu
 build=$1
 folder=$2
@@ -8,25 +10,28 @@ cd "$(dirname "$0")/.."
 root=$(pwd)
 passed=$build/tidy
 mkdir -p "$passed"
-settings=$( (clang-tidy --version && cat .clang-tidy) | sha256sum)
+mark=$passed/$(echo "$folder" | tr / .)
+
+command=$(grep -F "\"command\":" "$build/compile_commands.json" | grep -F -- "-c $root/$folder/" | head -1 || true)
+[ -n "$command" ] || exit 0 # headers only: seen with those who include them
+flags=$(echo "$command" | tr ' ' '\n' | grep -E '^(-D|-I|-std|-isystem|/)' | grep -v -e '\.cpp' -e 'c++$' -e '^-isystem$' -e 'ccache$' |
+        sed 's,^/,-isystem/,' | sed 's,\\\\\",",g' || true)
+key=$( (clang-tidy --version; cat .clang-tidy; echo "$flags"; cat "$folder"/*.cpp; find spoolflow -name '*.hpp' | sort | xargs cat) | sha256sum)
+if [ "$(cat "$mark" 2>/dev/null)" = "$key" ]; then exit 0; fi
+
+# tidy SOURCE
+tidy() { clang-tidy --quiet "$1" -- $flags >"$mark.found" 2>"$mark.log"; }
+# tell: what the last one found
+tell() { cat "$mark.found"; grep -v -e 'warnings\? generated' -e '^Suppressed' -e '^Use -header-filter' "$mark.log" || true; }
+for source in "$folder"/*.cpp; do echo "#include \"$root/$source\""; done >"$mark.all.cpp"
 failed=0
-for source in "$folder"/*.cpp; do
-  [ -e "$source" ] || continue
-  # One block of `ninja -t deps` an object; the source itself is its first line.
-  headers=$(ninja -C "$build" -t deps | awk -v source="$root/$source" -v root="$root/" '
-    /^[^ ]/ { first = 1; next }
-    NF == 0 { inside = 0; next }
-    { path = $1; if (first) { inside = path == source; first = 0 }
-      if (inside && index(path, root) == 1) print path }' | sort -u)
-  command=$(grep -F "$root/$source" "$build/compile_commands.json" || true)
-  key=$( (echo "$settings $command" && cat "$source" $headers) | sha256sum | cut -d' ' -f1)
-  mark=$passed/$(echo "$source" | tr / .)
-  if [ "$(cat "$mark" 2>/dev/null)" = "$key" ]; then continue; fi
-  if clang-tidy -p "$build" --quiet "$source" 2>"$mark.log"; then
-    echo "$key" >"$mark"
+if ! tidy "$mark.all.cpp"; then
+  if grep -q 'clang-diagnostic-error' "$mark.found"; then
+    for source in "$folder"/*.cpp; do tidy "$source" || { tell; failed=1; }; done
   else
-    grep -v 'warnings generated\|^Suppressed\|^Use -header-filter' "$mark.log" || true
+    tell
     failed=1
   fi
-done
+fi
+if [ $failed = 0 ]; then echo "$key" >"$mark"; fi
 exit $failed

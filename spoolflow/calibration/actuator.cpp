@@ -9,8 +9,6 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr int elements = sensor::hysteresis_elements;
-
 double largest_flux(const sensor::FluxLinkage<double>& flux_linkage) {
   return flux_linkage.map.node(sensor::flux_map_currents - 1 - sensor::flux_map_currents_below_zero,
                                sensor::flux_map_positions - 1);
@@ -21,10 +19,11 @@ double largest_flux(const sensor::FluxLinkage<double>& flux_linkage) {
 sensor::MagneticHysteresis<double> default_hysteresis(double coercive_current_A, double full_flux_Wb) {
   sensor::MagneticHysteresis<double> out;
   out.per_full_flux = 1 / full_flux_Wb;
-  for (int k = 0; k < elements; ++k) {
+  for (int k = 0; k < sensor::hysteresis_elements; ++k) {
     const auto e = static_cast<std::size_t>(k);
-    out.threshold[e] = full_flux_Wb * 0.001 * std::pow(100.0, static_cast<double>(k) / (elements - 1));
-    out.stiffness[e] = coercive_current_A / elements / out.threshold[e];
+    out.threshold[e] =
+        full_flux_Wb * 0.001 * std::pow(100.0, static_cast<double>(k) / (sensor::hysteresis_elements - 1));
+    out.stiffness[e] = coercive_current_A / sensor::hysteresis_elements / out.threshold[e];
   }
   return out;
 }

@@ -8,7 +8,6 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr int elements = sensor::hysteresis_elements;
 using Jet = ceres::Jet<double, coil_unknowns>;
 
 template <class T>
@@ -21,15 +20,16 @@ sensor::Coil<T> coil_of(const CoilTask& task, const T* unknowns) {
   out.flux_linkage.map.row_axis = axis_of(map.row_axis);
   out.flux_linkage.map.column_axis = axis_of(map.column_axis);
   for (std::size_t k = 0; k < map.values.size(); ++k) out.flux_linkage.map.values[k] = T(map.values[k]);
-  for (int k = 0; k < elements; ++k) {
+  for (int k = 0; k < sensor::hysteresis_elements; ++k) {
     const auto e = static_cast<std::size_t>(k);
     const double threshold = task.coil.hysteresis.threshold[e];
     out.hysteresis.threshold[e] = T(threshold);
     out.hysteresis.stiffness[e] = unknowns[k] / threshold;
-    out.hysteresis.stiffness_increase[e] = (unknowns[elements + k] - unknowns[k]) / threshold;
+    out.hysteresis.stiffness_increase[e] = (unknowns[sensor::hysteresis_elements + k] - unknowns[k]) / threshold;
   }
   out.hysteresis.per_full_flux = T(task.coil.hysteresis.per_full_flux);
-  out.eddy_currents = {unknowns[2 * elements], unknowns[2 * elements + 1], T(task.coil.eddy_currents.smallest_rate_V)};
+  out.eddy_currents = {unknowns[2 * sensor::hysteresis_elements], unknowns[2 * sensor::hysteresis_elements + 1],
+                       T(task.coil.eddy_currents.smallest_rate_V)};
   return out;
 }
 

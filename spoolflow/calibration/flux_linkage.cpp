@@ -12,22 +12,22 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr int rows = sensor::flux_map_currents;
-constexpr int columns = sensor::flux_map_positions;
+constexpr int flux_rows = sensor::flux_map_currents;
+constexpr int flux_columns = sensor::flux_map_positions;
 constexpr int zero_row = sensor::flux_map_currents_below_zero;
-constexpr int nodes = (rows - zero_row - 1) * columns;
+constexpr int nodes = (flux_rows - zero_row - 1) * flux_columns;
 constexpr std::size_t window_samples = 13;  // long against the noise, short against a sine's period
 constexpr double knot_distance_s = 15;      // a coil warms in minutes
 
-using FluxMap = sensor::Map<double, rows, columns>;
+using FluxMap = sensor::Map<double, flux_rows, flux_columns>;
 
 FluxMap empty_map(const sensor::MagneticForce<double>& magnetic_force) {
   FluxMap map{};
   const auto& force = magnetic_force.map;
-  const double step_A = force.row_axis.at(sensor::force_map_currents - 1) / (rows - 1 - 2 * zero_row);
+  const double step_A = force.row_axis.at(sensor::force_map_currents - 1) / (flux_rows - 1 - 2 * zero_row);
   map.row_axis = {-zero_row * step_A, step_A, 1 / step_A};
   const double first_m = force.column_axis.first;
-  const double step_m = (force.column_axis.at(sensor::force_map_positions - 1) - first_m) / (columns - 1);
+  const double step_m = (force.column_axis.at(sensor::force_map_positions - 1) - first_m) / (flux_columns - 1);
   map.column_axis = {first_m, step_m, 1 / step_m};
   return map;
 }
@@ -39,12 +39,12 @@ using Shares = std::vector<std::pair<int, double>>;
 void add_node(Shares& shares, int row, int column, double share) {
   const int above = row - zero_row;
   if (above == 0 || share == 0) return;
-  shares.emplace_back((std::abs(above) - 1) * columns + column, above > 0 ? share : -share);
+  shares.emplace_back((std::abs(above) - 1) * flux_columns + column, above > 0 ? share : -share);
 }
 
 void add_flux(Shares& shares, const FluxMap& map, double current_A, double position_m, double sign) {
-  const auto row = sensor::locate<rows>(map.row_axis, current_A);
-  const auto column = sensor::locate<columns>(map.column_axis, position_m);
+  const auto row = sensor::locate<flux_rows>(map.row_axis, current_A);
+  const auto column = sensor::locate<flux_columns>(map.column_axis, position_m);
   add_node(shares, row.index, column.index, sign * (1 - row.share) * (1 - column.share));
   add_node(shares, row.index, column.index + 1, sign * (1 - row.share) * column.share);
   add_node(shares, row.index + 1, column.index, sign * row.share * (1 - column.share));
@@ -129,10 +129,10 @@ void add_smoothness(Eigen::MatrixXd& matrix, double allowed_Wb, double allowed_O
     for (std::size_t n = 0; n < 3; ++n) add_node(shares, three[n].first, three[n].second, difference[n]);
     add_equation(matrix, shares, strength * weight);
   };
-  for (int row = zero_row + 1; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      if (row + 1 < rows) add({{{row - 1, column}, {row, column}, {row + 1, column}}}, 1);
-      if (column > 0 && column + 1 < columns) add({{{row, column - 1}, {row, column}, {row, column + 1}}}, 0.3);
+  for (int row = zero_row + 1; row < flux_rows; ++row) {
+    for (int column = 0; column < flux_columns; ++column) {
+      if (row + 1 < flux_rows) add({{{row - 1, column}, {row, column}, {row + 1, column}}}, 1);
+      if (column > 0 && column + 1 < flux_columns) add({{{row, column - 1}, {row, column}, {row, column + 1}}}, 0.3);
     }
   }
   for (int k = nodes; k + 1 < matrix.rows(); ++k)
@@ -194,12 +194,13 @@ sensor::CoilResistance<double> resistance_of(const FluxChanges& changes, const S
 
 /// Flux rises with current: a slope of at least a twentieth of the map's mean keeps the sensor's equation solvable.
 void fill_nodes(FluxMap& map, const Eigen::VectorXd& unknowns) {
-  const double mean_rise = unknowns.segment((rows - zero_row - 2) * columns, columns).mean() / (rows - zero_row - 1);
-  for (int column = 0; column < columns; ++column) {
+  const double mean_rise =
+      unknowns.segment((flux_rows - zero_row - 2) * flux_columns, flux_columns).mean() / (flux_rows - zero_row - 1);
+  for (int column = 0; column < flux_columns; ++column) {
     map.node(zero_row, column) = 0;
     double before = 0;
-    for (int row = zero_row + 1; row < rows; ++row) {
-      const double measured = unknowns((row - zero_row - 1) * columns + column);
+    for (int row = zero_row + 1; row < flux_rows; ++row) {
+      const double measured = unknowns((row - zero_row - 1) * flux_columns + column);
       const double flux = std::max(measured, before + 0.05 * mean_rise);
       map.node(row, column) = before = flux;
       if (row <= 2 * zero_row) map.node(2 * zero_row - row, column) = -flux;
@@ -213,12 +214,12 @@ FluxMap map_from_force(const sensor::MagneticForce<double>& magnetic_force) {
   const auto root = [&](double current_A, double position_m) {
     return std::sqrt(std::max(magnetic_force.at(current_A, position_m).value, 0.0));
   };
-  const double half_A = 0.5 * map.row_axis.at(rows - 1 - zero_row);
-  const double scale = half_A / std::max(root(half_A, map.column_axis.at(columns / 2)), 1e-9);
+  const double half_A = 0.5 * map.row_axis.at(flux_rows - 1 - zero_row);
+  const double scale = half_A / std::max(root(half_A, map.column_axis.at(flux_columns / 2)), 1e-9);
   Eigen::VectorXd unknowns(nodes);
-  for (int row = zero_row + 1; row < rows; ++row)
-    for (int column = 0; column < columns; ++column)
-      unknowns((row - zero_row - 1) * columns + column) =
+  for (int row = zero_row + 1; row < flux_rows; ++row)
+    for (int column = 0; column < flux_columns; ++column)
+      unknowns((row - zero_row - 1) * flux_columns + column) =
           scale * root(map.row_axis.at(row), map.column_axis.at(column));
   fill_nodes(map, unknowns);
   return map;
@@ -242,7 +243,8 @@ FluxLinkageFit fit_flux_linkage(std::span<const FluxEvidence> evidence,
   changes.resistance_step_Ohm = 0.003 * changes.largest_voltage_V / changes.largest_current_A;
   const Solution first = solve(changes, guess_H, nullptr, fit);
   fit.misfit = 1;
-  const double inductance_H = first.unknowns.segment(8 * columns, columns).mean() / (9 * changes.map.row_axis.spacing);
+  const double inductance_H =
+      first.unknowns.segment(8 * flux_columns, flux_columns).mean() / (9 * changes.map.row_axis.spacing);
   const Solution second = solve(changes, inductance_H, &first.unknowns, fit);
   const Solution last = solve(changes, inductance_H, &second.unknowns, fit);
   fit.flux_linkage.map = changes.map;

@@ -9,13 +9,11 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr int elements = sensor::hysteresis_elements;
-
 sensor::MagneticHysteresis<double> with_thresholds(double lowest, double highest, double full_flux) {
   sensor::MagneticHysteresis<double> out;
-  for (int k = 0; k < elements; ++k)
+  for (int k = 0; k < sensor::hysteresis_elements; ++k)
     out.threshold[static_cast<std::size_t>(k)] =
-        lowest * std::pow(highest / lowest, static_cast<double>(k) / (elements - 1));
+        lowest * std::pow(highest / lowest, static_cast<double>(k) / (sensor::hysteresis_elements - 1));
   out.per_full_flux = 1 / full_flux;
   return out;
 }
@@ -31,7 +29,7 @@ template <class Visit>
 void visit_rows(std::span<const HysteresisHistory> histories, const sensor::MagneticHysteresis<double>& hysteresis,
                 const Visit& visit) {
   const std::size_t companions = histories.front().companions.size();
-  Eigen::VectorXd row(2 * elements + static_cast<Eigen::Index>(companions));
+  Eigen::VectorXd row(2 * sensor::hysteresis_elements + static_cast<Eigen::Index>(companions));
   for (const HysteresisHistory& history : histories) {
     sensor::HysteresisState<double> state;
     for (std::size_t n = 0; n < history.flux.size(); ++n) {
@@ -39,20 +37,21 @@ void visit_rows(std::span<const HysteresisHistory> histories, const sensor::Magn
       const double weight = history.weight[n];
       if (!(weight > 0)) continue;
       const double share = std::min(1.0, std::abs(history.flux[n]) * hysteresis.per_full_flux);
-      for (int k = 0; k < elements; ++k) {
+      for (int k = 0; k < sensor::hysteresis_elements; ++k) {
         const double deflection = state.deflection[static_cast<std::size_t>(k)];
         row(k) = weight * (1 - share) * deflection;
-        row(elements + k) = weight * share * deflection;
+        row(sensor::hysteresis_elements + k) = weight * share * deflection;
       }
       for (std::size_t c = 0; c < companions; ++c)
-        row(2 * elements + static_cast<Eigen::Index>(c)) = weight * history.companions[c][n];
+        row(2 * sensor::hysteresis_elements + static_cast<Eigen::Index>(c)) = weight * history.companions[c][n];
       visit(row, weight * history.output[n]);
     }
   }
 }
 
 HysteresisFit fit_with(std::span<const HysteresisHistory> histories, sensor::MagneticHysteresis<double> hysteresis) {
-  const auto unknowns = static_cast<Eigen::Index>(2 * elements + histories.front().companions.size());
+  const auto unknowns =
+      static_cast<Eigen::Index>(2 * sensor::hysteresis_elements + histories.front().companions.size());
   NormalEquations equations{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
   visit_rows(histories, hysteresis, [&](const Eigen::VectorXd& row, double right) {
     equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(row);
@@ -62,12 +61,12 @@ HysteresisFit fit_with(std::span<const HysteresisHistory> histories, sensor::Mag
   const Eigen::VectorXd shares = solve_nonnegative(equations);
 
   HysteresisFit fit{};
-  for (int k = 0; k < elements; ++k) {
+  for (int k = 0; k < sensor::hysteresis_elements; ++k) {
     hysteresis.stiffness[static_cast<std::size_t>(k)] = shares(k);
-    hysteresis.stiffness_increase[static_cast<std::size_t>(k)] = shares(elements + k) - shares(k);
+    hysteresis.stiffness_increase[static_cast<std::size_t>(k)] = shares(sensor::hysteresis_elements + k) - shares(k);
   }
   fit.hysteresis = hysteresis;
-  for (Eigen::Index c = 2 * elements; c < unknowns; ++c) fit.companion_shares.push_back(shares(c));
+  for (Eigen::Index c = 2 * sensor::hysteresis_elements; c < unknowns; ++c) fit.companion_shares.push_back(shares(c));
   visit_rows(histories, hysteresis,
              [&](const Eigen::VectorXd& row, double right) { fit.residual.add(right - row.dot(shares)); });
   return fit;

@@ -14,8 +14,6 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr int elements = sensor::hysteresis_elements;
-
 /// Every part of the protocol counts alike, whatever its sample rate. Left out: what follows a step of the current
 /// that the samples do not resolve.
 std::vector<double> weights(const SolenoidSamples& samples, double largest_A, const std::vector<int>& only) {
@@ -39,20 +37,21 @@ std::vector<double> weights(const SolenoidSamples& samples, double largest_A, co
 
 CoilUnknowns unknowns_of(const sensor::Coil<double>& coil) {
   CoilUnknowns values;
-  for (std::size_t k = 0; k < elements; ++k) {
+  for (std::size_t k = 0; k < sensor::hysteresis_elements; ++k) {
     values[k] = coil.hysteresis.stiffness[k] * coil.hysteresis.threshold[k];
-    values[k + elements] = values[k] + coil.hysteresis.stiffness_increase[k] * coil.hysteresis.threshold[k];
+    values[k + sensor::hysteresis_elements] =
+        values[k] + coil.hysteresis.stiffness_increase[k] * coil.hysteresis.threshold[k];
   }
-  values[2 * elements] = coil.eddy_currents.classical_A_per_V;
-  values[2 * elements + 1] = coil.eddy_currents.excess_A_per_rootV;
+  values[2 * sensor::hysteresis_elements] = coil.eddy_currents.classical_A_per_V;
+  values[2 * sensor::hysteresis_elements + 1] = coil.eddy_currents.excess_A_per_rootV;
   return values;
 }
 
 /// Weakly equal outputs without and at full flux, where the recording does not tell them apart.
 void add_even_outputs(CoilDeviation& deviation, const CoilUnknowns& unknowns, double coercive_A) {
   const double weight = 1 / (coercive_A * coercive_A);
-  for (int k = 0; k < elements; ++k) {
-    const int full = k + elements;
+  for (int k = 0; k < sensor::hysteresis_elements; ++k) {
+    const int full = k + sensor::hysteresis_elements;
     const double difference = unknowns[static_cast<std::size_t>(full)] - unknowns[static_cast<std::size_t>(k)];
     deviation.sum_of_squares += weight * difference * difference;
     deviation.gradient(full) += weight * difference;
@@ -64,7 +63,7 @@ void add_even_outputs(CoilDeviation& deviation, const CoilUnknowns& unknowns, do
   }
 }
 
-struct Solution {
+struct Trial {
   CoilUnknowns unknowns;
   Eigen::VectorXd corrections_N;
   CoilDeviation deviation;
@@ -74,14 +73,14 @@ struct Solution {
 
 /// Gauss-Newton with Levenberg's damping; each step is a non-negative least-squares problem in the unknowns, the free
 /// corrections being eliminated.
-Solution solve(const CoilTask& task, const CoilUnknowns& start, double coercive_A) {
+Trial solve(const CoilTask& task, const CoilUnknowns& start, double coercive_A) {
   const auto evaluate = [&](const CoilUnknowns& unknowns, const Eigen::VectorXd& corrections_N) {
     CoilDeviation deviation = coil_deviation(task, unknowns, corrections_N);
     add_even_outputs(deviation, unknowns, coercive_A);
     return deviation;
   };
   const auto free = static_cast<Eigen::Index>(map_corrections * task.held.size());
-  Solution best{start, Eigen::VectorXd::Zero(free), {}, 0, 0};
+  Trial best{start, Eigen::VectorXd::Zero(free), {}, 0, 0};
   for (const double weight : task.weight) best.samples_counted += weight * weight;
   best.deviation = evaluate(best.unknowns, best.corrections_N);
   double damping = 1e-3;
@@ -162,15 +161,15 @@ std::vector<TestResidual> residuals_of(const SolenoidSamples& samples, const sen
 }
 
 std::string name_of(int k, const sensor::Coil<double>& coil) {
-  if (k == 2 * elements) return "classical_eddy_current_A_per_V";
-  if (k == 2 * elements + 1) return "excess_eddy_current_A_per_rootV";
-  const auto e = static_cast<std::size_t>(k % elements);
+  if (k == 2 * sensor::hysteresis_elements) return "classical_eddy_current_A_per_V";
+  if (k == 2 * sensor::hysteresis_elements + 1) return "excess_eddy_current_A_per_rootV";
+  const auto e = static_cast<std::size_t>(k % sensor::hysteresis_elements);
   return fmt::format("stop_{:.3g}_mWb_{}_A", 1e3 * coil.hysteresis.threshold[e],
-                     k < elements ? "without_flux" : "at_full_flux");
+                     k < sensor::hysteresis_elements ? "without_flux" : "at_full_flux");
 }
 
 /// Values with their covariance, from the curvature at those unknowns that are not held at zero.
-void describe_parameters(SolenoidDynamicsFit& fit, const sensor::Coil<double>& coil, const Solution& solution) {
+void describe_parameters(SolenoidDynamicsFit& fit, const sensor::Coil<double>& coil, const Trial& solution) {
   const Eigen::Index all = solution.deviation.curvature.rows();
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < all; ++k)
@@ -208,7 +207,7 @@ SolenoidDynamicsFit fit_solenoid_dynamics(const SolenoidSamples& given, const se
   const SolenoidSamples samples = thinned(given, 0.01 * largest_A);
   const CoilTask task{samples, coil, magnetic_force, held_armature(samples), weights(samples, largest_A, only)};
   const double coercive_A = std::max(1e-4 * largest_A, sensor::saturated_output(coil.hysteresis, 0.5));
-  const Solution solution = solve(task, unknowns_of(coil), coercive_A);
+  const Trial solution = solve(task, unknowns_of(coil), coercive_A);
 
   SolenoidDynamicsFit fit{};
   fit.coil = coil_with(task, solution.unknowns);

@@ -24,7 +24,7 @@ bool is_blank(std::string_view text) {
   return text.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
   return text;
@@ -34,7 +34,7 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
   std::vector<std::string_view> cells;
   for (bool last = false; !last;) {
     const CsvCell cell = take_cell(line, delimiter);
-    cells.push_back(trimmed(cell.text));
+    cells.push_back(without_blanks(cell.text));
     last = cell.last;
   }
   while (!cells.empty() && cells.back().empty()) cells.pop_back();  // trailing delimiters
@@ -94,7 +94,7 @@ CsvCell take_cell(std::string_view& line, char delimiter) {
       close = line.find('"', close + 2);
     if (close != std::string_view::npos) end = line.find(delimiter, close);
   }
-  std::string_view text = trimmed(line.substr(0, end));
+  std::string_view text = without_blanks(line.substr(0, end));
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
   const bool last = end == std::string_view::npos;
   line.remove_prefix(last ? line.size() : end + 1);

@@ -50,7 +50,7 @@ std::string TomlTable::place(std::string_view key) const {
 std::optional<std::string> TomlTable::optional_text(std::string_view key) const {
   const toml::node* node = table.get(key);
   if (node == nullptr) return std::nullopt;
-  const auto value = node->value_exact<std::string>();
+  auto value = node->value_exact<std::string>();
   if (!value) throw RecordingError(fmt::format("{}: '{}' in {} must be a text in quotes", place(key), key, name));
   return value;
 }

@@ -17,7 +17,7 @@ using validation::Quantity;
 class Judge {
  public:
   Judge(const model::Model& model, const validation::Validation& validation)
-      : model_(model), validation_(validation), percent_(100 / model.valve.rated_flow_m3_per_s) {}
+      : validation_(validation), percent_(100 / model.valve.rated_flow_m3_per_s) {}
 
   [[nodiscard]] std::string sentence() const;
   [[nodiscard]] std::vector<std::string> limits() const;
@@ -33,7 +33,6 @@ class Judge {
   void add_band(std::vector<std::string>& out) const;
   void add_known_runs(std::vector<std::string>& out) const;
 
-  const model::Model& model_;
   const validation::Validation& validation_;
   double percent_;
 };

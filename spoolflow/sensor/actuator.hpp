@@ -58,6 +58,14 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, ActuatorStat
   return larger(left, T(0)) * actuator.coercive_current_A;
 }
 
+/// What the voltage tells of the coil, from the same sample as the step before it; a NaN or a coil whose resistance was
+/// never calibrated tells nothing.
+template <class T>
+constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state, const Sample<T>& sample) {
+  follow_resistance(actuator.coil_resistance, state.coil_resistance,
+                    {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
+}
+
 /// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
 /// must be finite; a voltage that is NaN is one that is not measured. Any time step from 50 us to 5 ms.
 template <class T>
@@ -70,9 +78,6 @@ template <class T>
   if (begins) {
     state.started = true;
     state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
-  } else {
-    follow_resistance(actuator.coil_resistance, state.coil_resistance,
-                      {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
   }
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);

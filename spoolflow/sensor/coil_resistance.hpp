@@ -5,7 +5,8 @@
 
 namespace spoolflow::sensor {
 
-/// Coil resistance [Ohm], followed while the valve works: the coil warms, copper by 0.39 % per kelvin.
+/// Coil resistance [Ohm], followed while the valve works: the coil warms, copper by 0.39 % per kelvin. It does not
+/// enter the force, which comes from the current (docs/accuracy.md, ablation); it tells of faults of the coil.
 template <class T>
 struct CoilResistance {
   T resistance_Ohm{};          ///< as calibrated, where following starts; 0: not known
@@ -46,6 +47,16 @@ constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceSt
                  (covariance * sample.current_A * sample.time_step_s + squared(coil.voltage_noise_V_root_s) + T(1e-12));
   state.resistance_Ohm += gain * misfit_V;
   state.variance_Ohm2 -= gain * covariance;
+}
+
+/// Whether a resistance known to better than a tenth is one that copper cannot have between -60 and 220 degC, as seen
+/// from where it was calibrated: a broken wire or connector, turns shorted, a wrong voltage.
+template <class T>
+constexpr bool implausible(const CoilResistance<T>& coil, const CoilResistanceState<T>& state) {
+  constexpr T coldest = T(0.6);
+  constexpr T warmest = T(1.7);
+  return state.variance_Ohm2 < squared(T(0.1) * coil.resistance_Ohm) &&
+         (state.resistance_Ohm < coldest * coil.resistance_Ohm || state.resistance_Ohm > warmest * coil.resistance_Ohm);
 }
 
 }  // namespace spoolflow::sensor

@@ -58,6 +58,10 @@ const char* meaning(sensor::Status bit) {
       return "The model lacks what this estimator needs; calibrate again with the recordings for it.";
     case Status::time_fault:
       return "The time did not advance; where it ran backwards, the last answer was held. Look at the time stamps.";
+    case Status::coil_fault:
+      return "Voltage and current give a coil resistance that no sound coil has; look for shorted turns, a bad "
+             "contact, or "
+             "a wrong unit of the voltage.";
   }
   return "";
 }
