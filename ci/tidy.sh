@@ -12,10 +12,11 @@ passed=$build/tidy
 mkdir -p "$passed"
 mark=$passed/$(echo "$folder" | tr / .)
 
-command=$(grep -F "\"command\":" "$build/compile_commands.json" | grep -F -- "-c $root/$folder/" | head -1 || true)
-[ -n "$command" ] || exit 0 # headers only: seen with those who include them
-flags=$(echo "$command" | tr ' ' '\n' | grep -E '^(-D|-I|-std|-isystem|/)' | grep -v -e '\.cpp' -e 'c++$' -e '^-isystem$' -e 'ccache$' |
-        sed 's,^/,-isystem/,' | sed 's,\\\\\",",g' || true)
+# what all the folder's compile commands define and include
+flags=$(grep -F '"command":' "$build/compile_commands.json" | grep -e "-c $root/$folder/[^/]*\.cpp" | tr ' ' '\n' |
+        grep -E '^(-D|-I|-std|/)' | grep -v -e '\.cpp' -e 'c++"\?$' -e 'ccache$' | sed -e 's,^/,-isystem/,' -e 's,\\\\\\",",g' |
+        sort -u || true)
+[ -n "$flags" ] || exit 0 # headers only: seen with those who include them
 key=$( (clang-tidy --version; cat .clang-tidy; echo "$flags"; cat "$folder"/*.cpp; find spoolflow -name '*.hpp' | sort | xargs cat) | sha256sum)
 if [ "$(cat "$mark" 2>/dev/null)" = "$key" ]; then exit 0; fi
 
