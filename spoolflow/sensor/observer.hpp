@@ -140,7 +140,8 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
     drift(valve.pressure, pressure, dt, highest_Pa);
   } else {
     drift_unseen(valve.pressure, pressure, dt, highest_Pa);
-    follow_coil(valve.actuator, state.actuator, sample);  // slow enough for the samples that have least else to do
+    // Slow enough to be followed in those samples that have least else to do.
+    if (resting.breakaway_N == T(0)) follow_coil(valve.actuator, state.actuator, sample);
   }
   if (!closed) {
     const T surprise_N = apparent_friction_N - friction_N;
@@ -206,7 +207,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
                when(!edge.temperature_inside, Status::outside_temperature) |
                when(sample.current_A > valve.largest_current_A, Status::current_saturated) |
                when(position.fault, Status::position_fault) |
-               when(implausible(valve.actuator.coil_resistance, state.actuator.coil_resistance), Status::coil_fault);
+               when(state.actuator.coil_resistance.implausible, Status::coil_fault);
   return out;
 }
 
