@@ -48,11 +48,15 @@ std::string HtmlPage::caption(const std::string& text) {
   return fmt::format("<figcaption><b>Figure {}.</b> {}</figcaption>", figures_, html_text(text));
 }
 
+std::string HtmlPage::drawings(const CaptionedFigure& figure, const Layout& layout) const {
+  return fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>", legend(figure),
+                     svg_of(figure.figure, layout, fmt::format("f{}w", figures_)),
+                     svg_of(figure.figure, narrow, fmt::format("f{}n", figures_)));
+}
+
 void HtmlPage::figure(const CaptionedFigure& figure) {
   ++figures_;
-  const std::string drawing = fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>",
-                                          legend(figure), svg_of(figure.figure, wide, fmt::format("f{}w", figures_)),
-                                          svg_of(figure.figure, narrow, fmt::format("f{}n", figures_)));
+  const std::string drawing = drawings(figure, wide);
   if (figure.live.empty()) {
     body_ += "<figure>" + drawing + caption(figure.caption) + "</figure>\n";
     return;
@@ -65,8 +69,7 @@ void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
   body_ += "<div class=\"pair\">";
   for (const CaptionedFigure& figure : figures) {
     ++figures_;
-    body_ += fmt::format("<figure>{}{}{}</figure>\n", legend(figure),
-                         svg_of(figure.figure, half, fmt::format("f{}h", figures_)), caption(figure.caption));
+    body_ += "<figure>" + drawings(figure, half) + caption(figure.caption) + "</figure>\n";
   }
   body_ += "</div>\n";
 }

@@ -7,6 +7,7 @@
 
 #include "spoolflow/report/figure.hpp"
 #include "spoolflow/report/html_table.hpp"
+#include "spoolflow/report/svg_figure.hpp"
 
 namespace spoolflow::report {
 
@@ -32,11 +33,13 @@ class HtmlPage {
   void table(const HtmlTable& table) { body_ += table.str(); }
   /// Over the whole width; drawn a second time for narrow screens, so that its text keeps its size.
   void figure(const CaptionedFigure& figure);
-  /// Two beside each other where there is room.
+  /// Two beside each other where there is room; drawn twice as well.
   void pair(const std::vector<CaptionedFigure>& figures);
   [[nodiscard]] std::string str() const;
 
  private:
+  /// Legend, and the drawing for wide and for narrow screens.
+  [[nodiscard]] std::string drawings(const CaptionedFigure& figure, const Layout& layout) const;
   [[nodiscard]] std::string caption(const std::string& text);
 
   std::string kind_, title_, origin_;

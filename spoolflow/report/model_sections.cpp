@@ -21,6 +21,7 @@ struct Shown {
 constexpr Shown ampere{"A", 1, 0, 2};
 constexpr Shown millimetre{"mm", units::millimetre_per_metre, 0, 2};
 constexpr Shown bar{"bar", 1 / units::pascal_per_bar, 0, 1};
+constexpr Shown litre_per_minute{"L/min", units::litre_per_minute_per_m3_per_s, 0, 1};
 constexpr Shown celsius{"\u00b0C", 1, -units::kelvin_at_0_degC, 1};
 
 std::string range_text(double lowest, double highest, const Shown& as) {
@@ -51,6 +52,30 @@ std::string calibrated_temperature(const model::Model& model) {
     return range_text(*model.condensed.oil_temperature_K, *model.condensed.oil_temperature_K, celsius);
   }
   return "not recorded";
+}
+
+std::string extent_text(const std::optional<validation::Extent>& extent, const Shown& as) {
+  return extent ? range_text(extent->lowest, extent->highest, as) : std::string("\u2013");
+}
+
+/// What was tested: one line a recording.
+HtmlTable runs_table(const std::vector<validation::RunResult>& runs) {
+  HtmlTable table({{"Run", Set::text},
+                   {"samples"},
+                   {"duration"},
+                   {"rate"},
+                   {"position"},
+                   {"pressure difference"},
+                   {"oil temperature"},
+                   {"measured flow"}});
+  for (const validation::RunResult& run : runs) {
+    const double rate_Hz = run.duration_s > 0 ? static_cast<double>(run.samples - 1) / run.duration_s : 0;
+    table.row({html_text(run.name), fmt::format("{}", run.samples), fixed(run.duration_s, 1) + " s",
+               rate_Hz > 0 ? three_digits(rate_Hz) + " Hz" : "\u2013", extent_text(run.position_m, millimetre),
+               extent_text(run.pressure_difference_Pa, bar), extent_text(run.oil_temperature_K, celsius),
+               extent_text(run.reference_m3_per_s, litre_per_minute)});
+  }
+  return table;
 }
 
 void add_residuals(HtmlTable& table, const std::string& estimator, const std::vector<model::Residual>& residuals) {
@@ -93,6 +118,7 @@ void show_valve(HtmlPage& page, const model::Model& model, const std::vector<val
              used_text(runs, &Run::pressure_difference_Pa, bar)});
   table.row({"oil temperature", calibrated_temperature(model), used_text(runs, &Run::oil_temperature_K, celsius)});
   page.table(table);
+  if (!runs.empty()) page.table(runs_table(runs));
 }
 
 void show_residuals(HtmlPage& page, const model::Model& model) {

@@ -16,7 +16,8 @@ namespace {
 constexpr double title_px = 24;  ///< above a panel
 constexpr double gap_px = 14;    ///< between a panel and the next one's title
 constexpr double x_axis_px = 40;
-constexpr double row_px = 17;
+constexpr double row_px = 27;  ///< a name, and its bar below it
+constexpr double row_name_px = 15;
 
 double height_of(const Panel& panel, const Layout& layout) {
   return panel.rows.empty() ? panel.height_px * layout.height_share : row_px * static_cast<double>(panel.rows.size());
@@ -41,15 +42,15 @@ void draw_rows(std::string& out, const Panel& panel, const PlotFrame& frame) {
   for (std::size_t r = 0; r < panel.rows.size(); ++r) {
     const Row& row = panel.rows[r];
     const double top = frame.top + row_px * static_cast<double>(r);
-    out +=
-        fmt::format(R"(<path class="grid" d="M{:.1f} {:.1f}H{:.1f}"/>)", frame.left, top + 0.5 * row_px, frame.right);
+    out += fmt::format(R"(<path class="grid" d="M{:.1f} {:.1f}H{:.1f}"/>)", frame.left, top + row_name_px + 4.5,
+                       frame.right);
     for (const Span& span : row.spans) {
       const double x = frame.x_px(span.from);
       out += fmt::format(R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" opacity="{:.2f}"/>)",
-                         row.tone, x, top + 3, std::max(1.0, frame.x_px(span.to) - x), row_px - 6,
+                         row.tone, x, top + row_name_px, std::max(1.0, frame.x_px(span.to) - x), 9.0,
                          0.25 + 0.75 * span.share);
     }
-    out += text(frame.left + 4, top + 0.5 * row_px + 4, "rowlabel", "start", row.label);
+    out += text(frame.left + 1, top + row_name_px - 4, "rowlabel", "start", row.label);
   }
 }
 

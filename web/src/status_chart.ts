@@ -6,7 +6,10 @@ import type { Run, Status } from './run_data';
 import { bucketBegin, drawnRange } from './thinning';
 import type { View } from './view';
 
-const rowHeight = 18;
+/** A name, and its bar below it. */
+const rowHeight = 27;
+const nameHeight = 15;
+const barHeight = 9;
 
 export class StatusChart {
   readonly plot: uPlot;
@@ -64,20 +67,15 @@ export class StatusChart {
         const { tone, bit } = this.status.names[n];
         if ((some & (1 << bit)) === 0) continue;
         ctx.fillStyle = (all & (1 << bit)) !== 0 ? colour(tone) : paleColour(tone, 0.55);
-        ctx.fillRect(left, bbox.top + n * row + 0.18 * row, Math.max(1, right - left), 0.64 * row);
+        ctx.fillRect(left, bbox.top + n * row + nameHeight * devicePixelRatio, Math.max(1, right - left), barHeight * devicePixelRatio);
       }
     }
     ctx.font = `${11.5 * devicePixelRatio}px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif`;
     ctx.textAlign = 'left';
     ctx.textBaseline = 'middle';
     this.status.names.forEach((status, n) => {
-      const x = bbox.left + 4 * devicePixelRatio;
-      const y = bbox.top + (n + 0.5) * row;
-      const text = `${status.name} (${status.share})`;
-      ctx.fillStyle = paleColour('paper', 0.85);
-      ctx.fillRect(bbox.left, y - 0.5 * row, ctx.measureText(text).width + 9 * devicePixelRatio, row);
       ctx.fillStyle = colour('ink');
-      ctx.fillText(text, x, y);
+      ctx.fillText(`${status.name} (${status.share})`, bbox.left + devicePixelRatio, bbox.top + n * row + 8 * devicePixelRatio);
     });
     ctx.restore();
   }
