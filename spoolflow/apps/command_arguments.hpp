@@ -43,10 +43,11 @@ void estimate(const EstimateArguments& arguments);
 struct ValidateArguments {
   std::string model;
   std::vector<std::string> recordings;
-  std::string report;             ///< to write; empty: none
-  std::string json;               ///< to write; empty: none
-  std::string channels;           ///< channel map; empty: none
-  std::string requirements = {};  ///< requirements file; empty: none
+  std::string report;                     ///< to write; empty: none
+  std::string json;                       ///< to write; empty: none
+  std::string channels;                   ///< channel map; empty: none
+  std::string requirements = {};          ///< requirements file; empty: none
+  std::vector<std::string> compare = {};  ///< figures of other validations
   std::string estimator = "both";
   double reference_lag_ms = 30;
   bool apply_reference_lag = false;

@@ -55,10 +55,13 @@ void validate(const ValidateArguments& arguments) {
       chosen(arguments.estimator, model), {}, arguments.reference_lag_ms * 1e-3, arguments.apply_reference_lag};
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
   if (!arguments.requirements.empty()) options.requirements = validation::read_requirements(arguments.requirements);
+  std::vector<report::ComparedValidation> others;
+  for (const std::string& metrics : arguments.compare) others.push_back(report::read_compared(metrics));
   std::vector<std::filesystem::path> inputs{arguments.model};
   inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
   if (!arguments.channels.empty()) inputs.emplace_back(arguments.channels);
   if (!arguments.requirements.empty()) inputs.emplace_back(arguments.requirements);
+  inputs.insert(inputs.end(), arguments.compare.begin(), arguments.compare.end());
   std::optional<OutputFile> page;
   std::optional<OutputFile> figures;
   if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
@@ -70,7 +73,7 @@ void validate(const ValidateArguments& arguments) {
     validation = validation::validate(model, {arguments.recordings.begin(), arguments.recordings.end()}, options,
                                       [&](double share) { progress.update(share); });
   }
-  if (page) report::write_validation_report(page->stream(), model, validation);
+  if (page) report::write_validation_report(page->stream(), model, validation, others);
   if (figures) report::write_metrics(figures->stream(), model, validation);
   commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
   if (arguments.json != "-" && arguments.report != "-") print_figures(model, validation);
@@ -87,7 +90,8 @@ void add_validate_command(CLI::App& program) {
        {"spoolflow validate valve_a.json ramp.csv duty.csv --report report.html --json metrics.json"}});
   command->add_option("model", arguments->model, "model file")->required();
   command->add_option("recordings", arguments->recordings, "recordings with a reference flow")->required();
-  command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
+  CLI::Option* report =
+      command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
       ->type_name("METRICS.json");
   command
@@ -95,6 +99,13 @@ void add_validate_command(CLI::App& program) {
       ->type_name("MAP.toml");
   command->add_option("--requirements", arguments->requirements, "limits (TOML) against which the figures are judged")
       ->type_name("LIMITS.toml");
+  command
+      ->add_option("--compare", arguments->compare,
+                   "figures of another valve or model to show side by side; may be repeated")
+      ->type_name("METRICS.json")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->needs(report);
   command->add_option("--estimator", arguments->estimator, "both, condensed or observer")
       ->type_name("NAME")
       ->check(CLI::IsMember({"both", "condensed", "observer"}))

@@ -101,7 +101,8 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
 
 }  // namespace
 
-void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation) {
+void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
+                             const std::vector<ComparedValidation>& others) {
   const double full_scale = model.valve.rated_flow_m3_per_s;
   HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin(model));
   show_verdict(page, verdict(model, validation));
@@ -119,6 +120,7 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
     page.pair(direction_and_distribution_figures(validation, full_scale));
     page.table(direction_table(validation, full_scale));
   }
+  show_comparison(page, model, validation, others);
   show_blindness(page, model, validation.runs);
   budget_section(page, model);
   page.section("What the sensor said of itself");

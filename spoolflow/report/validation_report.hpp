@@ -3,11 +3,14 @@
 #include <iosfwd>
 
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/report/comparison.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::report {
 
-void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation);
+/// `others` stand beside it.
+void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
+                             const std::vector<ComparedValidation>& others = {});
 /// What was calibrated, from the model alone.
 void write_calibration_report(std::ostream& out, const model::Model& model);
 

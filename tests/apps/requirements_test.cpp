@@ -63,5 +63,17 @@ TEST_F(Requirements, ThatCannotBeUsedStopTheCommandBeforeAnythingIsWritten) {
   EXPECT_EQ(run("validate model.json run.csv --requirements missing.toml").status, 2);
 }
 
+TEST_F(Requirements, OtherValidationsStandBesideThisOneInTheReport) {
+  EXPECT_EQ(run("validate model.json run.csv --json other.json -q").status, 0);
+  const Answer answer =
+      run("validate model.json run.csv --report report.html --compare other.json --compare other.json -q");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(content("report.html"), HasSubstr("Side by side"));
+  EXPECT_THAT(content("report.html"), HasSubstr("other.json"));
+  const Answer refused = run("validate model.json run.csv --report report.html --compare model.json");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.message, HasSubstr("model.json: its format is not"));
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

@@ -242,6 +242,13 @@ test('a run without reference says so and has no plot of errors', async () => {
   assert.match(await page.textContent('main'), /no reference flow/);
 });
 
+test('limits are judged, and another validation stands beside this one', async () => {
+  const { page } = await opened('gaps');
+  const badges = await page.locator('td .badge').allTextContents();
+  assert.deepEqual(badges, ['fail', 'pass']);
+  assert.match(await page.textContent('main'), /Side by side[^]*usual\.json/);
+});
+
 test('in a gap the readout says that nothing is known', async () => {
   const { page } = await opened('gaps');
   const figure = await plots(page);
