@@ -81,6 +81,10 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
                campaign.valve.direction};
   out.fluid = {campaign.fluid.name, campaign.fluid.density_15C_kg_per_m3, campaign.fluid.viscosity_40C_m2_per_s,
                campaign.fluid.viscosity_100C_m2_per_s};
+  const recording::CampaignInstruments& instruments = campaign.instruments;
+  out.instruments = {instruments.position_uncertainty_m, instruments.current_uncertainty_A,
+                     instruments.force_uncertainty_N, instruments.pressure_uncertainty_Pa,
+                     instruments.temperature_uncertainty_K};
   out.provenance = {tool_version, model::creation_time(), {}};
   out.provenance.inputs.push_back(
       {"campaign", campaign.file.filename().string(), model::sha256_of_file(campaign.file), 0});

@@ -31,6 +31,15 @@ struct Fluid {
   std::optional<double> viscosity_100C_m2_per_s;
 };
 
+/// What the instruments of the campaign were good for, as 95 % uncertainties; absent where the campaign does not say.
+struct Instruments {
+  std::optional<double> position_m;
+  std::optional<double> current_A;
+  std::optional<double> force_N;
+  std::optional<double> pressure_Pa;
+  std::optional<double> temperature_K;
+};
+
 struct Range {
   double lower;
   double upper;
@@ -65,6 +74,7 @@ struct Observer {
 struct Model {
   Valve valve;
   Fluid fluid;
+  Instruments instruments;
   Provenance provenance;
   Condensed condensed;
   std::optional<Observer> observer;  ///< absent: not calibrated

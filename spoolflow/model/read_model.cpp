@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_instruments.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
@@ -149,6 +150,11 @@ Model parse_model(const std::string& text, const std::string& file) {
   const JsonNode fluid = root.at("fluid");
   out.fluid = {fluid.at("name").text(), positive_if_given(fluid, "density_15C_kg_per_m3"),
                positive_if_given(fluid, "viscosity_40C_m2_per_s"), positive_if_given(fluid, "viscosity_100C_m2_per_s")};
+  if (root.has("instruments")) {
+    const JsonNode given = root.at("instruments");
+    describe_instruments(out.instruments,
+                         [&](const char* key, std::optional<double>& value) { value = positive_if_given(given, key); });
+  }
   out.provenance = provenance(root.at("provenance"));
   out.condensed = condensed(root.at("condensed"));
   if (root.has("observer")) out.observer = observer(root.at("observer"));

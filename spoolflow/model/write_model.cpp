@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_instruments.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
@@ -38,6 +39,14 @@ Json residuals(const std::vector<Residual>& residuals) {
   for (const Residual& residual : residuals) {
     out.push_back({{"of", residual.of}, {"unit", residual.unit}, {"rms", residual.rms}, {"largest", residual.largest}});
   }
+  return out;
+}
+
+Json instruments(const Instruments& instruments) {
+  Json out = Json::object();
+  describe_instruments(instruments, [&](const char* key, const std::optional<double>& value) {
+    if (value) out[key] = *value;
+  });
   return out;
 }
 
@@ -98,9 +107,10 @@ void write_model(std::ostream& out, const Model& model) {
               {"rated_flow_m3_per_s", model.valve.rated_flow_m3_per_s},
               {"stroke_m", model.valve.stroke_m},
               {"direction", model.valve.direction}}},
-            {"fluid", fluid(model.fluid)},
-            {"provenance", provenance(model.provenance)},
-            {"condensed", condensed(model.condensed)}};
+            {"fluid", fluid(model.fluid)}};
+  if (Json given = instruments(model.instruments); !given.empty()) file["instruments"] = std::move(given);
+  file["provenance"] = provenance(model.provenance);
+  file["condensed"] = condensed(model.condensed);
   if (model.observer) file["observer"] = observer(*model.observer);
   file["evidence"] = evidence(model.evidence);
   out << file.dump(1) << '\n';

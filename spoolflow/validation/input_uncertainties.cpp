@@ -22,6 +22,23 @@ InputUncertainty limits(InputQuantity quantity, const InstrumentFigure& figure) 
           infinite,           figure.source};
 }
 
+/// A 95 % uncertainty that the campaign states of an instrument.
+InputUncertainty stated(InputQuantity quantity, double uncertainty_95) {
+  return {quantity,           uncertainty_95 * deviation_per_half_width(Distribution::normal),
+          Evaluation::type_b, Distribution::normal,
+          infinite,           "campaign, [instruments], a 95 % uncertainty"};
+}
+
+/// Of a figure that another one already holds.
+InputUncertainty contained(InputQuantity quantity) {
+  return {
+      quantity, 0, Evaluation::type_b, Distribution::normal, infinite, "in the campaign's figure of the instrument"};
+}
+
+bool is_default(const InstrumentFigure& figure) {
+  return figure.source.starts_with("default");
+}
+
 InputUncertainty residual(InputQuantity quantity, const std::vector<model::Residual>& residuals, std::string_view of,
                           double values) {
   const auto found =
@@ -73,8 +90,14 @@ class Collection {
       zero = {std::abs(full->parameters.position_sensor.drift_m_per_K) * oil_span_K(),
               "model, position_drift_m_per_K over its oil temperatures, which this sensor does not correct"};
     }
-    add(limits(InputQuantity::position_zero, figures_.position_zero_m.value_or(zero)));
-    add(limits(InputQuantity::position_gain, figures_.position_gain));
+    const auto& campaign = model_.instruments;
+    if (campaign.position_m && !figures_.position_zero_m && is_default(figures_.position_gain)) {
+      add(stated(InputQuantity::position_zero, *campaign.position_m));
+      add(contained(InputQuantity::position_gain));
+    } else {
+      add(limits(InputQuantity::position_zero, figures_.position_zero_m.value_or(zero)));
+      add(limits(InputQuantity::position_gain, figures_.position_gain));
+    }
     InstrumentFigure noise{full ? full->parameters.position_sensor.noise_m : 1e-6,
                            full ? "model, position_noise_m" : "default: 1 um"};
     noise = figures_.position_noise_m.value_or(noise);
@@ -82,13 +105,21 @@ class Collection {
   }
 
   void current() {
-    add(limits(InputQuantity::current_gain, figures_.current_gain));
-    add(limits(InputQuantity::current_offset, figures_.current_offset_A));
+    const auto& campaign = model_.instruments;
+    if (campaign.current_A && is_default(figures_.current_gain) && is_default(figures_.current_offset_A)) {
+      add(contained(InputQuantity::current_gain));
+      add(stated(InputQuantity::current_offset, *campaign.current_A));
+    } else {
+      add(limits(InputQuantity::current_gain, figures_.current_gain));
+      add(limits(InputQuantity::current_offset, figures_.current_offset_A));
+    }
     add({InputQuantity::current_noise, figures_.current_noise_A.value, Evaluation::type_b, Distribution::normal,
          infinite, figures_.current_noise_A.source});
   }
 
   void oil_temperature() {
+    if (observer_ && model_.instruments.temperature_K && is_default(figures_.thermometer_K))
+      return add(stated(InputQuantity::oil_temperature, *model_.instruments.temperature_K));
     if (observer_) return add(limits(InputQuantity::oil_temperature, figures_.thermometer_K));
     const InstrumentFigure away =
         model_.observer ? InstrumentFigure{oil_span_K(), "model, oil temperatures calibrated; this sensor reads none"}
@@ -105,6 +136,7 @@ class Collection {
                                       sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
     axial.standard_uncertainty = std::hypot(axial.standard_uncertainty, spring_N);
     axial.source += " and of the spring, which is taken off it";
+    add_load_cell(axial);
     if (axial.standard_uncertainty > 0 && spring_N > 0) {
       inputs_.correlations.push_back({InputQuantity::spring, InputQuantity::flow_force_map,
                                       -spring_N / axial.standard_uncertainty,
@@ -124,17 +156,27 @@ class Collection {
            Distribution::rectangular, judged_degrees_of_freedom,
            "half the width of the measured loops; where in the loop is not known"});
     }
+    add_load_cell(magnetic);
     add(std::move(magnetic));
     InputUncertainty flow = residual(InputQuantity::flow_map, residuals, "flow rate",
                                      sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
     add(std::move(flow));
-    add(limits(InputQuantity::magnetic_load_cell, figures_.load_cell));
-    add(limits(InputQuantity::axial_load_cell, figures_.load_cell));
+    for (const InputQuantity quantity : {InputQuantity::magnetic_load_cell, InputQuantity::axial_load_cell})
+      add(campaign_has_force() ? contained(quantity) : limits(quantity, figures_.load_cell));
     add(limits(InputQuantity::flow_meter, figures_.flow_meter));
     if (figures_.one_load_cell) {
       inputs_.correlations.push_back({InputQuantity::magnetic_load_cell, InputQuantity::axial_load_cell, 1,
                                       "both maps were measured with one load cell"});
     }
+  }
+
+  [[nodiscard]] bool campaign_has_force() const { return model_.instruments.force_N && is_default(figures_.load_cell); }
+  /// The campaign states a force in newtons: it counts in the maps that were measured with it.
+  void add_load_cell(InputUncertainty& map) const {
+    if (!campaign_has_force()) return;
+    map.standard_uncertainty =
+        std::hypot(map.standard_uncertainty, stated(map.quantity, *model_.instruments.force_N).standard_uncertainty);
+    map.source += "; campaign, [instruments], load cell";
   }
 
   void friction() {

@@ -89,6 +89,24 @@ TEST(BudgetAtAPoint, ThereIsNoneOutsideTheMaps) {
   EXPECT_FALSE(PointFunction::at(example(), Estimator::observer, beyond));
 }
 
+TEST(InputUncertainties, TheCampaignsInstrumentsGoBeforeDefaultsAndTheScenarioBeforeBoth) {
+  model::Model model = example();
+  model.instruments.current_A = 4e-3;
+  model.instruments.force_N = 0.5;
+  const auto input = [&](InputQuantity quantity, const validation::InstrumentFigures& figures) {
+    for (const auto& each : validation::inputs_of(model, Estimator::observer, figures).uncertainties) {
+      if (each.quantity == quantity) return each;
+    }
+    throw std::out_of_range("no such input");
+  };
+  EXPECT_NEAR(input(InputQuantity::current_offset, {}).standard_uncertainty, 4e-3 / 1.96, 1e-6);
+  EXPECT_EQ(input(InputQuantity::current_gain, {}).standard_uncertainty, 0);
+  EXPECT_GT(input(InputQuantity::magnetic_force_map, {}).standard_uncertainty, 0.5 / 1.96);
+  validation::InstrumentFigures asked;
+  asked.current_offset_A = {1e-2, "scenario"};
+  EXPECT_NEAR(input(InputQuantity::current_offset, asked).standard_uncertainty, 1e-2 / std::sqrt(3.0), 1e-9);
+}
+
 TEST(MonteCarlo, AdaptiveTrialsEndWhenTheFiguresAreStable) {
   const auto function = PointFunction::at(example(), Estimator::condensed, middle());
   const validation::Budget budget = function->budget(validation::inputs_of(example(), Estimator::condensed, {}));

@@ -62,7 +62,7 @@ TEST(StudyState, GivesBackEveryFinishedRunToTheLastBit) {
 class InterruptedStudy : public ::testing::Test {
  protected:
   InterruptedStudy() : model(model::read_model(SPOOLFLOW_EXAMPLE_MODEL)) {
-    scenario.study.base_samples = 2;
+    scenario.study.base_samples = 1;
     scenario.study.run_s = 1;
     scenario.study.given_model = true;
   }
@@ -79,7 +79,7 @@ TEST_F(InterruptedStudy, GoesOnWhereItStoppedAndGivesTheSame) {
   StudyWork work{.identity = "1"};
   std::string saved;
   work.progress = [&](const std::string&, double) {
-    if (++runs > 9) throw Interrupted();
+    if (++runs > 4) throw Interrupted();
   };
   work.saving_interval_s = 0;
   work.save = [&](const std::string& text) { saved = text; };
@@ -90,7 +90,7 @@ TEST_F(InterruptedStudy, GoesOnWhereItStoppedAndGivesTheSame) {
   work.saved = saved;
   work.progress = [&](const std::string&, double) { ++runs; };
   const Study resumed = finished(work);
-  EXPECT_EQ(runs, static_cast<int>(whole.runs) - 10) << "finished runs were simulated again";
+  EXPECT_EQ(runs, static_cast<int>(whole.runs) - 5) << "finished runs were simulated again";
   for (std::size_t o = 0; o < study_outputs; ++o) {
     EXPECT_EQ(resumed.indices[o].mean, whole.indices[o].mean);
     for (std::size_t f = 0; f < valve_factors().size(); ++f) {

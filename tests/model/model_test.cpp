@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 template <class T>
@@ -58,6 +59,15 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
+}
+
+TEST(Model, KeepsWhatTheCampaignSaysOfItsInstrumentsAndNothingWhereItSaysNothing) {
+  Model model = small_model();
+  EXPECT_THAT(written(model), Not(HasSubstr("instruments")));
+  model.instruments.force_N = 0.25;
+  const Model read = parse_model(written(model), "m.json");
+  EXPECT_EQ(read.instruments.force_N, 0.25);
+  EXPECT_FALSE(read.instruments.current_A);
 }
 
 TEST(Model, ComesBackBitForBitFromItsFile) {
