@@ -155,11 +155,13 @@ std::vector<validation::PerQuantity<double>> RunFunction::slopes() const {
   const auto& valve = model_.condensed.parameters;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
     sensor::Sample<double> sample = as_sample(run_.samples[run_.instants[k]]);
-    // Beyond the measured forces the sensor answers at the map's edge, whose slope is that of its outermost cell.
+    // Beyond the measured forces the sensor answers at the map's edge, whose slope is that of its outermost cell. Below
+    // what friction hides the slope of the root runs away: there that at the friction's half width stands for it.
     const double force_N =
         valve.magnetic_force.at(sample.current_A, sample.position_m).value - valve.spring.at(sample.position_m).value;
     const double largest_N = valve.flow_rate.largest_force_N.at(sample.position_m).value;
-    const double inside_N = std::clamp(force_N, 0.01 * largest_N, 0.99 * largest_N);
+    const double least_N = std::clamp(surroundings_[k].friction_half_width_N, 0.01 * largest_N, 0.5 * largest_N);
+    const double inside_N = std::clamp(force_N, least_N, 0.99 * largest_N);
     sample.current_A += (inside_N - force_N) / surroundings_[k].force_per_current_N_per_A;
     out.push_back(all.at(sample, surroundings_[k]));
   }
