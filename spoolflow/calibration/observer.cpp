@@ -35,7 +35,7 @@ constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s
                                                     .force_correlation_s = 2e-3,
                                                     .ratio_deviation = 0.03,
                                                     .ratio_drift_per_sqrt_s = 0.03};
-constexpr double coverage_factor = 1.3;
+constexpr double coverage_factor = 1.4;
 /// Nothing of friction in operation is known without a recording of it: the band says so.
 constexpr double blind_coverage_factor = 2.0;
 

@@ -75,6 +75,7 @@ constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state
   state.pressure.liveliness = valve.pressure.first_liveliness;
   state.pressure.friction_ratio = valve.friction.operation_ratio;
   state.pressure.ratio_variance = squared(valve.pressure.ratio_deviation);
+  state.pressure.innovation = usual_innovation<T>;
 }
 
 /// The oil warms slowly and its sensor is noisy.
@@ -177,10 +178,10 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
       smaller(dt / (valve.band.reference_lag_s + dt), T(1)) * (out.flow_m3_per_s - state.metered_m3_per_s);
   const T unseen_Pa2 = sliding ? T(0) : pressure.liveliness * pressure.unseen_Pa2 * squared(valve.band.unseen_factor);
   const T counted_N = valve.band.force_share * force_noise_N;
-  const T deviation_Pa =
-      valve.band.coverage_factor * sqrt(pressure.variance_Pa2 + unseen_Pa2 + squared(counted_N / slope));
+  const T deviations = valve.band.coverage_factor * band_factor(pressure);
+  const T deviation_Pa = deviations * sqrt(pressure.variance_Pa2 + unseen_Pa2 + squared(counted_N / slope));
   const T tolerance_N = valve.friction.tolerance_N * (T(1) + valve.band.creep_per_s * state.friction.rest_s);
-  const T certain_Pa = valve.band.coverage_factor * (counted_N + tolerance_N) / slope;
+  const T certain_Pa = deviations * (counted_N + tolerance_N) / slope;
   T below_Pa = deviation_Pa;
   T above_Pa = deviation_Pa;
   if (!sliding && !closed) {

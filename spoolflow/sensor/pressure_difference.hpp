@@ -33,7 +33,13 @@ struct PressureState {
   T liveliness{};     ///< variance of unseen changes over that of the resting drift
   T settled_Pa{};     ///< when last seen
   T unseen_Pa2{};     ///< variance that has built up since, at full liveliness
+  T innovation{};     ///< squared over its expected variance, averaged over the last seconds of sliding
 };
+
+/// The averaged innovation of a sensor whose band is as wide as its parts tell. Less than 1, since most of what they
+/// tell is common to many samples and taken up by the pressure difference.
+template <class T>
+inline constexpr T usual_innovation = T(0.3);
 
 /// A force balance as a measurement of the pressure difference.
 template <class T>
@@ -119,6 +125,10 @@ constexpr void update_sliding(const PressureParameters<T>& pressure, PressureSta
                               const ForceSurprise<T>& surprise, T time_step_s) {
   if (!(time_step_s > T(0))) return;
   const T noise_N2 = squared(surprise.noise_N) * (pressure.force_correlation_s / time_step_s);
+  constexpr T averaging_s = T(5);
+  const T expected_N2 = squared(surprise.slope_N_per_Pa) * state.variance_Pa2 + squared(surprise.noise_N);
+  state.innovation +=
+      (squared(surprise.force_N) / expected_N2 - state.innovation) * smaller(time_step_s / averaging_s, T(1));
   const Correction<T> told = correction(state, surprise, noise_N2, time_step_s);
   const T ratio_gain_1_per_N = told.covariance_N / told.variance_N2;
   constexpr T least = T(0.05);  // dither may all but free the spool
@@ -132,6 +142,13 @@ constexpr void update_sliding(const PressureParameters<T>& pressure, PressureSta
 template <class T>
 constexpr void update_breakaway(PressureState<T>& state, const ForceSurprise<T>& surprise) {
   correct_pressure(state, correction(state, surprise, squared(surprise.noise_N), T(0)));
+}
+
+/// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a
+/// supply that leaps, narrower where every sample confirms the one before.
+template <class T>
+constexpr T band_factor(const PressureState<T>& state) {
+  return limited(sqrt(sqrt(state.innovation * (1 / usual_innovation<T>))), T(0.5), T(2.5));
 }
 
 /// Whether the pressure difference, at a given friction ratio, is known to better than half of `noise_N`.

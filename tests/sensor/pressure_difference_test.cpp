@@ -27,6 +27,7 @@ PressureState<double> begin(double pressure_Pa) {
   state.friction_ratio = 1;
   state.ratio_variance = std::pow(supply.ratio_deviation, 2);
   state.liveliness = supply.first_liveliness;
+  state.innovation = usual_innovation<double>;
   return state;
 }
 
@@ -57,6 +58,28 @@ TEST(PressureDifference, IsFoundAsFastAtAnySamplingRate) {
     EXPECT_NEAR(state.pressure_difference_Pa, reference.pressure_difference_Pa, 1e5) << dt_s;
     EXPECT_NEAR(std::sqrt(state.variance_Pa2 / reference.variance_Pa2), 1, 0.1) << dt_s;
   }
+}
+
+/// Ten seconds in which what the forces leave unexplained swings by `amplitude_N` at 20 Hz, as under dither.
+PressureState<double> swung(double amplitude_N) {
+  PressureState<double> state = begin(60e5);
+  for (int k = 0; k < 10000; ++k) {
+    drift(supply, state, 1e-3, highest_Pa);
+    const double surprise_N =
+        slope_N_per_Pa * (60e5 - state.pressure_difference_Pa) + amplitude_N * std::sin(0.126 * k);
+    update_sliding(supply, state, {surprise_N, slope_N_per_Pa, friction_N, 0.7}, 1e-3);
+  }
+  return state;
+}
+
+TEST(Band, NarrowsWhereEverySampleConfirmsTheOneBefore) {
+  EXPECT_DOUBLE_EQ(band_factor(begin(60e5)), 1);
+  EXPECT_LT(band_factor(swung(0.05)), 0.6);
+}
+
+TEST(Band, WidensWhereForcesSwingBeyondTheirNoise) {
+  EXPECT_GT(band_factor(swung(3)), 1.5);
+  EXPECT_LE(band_factor(swung(1000)), 2.5);
 }
 
 TEST(PressureDifference, IsNotBlamedForFrictionThatChangedOnceTheSpoolHasTurnedOftenEnough) {
