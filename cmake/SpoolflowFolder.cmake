@@ -42,5 +42,8 @@ function(spoolflow_tests folder)
   endif()
   add_executable(${folder}_test ${sources})
   target_link_libraries(${folder}_test PRIVATE spoolflow_warnings ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  if(NOT SPOOLFLOW_SANITIZE)
+    target_compile_options(${folder}_test PRIVATE -O1)  # what is tested is optimised in its own library; this builds sooner
+  endif()
   gtest_discover_tests(${folder}_test TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit TIMEOUT 300)
 endfunction()
