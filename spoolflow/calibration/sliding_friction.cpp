@@ -1,0 +1,135 @@
+#include "spoolflow/calibration/sliding_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "spoolflow/calibration/calibration_error.hpp"
+#include "spoolflow/calibration/zero_phase_filter.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using Members = std::vector<double FrictionLaw::*>;
+
+/// One unknown: its share of the force at each sample, and where its value goes.
+struct Unknown {
+  std::vector<double> regressor;
+  Members members;
+};
+
+/// Missing samples on the straight line between their neighbours.
+std::vector<double> bridged(std::span<const double> values) {
+  std::vector<double> out(values.begin(), values.end());
+  std::size_t known = out.size();
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (std::isnan(out[k])) continue;
+    for (std::size_t gap = known == out.size() ? 0 : known + 1; gap < k; ++gap) {
+      const double from = known == out.size() ? out[k] : out[known];
+      const double share = known == out.size() ? 1 : static_cast<double>(gap - known) / static_cast<double>(k - known);
+      out[gap] = from + share * (out[k] - from);
+    }
+    known = k;
+  }
+  if (known == out.size()) throw CalibrationError("friction cannot be identified: no sample of position or force");
+  for (std::size_t gap = known + 1; gap < out.size(); ++gap) out[gap] = out[known];
+  return out;
+}
+
+double usual_speed(const std::vector<double>& velocity_m_per_s) {
+  std::vector<double> speeds;
+  for (const double v : velocity_m_per_s) speeds.push_back(std::abs(v));
+  const auto high = speeds.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(speeds.size() - 1));
+  std::nth_element(speeds.begin(), high, speeds.end());
+  return *high;
+}
+
+std::vector<Unknown> unknowns_of(const std::vector<double>& velocity_m_per_s, const std::vector<double>& acceleration,
+                                 double slowest_m_per_s, FrictionSymmetry symmetry, FrictionMotion motion) {
+  const auto over_samples = [&](auto&& share) {
+    std::vector<double> out;
+    for (const double v : velocity_m_per_s) out.push_back(share(v));
+    return out;
+  };
+  const auto sign = [&](double v) { return v > slowest_m_per_s ? 1.0 : v < -slowest_m_per_s ? -1.0 : 0.0; };
+  std::vector<Unknown> out;
+  if (motion == FrictionMotion::accelerated) out.push_back({acceleration, {&FrictionLaw::mass_kg}});
+  if (symmetry == FrictionSymmetry::same_both_ways) {
+    if (motion == FrictionMotion::accelerated)
+      out.push_back(
+          {velocity_m_per_s, {&FrictionLaw::viscous_opening_N_s_per_m, &FrictionLaw::viscous_closing_N_s_per_m}});
+    out.push_back({over_samples(sign), {&FrictionLaw::coulomb_opening_N, &FrictionLaw::coulomb_closing_N}});
+    out.push_back({over_samples([](double) { return 1.0; }), {&FrictionLaw::offset_N}});
+    return out;
+  }
+  if (motion == FrictionMotion::accelerated) {
+    out.push_back({over_samples([](double v) { return std::max(v, 0.0); }), {&FrictionLaw::viscous_opening_N_s_per_m}});
+    out.push_back({over_samples([](double v) { return std::min(v, 0.0); }), {&FrictionLaw::viscous_closing_N_s_per_m}});
+  }
+  out.push_back({over_samples([&](double v) { return std::max(sign(v), 0.0); }), {&FrictionLaw::coulomb_opening_N}});
+  out.push_back({over_samples([&](double v) { return std::min(sign(v), 0.0); }), {&FrictionLaw::coulomb_closing_N}});
+  return out;
+}
+
+}  // namespace
+
+SlidingFrictionFit fit_sliding_friction(const SlidingHistory& history, FrictionSymmetry symmetry,
+                                        FrictionMotion motion) {
+  constexpr double rows_bandwidth_share = 0.4;
+  constexpr double rows_per_period = 2.5;
+  constexpr double slowest_share = 0.05;
+  const double step_s = history.time_step_s;
+  const double rows_bandwidth_Hz = rows_bandwidth_share * history.bandwidth_Hz;
+  const auto thinning =
+      std::max<std::size_t>(1, static_cast<std::size_t>(1 / (rows_per_period * rows_bandwidth_Hz * step_s)));
+
+  const std::vector<double> position_m =
+      zero_phase_low_pass({bridged(history.position_m), step_s}, history.bandwidth_Hz);
+  const std::vector<double> velocity_m_per_s = derivative({position_m, step_s});
+  const double slowest_m_per_s = slowest_share * usual_speed(velocity_m_per_s);
+  std::vector<Unknown> unknowns =
+      unknowns_of(velocity_m_per_s, derivative({velocity_m_per_s, step_s}), slowest_m_per_s, symmetry, motion);
+  for (Unknown& unknown : unknowns)
+    unknown.regressor = zero_phase_low_pass({unknown.regressor, step_s}, rows_bandwidth_Hz);
+  const std::vector<double> force_N = zero_phase_low_pass({bridged(history.force_N), step_s}, rows_bandwidth_Hz);
+
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < position_m.size(); k += thinning) {
+    const bool missing = std::isnan(history.position_m[k]) || std::isnan(history.force_N[k]);
+    if (!missing && std::abs(velocity_m_per_s[k]) > slowest_m_per_s) rows.push_back(k);
+  }
+  const auto columns = static_cast<Eigen::Index>(unknowns.size());
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), columns);
+  Eigen::VectorXd right(matrix.rows());
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    const std::size_t k = rows[static_cast<std::size_t>(r)];
+    for (Eigen::Index c = 0; c < columns; ++c) matrix(r, c) = unknowns[static_cast<std::size_t>(c)].regressor[k];
+    right(r) = force_N[k];
+  }
+  const Eigen::VectorXd scale = matrix.colwise().norm();
+  if (matrix.rows() <= columns || !(scale.minCoeff() > 0))
+    throw CalibrationError("friction cannot be identified: the recording does not slide both ways");
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix * scale.cwiseInverse().asDiagonal());
+  if (solver.rank() < columns)
+    throw CalibrationError(
+        "friction cannot be identified: the recorded motion does not tell its parts from each other");
+  const Eigen::VectorXd solution = solver.solve(right).cwiseQuotient(scale);
+
+  SlidingFrictionFit fit{};
+  fit.force_rms_N = right.norm() / std::sqrt(static_cast<double>(right.size()));
+  const Eigen::VectorXd deviation = right - matrix * solution;
+  for (const double each : deviation) fit.residual.add(each);
+  const double variance_N2 = deviation.squaredNorm() / static_cast<double>(matrix.rows() - columns);
+  const Eigen::MatrixXd covariance = variance_N2 * (matrix.transpose() * matrix).inverse();
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    for (double FrictionLaw::*member : unknowns[static_cast<std::size_t>(c)].members) {
+      fit.law.*member = solution(c);
+      fit.uncertainty.*member = std::sqrt(covariance(c, c));
+    }
+  }
+  return fit;
+}
+
+}  // namespace spoolflow::calibration
