@@ -77,6 +77,8 @@ CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, 
   if (!std::isnan(axial.oil_temperature_K)) out.condensed.oil_temperature_K = axial.oil_temperature_K;
   out.condensed.residuals = {
       {"spring force", "N", spring.residual.rms(), spring.residual.largest},
+      {"spring force, with one friction for all positions", "N", spring.even_friction_residual.rms(),
+       spring.even_friction_residual.largest},
       {"magnetic force", "N", magnetic.residual.rms(), magnetic.residual.largest},
       {"axial force", "N", axial.force_residual.rms(), axial.force_residual.largest},
       {"flow rate", "m3/s", axial.flow_residual.rms(), axial.flow_residual.largest},

@@ -38,24 +38,17 @@ std::vector<double> bridged(std::span<const double> values) {
   return out;
 }
 
-double usual_speed(const std::vector<double>& velocity_m_per_s) {
-  std::vector<double> speeds;
-  for (const double v : velocity_m_per_s) speeds.push_back(std::abs(v));
-  const auto high = speeds.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(speeds.size() - 1));
-  std::nth_element(speeds.begin(), high, speeds.end());
-  return *high;
-}
-
-std::vector<Unknown> unknowns_of(const std::vector<double>& velocity_m_per_s, const std::vector<double>& acceleration,
-                                 double slowest_m_per_s, FrictionSymmetry symmetry, FrictionMotion motion) {
+std::vector<Unknown> unknowns_of(const std::vector<double>& velocity_m_per_s, double time_step_s,
+                                 FrictionSymmetry symmetry, FrictionMotion motion) {
   const auto over_samples = [&](auto&& share) {
     std::vector<double> out;
     for (const double v : velocity_m_per_s) out.push_back(share(v));
     return out;
   };
-  const auto sign = [&](double v) { return v > slowest_m_per_s ? 1.0 : v < -slowest_m_per_s ? -1.0 : 0.0; };
+  const auto sign = [](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : 0.0; };
   std::vector<Unknown> out;
-  if (motion == FrictionMotion::accelerated) out.push_back({acceleration, {&FrictionLaw::mass_kg}});
+  if (motion == FrictionMotion::accelerated)
+    out.push_back({derivative({velocity_m_per_s, time_step_s}), {&FrictionLaw::mass_kg}});
   if (symmetry == FrictionSymmetry::same_both_ways) {
     if (motion == FrictionMotion::accelerated)
       out.push_back(
@@ -78,28 +71,19 @@ std::vector<Unknown> unknowns_of(const std::vector<double>& velocity_m_per_s, co
 SlidingFrictionFit fit_sliding_friction(const SlidingHistory& history, FrictionSymmetry symmetry,
                                         FrictionMotion motion) {
   constexpr double rows_bandwidth_share = 0.4;
-  constexpr double rows_per_period = 2.5;
-  constexpr double slowest_share = 0.05;
   const double step_s = history.time_step_s;
   const double rows_bandwidth_Hz = rows_bandwidth_share * history.bandwidth_Hz;
-  const auto thinning =
-      std::max<std::size_t>(1, static_cast<std::size_t>(1 / (rows_per_period * rows_bandwidth_Hz * step_s)));
-
   const std::vector<double> position_m =
       zero_phase_low_pass({bridged(history.position_m), step_s}, history.bandwidth_Hz);
-  const std::vector<double> velocity_m_per_s = derivative({position_m, step_s});
-  const double slowest_m_per_s = slowest_share * usual_speed(velocity_m_per_s);
-  std::vector<Unknown> unknowns =
-      unknowns_of(velocity_m_per_s, derivative({velocity_m_per_s, step_s}), slowest_m_per_s, symmetry, motion);
+  std::vector<Unknown> unknowns = unknowns_of(derivative({position_m, step_s}), step_s, symmetry, motion);
   for (Unknown& unknown : unknowns)
     unknown.regressor = zero_phase_low_pass({unknown.regressor, step_s}, rows_bandwidth_Hz);
   const std::vector<double> force_N = zero_phase_low_pass({bridged(history.force_N), step_s}, rows_bandwidth_Hz);
 
   std::vector<std::size_t> rows;
-  for (std::size_t k = 0; k < position_m.size(); k += thinning) {
-    const bool missing = std::isnan(history.position_m[k]) || std::isnan(history.force_N[k]);
-    if (!missing && std::abs(velocity_m_per_s[k]) > slowest_m_per_s) rows.push_back(k);
-  }
+  for (const Sweep& stretch : history.stretches)
+    for (std::size_t k = stretch.begin; k < stretch.end; ++k)
+      if (!std::isnan(history.position_m[k]) && !std::isnan(history.force_N[k])) rows.push_back(k);
   const auto columns = static_cast<Eigen::Index>(unknowns.size());
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), columns);
   Eigen::VectorXd right(matrix.rows());
@@ -121,7 +105,9 @@ SlidingFrictionFit fit_sliding_friction(const SlidingHistory& history, FrictionS
   fit.force_rms_N = right.norm() / std::sqrt(static_cast<double>(right.size()));
   const Eigen::VectorXd deviation = right - matrix * solution;
   for (const double each : deviation) fit.residual.add(each);
-  const double variance_N2 = deviation.squaredNorm() / static_cast<double>(matrix.rows() - columns);
+  // Neighbouring rows share their noise: two of each period of the bandwidth are independent, and count.
+  const double independent = static_cast<double>(matrix.rows()) * std::min(1.0, 2 * rows_bandwidth_Hz * step_s);
+  const double variance_N2 = deviation.squaredNorm() / independent;
   const Eigen::MatrixXd covariance = variance_N2 * (matrix.transpose() * matrix).inverse();
   for (Eigen::Index c = 0; c < columns; ++c) {
     for (double FrictionLaw::*member : unknowns[static_cast<std::size_t>(c)].members) {

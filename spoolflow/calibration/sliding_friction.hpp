@@ -3,6 +3,7 @@
 #include <span>
 
 #include "spoolflow/calibration/fit_residual.hpp"
+#include "spoolflow/calibration/sweep.hpp"
 
 namespace spoolflow::calibration {
 
@@ -28,7 +29,8 @@ struct SlidingHistory {
   std::span<const double> position_m;
   std::span<const double> force_N;  ///< driving force, > 0 opens
   double time_step_s;
-  double bandwidth_Hz;  ///< of what is to be seen in position; noise lies above
+  double bandwidth_Hz;               ///< of what is to be seen in position; noise lies above
+  std::span<const Sweep> stretches;  ///< the samples that are judged, whichever way they travel
 };
 
 struct SlidingFrictionFit {
@@ -39,9 +41,8 @@ struct SlidingFrictionFit {
 };
 
 /// Linear least squares on filtered derivatives: position smoothed without lag and differentiated, then regressors and
-/// force alike smoothed and thinned, so that the rows' errors are independent. Rows slower than a twentieth of the
-/// usual speed are left out: there the sign of the velocity is noise. Throws CalibrationError where the motion does not
-/// show all parameters. Gautier, Dynamic identification of robots with power model (1997).
+/// force alike smoothed to two fifths of the bandwidth. Throws CalibrationError where the motion does not show all
+/// parameters. Gautier, Dynamic identification of robots with power model (1997).
 [[nodiscard]] SlidingFrictionFit fit_sliding_friction(const SlidingHistory& history, FrictionSymmetry symmetry,
                                                       FrictionMotion motion);
 

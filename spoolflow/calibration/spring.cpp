@@ -1,6 +1,7 @@
 #include "spoolflow/calibration/spring.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -8,10 +9,34 @@
 #include "spoolflow/calibration/both_directions.hpp"
 #include "spoolflow/calibration/calibration_error.hpp"
 #include "spoolflow/calibration/interpolation.hpp"
+#include "spoolflow/calibration/sliding_friction.hpp"
 
 namespace spoolflow::calibration {
 
 using recording::Channel;
+
+namespace {
+
+/// What the strokes leave about the spring and one dry friction each way: how much friction depends on the position.
+FitResidual even_friction(const recording::Recording& recording, const Level& level,
+                          const sensor::Spring<double>& spring) {
+  constexpr double bandwidth_Hz = 10;  // of strokes that take seconds
+  const auto time_s = recording[Channel::time];
+  const auto position_m = recording[Channel::position];
+  const auto force_N = recording[Channel::axial_force];
+  std::vector<double> friction_N;
+  for (std::size_t k = 0; k < position_m.size(); ++k)
+    friction_N.push_back(std::isnan(position_m[k]) ? std::nan("") : force_N[k] - spring.at(position_m[k]).value);
+  return fit_sliding_friction({.position_m = position_m,
+                               .force_N = friction_N,
+                               .time_step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1),
+                               .bandwidth_Hz = bandwidth_Hz,
+                               .stretches = level.sweeps},
+                              FrictionSymmetry::by_direction, FrictionMotion::even_strokes)
+      .residual;
+}
+
+}  // namespace
 
 SpringFit fit_spring(const recording::Recording& recording, double stroke_m) {
   const std::string file = recording.file.filename().string();
@@ -36,6 +61,7 @@ SpringFit fit_spring(const recording::Recording& recording, double stroke_m) {
       fit.residual.add(force_N[k] - fit.spring.at(position_m[k]).value - sign * half_width.at(position_m[k]).value);
     }
   }
+  fit.even_friction_residual = even_friction(recording, level, fit.spring);
   fit.oil_temperature_K = mean_oil_temperature_K(recording);
   return fit;
 }

@@ -10,6 +10,7 @@ struct SpringFit {
   sensor::Spring<double> spring;
   std::vector<double> friction_half_width_N;  ///< over the spring's positions; the dry friction of the spool
   FitResidual residual;                       ///< of the samples about spring plus or minus half width [N]
+  FitResidual even_friction_residual;         ///< about the spring, were friction the same at all positions [N]
   double oil_temperature_K;                   ///< mean over the recording; NaN where it was not recorded
 };
 

@@ -1,5 +1,8 @@
 /// Friction identification on the electro-mechanical positioning system EMPS: Janot, Gautier, Brunot, Data set and
 /// reference models of EMPS, Workshop on Nonlinear System Identification Benchmarks (2019).
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "public_data.hpp"
@@ -15,8 +18,11 @@ struct PositioningSystem : public_data::PublicData {
     constexpr double force_per_voltage_N_per_V = 35.1507;
     auto read = public_data::columns(data / "DATA_EMPS.mat", {"qm", "vir"});
     for (double& force : read[1]) force *= force_per_voltage_N_per_V;
-    return fit_sliding_friction({.position_m = read[0], .force_N = read[1], .time_step_s = 1e-3, .bandwidth_Hz = 100},
-                                symmetry, FrictionMotion::accelerated);
+    // To and fro without strokes of the bench kind: the whole recording is judged.
+    const std::array whole{Sweep{Direction::opening, 0, read[0].size()}};
+    return fit_sliding_friction(
+        {.position_m = read[0], .force_N = read[1], .time_step_s = 1e-3, .bandwidth_Hz = 100, .stretches = whole},
+        symmetry, FrictionMotion::accelerated);
   }
 };
 
