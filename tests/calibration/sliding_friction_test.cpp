@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -37,7 +38,7 @@ Measured measured(const FrictionLaw& law, double force_noise_N) {
   std::normal_distribution<double> noise(0, force_noise_N);
   for (int k = 0; k < 20'000; ++k) {
     const double t = k * step_s;
-    const double slow = 2 * M_PI * 0.5, fast = 2 * M_PI * 3;
+    const double slow = 2 * std::numbers::pi * 0.5, fast = 2 * std::numbers::pi * 3;
     out.position_m.push_back(0.05 * std::sin(slow * t) + 0.01 * std::sin(fast * t));
     const double v = 0.05 * slow * std::cos(slow * t) + 0.01 * fast * std::cos(fast * t);
     const double a = -0.05 * slow * slow * std::sin(slow * t) - 0.01 * fast * fast * std::sin(fast * t);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 
@@ -61,7 +62,7 @@ TEST_P(CylinderSeals, PressureTimesAreaIsLeftAndFrictionRisesWithPressure) {
   for (const int bar : {1, 3, 5, 7}) append(recording, data / fmt::format("{}_{}bar.csv", seal.name, bar), bar);
   const AxialForceFit fit = fit_axial_force(recording, stroke_m);
   ASSERT_EQ(fit.loops.size(), 4);
-  const double area_m2 = 0.25 * M_PI * seal.bore_m * seal.bore_m;
+  const double area_m2 = 0.25 * std::numbers::pi * seal.bore_m * seal.bore_m;
   double friction_before_N = 0;
   for (const model::AxialForceLoop& loop : fit.loops) {
     const double opening_N = mean(loop.opening_N);
