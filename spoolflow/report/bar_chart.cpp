@@ -14,7 +14,7 @@ namespace {
 constexpr double row_px = 25;
 constexpr double top_px = 8;
 constexpr double axis_px = 40;
-constexpr double wide_px = 1064, half_px = 510, narrow_px = 330;
+constexpr double wide_px = 1064, half_px = 510, narrow_px = 360;
 
 /// Where things stand.
 struct Frame {
@@ -39,8 +39,8 @@ Frame frame_of(const BarChart& chart, double width_px) {
     highest = std::max({highest, reach(bar.solid), bar.pale ? reach(*bar.pale) : highest});
   }
   if (!(highest > chart.lowest)) highest = chart.lowest + 1;
-  const double letter_px = 6.6;
-  return {std::min(0.45 * width_px, 14 + letter_px * static_cast<double>(longest_name)),
+  const double letter_px = 7;
+  return {std::min(0.55 * width_px, 14 + letter_px * static_cast<double>(longest_name)),
           width_px - 14 - letter_px * static_cast<double>(longest_text),
           top_px + row_px * static_cast<double>(chart.bars.size()), chart.lowest, chart.highest.value_or(highest)};
 }
@@ -61,7 +61,7 @@ std::string rectangle(const Frame& frame, const Bar::Length& length, double y, d
                      std::max(std::abs(end - zero), 0.5), height, look);
 }
 
-void draw_axis(std::string& out, const BarChart& chart, const Frame& frame) {
+void draw_axis(std::string& out, const BarChart& chart, const Frame& frame, double width_px) {
   const Ticks ticks = round_ticks(frame.lowest, frame.highest, frame.right - frame.left > 300 ? 6 : 3);
   for (std::size_t k = 0; k < ticks.at.size(); ++k) {
     const double x = frame.x(ticks.at[k]);
@@ -69,8 +69,8 @@ void draw_axis(std::string& out, const BarChart& chart, const Frame& frame) {
     out += fmt::format(R"(<text class="tick" text-anchor="middle" x="{:.1f}" y="{:.1f}">{}</text>)", x,
                        frame.bottom + 15, ticks.text[k]);
   }
-  out += fmt::format(R"(<text class="label" text-anchor="middle" x="{:.1f}" y="{:.1f}">{}</text>)",
-                     0.5 * (frame.left + frame.right), frame.bottom + 33, html_text(chart.axis));
+  out += fmt::format(R"(<text class="label" text-anchor="middle" x="{:.1f}" y="{:.1f}">{}</text>)", 0.5 * width_px,
+                     frame.bottom + 33, html_text(chart.axis));
 }
 
 void draw_bar(std::string& out, const Frame& frame, const Bar& bar, double y) {
@@ -101,7 +101,7 @@ std::string svg_of(const BarChart& chart, double width_px) {
   const Frame frame = frame_of(chart, width_px);
   std::string out = fmt::format(R"(<svg viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", width_px,
                                 frame.bottom + axis_px, html_text(chart.description));
-  draw_axis(out, chart, frame);
+  draw_axis(out, chart, frame, width_px);
   double y = top_px;
   for (const Bar& bar : chart.bars) {
     draw_bar(out, frame, bar, y);

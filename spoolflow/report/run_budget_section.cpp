@@ -74,7 +74,7 @@ BarChart parts(const RunResult& result) {
   });
   BarChart chart{
       .description = fmt::format("Contributions of the inputs along the run, {}", validation::name(result.estimator)),
-      .axis = "Contribution to the standard uncertainty, root mean square over the run [L/min]",
+      .axis = "Contribution, root mean square over the run [L/min]",
       .bars = {}};
   for (const analysis::RunLine& line : lines) {
     if (line.rms_contribution_m3_per_s < 0.01 * lines.front().rms_contribution_m3_per_s) continue;
