@@ -44,24 +44,32 @@ constexpr T end_weight(T time_constant_per_step) {
   return T(0.5) + T(0.5) / (T(1) + time_constant_per_step * (T(2) + T(3) * time_constant_per_step));
 }
 
+/// Where to begin: a magnetising current, and the flux linkage there.
+template <class T>
+struct CoilGuess {
+  T current_A;
+  MapPoint<T> flux;
+};
+
 /// Finds the magnetising current i_m at the step's end at which
 ///
 ///     i_m + hysteresis(flux) + eddy(d flux/dt) = i,   flux = flux_linkage(i_m, x),
 ///
-/// in the mean over the step. Newton steps from `guess_A`; what they leave is taken up by the next sample. Only the
-/// first asks every stop of the hysteresis, what follows goes along its slope.
+/// in the mean over the step. Newton steps from `guess`; what they leave is taken up by the next sample. Only the first
+/// asks every stop of the hysteresis, what follows goes along its slope.
 template <class T>
 [[gnu::always_inline]] constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                                                    const Cell<T>& position, T guess_A) {
+                                                    const Cell<T>& position, const CoilGuess<T>& guess) {
   const auto& flux_map = coil.flux_linkage.map;
   const T per_step = T(1) / larger(step.time_step_s, T(1e-6));
   const T weight = end_weight(state.time_constant_s * per_step);
   const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
-  T current_A = guess_A;
+  T current_A = guess.current_A;
+  MapPoint<T> flux = guess.flux;
   T flux_Wb{}, asked_Wb{};
   HysteresisPoint<T> hysteresis{};
   for (int pass = 0; pass < newton_steps; ++pass) {
-    const MapPoint<T> flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position);
+    if (pass > 0) flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position);
     if (pass == 0) {
       asked_Wb = flux.value;
       hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, flux.value);
@@ -80,17 +88,6 @@ template <class T>
   advance(coil.hysteresis, state.hysteresis, flux_Wb);
 }
 
-/// Where the last flux rate would lead the magnetising current.
-template <class T>
-constexpr T predicted_current_A(const Coil<T>& coil, const CoilState<T>& state, T time_step_s,
-                                const Cell<T>& position) {
-  const auto& flux_map = coil.flux_linkage.map;
-  const MapPoint<T> flux =
-      flux_map.at(locate<flux_map_currents>(flux_map.row_axis, state.magnetising_current_A), position);
-  return state.magnetising_current_A +
-         (state.hysteresis.flux + state.flux_rate_V * time_step_s - flux.value) / flux.row_slope;
-}
-
 template <class T>
 constexpr void demagnetise(CoilState<T>& state) {
   demagnetise(state.hysteresis);
@@ -103,14 +100,19 @@ constexpr void demagnetise(CoilState<T>& state) {
 template <class T>
 [[gnu::always_inline]] constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
                                                      const Cell<T>& position, bool begins) {
-  T guess_A = step.current_A;
+  const auto& flux_map = coil.flux_linkage.map;
+  const T last_A = begins ? step.current_A : state.magnetising_current_A;
+  CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
   if (begins) {
     demagnetise(state);
     step.time_step_s = T(1e6);
   } else {
-    guess_A = predicted_current_A(coil, state, step.time_step_s, position);
+    // Where the last flux rate would lead, along the map's line: exact within its cell.
+    const T predicted_Wb = state.hysteresis.flux + state.flux_rate_V * step.time_step_s;
+    guess.current_A += (predicted_Wb - guess.flux.value) / guess.flux.row_slope;
+    guess.flux.value = predicted_Wb;
   }
-  solve_current(coil, state, step, position, guess_A);
+  solve_current(coil, state, step, position, guess);
   if (begins) state.flux_rate_V = T(0);
 }
 

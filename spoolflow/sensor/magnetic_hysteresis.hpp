@@ -45,43 +45,78 @@ struct HysteresisPoint {
   T slope;  ///< d value / d flux, >= 0, without the change of stiffness
 };
 
-/// The change is seen so that it goes upwards: then a stop can yield at its upper end only, one comparison each.
+namespace detail {
+
+/// How far a stop would stand, were it elastic, towards a change of this size: there it can yield at one end only.
+template <bool Rising, class T>
+constexpr T elastic(T deflection, T size) {
+  if constexpr (Rising) return size + deflection;
+  return size - deflection;
+}
+
+/// Adds what stop K and those after it answer. Where one holds, all with higher thresholds hold: two stops never lie
+/// further apart than their thresholds do.
+template <bool Rising, unsigned K, bool Holds, class T>
+[[gnu::always_inline]] constexpr void add_stops(const MagneticHysteresis<T>& hysteresis,
+                                                const HysteresisState<T>& state, T size, T share,
+                                                HysteresisPoint<T>& point) {
+  if constexpr (K < hysteresis_elements) {
+    const T stiffness = hysteresis.stiffness[K] + share * hysteresis.stiffness_increase[K];
+    const T deflection = elastic<Rising>(state.deflection[K], size);
+    if (!Holds && lies_below(hysteresis.threshold[K], deflection)) {
+      point.value += stiffness * hysteresis.threshold[K];
+      add_stops<Rising, K + 1, false>(hysteresis, state, size, share, point);
+    } else {
+      point.value += stiffness * deflection;
+      point.slope += stiffness;
+      add_stops<Rising, K + 1, true>(hysteresis, state, size, share, point);
+    }
+  }
+}
+
+/// The same, moving the stops.
+template <bool Rising, unsigned K, bool Holds, class T>
+[[gnu::always_inline]] constexpr void move_stops(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state,
+                                                 T size) {
+  if constexpr (K < hysteresis_elements) {
+    const T deflection = elastic<Rising>(state.deflection[K], size);
+    if (!Holds && lies_below(hysteresis.threshold[K], deflection)) {
+      state.deflection[K] = Rising ? hysteresis.threshold[K] : -hysteresis.threshold[K];
+      move_stops<Rising, K + 1, false>(hysteresis, state, size);
+    } else {
+      state.deflection[K] = Rising ? deflection : -deflection;
+      move_stops<Rising, K + 1, true>(hysteresis, state, size);
+    }
+  }
+}
+
+}  // namespace detail
+
 template <class T>
 constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state,
                                            T flux) {
   const T change = flux - state.flux;
-  const T sign = select(change < T(0), T(-1), T(1));
-  const T size = magnitude(change);
   const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
-  T value(0), slope(0);
-#pragma GCC unroll 8
-  for (unsigned k = 0; k < hysteresis_elements; ++k) {
-    const T threshold = hysteresis.threshold[k];
-    const T stiffness = hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k];
-    const T elastic = sign * state.deflection[k] + size;
-    const auto yields = elastic > threshold;
-    value += stiffness * select(yields, threshold, elastic);
-    slope += select(yields, T(0), stiffness);
+  HysteresisPoint<T> point{T(0), T(0)};
+  if (change < T(0)) {
+    detail::add_stops<false, 0, false>(hysteresis, state, -change, share, point);
+    point.value = -point.value;
+  } else {
+    detail::add_stops<true, 0, false>(hysteresis, state, change, share, point);
   }
-  return {sign * value, slope};
+  return point;
 }
 
-/// Moves the memory to a new flux and answers there.
+/// Moves the memory to a new flux.
 template <class T>
-constexpr T advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
+constexpr void advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
   const T change = flux - state.flux;
-  const T sign = select(change < T(0), T(-1), T(1));
-  const T size = magnitude(change);
-  const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
-  T value(0);
-#pragma GCC unroll 8
-  for (unsigned k = 0; k < hysteresis_elements; ++k) {
-    const T deflection = smaller(sign * state.deflection[k] + size, hysteresis.threshold[k]);
-    state.deflection[k] = sign * deflection;
-    value += (hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k]) * deflection;
+  if (change < T(0)) {
+    detail::move_stops<false, 0, false>(hysteresis, state, -change);
+  } else {
+    detail::move_stops<true, 0, false>(hysteresis, state, change);
   }
   state.flux = flux;
-  return sign * value;
 }
 
 /// The largest output, reached far from the last reversal, at a share 0 to 1 of full flux: the coercive current.

@@ -202,13 +202,16 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   out.spring_force_N = spring_N;
   out.flow_force_N = edge.flow_force_N;
   out.friction_force_N = friction_N;
-  out.status = when(closed, Status::closed) | when(!sliding, Status::spool_at_rest) |
-               when(!actuator.inside_map, Status::outside_force_map) |
-               when(!edge.inside && !closed, Status::outside_flow_force_map) |
-               when(!edge.temperature_inside, Status::outside_temperature) |
-               when(sample.current_A > valve.largest_current_A, Status::current_saturated) |
-               when(position.fault, Status::position_fault) |
-               when(state.actuator.coil_resistance.implausible, Status::coil_fault);
+  Status status{};
+  mark(status, closed, Status::closed);
+  mark(status, !sliding, Status::spool_at_rest);
+  mark(status, !actuator.inside_map, Status::outside_force_map);
+  mark(status, !edge.inside && !closed, Status::outside_flow_force_map);
+  mark(status, !edge.temperature_inside, Status::outside_temperature);
+  mark(status, sample.current_A > valve.largest_current_A, Status::current_saturated);
+  mark(status, position.fault, Status::position_fault);
+  mark(status, state.actuator.coil_resistance.implausible, Status::coil_fault);
+  out.status = status;
   return out;
 }
 

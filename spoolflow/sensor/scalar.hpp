@@ -80,6 +80,15 @@ constexpr bool lies_below(float value, float limit) {
   return std::bit_cast<std::int32_t>(value) < std::bit_cast<std::int32_t>(limit);
 }
 
+/// Whether value > limit, where neither is above zero; NaN lies above nothing.
+template <class T>
+constexpr Truth<T> lies_above(T value, T limit) {
+  return value > limit;
+}
+constexpr bool lies_above(float value, float limit) {
+  return std::bit_cast<std::int32_t>(value) < std::bit_cast<std::int32_t>(limit);
+}
+
 template <class T>
 constexpr T smaller(T a, T b) {
   return select(b < a, b, a);

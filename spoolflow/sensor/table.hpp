@@ -81,16 +81,20 @@ template <int Cells, class T>
     place.index = table_index(place.cells);
     return true;
   }
+  // Nearly always it is noise that leaves the axis: asked first.
   if (lies_below(T(0), place.cells)) {
-    if (!lies_below(place.cells, wild_cells<T>)) return false;
-    if (!lies_below(place.cells, T(Cells + noise_cells))) status |= beyond;
+    if (!lies_below(place.cells, T(Cells + noise_cells))) {
+      if (!lies_below(place.cells, wild_cells<T>)) return false;
+      status |= beyond;
+    }
     place = {T(Cells), Cells - 1};
-    return true;
+  } else {
+    if (!lies_above(place.cells, T(-noise_cells))) {
+      if (!lies_above(place.cells, -wild_cells<T>)) return false;
+      status |= beyond;
+    }
+    place = {T(0), 0};
   }
-  const T short_of = -place.cells;
-  if (!lies_below(short_of, wild_cells<T>)) return false;
-  if (!lies_below(short_of, T(noise_cells))) status |= beyond;
-  place = {T(0), 0};
   return true;
 }
 
