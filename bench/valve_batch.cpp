@@ -1,5 +1,5 @@
-/// The condensed sensor over many valves: one after the other, and 8 or 16 at once in SIMD registers, in one run.
-/// valve_batch MODEL.json
+/// Sensors over many valves: one after the other, and together in SIMD registers, in one run.
+/// valve_batch MODEL.json RECORDING
 #include "spoolflow/validation/valve_batch.hpp"
 
 #include <algorithm>
@@ -11,114 +11,120 @@
 
 #include "spoolflow/export/number_groups.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/validation/estimation.hpp"
 
 namespace {
 
 using namespace spoolflow;
-constexpr int samples = 4096;
-constexpr int rounds = 60;
+constexpr std::size_t samples = 8192;
+constexpr int rounds = 40;
 
-/// Nanoseconds of the fastest of some rounds.
+/// Nanoseconds of the fastest round so far.
 template <class Work>
-double fastest_ns(const Work& work) {
-  double fastest = 1e12;
-  for (int round = 0; round < rounds; ++round) {
-    const auto begun = std::chrono::steady_clock::now();
-    work();
-    fastest =
-        std::min(fastest, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begun).count());
-  }
-  return fastest;
+void time(double& fastest_ns, const Work& work) {
+  const auto begun = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begun;
+  fastest_ns = std::min(fastest_ns, taken.count());
 }
 
-/// A sample's four measured numbers, valve beside valve, and the two answers.
-template <int N>
+/// What the valves measure, sample after sample, in each the valves side by side: the recording, each valve from
+/// another moment on.
 struct Signals {
-  using Row = std::array<float, N>;
-  std::vector<Row> current_A, voltage_V, position_m, temperature_K, flow, pressure;
+  std::size_t valves;
+  std::vector<float> time_step_s, current_A, voltage_V, position_m, oil_temperature_K, flow, pressure;
 
-  explicit Signals(const model::Model& model) {
-    const auto& parameters = model.condensed.parameters;
-    for (int k = 0; k < samples; ++k) {
-      Row current{}, position{}, other{};
-      for (std::size_t valve = 0; valve < N; ++valve) {
-        const auto phase = static_cast<float>((k * 7 + static_cast<int>(valve) * 613) % samples) / samples;
-        position[valve] = phase * static_cast<float>(model.valve.stroke_m);
-        current[valve] = (0.3F + 0.5F * phase) *
-                         static_cast<float>(parameters.magnetic_force.map.row_axis.at(sensor::force_map_currents - 1));
-        other[valve] = 320;
+  Signals(const recording::Recording& file, std::size_t count) : valves(count) {
+    using recording::Channel;
+    for (std::size_t k = 0; k < samples; ++k) {
+      for (std::size_t valve = 0; valve < valves; ++valve) {
+        const std::size_t from = 1 + (k + valve * file.size() / valves) % (file.size() - 1);
+        const auto number = [&](Channel channel) { return static_cast<float>(file[channel][from]); };
+        time_step_s.push_back(static_cast<float>(file[Channel::time][from] - file[Channel::time][from - 1]));
+        current_A.push_back(number(Channel::current));
+        voltage_V.push_back(number(Channel::voltage));
+        position_m.push_back(number(Channel::position));
+        oil_temperature_K.push_back(number(Channel::oil_temperature));
       }
-      current_A.push_back(current);
-      position_m.push_back(position);
-      voltage_V.push_back(other);
-      temperature_K.push_back(other);
     }
-    flow.resize(samples);
-    pressure.resize(samples);
+    flow.resize(current_A.size());
+    pressure.resize(current_A.size());
   }
 };
 
-double per_valve(double ns, int valves) {
-  return ns / samples / valves;
+template <class Parameters, class State>
+void one_after_the_other(const std::vector<const Parameters*>& valves, std::vector<State>& states, Signals& on) {
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
+    for (std::size_t k = valve; k < on.flow.size(); k += valves.size()) {
+      const sensor::Estimate<float>& estimate =
+          step(*valves[valve], states[valve],
+               sensor::Sample<float>{on.time_step_s[k], on.current_A[k], on.voltage_V[k], on.position_m[k],
+                                     on.oil_temperature_K[k]});
+      on.flow[k] = estimate.flow_m3_per_s;
+      on.pressure[k] = estimate.pressure_difference_Pa;
+    }
+  }
 }
 
-template <int N>
-void compare(const model::Model& model) {
-  const auto single = exports::single_precision(sensor::laid_out(model.condensed.parameters));
-  std::array<sensor::CondensedTables<float>, N> valves;
-  valves.fill(single);
-  std::array<sensor::CondensedState<float>, N> states{};
-  Signals<N> signals(model);
-  const double alone_ns = fastest_ns([&] {
-    for (std::size_t valve = 0; valve < N; ++valve) {
-      for (std::size_t k = 0; k < samples; ++k) {
-        const auto estimate =
-            step(valves[valve], states[valve],
-                 sensor::Sample<float>{1e-3F, signals.current_A[k][valve], signals.voltage_V[k][valve],
-                                       signals.position_m[k][valve], signals.temperature_K[k][valve]});
-        signals.flow[k][valve] = estimate.flow_m3_per_s;
-        signals.pressure[k][valve] = estimate.pressure_difference_Pa;
-      }
-    }
-  });
-  std::array<const sensor::CondensedTables<float>*, N> in_batch;
-  for (std::size_t valve = 0; valve < N; ++valve) in_batch[valve] = &valves[valve];
-  validation::ValveBatch<N> batch(in_batch);
-  using Pack = validation::ValvePack<N>;
-  const double together_ns = fastest_ns([&] {
-    for (std::size_t k = 0; k < samples; ++k) {
-      const auto& estimate =
-          batch.step(sensor::Sample<Pack>{Pack(1e-3F), Pack(signals.current_A[k]), Pack(signals.voltage_V[k]),
-                                          Pack(signals.position_m[k]), Pack(signals.temperature_K[k])});
-      signals.flow[k] = estimate.flow_m3_per_s.numbers();
-      signals.pressure[k] = estimate.pressure_difference_Pa.numbers();
-    }
-  });
-  const double touch_ns = fastest_ns([&] {
-    for (std::size_t k = 0; k < samples; ++k) {
-      for (std::size_t valve = 0; valve < N; ++valve) {
-        signals.flow[k][valve] = signals.current_A[k][valve] + signals.voltage_V[k][valve];
-        signals.pressure[k][valve] = signals.position_m[k][valve] + signals.temperature_K[k][valve];
-      }
-    }
-  });
-  fmt::print(
-      "{:>2} valves, ns a sample and valve: one after the other {:.1f}, at once {:.1f} ({:.0f} %; wanted: at most "
-      "40 %), reading four floats and writing two {:.2f}\n",
-      N, per_valve(alone_ns, N), per_valve(together_ns, N), 100 * together_ns / alone_ns, per_valve(touch_ns, N));
+template <class Parameters>
+void together(validation::ValveBatch<Parameters>& batch, Signals& on) {
+  validation::EstimateRows estimates{};
+  estimates.flow_m3_per_s = on.flow;
+  estimates.pressure_difference_Pa = on.pressure;
+  batch.step({on.time_step_s, on.current_A, on.voltage_V, on.position_m, on.oil_temperature_K}, estimates);
+}
+
+void read_and_write(Signals& on) {
+  for (std::size_t k = 0; k < on.flow.size(); ++k) {
+    on.flow[k] = on.current_A[k] + on.voltage_V[k];
+    on.pressure[k] = on.position_m[k] + on.oil_temperature_K[k];
+  }
+}
+
+/// All ways in turn, round after round: who else uses the machine slows them alike.
+template <class State, class Parameters>
+void compare(const char* estimator, const Parameters& parameters, Signals& on, bool own) {
+  const std::vector<Parameters> copies(own ? on.valves : 1, parameters);
+  std::vector<const Parameters*> valves;
+  for (std::size_t valve = 0; valve < on.valves; ++valve) valves.push_back(&copies[own ? valve : 0]);
+  std::vector<State> states(on.valves);
+  const auto sets = validation::instruction_sets();
+  std::vector<validation::ValveBatch<Parameters>> batches;
+  for (const auto instructions : sets) batches.emplace_back(valves, instructions);
+  double alone_ns = 1e15, touch_ns = 1e15;
+  std::vector<double> together_ns(sets.size(), 1e15);
+  for (int round = 0; round < rounds; ++round) {
+    time(alone_ns, [&] { one_after_the_other(valves, states, on); });
+    for (std::size_t set = 0; set < sets.size(); ++set) time(together_ns[set], [&] { together(batches[set], on); });
+    time(touch_ns, [&] { read_and_write(on); });
+  }
+  const auto numbers = static_cast<double>(on.flow.size());
+  fmt::print("{:<11}{:>6}  {:<13}{:>9.2f}", estimator, on.valves, own ? "each its own" : "one for all",
+             alone_ns / numbers);
+  for (const double ns : together_ns) fmt::print("{:>9.2f} ({:>2.0f} %)", ns / numbers, 100 * ns / alone_ns);
+  fmt::print("{:>9.2f}\n", touch_ns / numbers);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "usage: valve_batch MODEL.json\n");
+  if (argc != 3) {
+    fmt::print(stderr, "usage: valve_batch MODEL.json RECORDING\n");
     return 2;
   }
   try {
     const model::Model model = model::read_model(argv[1]);
-    compare<8>(model);
-    compare<16>(model);
+    const recording::Recording file = recording::read_recording(argv[2], validation::sensor_channels(model, {}));
+    fmt::print("Nanoseconds a sample and valve, and the share of one after the other; wanted: at most 40 %.\n");
+    fmt::print("{:<11}{:>6}  {:<13}{:>9}", "estimator", "valves", "models", "alone");
+    for (const auto instructions : validation::instruction_sets()) fmt::print("{:>16}", validation::name(instructions));
+    fmt::print("   reading four floats and writing two\n");
+    for (const std::size_t valves : {8U, 16U}) {
+      Signals signals(file, valves);
+      const auto condensed = exports::single_precision(sensor::laid_out(model.condensed.parameters));
+      for (const bool own : {true, false}) compare<sensor::CondensedState<float>>("condensed", condensed, signals, own);
+    }
   } catch (const std::exception& error) {
     fmt::print(stderr, "valve_batch: {}\n", error.what());
     return 1;

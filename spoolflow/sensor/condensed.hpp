@@ -1,5 +1,6 @@
 #pragma once
 /// The paper's condensed sensor (section 3, Fig 4): two averaged maps and the springs.
+#include <array>
 #include <type_traits>
 
 #include "spoolflow/sensor/condensed_tables.hpp"
@@ -86,32 +87,35 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   }
   const T x = point.position.cells;
   const auto here = corner(valve.records.data(), point.position.index * Layout::record);
-  const auto line = [&](const auto& from, int number) { return from[number] + x * from[number + 1]; };
+  const auto line = [&](T at_zero, T rise) { return at_zero + x * rise; };
+  const auto [spring, spring_rise, scale, scale_rise] = four(here, Layout::spring);
 
   // Forces: paper (1) without friction and inertia.
-  const auto by_current = onward(here, point.current.index * Layout::plane);
-  const T magnetic_force_N = line(by_current, Layout::magnetic_force) +
-                             point.current.cells * line(by_current, Layout::magnetic_force + Layout::line);
-  const T spring_force_N = line(here, Layout::spring);
+  const auto [force, force_rise, force_more, force_more_rise] =
+      four(onward(here, point.current.index * Layout::plane), Layout::magnetic_force);
+  const T magnetic_force_N = line(force, force_rise) + point.current.cells * line(force_more, force_more_rise);
+  const T spring_force_N = line(spring, spring_rise);
   const T flow_force_N = magnetic_force_N - spring_force_N;
 
   // Flow rate: at a fixed opening nearly linear in the root of the flow force (paper (2)).
-  T cells2 = flow_force_N / line(here, Layout::force_per_cells2);
+  T cells2 = flow_force_N / line(scale, scale_rise);
   const Truth<T> closed = lies_below(x, valve.closed_below_cells);
   mark(point.status, closed, Status::closed);
   const Place<T> root = detail::find_root(closed, cells2, point.status);
   const auto by_root = onward(here, root.index * Layout::flow_cell);
-  const T slope_m3_per_s = line(by_root, Layout::flow + Layout::line);
-  const T flow_m3_per_s = line(by_root, Layout::flow) + root.cells * slope_m3_per_s;
-  const T root_pressure = line(by_root, Layout::flow + Layout::root_pressure) +
-                          root.cells * line(by_root, Layout::flow + Layout::root_pressure + Layout::line);
+  const auto [flow, flow_rise, flow_more, flow_more_rise] = four(by_root, Layout::flow);
+  const T slope_m3_per_s = line(flow_more, flow_more_rise);
+  const T flow_m3_per_s = line(flow, flow_rise) + root.cells * slope_m3_per_s;
+  const auto [pressure, pressure_rise, pressure_more, pressure_more_rise] =
+      four(by_root, Layout::flow + Layout::root_pressure);
+  const T root_pressure = line(pressure, pressure_rise) + root.cells * line(pressure_more, pressure_more_rise);
 
   // Band: what the forces' uncertainty means for the root, along the map's slope.
-  const T uncertainty_cells2 = line(here, Layout::uncertainty);
+  const auto uncertain = four(here, Layout::uncertainty);
+  const T uncertainty_cells2 = line(uncertain[0], uncertain[1]);
   const T above = sqrt(cells2 + uncertainty_cells2) - root.cells;
   const T below = root.cells - sqrt(at_least_zero(cells2 - uncertainty_cells2));
 
-  const Estimate<T> before = out;
   out.flow_m3_per_s = flow_m3_per_s;
   out.flow_lower_m3_per_s = flow_m3_per_s - valve.flow_residual_m3_per_s - below * slope_m3_per_s;
   out.flow_upper_m3_per_s = flow_m3_per_s + valve.flow_residual_m3_per_s + above * slope_m3_per_s;
@@ -120,7 +124,6 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.spring_force_N = spring_force_N;
   out.flow_force_N = flow_force_N;
   out.status = point.status;
-  if constexpr (!one_valve<T>) hold(unusable(sample), before, out);
   return out;
 }
 

@@ -33,7 +33,8 @@ struct CondensedLayout {
   static constexpr int spring = 0;                             ///< N
   static constexpr int force_per_cells2 = spring + line;       ///< N: the largest flow force over root_cells squared
   static constexpr int uncertainty = force_per_cells2 + line;  ///< of the flow force, over force_per_cells2
-  static constexpr int magnetic_force = uncertainty + line;    ///< N: a plane each current cell
+  static constexpr int spare = uncertainty + line;             ///< so that all that follows lies in fours
+  static constexpr int magnetic_force = spare + line;          ///< N: a plane each current cell
   static constexpr int flow = magnetic_force + plane * current_cells;  ///< each root cell m3/s, and then
   static constexpr int root_pressure = plane;                          ///< sqrt(Pa)
   static constexpr int flow_cell = 2 * plane;
@@ -122,6 +123,7 @@ constexpr void put_record(const CondensedGrid<T>& grid, int cell, T* record) {
   put_line(record + Layout::spring, cell, grid.spring_N(cell), grid.spring_N(cell + 1));
   put_line(record + Layout::force_per_cells2, cell, grid.force_per_cells2_N(cell), grid.force_per_cells2_N(cell + 1));
   put_line(record + Layout::uncertainty, cell, grid.uncertainty_cells2(cell), grid.uncertainty_cells2(cell + 1));
+  put_line(record + Layout::spare, cell, T(0), T(0));
   for (int current = 0; current < Layout::current_cells; ++current) {
     put_plane(record + Layout::magnetic_force + Layout::plane * current, current, cell,
               [&](int k, int p) { return grid.magnetic_N(k, p); });

@@ -33,6 +33,18 @@ constexpr const T* corner(const T* values, int index) {
   return values + index;
 }
 
+/// Four neighbours, to be taken at once: their places are `number` to `number + 3`.
+template <class T>
+constexpr std::array<T, 4> four(const T* from, int number) {
+  return {from[number], from[number + 1], from[number + 2], from[number + 3]};
+}
+
+/// Two neighbours at once.
+template <class T>
+constexpr std::array<T, 2> two(const T* from, int number) {
+  return {from[number], from[number + 1]};
+}
+
 /// The same from there on.
 template <class T>
 constexpr const T* onward(const T* from, int index) {
@@ -53,7 +65,7 @@ constexpr Cell<T> locate(const Axis<T>& axis, T value) {
     if (raw > T(0)) return {Points - 2, T(1), below_end()};
     return {0, T(0), above_begin()};
   } else {
-    const T kept = select(raw > T(0), smaller(raw, T(Points - 1)), T(0));
+    const T kept = smaller(larger(T(0), raw), T(Points - 1));
     const Index<T> index = table_index(smaller(kept, T(Points - 2)));
     return {index, kept - T(index), below_end() && above_begin()};
   }
@@ -115,7 +127,7 @@ constexpr Place<T> root_place(T& cells2, Status beyond, Status& status) {
 /// Places of several valves at once: nothing branches, and the caller keeps apart what is wild.
 template <int Cells, class T>
 constexpr Place<T> blended_place(T cells) {
-  const T kept = select(cells > T(0), smaller(cells, T(Cells)), T(0));
+  const T kept = smaller(larger(T(0), cells), T(Cells));
   return {kept, table_index(smaller(kept, T(Cells - 1)))};
 }
 /// Whether such a point lies on the axis but for noise.
@@ -143,8 +155,8 @@ struct Curve {
   [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
     const Cell<T> cell = locate<Points>(axis, x);
     const auto from = corner(values.data(), cell.index);
-    const T low = from[0];
-    const T rise = from[1] - low;
+    const auto [low, high] = two(from, 0);
+    const T rise = high - low;
     return {low + cell.share * rise, rise * axis.per_spacing, cell.inside};
   }
 };
@@ -175,10 +187,10 @@ struct Map {
 
   [[nodiscard]] constexpr MapPoint<T> at(const Cell<T>& row, const Cell<T>& column) const {
     const auto from = corner(values.data(), row.index * Columns + column.index);
-    const T low_low = from[0];
-    const T high_low = from[Columns];
-    const T low_rise = from[1] - low_low;
-    const T high_rise = from[Columns + 1] - high_low;
+    const auto [low_low, low_high] = two(from, 0);
+    const auto [high_low, high_high] = two(from, Columns);
+    const T low_rise = low_high - low_low;
+    const T high_rise = high_high - high_low;
     const T low = low_low + column.share * low_rise;
     const T high = high_low + column.share * high_rise;
     return {low + row.share * (high - low), (high - low) * row_axis.per_spacing,

@@ -1,75 +1,74 @@
 #pragma once
-/// Several valves stepped at once on one core, each with its own model.
-#include <array>
+/// Sensors of many valves stepped at once on one core, each valve with its own model.
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/sensor/condensed.hpp"
-#include "spoolflow/validation/valve_pack.hpp"
 
 namespace spoolflow::validation {
 
-/// One valve's numbers in the order in which they are described: visitor of describe_condensed_tables.
-struct DescribedInOrder {
-  std::vector<const float*> tables;
-  std::vector<float> numbers;
+/// What the registers of a processor can do.
+enum class InstructionSet {
+  baseline,  ///< what the whole program is built for; SSE2 on x86-64, four valves a register
+  avx2,      ///< eight valves a register
+};
+[[nodiscard]] std::string_view name(InstructionSet instructions);
+/// Those that this program has and this processor runs; the fastest is the last.
+[[nodiscard]] std::vector<InstructionSet> instruction_sets();
 
-  template <class Table>
-  void table(std::string_view /*key*/, const Table& table, int /*per_record*/) {
-    tables.push_back(table.data());
-  }
-  void number(std::string_view /*key*/, float value, double /*lowest*/, double /*highest*/) {
-    numbers.push_back(value);
-  }
+/// Samples of all valves: sample after sample, in each the valves side by side. NaN: not measured.
+struct SampleRows {
+  std::span<const float> time_step_s;
+  std::span<const float> current_A;
+  std::span<const float> voltage_V;
+  std::span<const float> position_m;
+  std::span<const float> oil_temperature_K;
 };
 
-/// Puts several valves' numbers side by side: visitor of describe_condensed_tables over packs.
-template <int N>
-class SideBySide {
- public:
-  explicit SideBySide(const std::array<DescribedInOrder, N>& valves) : valves_(valves) {}
-
-  void table(std::string_view /*key*/, PackTable<N>& table, int /*per_record*/) {
-    for (std::size_t k = 0; k < N; ++k) table.of_valve[k] = valves_[k].tables[tables_];
-    ++tables_;
-  }
-  void number(std::string_view /*key*/, ValvePack<N>& value, double /*lowest*/, double /*highest*/) {
-    std::array<float, N> out;
-    for (std::size_t k = 0; k < N; ++k) out[k] = valves_[k].numbers[numbers_];
-    value = ValvePack<N>(out);
-    ++numbers_;
-  }
-
- private:
-  const std::array<DescribedInOrder, N>& valves_;
-  std::size_t tables_ = 0;
-  std::size_t numbers_ = 0;
+/// Room for the answers, in the same order. What is not wanted is left empty.
+struct EstimateRows {
+  std::span<float> flow_m3_per_s;
+  std::span<float> flow_lower_m3_per_s;  ///< 95 % band
+  std::span<float> flow_upper_m3_per_s;
+  std::span<float> pressure_difference_Pa;
+  std::span<float> magnetic_force_N;
+  std::span<float> spring_force_N;
+  std::span<float> flow_force_N;
+  std::span<float> friction_force_N;
+  std::span<sensor::Status> status;
 };
 
-/// Condensed sensors of N valves, in single precision: what it answers is what N sensors of float answer.
-template <int N>
+/// As many valves are stepped together; a batch has a multiple of them.
+inline constexpr std::size_t valves_together = 8;
+
+/// The steps of one instruction set, and the memory of the valves that are stepped together.
+struct BatchSteps;
+
+/// Sensors of several valves, in single precision: what they answer is what single sensors of float answer.
+/// `Parameters` is sensor::CondensedTables<float>.
+template <class Parameters>
 class ValveBatch {
  public:
-  using Pack = ValvePack<N>;
+  /// Copies the valves; the same one may stand in several places and is kept once. Throws std::invalid_argument
+  /// where their number is no multiple of `valves_together`, or `instructions` not among instruction_sets().
+  explicit ValveBatch(std::span<const Parameters* const> valves,
+                      InstructionSet instructions = instruction_sets().back());
+  ~ValveBatch();
+  ValveBatch(ValveBatch&&) noexcept;
+  ValveBatch& operator=(ValveBatch&&) noexcept;
 
-  /// Keeps references to the valves' tables; the same valve may stand in several places.
-  explicit ValveBatch(const std::array<const sensor::CondensedTables<float>*, N>& valves) {
-    std::array<DescribedInOrder, N> described;
-    for (std::size_t k = 0; k < N; ++k) model::describe_condensed_tables(*valves[k], described[k]);
-    model::describe_condensed_tables(tables_, SideBySide<N>(described));
-  }
-
-  /// Flattened: a call with packs as arguments would carry them through memory.
-  [[gnu::flatten]] const sensor::Estimate<Pack>& step(const sensor::Sample<Pack>& sample) {
-    sensor::step(tables_, state_, sample);
-    return state_.last;
-  }
+  /// All samples of the rows. Throws std::invalid_argument where rows differ in length or end within a sample.
+  void step(const SampleRows& samples, const EstimateRows& estimates);
 
  private:
-  sensor::CondensedTables<Pack> tables_;
-  sensor::CondensedState<Pack> state_;
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
 };
+
+extern template class ValveBatch<sensor::CondensedTables<float>>;
 
 }  // namespace spoolflow::validation

@@ -1,217 +1,263 @@
 #pragma once
 /// A scalar that stands for several valves at once: one number a valve, side by side in SIMD registers. The sensor's
-/// templates run on it as they run on float; where float branches, a pack blends.
+/// templates run on it as they run on float; where float branches, a pack blends. Types carry the register, so that
+/// translation units for different instruction sets share none.
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <experimental/simd>
+#include <tuple>
+#include <utility>
 
 #include "spoolflow/sensor/sample.hpp"
 
 namespace spoolflow::validation {
 
-using Register = std::experimental::native_simd<float>;
+namespace simd = std::experimental;
 
-/// Registers that hold N numbers, as the compiler's target has them.
-template <int N>
-inline constexpr std::size_t registers = static_cast<std::size_t>(N) / Register::size();
+/// What the packs of `Count` registers are made of; each kind has one number of 32 bits a valve.
+template <class Register, int Count>
+struct Lanes {
+  static constexpr std::size_t registers = Count;
+  static constexpr std::size_t width = Register::size();
+  static constexpr std::size_t valves = registers * width;
+  using Integers = simd::rebind_simd_t<std::int32_t, Register>;
+};
 
 /// `of(register)` for each register.
-template <class Pack, std::size_t Count, class Of>
+template <class Pack, class Of>
 [[gnu::always_inline]] inline Pack each_register(const Of& of) {
-  Pack out;
-#pragma GCC unroll 8
-  for (std::size_t r = 0; r < Count; ++r) out.lanes[r] = of(r);
-  return out;
+  return [&]<std::size_t... r>(std::index_sequence<r...>) __attribute__((always_inline)) {
+    return Pack{{of(r)...}};
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(Pack::lanes)>>());
 }
 
-template <int N>
+/// The answers of a comparison: all bits of a valve's number where it holds, none where it does not.
+template <class Register, int Count>
 struct PackTruth {
-  std::array<std::experimental::native_simd_mask<float>, registers<N>> lanes;
+  using Integers = typename Lanes<Register, Count>::Integers;
+  std::array<Integers, Count> lanes{};
 
-  template <class Of>
-  static PackTruth each(const Of& of) {
-    return each_register<PackTruth, registers<N>>(of);
-  }
   friend PackTruth operator!(const PackTruth& a) {
-    return each([&](std::size_t r) { return !a.lanes[r]; });
+    return each_register<PackTruth>([&](std::size_t r) { return ~a.lanes[r]; });
   }
   friend PackTruth operator&&(const PackTruth& a, const PackTruth& b) {
-    return each([&](std::size_t r) { return a.lanes[r] && b.lanes[r]; });
+    return each_register<PackTruth>([&](std::size_t r) { return a.lanes[r] & b.lanes[r]; });
+  }
+  friend PackTruth operator||(const PackTruth& a, const PackTruth& b) {
+    return each_register<PackTruth>([&](std::size_t r) { return a.lanes[r] | b.lanes[r]; });
   }
 };
 
-template <int N>
+/// `compare(register)` for each register.
+template <class Register, int Count, class Compare>
+[[gnu::always_inline]] inline PackTruth<Register, Count> each_comparison(const Compare& compare) {
+  using Integers = typename Lanes<Register, Count>::Integers;
+  return each_register<PackTruth<Register, Count>>([&](std::size_t r) { return std::bit_cast<Integers>(compare(r)); });
+}
+
+/// Whether it holds for one valve at least.
+template <class Register, int Count>
+bool any(const PackTruth<Register, Count>& truth) {
+  auto joined = truth.lanes[0];
+  for (std::size_t r = 1; r < Count; ++r) joined |= truth.lanes[r];
+  return any_of(std::bit_cast<typename Register::mask_type>(joined));
+}
+
+/// Whole numbers: places in tables, counts.
+template <class Register, int Count>
 struct PackIndex {
-  std::array<std::int32_t, N> lanes;
+  using Integers = typename Lanes<Register, Count>::Integers;
+  std::array<Integers, Count> lanes{};
 
-  friend PackIndex operator*(PackIndex a, int factor) {
-    for (std::int32_t& lane : a.lanes) lane *= factor;
-    return a;
+  friend PackIndex operator*(const PackIndex& a, int factor) {
+    return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] * Integers(factor); });
   }
-  friend PackIndex operator+(PackIndex a, const PackIndex& b) {
-    for (std::size_t k = 0; k < N; ++k) a.lanes[k] += b.lanes[k];
-    return a;
+  friend PackIndex operator+(const PackIndex& a, const PackIndex& b) {
+    return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] + b.lanes[r]; });
   }
 };
 
-template <int N>
+template <class Register, int Count>
 struct ValvePack {
-  static_assert(N % Register::size() == 0);
-  using Numbers = std::array<float, N>;
-  std::array<Register, registers<N>> lanes{};
+  using Lanes = validation::Lanes<Register, Count>;
+  using Truth = PackTruth<Register, Count>;
+  using Index = PackIndex<Register, Count>;
+  std::array<Register, Count> lanes{};
 
   ValvePack() = default;
+  explicit ValvePack(const std::array<Register, Count>& numbers) : lanes(numbers) {}
   explicit ValvePack(float value) { lanes.fill(Register(value)); }
   explicit ValvePack(double value) : ValvePack(static_cast<float>(value)) {}
   explicit ValvePack(int value) : ValvePack(static_cast<float>(value)) {}
-  explicit ValvePack(const Numbers& numbers) {
-    for (std::size_t r = 0; r < lanes.size(); ++r)
-      lanes[r].copy_from(numbers.data() + r * Register::size(), std::experimental::element_aligned);
-  }
-  explicit ValvePack(const PackIndex<N>& index) {
-    for (std::size_t r = 0; r < lanes.size(); ++r)
-      lanes[r].copy_from(index.lanes.data() + r * Register::size(), std::experimental::element_aligned);
-  }
-  [[nodiscard]] Numbers numbers() const {
-    Numbers out;
-    for (std::size_t r = 0; r < lanes.size(); ++r)
-      lanes[r].copy_to(out.data() + r * Register::size(), std::experimental::element_aligned);
-    return out;
+  explicit ValvePack(const Index& index)
+      : ValvePack(
+            each_register<ValvePack>([&](std::size_t r) { return simd::static_simd_cast<Register>(index.lanes[r]); })) {
   }
 
-  template <class Of>
-  static ValvePack each(const Of& of) {
-    return each_register<ValvePack, registers<N>>(of);
+  /// A number a valve, from there on.
+  static ValvePack read(const float* from) {
+    return each_register<ValvePack>([&](std::size_t r) { return Register(from + r * Lanes::width, unaligned); });
   }
+  void write(float* to) const {
+    for (std::size_t r = 0; r < lanes.size(); ++r) lanes[r].copy_to(to + r * Lanes::width, unaligned);
+  }
+
   friend ValvePack operator-(const ValvePack& a) {
-    return each([&](std::size_t r) { return -a.lanes[r]; });
+    return each_register<ValvePack>([&](std::size_t r) { return -a.lanes[r]; });
   }
   friend ValvePack operator+(const ValvePack& a, const ValvePack& b) {
-    return each([&](std::size_t r) { return a.lanes[r] + b.lanes[r]; });
+    return each_register<ValvePack>([&](std::size_t r) { return a.lanes[r] + b.lanes[r]; });
   }
   friend ValvePack operator-(const ValvePack& a, const ValvePack& b) {
-    return each([&](std::size_t r) { return a.lanes[r] - b.lanes[r]; });
+    return each_register<ValvePack>([&](std::size_t r) { return a.lanes[r] - b.lanes[r]; });
   }
   friend ValvePack operator*(const ValvePack& a, const ValvePack& b) {
-    return each([&](std::size_t r) { return a.lanes[r] * b.lanes[r]; });
+    return each_register<ValvePack>([&](std::size_t r) { return a.lanes[r] * b.lanes[r]; });
   }
   friend ValvePack operator/(const ValvePack& a, const ValvePack& b) {
-    return each([&](std::size_t r) { return a.lanes[r] / b.lanes[r]; });
+    return each_register<ValvePack>([&](std::size_t r) { return a.lanes[r] / b.lanes[r]; });
   }
-  friend PackTruth<N> operator==(const ValvePack& a, const ValvePack& b) {
-    return PackTruth<N>::each([&](std::size_t r) { return a.lanes[r] == b.lanes[r]; });
+  ValvePack& operator+=(const ValvePack& b) { return *this = *this + b; }
+  ValvePack& operator-=(const ValvePack& b) { return *this = *this - b; }
+  friend Truth operator==(const ValvePack& a, const ValvePack& b) {
+    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] == b.lanes[r]; });
   }
-  friend PackTruth<N> operator<(const ValvePack& a, const ValvePack& b) {
-    return PackTruth<N>::each([&](std::size_t r) { return a.lanes[r] < b.lanes[r]; });
+  friend Truth operator!=(const ValvePack& a, const ValvePack& b) { return !(a == b); }
+  friend Truth operator<(const ValvePack& a, const ValvePack& b) {
+    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] < b.lanes[r]; });
   }
-  friend PackTruth<N> operator<=(const ValvePack& a, const ValvePack& b) {
-    return PackTruth<N>::each([&](std::size_t r) { return a.lanes[r] <= b.lanes[r]; });
+  friend Truth operator<=(const ValvePack& a, const ValvePack& b) {
+    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] <= b.lanes[r]; });
   }
-  friend PackTruth<N> operator>(const ValvePack& a, const ValvePack& b) { return b < a; }
-  friend PackTruth<N> operator>=(const ValvePack& a, const ValvePack& b) { return b <= a; }
+  friend Truth operator>(const ValvePack& a, const ValvePack& b) { return b < a; }
+  friend Truth operator>=(const ValvePack& a, const ValvePack& b) { return b <= a; }
+
+ private:
+  static constexpr simd::element_aligned_tag unaligned{};
 };
 
-template <int N>
-ValvePack<N> select(const PackTruth<N>& condition, const ValvePack<N>& yes, const ValvePack<N>& no) {
-  ValvePack<N> out = no;
-  for (std::size_t r = 0; r < registers<N>; ++r) where(condition.lanes[r], out.lanes[r]) = yes.lanes[r];
-  return out;
-}
-
-template <int N>
-ValvePack<N> sqrt(const ValvePack<N>& a) {
-  return ValvePack<N>::each([&](std::size_t r) { return std::experimental::sqrt(a.lanes[r]); });
-}
-
-template <int N>
-PackIndex<N> table_index(const ValvePack<N>& value) {
-  const auto numbers = value.numbers();
-  PackIndex<N> out;
-  for (std::size_t k = 0; k < N; ++k) out.lanes[k] = static_cast<std::int32_t>(numbers[k]);
-  return out;
-}
-
-/// The same table of each valve, where that valve's parameters have it: what is read together lies together.
-template <int N>
-struct PackTable {
-  std::array<const float*, N> of_valve{};
-
-  [[nodiscard]] const PackTable& data() const { return *this; }
+/// A register in the compiler's own terms: its operators make smallest and largest numbers one instruction.
+template <class Register>
+struct Plain {
+  using Numbers [[gnu::vector_size(sizeof(Register))]] = float;
+  using Bits [[gnu::vector_size(sizeof(Register))]] = std::int32_t;
 };
 
-/// Each valve reads its own table at its own place.
-template <int N>
-struct PackCorner {
-  std::array<const float*, N> from;
-
-  ValvePack<N> operator[](int distance) const {
-    return ValvePack<N>::each([&](std::size_t r) {
-      // Put together in the register: numbers stored one by one and loaded as a whole would make the processor wait.
-      return Register([&](auto k) { return from[r * Register::size() + k][distance]; });
-    });
-  }
-};
-
-template <int N>
-PackCorner<N> corner(const PackTable<N>& table, const PackIndex<N>& index) {
-  PackCorner<N> out;
-  for (std::size_t k = 0; k < N; ++k) out.from[k] = table.of_valve[k] + index.lanes[k];
-  return out;
+/// `yes` where the bits of `condition` are set, else `no`.
+template <class Register, class Integers>
+[[gnu::always_inline]] inline Register blended(const Integers& condition, const Register& yes, const Register& no) {
+  using Numbers = typename Plain<Register>::Numbers;
+  return std::bit_cast<Register>(std::bit_cast<typename Plain<Register>::Bits>(condition) ? std::bit_cast<Numbers>(yes)
+                                                                                          : std::bit_cast<Numbers>(no));
 }
 
-template <int N>
-PackCorner<N> onward(PackCorner<N> corner, const PackIndex<N>& index) {
-  for (std::size_t k = 0; k < N; ++k) corner.from[k] += index.lanes[k];
-  return corner;
+template <class Register, int Count>
+ValvePack<Register, Count> select(const PackTruth<Register, Count>& condition, const ValvePack<Register, Count>& yes,
+                                  const ValvePack<Register, Count>& no) {
+  return each_register<ValvePack<Register, Count>>(
+      [&](std::size_t r) { return blended(condition.lanes[r], yes.lanes[r], no.lanes[r]); });
 }
 
-/// Status words. As sums of powers of two they are whole numbers that a float holds exactly (bits below 2^24); each bit
-/// is added once at most.
-template <int N>
+/// `a < b ? a : b` and `a > b ? a : b`. The library's own would be a call, x86 has an instruction for just that.
+template <class Register>
+[[gnu::always_inline]] inline Register lesser(const Register& a, const Register& b) {
+#if defined(__AVX__)
+  if constexpr (Register::size() == 8)
+    return std::bit_cast<Register>(_mm256_min_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b)));
+#elif defined(__SSE__)
+  if constexpr (Register::size() == 4)
+    return std::bit_cast<Register>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#endif
+  return blended(a < b, a, b);
+}
+template <class Register>
+[[gnu::always_inline]] inline Register greater(const Register& a, const Register& b) {
+#if defined(__AVX__)
+  if constexpr (Register::size() == 8)
+    return std::bit_cast<Register>(_mm256_max_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b)));
+#elif defined(__SSE__)
+  if constexpr (Register::size() == 4)
+    return std::bit_cast<Register>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#endif
+  return blended(a > b, a, b);
+}
+
+template <class Register, int Count>
+ValvePack<Register, Count> smaller(const ValvePack<Register, Count>& a, const ValvePack<Register, Count>& b) {
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return lesser(b.lanes[r], a.lanes[r]); });
+}
+
+template <class Register, int Count>
+ValvePack<Register, Count> larger(const ValvePack<Register, Count>& a, const ValvePack<Register, Count>& b) {
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return greater(b.lanes[r], a.lanes[r]); });
+}
+
+template <class Register, int Count>
+ValvePack<Register, Count> sqrt(const ValvePack<Register, Count>& a) {
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return simd::sqrt(a.lanes[r]); });
+}
+
+template <class Register, int Count>
+ValvePack<Register, Count> magnitude(const ValvePack<Register, Count>& a) {
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return simd::abs(a.lanes[r]); });
+}
+
+template <class Register, int Count>
+PackTruth<Register, Count> is_number(const ValvePack<Register, Count>& a) {
+  return magnitude(a) < ValvePack<Register, Count>(0x1p30F);
+}
+
+template <class Register, int Count>
+PackIndex<Register, Count> table_index(const ValvePack<Register, Count>& value) {
+  using Index = PackIndex<Register, Count>;
+  return each_register<Index>(
+      [&](std::size_t r) { return simd::static_simd_cast<typename Index::Integers>(value.lanes[r]); });
+}
+
+/// Status words.
+template <class Register, int Count>
 struct PackStatus {
-  ValvePack<N> words;
+  PackIndex<Register, Count> words;
 
-  friend PackStatus operator|(const PackStatus& a, const PackStatus& b) { return {a.words + b.words}; }
-  [[nodiscard]] sensor::Status at(std::size_t valve) const {
-    return static_cast<sensor::Status>(static_cast<std::uint32_t>(words.numbers()[valve]));
+  friend PackStatus operator|(const PackStatus& a, const PackStatus& b) {
+    using Index = PackIndex<Register, Count>;
+    return {each_register<Index>([&](std::size_t r) { return a.words.lanes[r] | b.words.lanes[r]; })};
   }
 };
 
-template <int N>
-PackStatus<N> when(const PackTruth<N>& condition, sensor::Status bit) {
-  const auto word = static_cast<float>(static_cast<std::uint32_t>(bit));
-  return {select(condition, ValvePack<N>(word), ValvePack<N>(0))};
+/// Which valves have any bit.
+template <class Register, int Count>
+PackTruth<Register, Count> is_any(const PackStatus<Register, Count>& status) {
+  return each_comparison<Register, Count>([&](std::size_t r) { return status.words.lanes[r] != 0; });
 }
 
-template <int N>
-void mark(PackStatus<N>& status, const PackTruth<N>& condition, sensor::Status bit) {
+template <class Register, int Count>
+PackStatus<Register, Count> when(const PackTruth<Register, Count>& condition, sensor::Status bit) {
+  using Index = PackIndex<Register, Count>;
+  return {each_register<Index>(
+      [&](std::size_t r) { return condition.lanes[r] & typename Index::Integers(static_cast<std::int32_t>(bit)); })};
+}
+
+template <class Register, int Count>
+void mark(PackStatus<Register, Count>& status, const PackTruth<Register, Count>& condition, sensor::Status bit) {
   status = status | when(condition, bit);
 }
 
-/// Valves whose sample is unusable keep the answer that they had before, with the reason as status.
-template <int N>
-void hold(const PackStatus<N>& held, const sensor::Estimate<ValvePack<N>>& before,
-          sensor::Estimate<ValvePack<N>>& estimate) {
-  using Answer = sensor::Estimate<ValvePack<N>>;
-  const PackTruth<N> keep = ValvePack<N>(0) < held.words;
-  bool any = false;
-  for (const auto& lanes : keep.lanes) any = any || any_of(lanes);
-  if (!any) return;
-  for (auto number : {&Answer::flow_m3_per_s, &Answer::flow_lower_m3_per_s, &Answer::flow_upper_m3_per_s,
-                      &Answer::pressure_difference_Pa, &Answer::magnetic_force_N, &Answer::spring_force_N,
-                      &Answer::flow_force_N, &Answer::friction_force_N}) {
-    estimate.*number = select(keep, before.*number, estimate.*number);
+/// Of `kept`, what belongs to the valves of `condition`, in place of what `out` has. Both are made of packs and nothing
+/// else, a number of 32 bits a valve each.
+template <class Register, int Count, class Packs>
+void keep(const PackTruth<Register, Count>& condition, const Packs& kept, Packs& out) {
+  static_assert(sizeof(Packs) % sizeof(condition) == 0 && std::is_trivially_copyable_v<Packs>);
+  for (std::size_t k = 0; k < sizeof(Packs) / sizeof(Register); ++k) {
+    Register old, now;
+    std::memcpy(&old, reinterpret_cast<const char*>(&kept) + k * sizeof(Register), sizeof(Register));
+    std::memcpy(&now, reinterpret_cast<const char*>(&out) + k * sizeof(Register), sizeof(Register));
+    now = blended(condition.lanes[k % Count], old, now);
+    std::memcpy(reinterpret_cast<char*>(&out) + k * sizeof(Register), &now, sizeof(Register));
   }
-  estimate.status.words = select(keep, held.words, estimate.status.words);
 }
 
 }  // namespace spoolflow::validation
-
-template <int N>
-struct spoolflow::sensor::ScalarTypes<spoolflow::validation::ValvePack<N>> {
-  template <int Count>
-  using Numbers = spoolflow::validation::PackTable<N>;
-  using Truth = spoolflow::validation::PackTruth<N>;
-  using Index = spoolflow::validation::PackIndex<N>;
-  using StatusWord = spoolflow::validation::PackStatus<N>;
-};

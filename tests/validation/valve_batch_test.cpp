@@ -1,8 +1,11 @@
 #include "spoolflow/validation/valve_batch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -48,51 +51,103 @@ sensor::CondensedParameters<float> valve(int k) {
   return out;
 }
 
-template <int N>
-void expect_as_single_valves() {
-  std::vector<sensor::CondensedTables<float>> valves(N);
-  std::array<sensor::CondensedState<float>, N> states;
-  std::array<const sensor::CondensedTables<float>*, N> in_batch;
-  for (std::size_t k = 0; k < N; ++k) {
-    sensor::lay_out(valve(static_cast<int>(k)), valves[k]);
-    in_batch[k] = &valves[k];
+using Tables = sensor::CondensedTables<float>;
+
+std::vector<Tables> models(std::size_t count) {
+  std::vector<Tables> out(count);
+  for (std::size_t k = 0; k < count; ++k) sensor::lay_out(valve(static_cast<int>(k)), out[k]);
+  return out;
+}
+
+/// A number a sample and valve.
+struct Rows {
+  std::vector<float> time_step_s, current_A, voltage_V, position_m, oil_temperature_K;
+
+  [[nodiscard]] SampleRows all() const { return {time_step_s, current_A, voltage_V, position_m, oil_temperature_K}; }
+  [[nodiscard]] sensor::Sample<float> at(std::size_t k) const {
+    return {time_step_s[k], current_A[k], voltage_V[k], position_m[k], oil_temperature_K[k]};
   }
-  ValveBatch<N> batch(in_batch);
+};
+
+/// Currents and positions in and beyond the maps; some are missing, some time steps run backwards.
+Rows wild_rows(std::size_t count) {
   std::mt19937 generator(11);
   std::uniform_real_distribution<float> current_A(-0.5F, 4.5F), position_m(-0.3e-3F, 3.5e-3F), chance(0, 1);
   const float missing = std::numeric_limits<float>::quiet_NaN();
-  for (int n = 0; n < 3000; ++n) {
-    std::array<sensor::Sample<float>, N> samples;
-    std::array<float, N> time_step_s, current_A_all, position_m_all;
-    for (std::size_t k = 0; k < N; ++k) {
-      samples[k] = {chance(generator) < 0.02F ? -1e-3F : 1e-3F,
-                    chance(generator) < 0.05F ? missing : current_A(generator), missing,
-                    chance(generator) < 0.05F ? missing : position_m(generator), 320};
-      time_step_s[k] = samples[k].time_step_s;
-      current_A_all[k] = samples[k].current_A;
-      position_m_all[k] = samples[k].position_m;
-    }
-    using Pack = ValvePack<N>;
-    const auto& together = batch.step({Pack(time_step_s), Pack(current_A_all), Pack(), Pack(position_m_all), Pack()});
-    for (std::size_t k = 0; k < N; ++k) {
-      const sensor::Estimate<float> alone = step(valves[k], states[k], samples[k]);
-      const auto near = [&](float a, float b) { EXPECT_NEAR(a, b, 2e-6F * (std::abs(b) + 1e-4F)) << n << ' ' << k; };
-      near(together.flow_m3_per_s.numbers()[k], alone.flow_m3_per_s);
-      near(together.flow_lower_m3_per_s.numbers()[k], alone.flow_lower_m3_per_s);
-      near(together.flow_upper_m3_per_s.numbers()[k], alone.flow_upper_m3_per_s);
-      near(together.pressure_difference_Pa.numbers()[k], alone.pressure_difference_Pa);
-      near(together.flow_force_N.numbers()[k], alone.flow_force_N);
-      EXPECT_EQ(together.status.at(k), alone.status) << n << ' ' << k;
-    }
+  Rows out;
+  for (std::size_t k = 0; k < count; ++k) {
+    out.time_step_s.push_back(chance(generator) < 0.02F ? -1e-3F : 1e-3F);
+    out.current_A.push_back(chance(generator) < 0.05F ? missing : current_A(generator));
+    out.voltage_V.push_back(missing);
+    out.position_m.push_back(chance(generator) < 0.05F ? missing : position_m(generator));
+    out.oil_temperature_K.push_back(320);
+  }
+  return out;
+}
+
+class EveryInstructionSet : public testing::TestWithParam<InstructionSet> {};
+INSTANTIATE_TEST_SUITE_P(Batch, EveryInstructionSet, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return std::string(name(set.param)); });
+
+TEST_P(EveryInstructionSet, AnswersForManyValvesAsSingleSensorsDo) {
+  constexpr std::size_t valves = 24, samples = 1000;
+  const std::vector<Tables> tables = models(valves - 1);
+  std::vector<const Tables*> in_batch(1, &tables[3]);  // one model stands twice
+  for (const Tables& table : tables) in_batch.push_back(&table);
+  const Rows rows = wild_rows(valves * samples);
+  std::vector<float> flow(valves * samples), lower(flow), upper(flow), pressure(flow), force(flow);
+  std::vector<sensor::Status> status(valves * samples);
+  EstimateRows estimates{};
+  estimates.flow_m3_per_s = flow;
+  estimates.flow_lower_m3_per_s = lower;
+  estimates.flow_upper_m3_per_s = upper;
+  estimates.pressure_difference_Pa = pressure;
+  estimates.flow_force_N = force;
+  estimates.status = status;
+  ValveBatch<Tables>(in_batch, GetParam()).step(rows.all(), estimates);
+
+  std::vector<sensor::CondensedState<float>> states(valves);
+  for (std::size_t k = 0; k < valves * samples; ++k) {
+    const sensor::Estimate<float> alone = step(*in_batch[k % valves], states[k % valves], rows.at(k));
+    const auto near = [&](float a, float b) { EXPECT_NEAR(a, b, 2e-6F * (std::abs(b) + 1e-4F)) << k; };
+    near(flow[k], alone.flow_m3_per_s);
+    near(lower[k], alone.flow_lower_m3_per_s);
+    near(upper[k], alone.flow_upper_m3_per_s);
+    near(pressure[k], alone.pressure_difference_Pa);
+    near(force[k], alone.flow_force_N);
+    EXPECT_EQ(status[k], alone.status) << k;
   }
 }
 
-TEST(ValveBatch, AnswersForEightValvesAsEightSensorsDo) {
-  expect_as_single_valves<8>();
+TEST_P(EveryInstructionSet, GoesOnWhereTheLastCallEnded) {
+  const std::vector<Tables> tables = models(1);
+  const std::vector<const Tables*> in_batch(valves_together, tables.data());
+  Rows held = wild_rows(valves_together);
+  Rows good = held;
+  std::fill(good.time_step_s.begin(), good.time_step_s.end(), 1e-3F);
+  std::fill(good.current_A.begin(), good.current_A.end(), 1.5F);
+  std::fill(good.position_m.begin(), good.position_m.end(), 1e-3F);
+  std::fill(held.current_A.begin(), held.current_A.end(), std::numeric_limits<float>::quiet_NaN());
+  std::vector<float> first(valves_together), second(valves_together);
+  EstimateRows estimates{};
+  estimates.flow_m3_per_s = first;
+  ValveBatch<Tables> batch(in_batch, GetParam());
+  batch.step(good.all(), estimates);
+  estimates.flow_m3_per_s = second;
+  batch.step(held.all(), estimates);
+  EXPECT_GT(first[0], 0);
+  EXPECT_EQ(first, second);
 }
 
-TEST(ValveBatch, AnswersForSixteenValvesAsSixteenSensorsDo) {
-  expect_as_single_valves<16>();
+TEST(ValveBatch, RefusesWhatIsNoWholeNumberOfValvesOrSamples) {
+  const std::vector<Tables> tables = models(1);
+  const std::vector<const Tables*> seven(7, tables.data()), eight(8, tables.data());
+  EXPECT_THROW(ValveBatch<Tables>{seven}, std::invalid_argument);
+  ValveBatch<Tables> batch(eight);
+  EXPECT_THROW(batch.step(wild_rows(12).all(), {}), std::invalid_argument);
+  Rows rows = wild_rows(16);
+  rows.position_m.resize(8);
+  EXPECT_THROW(batch.step(rows.all(), {}), std::invalid_argument);
 }
 
 }  // namespace

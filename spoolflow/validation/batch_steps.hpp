@@ -1,0 +1,37 @@
+#pragma once
+/// What an instruction set offers to a ValveBatch. Plain functions over plain memory: a translation unit for a newer
+/// instruction set must not share code with others, who might run it on a processor that does not know it.
+#include <array>
+#include <cstddef>
+
+#include "spoolflow/sensor/sample.hpp"
+
+namespace spoolflow::validation {
+
+/// A number of sensor::Estimate, counted in their order, and where to write it.
+struct WantedAnswer {
+  std::size_t number;
+  void* to;  ///< 32 bits a valve: of the first valve
+};
+
+/// Where a row's numbers of the first valve lie.
+struct BatchRows {
+  std::array<const float*, 5> samples;  ///< in the order of sensor::Sample
+  std::array<WantedAnswer, 9> answers;
+  std::size_t wanted;  ///< of the answers
+  std::size_t stride;  ///< from sample to sample
+  std::size_t count;   ///< of samples
+};
+
+struct BatchSteps {
+  std::size_t bytes;
+  std::size_t alignment;
+  /// `numbers`: a beginning that all valves' numbers have in common.
+  void (*begin)(void* memory, const void* const* valves, const float* numbers);
+  void (*step)(void* memory, const BatchRows& rows);
+};
+
+extern const BatchSteps condensed_baseline;
+extern const BatchSteps condensed_avx2;  ///< bytes = 0 where the compiler's target has none
+
+}  // namespace spoolflow::validation

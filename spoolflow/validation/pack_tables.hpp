@@ -1,0 +1,143 @@
+#pragma once
+/// Tables of several valves, each with its own numbers. A register fetches from all of them by turning rows into lanes:
+/// each valve's neighbouring numbers are loaded at once and then dealt out.
+#include "spoolflow/validation/valve_pack.hpp"
+
+namespace spoolflow::validation {
+
+/// The same table of each valve, counted from a beginning that all valves' numbers have in common.
+template <class Register, int Count>
+struct PackTable {
+  const float* numbers = nullptr;
+  PackIndex<Register, Count> first;
+
+  [[nodiscard]] const PackTable& data() const { return *this; }
+};
+
+/// Each valve's own place in its own table.
+template <class Register, int Count>
+struct PackCorner {
+  const float* numbers;
+  PackIndex<Register, Count> place;
+};
+
+template <class Register, int Count>
+PackCorner<Register, Count> corner(const PackTable<Register, Count>& table, const PackIndex<Register, Count>& place) {
+  return {table.numbers, table.first + place};
+}
+
+template <class Register, int Count>
+PackCorner<Register, Count> onward(const PackCorner<Register, Count>& from, const PackIndex<Register, Count>& places) {
+  return {from.numbers, from.place + places};
+}
+
+namespace detail {
+
+using Row [[gnu::vector_size(16)]] = float;  ///< four numbers of one valve
+using Pair [[gnu::vector_size(8)]] = float;  ///< two
+
+template <class Numbers>
+[[gnu::always_inline]] inline Numbers numbers_at(const float* from) {
+  Numbers out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+
+/// Rows of a register's valves, dealt out: the k-th register has the k-th number of each valve.
+template <class Register, class RowOf>
+[[gnu::always_inline]] inline std::array<Register, 4> rows_to_lanes(const RowOf& row) {
+  if constexpr (Register::size() == 8) {
+    const auto both = [&](std::size_t k) {
+#if defined(__AVX__)
+      return _mm256_insertf128_ps(_mm256_castps128_ps256(row(k)), row(k + 4), 1);
+#else
+      return __builtin_shufflevector(row(k), row(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+    };
+    const auto a = both(0), b = both(1), c = both(2), d = both(3);
+    const auto low_ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+    const auto high_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    const auto low_cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const auto high_cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    return {std::bit_cast<Register>(__builtin_shufflevector(low_ab, low_cd, 0, 1, 8, 9, 4, 5, 12, 13)),
+            std::bit_cast<Register>(__builtin_shufflevector(low_ab, low_cd, 2, 3, 10, 11, 6, 7, 14, 15)),
+            std::bit_cast<Register>(__builtin_shufflevector(high_ab, high_cd, 0, 1, 8, 9, 4, 5, 12, 13)),
+            std::bit_cast<Register>(__builtin_shufflevector(high_ab, high_cd, 2, 3, 10, 11, 6, 7, 14, 15))};
+  } else {
+    static_assert(Register::size() == 4);
+    const Row a = row(0), b = row(1), c = row(2), d = row(3);
+    const Row low_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Row high_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Row low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Row high_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    return {std::bit_cast<Register>(__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5)),
+            std::bit_cast<Register>(__builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7)),
+            std::bit_cast<Register>(__builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5)),
+            std::bit_cast<Register>(__builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7))};
+  }
+}
+
+/// The same of two numbers a valve.
+template <class Register, class PairOf>
+[[gnu::always_inline]] inline std::array<Register, 2> pairs_to_lanes(const PairOf& pair) {
+  const auto two = [&](std::size_t k) { return __builtin_shufflevector(pair(k), pair(k + 1), 0, 1, 2, 3); };
+  if constexpr (Register::size() == 8) {
+    const auto a = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
+    const auto b = __builtin_shufflevector(two(2), two(6), 0, 1, 2, 3, 4, 5, 6, 7);
+    return {std::bit_cast<Register>(__builtin_shufflevector(a, b, 0, 2, 8, 10, 4, 6, 12, 14)),
+            std::bit_cast<Register>(__builtin_shufflevector(a, b, 1, 3, 9, 11, 5, 7, 13, 15))};
+  } else {
+    static_assert(Register::size() == 4);
+    const Row a = two(0), b = two(2);
+    return {std::bit_cast<Register>(__builtin_shufflevector(a, b, 0, 2, 4, 6)),
+            std::bit_cast<Register>(__builtin_shufflevector(a, b, 1, 3, 5, 7))};
+  }
+}
+
+/// Neighbours of every valve's place, `deal` making lanes of one register's.
+template <class Neighbours, class Register, int Count, class Deal>
+[[gnu::always_inline]] inline auto fetch(const PackCorner<Register, Count>& from, int number, const Deal& deal) {
+  const auto lanes_of = [&](std::size_t r) {
+    // Two places a transfer: from vector to integer registers there is but a narrow path.
+    const auto places = std::bit_cast<std::array<std::uint64_t, Register::size() / 2>>(from.place.lanes[r]);
+    return deal([&](std::size_t valve) {
+      const std::uint64_t both = places[valve / 2];
+      return numbers_at<Neighbours>(from.numbers + (valve % 2 == 0 ? both & 0xFFFFFFFFU : both >> 32U) + number);
+    });
+  };
+  const auto lanes = [&]<std::size_t... r>(std::index_sequence<r...>) __attribute__((always_inline)) {
+    return std::array<decltype(lanes_of(0)), Count>{lanes_of(r)...};
+  }
+  (std::make_index_sequence<Count>());
+  using Pack = ValvePack<Register, Count>;
+  return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+    return std::array{each_register<Pack>([&](std::size_t r) { return lanes[r][k]; })...};
+  }
+  (std::make_index_sequence<sizeof(Neighbours) / sizeof(float)>());
+}
+
+}  // namespace detail
+
+template <class Register, int Count>
+[[gnu::always_inline]] inline std::array<ValvePack<Register, Count>, 4> four(const PackCorner<Register, Count>& from,
+                                                                             int number) {
+  return detail::fetch<detail::Row>(from, number, [](const auto& row) { return detail::rows_to_lanes<Register>(row); });
+}
+
+template <class Register, int Count>
+[[gnu::always_inline]] inline std::array<ValvePack<Register, Count>, 2> two(const PackCorner<Register, Count>& from,
+                                                                            int number) {
+  return detail::fetch<detail::Pair>(from, number,
+                                     [](const auto& pair) { return detail::pairs_to_lanes<Register>(pair); });
+}
+
+}  // namespace spoolflow::validation
+
+template <class Register, int Count>
+struct spoolflow::sensor::ScalarTypes<spoolflow::validation::ValvePack<Register, Count>> {
+  template <int Size>
+  using Numbers = spoolflow::validation::PackTable<Register, Count>;
+  using Truth = spoolflow::validation::PackTruth<Register, Count>;
+  using Index = spoolflow::validation::PackIndex<Register, Count>;
+  using StatusWord = spoolflow::validation::PackStatus<Register, Count>;
+};

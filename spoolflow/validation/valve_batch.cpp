@@ -1,0 +1,135 @@
+#include "spoolflow/validation/valve_batch.hpp"
+
+#include <algorithm>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "spoolflow/validation/batch_steps.hpp"
+
+namespace spoolflow::validation {
+namespace {
+
+const BatchSteps& steps_of(const sensor::CondensedTables<float>* /*kind*/, InstructionSet instructions) {
+  return instructions == InstructionSet::avx2 ? condensed_avx2 : condensed_baseline;
+}
+
+/// So many samples of some valves are done before those of the next: what they read and write stays in the cache.
+constexpr std::size_t samples_in_block = 64;
+
+}  // namespace
+
+std::string_view name(InstructionSet instructions) {
+  return instructions == InstructionSet::avx2 ? "AVX2" : "baseline";
+}
+
+std::vector<InstructionSet> instruction_sets() {
+  std::vector<InstructionSet> out{InstructionSet::baseline};
+#if defined(__x86_64__)
+  if (condensed_avx2.bytes > 0 && __builtin_cpu_supports("avx2")) out.push_back(InstructionSet::avx2);
+#endif
+  return out;
+}
+
+template <class Parameters>
+struct ValveBatch<Parameters>::Memory {
+  /// From a cache line on: no row of four numbers lies in two.
+  struct alignas(64) Model {
+    Parameters parameters;
+  };
+  const BatchSteps& steps;
+  std::vector<Model> models;  ///< each once
+  std::vector<void*> groups;  ///< of valves_together each
+
+  Memory(std::span<const Parameters* const> valves, const BatchSteps& batch_steps) : steps(batch_steps) {
+    std::map<const Parameters*, std::size_t> known;
+    for (const Parameters* valve : valves)
+      if (known.try_emplace(valve, models.size()).second) models.push_back({*valve});
+    std::vector<const void*> addresses;
+    for (const Parameters* valve : valves) addresses.push_back(&models[known.at(valve)].parameters);
+    for (std::size_t first = 0; first < valves.size(); first += valves_together) {
+      groups.push_back(::operator new(steps.bytes, std::align_val_t(steps.alignment)));
+      steps.begin(groups.back(), addresses.data() + first, reinterpret_cast<const float*>(models.data()));
+    }
+  }
+  ~Memory() {
+    for (void* group : groups) ::operator delete(group, std::align_val_t(steps.alignment));
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+};
+
+template <class Parameters>
+ValveBatch<Parameters>::ValveBatch(std::span<const Parameters* const> valves, InstructionSet instructions) {
+  if (valves.empty() || valves.size() % valves_together != 0) {
+    throw std::invalid_argument(
+        fmt::format("a batch of {} valves: their number must be a multiple of {}; fill up with "
+                    "any valve and leave its answers",
+                    valves.size(), valves_together));
+  }
+  const auto known = instruction_sets();
+  if (std::find(known.begin(), known.end(), instructions) == known.end())
+    throw std::invalid_argument(fmt::format("this processor or build has no {} instructions", name(instructions)));
+  memory_ = std::make_unique<Memory>(valves, steps_of(static_cast<const Parameters*>(nullptr), instructions));
+}
+
+template <class Parameters>
+ValveBatch<Parameters>::~ValveBatch() = default;
+template <class Parameters>
+ValveBatch<Parameters>::ValveBatch(ValveBatch&&) noexcept = default;
+template <class Parameters>
+ValveBatch<Parameters>& ValveBatch<Parameters>::operator=(ValveBatch&&) noexcept = default;
+
+template <class Parameters>
+void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows& estimates) {
+  const std::size_t valves = memory_->groups.size() * valves_together;
+  const std::size_t numbers = samples.current_A.size();
+  if (numbers % valves != 0)
+    throw std::invalid_argument(fmt::format("{} numbers a row are no whole samples of {} valves", numbers, valves));
+  BatchRows all{{}, {}, 0, valves, 0};
+  const auto check = [&](const char* channel, std::size_t size) {
+    if (size != numbers)
+      throw std::invalid_argument(fmt::format("{} has {} numbers, but current_A has {}", channel, size, numbers));
+  };
+  const auto input = [&](std::size_t row, const char* channel, std::span<const float> from) {
+    check(channel, from.size());
+    all.samples[row] = from.data();
+  };
+  input(0, "time_step_s", samples.time_step_s);
+  input(1, "current_A", samples.current_A);
+  input(2, "voltage_V", samples.voltage_V);
+  input(3, "position_m", samples.position_m);
+  input(4, "oil_temperature_K", samples.oil_temperature_K);
+  const auto output = [&](std::size_t number, const char* answer, auto to) {
+    if (to.empty()) return;
+    check(answer, to.size());
+    all.answers[all.wanted++] = {number, to.data()};
+  };
+  output(0, "flow_m3_per_s", estimates.flow_m3_per_s);
+  output(1, "flow_lower_m3_per_s", estimates.flow_lower_m3_per_s);
+  output(2, "flow_upper_m3_per_s", estimates.flow_upper_m3_per_s);
+  output(3, "pressure_difference_Pa", estimates.pressure_difference_Pa);
+  output(4, "magnetic_force_N", estimates.magnetic_force_N);
+  output(5, "spring_force_N", estimates.spring_force_N);
+  output(6, "flow_force_N", estimates.flow_force_N);
+  output(7, "friction_force_N", estimates.friction_force_N);
+  output(8, "status", estimates.status);
+
+  const std::size_t count = numbers / valves;
+  for (std::size_t begin = 0; begin < count; begin += samples_in_block) {
+    for (std::size_t group = 0; group < memory_->groups.size(); ++group) {
+      const std::size_t from = begin * valves + group * valves_together;
+      BatchRows rows = all;
+      for (const float*& row : rows.samples) row += from;
+      for (std::size_t k = 0; k < rows.wanted; ++k) rows.answers[k].to = static_cast<float*>(rows.answers[k].to) + from;
+      rows.count = std::min(samples_in_block, count - begin);
+      memory_->steps.step(memory_->groups[group], rows);
+    }
+  }
+}
+
+template class ValveBatch<sensor::CondensedTables<float>>;
+
+}  // namespace spoolflow::validation
