@@ -1,8 +1,8 @@
 #!/bin/sh
 # ci/tidy.sh BUILD FOLDER: clang-tidy over the folder's *.cpp with BUILD's compile commands. All files are looked at as one
 # translation unit, since most of the time goes into the libraries' headers; where two files use the same name for
-# different things, one by one. A folder that passed is looked at again only when it, a header of the project or the
-# checks change.
+# different things, as the build compiles them. A folder that passed is looked at again only when it, a header of the
+# project or the checks change.
 set -eu
 build=$1
 folder=$2
@@ -13,9 +13,9 @@ mkdir -p "$passed"
 mark=$passed/$(echo "$folder" | tr / .)
 
 # what all the folder's compile commands define and include
-flags=$(grep -F '"command":' "$build/compile_commands.json" | grep -e "-c $root/$folder/[^/]*\.cpp" | tr ' ' '\n' |
-        grep -E '^(-D|-I|-std|/)' | grep -v -e '\.cpp' -e 'c++"\?$' -e 'ccache$' | sed -e 's,^/,-isystem/,' -e 's,\\\\\\",",g' |
-        sort -u || true)
+commands=$(grep -F '"command":' "$build/compile_commands.json" | grep -e "-o $folder/CMakeFiles/" | tr ' ' '\n' | tr -d '",' || true)
+flags=$(printf "%s\n" "$commands" | grep -E '^(-D|-I|-std|/)' | grep -v -e '\.c[px][px]$' -e 'c++$' -e 'ccache$' |
+        sed -e 's,^/,-isystem/,' -e 's,\\\\\\,",g' | sort -u || true)
 [ -n "$flags" ] || exit 0 # headers only: seen with those who include them
 key=$( (clang-tidy --version; cat .clang-tidy; echo "$flags"; cat "$folder"/*.cpp; find spoolflow -name '*.hpp' | sort | xargs cat) | sha256sum)
 if [ "$(cat "$mark" 2>/dev/null)" = "$key" ]; then exit 0; fi
@@ -28,7 +28,7 @@ for source in "$folder"/*.cpp; do echo "#include \"$root/$source\""; done >"$mar
 failed=0
 if ! tidy "$mark.all.cpp"; then
   if grep -q 'clang-diagnostic-error' "$mark.found"; then
-    for source in "$folder"/*.cpp; do tidy "$source" || { tell; failed=1; }; done
+    for source in $(printf "%s\n" "$commands" | grep -e "^$root/.*\.c[px][px]$"); do tidy "$source" || { tell; failed=1; }; done
   else
     tell
     failed=1

@@ -45,5 +45,8 @@ function(spoolflow_tests folder)
   if(NOT SPOOLFLOW_SANITIZE)
     target_compile_options(${folder}_test PRIVATE -O1)  # what is tested is optimised in its own library; this builds sooner
   endif()
+  if(SPOOLFLOW_SANITIZE)
+    return()  # ctest runs the whole program (tests/CMakeLists.txt)
+  endif()
   gtest_discover_tests(${folder}_test TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit TIMEOUT 300)
 endfunction()

@@ -10,10 +10,6 @@ using validation::InputErrors;
 using validation::InputQuantity;
 using validation::SeededNumbers;
 
-bool is_noise(InputQuantity quantity) {
-  return quantity == InputQuantity::position_noise || quantity == InputQuantity::current_noise;
-}
-
 /// Whether blocks agree well enough among each other that their mean is right to the tolerance (JCGM 101, 7.9.4).
 bool stable(const std::vector<TrialFigures>& blocks, int digits) {
   if (blocks.size() < 2) return false;

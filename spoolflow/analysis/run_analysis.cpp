@@ -24,10 +24,6 @@ constexpr int noise_runs = 16;
 constexpr double most_samples = 1.5e8;
 constexpr std::size_t fewest_trials = 50;
 
-bool is_noise(InputQuantity quantity) {
-  return quantity == InputQuantity::position_noise || quantity == InputQuantity::current_noise;
-}
-
 /// Where the oil's temperature was recorded, how far it really was from the map's.
 void know_oil_temperature(std::vector<InputUncertainty>& inputs, const model::Model& model, const RunSamples& run) {
   double squares = 0;

@@ -20,7 +20,7 @@
 namespace spoolflow::apps {
 namespace {
 
-struct Arguments {
+struct AnalyseArguments {
   std::string model;
   std::string scenario;
   std::string json;
@@ -49,7 +49,7 @@ void print_text(const std::string& text) {
   output.commit();
 }
 
-void self_check(const Arguments& arguments) {
+void self_check(const AnalyseArguments& arguments) {
   const analysis::SelfCheck check = analysis::check_ishigami(arguments.samples == 0 ? 1024 : arguments.samples,
                                                              arguments.seed == 0 ? 1 : arguments.seed);
   if (!arguments.json.empty()) {
@@ -71,11 +71,11 @@ void self_check(const Arguments& arguments) {
   if (!check.passed) throw SelfCheckFailed("self-check: a known index lies outside its confidence interval");
 }
 
-unsigned workers(const Arguments& arguments) {
+unsigned workers(const AnalyseArguments& arguments) {
   return arguments.jobs == 0 ? std::max(1U, std::thread::hardware_concurrency()) : arguments.jobs;
 }
 
-analysis::Scenario scenario_of(const Arguments& arguments) {
+analysis::Scenario scenario_of(const AnalyseArguments& arguments) {
   analysis::Scenario scenario;
   if (!arguments.scenario.empty()) scenario = analysis::read_scenario(arguments.scenario);
   if (arguments.samples != 0) scenario.study.base_samples = arguments.samples;
@@ -89,14 +89,14 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 /// Where an interrupted study keeps its finished runs: beside the output, if that is a file.
-std::optional<std::filesystem::path> state_file(const Arguments& arguments) {
+std::optional<std::filesystem::path> state_file(const AnalyseArguments& arguments) {
   for (const std::string& output : {arguments.json, arguments.report}) {
     if (!output.empty() && output != "-" && !output.starts_with("/dev/")) return output + ".study";
   }
   return std::nullopt;
 }
 
-analysis::RunSamples run_of(const model::Model& model, const Arguments& arguments) {
+analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& arguments) {
   recording::ChannelMap channels;
   if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
   recording::ReadOptions options = validation::sensor_channels(model, std::move(channels));
@@ -106,7 +106,7 @@ analysis::RunSamples run_of(const model::Model& model, const Arguments& argument
 }
 
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
-                      const Arguments& arguments, Progress& progress) {
+                      const AnalyseArguments& arguments, Progress& progress) {
   analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
   const std::optional<std::filesystem::path> state = state_file(arguments);
   if (state) {
@@ -124,7 +124,7 @@ analysis::Study study(const model::Model& model, const analysis::Scenario& scena
   return analysis::global_study(model, scenario, valve, work);
 }
 
-void analyse(const Arguments& arguments) {
+void analyse(const AnalyseArguments& arguments) {
   if (arguments.print_scenario) return print_text(analysis::scenario_template());
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
@@ -179,7 +179,7 @@ void analyse(const Arguments& arguments) {
 }  // namespace
 
 void add_analyse_command(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AnalyseArguments>();
   CLI::App* command = add_command(
       program,
       {"analyse",

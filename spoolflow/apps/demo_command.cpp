@@ -11,12 +11,12 @@
 namespace spoolflow::apps {
 namespace {
 
-struct Arguments {
+struct DemoArguments {
   std::string folder = "spoolflow_demo";
   bool quiet = false;
 };
 
-void demo(const Arguments& arguments) {
+void demo(const DemoArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   const auto in_folder = [&](const char* name) { return (folder / name).string(); };
   make_output_folder(folder);
@@ -65,7 +65,7 @@ void demo(const Arguments& arguments) {
 }  // namespace
 
 void add_demo_command(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DemoArguments>();
   CLI::App* command =
       add_command(program, {"demo",
                             "from a valve on the virtual test rig to a report, with no input files",

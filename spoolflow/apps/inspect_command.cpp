@@ -14,7 +14,7 @@
 namespace spoolflow::apps {
 namespace {
 
-struct Arguments {
+struct InspectArguments {
   std::string file;
   std::string channels;
   double stroke_mm = 0;
@@ -63,7 +63,7 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
-void print_text(const Arguments& arguments, const recording::Inspection& found) {
+void print_text(const InspectArguments& arguments, const recording::Inspection& found) {
   fmt::print("{}: {}, {} columns: {}\n", arguments.file, found.contents.format, found.contents.columns.size(),
              joined(found.contents.columns));
   if (!found.channels.empty()) {
@@ -142,7 +142,7 @@ void print_json(const recording::Inspection& found) {
   fmt::print("\n ],\n \"proposed_channel_map\": {}\n}}\n", json_text(recording::written(found.proposal)));
 }
 
-void inspect(const Arguments& arguments) {
+void inspect(const InspectArguments& arguments) {
   recording::ReadOptions options;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
   if (arguments.stroke_mm > 0) options.stroke_m = units::m_from_mm(arguments.stroke_mm);
@@ -162,7 +162,7 @@ void inspect(const Arguments& arguments) {
 }  // namespace
 
 void add_inspect_command(CLI::App& program) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InspectArguments>();
   CLI::App* command =
       add_command(program, {"inspect",
                             "show what a recording holds and propose a channel map",

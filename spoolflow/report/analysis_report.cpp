@@ -53,10 +53,6 @@ std::string place_of(const PointResult& result) {
                      result.point.opening ? "opening" : "closing");
 }
 
-std::string origin(const model::Model& model) {
-  return fmt::format("Model of {}, {}", model.provenance.created, model.provenance.tool_version);
-}
-
 void show_verdict(HtmlPage& page, const AnalysisVerdict& verdict) {
   page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(verdict.sentence)));
   for (const std::string& remark : verdict.remarks) page.html(fmt::format("<li>{}</li>", html_text(remark)));
@@ -131,7 +127,7 @@ void show_study(HtmlPage& page, const analysis::Study& study) {
 }  // namespace
 
 void write_analysis_report(std::ostream& out, const model::Model& model, const Analysis& analysis) {
-  HtmlPage page("spoolflow analysis report", "Uncertainty of the flow rate of " + model.valve.name, origin(model));
+  HtmlPage page("spoolflow analysis report", "Uncertainty of the flow rate of " + model.valve.name, origin_of(model));
   show_verdict(page, analysis_verdict(model, analysis));
   show_budget(page, model, analysis);
   show_maps(page, model, analysis);

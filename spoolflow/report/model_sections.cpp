@@ -93,6 +93,10 @@ void add_residuals(HtmlTable& table, const std::string& estimator, const std::ve
 
 }  // namespace
 
+std::string origin_of(const model::Model& model) {
+  return fmt::format("Model of {}, {}", model.provenance.created, model.provenance.tool_version);
+}
+
 void show_valve(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs) {
   page.section("The valve and the data");
   page.paragraph(

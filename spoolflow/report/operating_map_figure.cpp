@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/heat_scale.hpp"
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/ticks.hpp"
@@ -17,16 +18,12 @@ namespace {
 using analysis::MapCell;
 using analysis::OperatingMap;
 
-/// Lower ends of the eight colours, in % FS.
-constexpr std::array<double, 8> heat_from{0, 0.5, 1, 2, 4, 8, 16, 32};
+/// In % FS.
+constexpr HeatScale heat_scale({0, 0.5, 1, 2, 4, 8, 16, 32});
 /// Of groups, in the order in which they are met; each cell also carries the group's letters.
 constexpr std::array<const char*, 6> tones{"a", "condensed", "c", "d", "b", "soft"};
 
-constexpr double width_px = 510, height_px = 330, left_px = 44, right_px = 500, top_px = 8, bottom_px = 286;
-
-int heat_of(double percent) {
-  return static_cast<int>(std::upper_bound(heat_from.begin(), heat_from.end(), percent) - heat_from.begin()) - 1;
-}
+constexpr double width_px = 510, height_px = 330, left_px = 44, right_px = 500, upper_px = 8, bottom_px = 286;
 
 /// "FR" for friction, "FM" for force map.
 std::string letters_of(std::string_view group) {
@@ -56,7 +53,7 @@ struct Grid {
 template <class Look, class Text>
 std::string drawn(const OperatingMap& map, const std::string& description, const Look& look, const Text& text) {
   const Grid x{map.position_m, 1e3, left_px, right_px};
-  const Grid y{map.pressure_difference_Pa, 1e-5, bottom_px, top_px};
+  const Grid y{map.pressure_difference_Pa, 1e-5, bottom_px, upper_px};
   std::string out = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", width_px, height_px,
                                 html_text(description));
   const std::size_t columns = map.position_m.size();
@@ -85,26 +82,10 @@ std::string drawn(const OperatingMap& map, const std::string& description, const
     out += fmt::format(R"(<text class="tick" text-anchor="end" x="{}" y="{:.1f}">{}</text>)", left_px - 6,
                        y.px(up.at[k]) + 4, up.text[k]);
   }
-  out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", left_px, top_px, bottom_px, right_px);
+  out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", left_px, upper_px, bottom_px, right_px);
   out += fmt::format(R"(<text class="label" text-anchor="middle" x="{}" y="{}">Position [mm]</text></svg>)",
                      0.5 * (left_px + right_px), bottom_px + 36);
   return out;
-}
-
-std::string key(const std::string& look, const std::string& text) {
-  return fmt::format(
-      R"(<span><svg viewBox="0 0 16 12" aria-hidden="true"><rect width="16" height="12" {}/></svg>{}</span>)", look,
-      html_text(text));
-}
-
-std::string heat_legend() {
-  std::string out = "<div class=\"heat\"><span>Expanded uncertainty, % FS:</span>";
-  for (std::size_t h = 0; h < heat_from.size(); ++h) {
-    out += key(fmt::format("class=\"h{}\"", h), h + 1 < heat_from.size()
-                                                    ? fmt::format("{:g} to {:g}", heat_from[h], heat_from[h + 1])
-                                                    : fmt::format("above {:g}", heat_from[h]));
-  }
-  return out + "</div>";
 }
 
 /// Groups that dominate anywhere, the most frequent first.
@@ -139,7 +120,7 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
   const std::string heat = drawn(
       map, name + ": expanded uncertainty over position and pressure difference",
       [&](const MapCell& cell) {
-        return fmt::format("class=\"h{}\"", heat_of(100 * cell.expanded_m3_per_s / full_scale_m3_per_s));
+        return fmt::format("class=\"h{}\"", heat_scale.colour(100 * cell.expanded_m3_per_s / full_scale_m3_per_s));
       },
       [](const MapCell&) { return std::string(); });
   const std::string dominant = drawn(
@@ -147,8 +128,8 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
       tone_of, [](const MapCell& cell) { return letters_of(validation::about(cell.dominant).group); });
   std::string legend = "<div class=\"heat\"><span>Counts most:</span>";
   for (std::size_t k = 0; k < groups.size(); ++k) {
-    legend += key(fmt::format("style=\"fill:var(--{})\"", tones[std::min(k, tones.size() - 1)]),
-                  fmt::format("{} {}", letters_of(groups[k]), groups[k]));
+    legend += colour_key(fmt::format("style=\"fill:var(--{})\"", tones[std::min(k, tones.size() - 1)]),
+                         fmt::format("{} {}", letters_of(groups[k]), groups[k]));
   }
   legend += "</div>";
   return fmt::format(
@@ -156,7 +137,7 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
       "<figcaption>The {}: expanded uncertainty (95 %). Empty: outside the calibrated maps.</figcaption></figure>\n"
       "<figure>{}<p class=\"soft\" style=\"margin:0 0 0 44px\">Pressure difference [bar]</p>{}"
       "<figcaption>The {}: which group of inputs has the largest share of the variance.</figcaption></figure></div>\n",
-      heat_legend(), heat, name, legend, dominant, name);
+      heat_scale.legend("Expanded uncertainty, % FS"), heat, name, legend, dominant, name);
 }
 
 }  // namespace spoolflow::report

@@ -8,7 +8,7 @@
 namespace spoolflow::report {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* remedy = "give a file that `spoolflow validate --json` wrote";
 

@@ -10,27 +10,26 @@
 namespace spoolflow::report {
 namespace {
 
-using validation::Figure;
 using validation::JudgedLimit;
 
 std::string figure_text(const JudgedLimit& judged) {
   const std::string estimator(validation::name(judged.estimator));
   switch (judged.limit.figure) {
-    case Figure::p95:
+    case validation::Figure::p95:
       return fmt::format("95th percentile of the {}'s error", estimator);
-    case Figure::rms:
+    case validation::Figure::rms:
       return fmt::format("RMS of the {}'s error", estimator);
-    case Figure::largest:
+    case validation::Figure::largest:
       return fmt::format("largest error of the {}", estimator);
-    case Figure::bias:
+    case validation::Figure::bias:
       return fmt::format("size of the {}'s mean error", estimator);
-    case Figure::band_mean_width:
+    case validation::Figure::band_mean_width:
       return fmt::format("mean width of the {}'s 95 % band", estimator);
-    case Figure::band_coverage:
+    case validation::Figure::band_coverage:
       return fmt::format("share of the samples inside the {}'s 95 % band", estimator);
-    case Figure::p95_of_reading:
+    case validation::Figure::p95_of_reading:
       return fmt::format("95th percentile of the {}'s error, of reading", estimator);
-    case Figure::fault_share:
+    case validation::Figure::fault_share:
       break;
   }
   return fmt::format("share of the samples at which the {} told a fault", estimator);

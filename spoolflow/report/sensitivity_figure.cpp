@@ -6,30 +6,15 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/calibration_figures.hpp"
+#include "spoolflow/report/heat_scale.hpp"
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
 
-/// Lower ends of the eight colours, in % FS per newton.
-constexpr std::array<double, 8> heat_from{0, 0.5, 1, 1.5, 2, 3, 5, 10};
-
-int heat_of(double percent_per_N) {
-  return static_cast<int>(std::upper_bound(heat_from.begin(), heat_from.end(), percent_per_N) - heat_from.begin()) - 1;
-}
-
-std::string heat_legend() {
-  std::string out = "<div class=\"heat\"><span>% FS per newton:</span>";
-  for (std::size_t h = 0; h < heat_from.size(); ++h) {
-    const std::string range = h + 1 < heat_from.size() ? fmt::format("{:g} to {:g}", heat_from[h], heat_from[h + 1])
-                                                       : fmt::format("above {:g}", heat_from[h]);
-    out += fmt::format(
-        R"(<span><svg viewBox="0 0 16 12" aria-hidden="true"><rect class="h{}" width="16" height="12"/></svg>{}</span>)",
-        h, range);
-  }
-  return out + "</div>";
-}
+/// In % FS per newton.
+constexpr HeatScale heat({0, 0.5, 1, 1.5, 2, 3, 5, 10});
 
 /// Half way to the neighbour before the k-th grid point; the grid's own ends stay.
 double edge_before(const std::vector<double>& grid, std::size_t k) {
@@ -47,7 +32,7 @@ std::vector<Cell> cells_of(const model::SensitivityMap& map, double full_scale_m
       cells.push_back({units::mm_from_m(edge_before(map.position_m, p)),
                        units::mm_from_m(edge_before(map.position_m, p + 1)),
                        units::bar_from_Pa(edge_before(map.pressure_difference_Pa, d)),
-                       units::bar_from_Pa(edge_before(map.pressure_difference_Pa, d + 1)), heat_of(slope)});
+                       units::bar_from_Pa(edge_before(map.pressure_difference_Pa, d + 1)), heat.colour(slope)});
     }
   }
   return cells;
@@ -81,7 +66,7 @@ CaptionedFigure sensitivity_figure(const model::Model& model, const std::vector<
                           .x_highest = units::mm_from_m(model.valve.stroke_m),
                       },
                       {},
-                      heat_legend()};
+                      heat.legend("% FS per newton")};
   Panel panel{.title = "Pressure difference [bar]", .height_px = 330, .lowest = 0.0};
   if (!map.position_m.empty() && !map.pressure_difference_Pa.empty()) {
     panel.cells = cells_of(map, model.valve.rated_flow_m3_per_s);

@@ -16,11 +16,12 @@ namespace {
 constexpr double title_px = 24;  ///< above a panel
 constexpr double gap_px = 14;    ///< between a panel and the next one's title
 constexpr double x_axis_px = 40;
-constexpr double row_px = 27;  ///< a name, and its bar below it
+constexpr double bar_row_px = 27;  ///< a name, and its bar below it
 constexpr double row_name_px = 15;
 
 double height_of(const Panel& panel, const Layout& layout) {
-  return panel.rows.empty() ? panel.height_px * layout.height_share : row_px * static_cast<double>(panel.rows.size());
+  return panel.rows.empty() ? panel.height_px * layout.height_share
+                            : bar_row_px * static_cast<double>(panel.rows.size());
 }
 
 std::string text(double x, double y, const char* style, const char* anchor, const std::string& what) {
@@ -41,7 +42,7 @@ void draw_y_axis(std::string& out, const PlotFrame& frame) {
 void draw_rows(std::string& out, const Panel& panel, const PlotFrame& frame) {
   for (std::size_t r = 0; r < panel.rows.size(); ++r) {
     const Row& row = panel.rows[r];
-    const double top = frame.top + row_px * static_cast<double>(r);
+    const double top = frame.top + bar_row_px * static_cast<double>(r);
     out += fmt::format(R"(<path class="grid" d="M{:.1f} {:.1f}H{:.1f}"/>)", frame.left, top + row_name_px + 4.5,
                        frame.right);
     for (const Span& span : row.spans) {

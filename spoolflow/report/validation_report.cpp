@@ -20,10 +20,6 @@
 namespace spoolflow::report {
 namespace {
 
-std::string origin(const model::Model& model) {
-  return fmt::format("Model of {}, {}", model.provenance.created, model.provenance.tool_version);
-}
-
 void show_verdict(HtmlPage& page, const Verdict& verdict) {
   page.html("<p class=\"verdict\">" + html_text(verdict.sentence) + "</p>\n");
   if (verdict.limits.empty()) return;
@@ -104,7 +100,7 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
 void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
                              const std::vector<ComparedValidation>& others) {
   const double full_scale = model.valve.rated_flow_m3_per_s;
-  HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin(model));
+  HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin_of(model));
   show_verdict(page, verdict(model, validation));
   show_tiles(page, validation, 100 / full_scale);
   show_requirements(page, validation);
@@ -138,7 +134,7 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
 }
 
 void write_calibration_report(std::ostream& out, const model::Model& model) {
-  HtmlPage page("spoolflow calibration report", model.valve.name, origin(model));
+  HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model));
   show_verdict(page, calibration_verdict(model));
   show_valve(page, model, {});
   show_residuals(page, model);

@@ -33,6 +33,11 @@ enum class InputQuantity {
   oil_viscosity,        ///< share of the calibrated oil's
   pressure_belief,      ///< of the observer's filter [Pa]
 };
+
+/// Whether each sample has an error of its own.
+[[nodiscard]] constexpr bool is_noise(InputQuantity quantity) {
+  return quantity == InputQuantity::position_noise || quantity == InputQuantity::current_noise;
+}
 inline constexpr std::size_t quantity_count = 21;
 
 /// How a quantity is written.

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "spoolflow/validation/stretches.hpp"
+#include "spoolflow/validation/trace.hpp"
 
 namespace spoolflow::validation {
 namespace {
-
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
 /// Takes the samples of each stretch together.
 class Tracer {
@@ -65,7 +64,7 @@ class Tracer {
     std::vector<float> out;
     out.reserve(stretches_.size());
     for (const Stretch& stretch : stretches_) {
-      float value = nothing;
+      float value = no_value;
       for (std::size_t k = stretch.begin; k < stretch.end; ++k) value = farther(value, value_at(k));
       out.push_back(value);
     }

@@ -9,8 +9,6 @@
 namespace spoolflow::validation {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-
 /// Samples [begin, end) of one stretch of time; `after_gap`: nothing was recorded for long before it.
 struct StretchOfTime {
   std::size_t begin, end;
@@ -45,7 +43,7 @@ Line thinned(std::span<const double> time_s, std::span<const float> value, std::
     out.value.push_back(y);
   };
   for (const StretchOfTime& stretch : stretches_of(time_s, stretches)) {
-    if (stretch.after_gap) keep(stretch.begin, nothing);
+    if (stretch.after_gap) keep(stretch.begin, no_value);
     std::size_t lowest = stretch.end;
     std::size_t highest = stretch.end;
     for (std::size_t k = stretch.begin; k < stretch.end; ++k) {
@@ -54,7 +52,7 @@ Line thinned(std::span<const double> time_s, std::span<const float> value, std::
       if (highest == stretch.end || value[k] > value[highest]) highest = k;
     }
     if (lowest == stretch.end) {
-      keep(stretch.begin, nothing);
+      keep(stretch.begin, no_value);
       continue;
     }
     const auto [first, second] = std::minmax(lowest, highest);
@@ -73,9 +71,9 @@ Ribbon thinned_band(std::span<const double> time_s, std::span<const float> lower
     out.upper.push_back(high);
   };
   for (const StretchOfTime& stretch : stretches_of(time_s, stretches)) {
-    if (stretch.after_gap) keep(stretch.begin, nothing, nothing);
-    float low = nothing;
-    float high = nothing;
+    if (stretch.after_gap) keep(stretch.begin, no_value, no_value);
+    float low = no_value;
+    float high = no_value;
     for (std::size_t k = stretch.begin; k < stretch.end; ++k) {
       low = std::fmin(low, lower[k]);  // fmin and fmax pass over NaN
       high = std::fmax(high, upper[k]);

@@ -1,10 +1,14 @@
 #pragma once
 /// Long series made short enough to draw, with every peak kept.
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace spoolflow::validation {
+
+/// Breaks a line or an area.
+inline constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
 /// A line over time; NaN breaks it.
 struct Line {

@@ -7,7 +7,7 @@
 namespace spoolflow::analysis {
 namespace {
 
-std::vector<double> middle() {
+std::vector<double> middle_factors() {
   unsigned numbers = 0;
   for (const Factor& factor : valve_factors()) numbers += factor.numbers;
   return std::vector<double>(numbers, 0.5);
@@ -15,7 +15,7 @@ std::vector<double> middle() {
 
 TEST(ValveFactors, LeaveTheNominalValveAsItIsInTheMiddleOfTheirSpread) {
   const rig::ValveUnderTest nominal = rig::as_built(rig::valve_preset("fast_dither", rig::Settings()));
-  const DrawnValve drawn = drawn_valve(nominal, {}, middle());
+  const DrawnValve drawn = drawn_valve(nominal, {}, middle_factors());
   EXPECT_NEAR(drawn.oil_temperature_C, 50, 1e-9);
   std::vector<double> before, after;
   rig::for_each_parameter(nominal.plant, [&](auto, const auto&, const double& v) { before.push_back(v); });
@@ -28,11 +28,11 @@ TEST(ValveFactors, EachMovesTheValveTheOilOrItsInstruments) {
   const rig::ValveUnderTest nominal;
   std::size_t first = 0;
   for (const Factor& factor : valve_factors()) {
-    std::vector<double> uniform = middle();
+    std::vector<double> uniform = middle_factors();
     for (unsigned k = 0; k < factor.numbers; ++k) uniform[first + k] = 0.9;
     first += factor.numbers;
     const DrawnValve drawn = drawn_valve(nominal, {}, uniform);
-    const DrawnValve still = drawn_valve(nominal, {}, middle());
+    const DrawnValve still = drawn_valve(nominal, {}, middle_factors());
     unsigned moved = drawn.oil_temperature_C != still.oil_temperature_C ? 1 : 0;
     const auto count = [&](const auto& a, const auto& b) {
       std::vector<double> one, other;

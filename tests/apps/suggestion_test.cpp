@@ -5,16 +5,16 @@
 namespace spoolflow::apps {
 namespace {
 
-const std::vector<std::string> commands{"calibrate", "estimate", "inspect", "validate"};
+const std::vector<std::string> known{"calibrate", "estimate", "inspect", "validate"};
 
 TEST(Suggestion, NamesTheNearestCommand) {
-  EXPECT_EQ(suggestion("calibrat", commands), "; did you mean 'calibrate'?");
-  EXPECT_EQ(suggestion("esitmate", commands), "; did you mean 'estimate'?");
+  EXPECT_EQ(suggestion("calibrat", known), "; did you mean 'calibrate'?");
+  EXPECT_EQ(suggestion("esitmate", known), "; did you mean 'estimate'?");
 }
 
 TEST(Suggestion, StaysSilentWhereNoWordIsNear) {
-  EXPECT_EQ(suggestion("frobnicate", commands), "");
-  EXPECT_EQ(suggestion("x", commands), "");
+  EXPECT_EQ(suggestion("frobnicate", known), "");
+  EXPECT_EQ(suggestion("x", known), "");
   EXPECT_EQ(suggestion("calibrate", {}), "");
 }
 

@@ -16,14 +16,14 @@ namespace {
 
 using ::testing::IsEmpty;
 
-const std::filesystem::path root = SPOOLFLOW_ROOT;
+const std::filesystem::path project_root = SPOOLFLOW_ROOT;
 
 FolderTable table() {
-  return read_folder_table(root / "docs" / "ARCHITECTURE.md");
+  return read_folder_table(project_root / "docs" / "ARCHITECTURE.md");
 }
 
 TEST(ThisProject, IncludesOnlyWhatItsTableAllows) {
-  EXPECT_THAT(include_violations(table(), root), IsEmpty());
+  EXPECT_THAT(include_violations(table(), project_root), IsEmpty());
 }
 
 TEST(ThisProject, LinksOnlyWhatItsTableAllows) {
@@ -31,7 +31,7 @@ TEST(ThisProject, LinksOnlyWhatItsTableAllows) {
 }
 
 TEST(ThisProject, KeepsItsFilesShortAndNamedByWhatTheyHold) {
-  EXPECT_THAT(file_violations(root), IsEmpty());
+  EXPECT_THAT(file_violations(project_root), IsEmpty());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 constexpr std::string_view valve = "[valve]\nname = \"A\"\nrated_flow_L_min = 80\nstroke_mm = 2.4\n";
 
-std::string refused(const std::string& campaign) {
+std::string refused_campaign(const std::string& campaign) {
   const TemporaryFile file("campaign.toml", campaign);
   std::ofstream(file.folder() / "spring.csv") << "time_s\n";
   return refusal([&] { (void)read_campaign(file.path()); });
@@ -47,17 +47,18 @@ TEST(Campaign, IsReadInSiWithItsChannelMaps) {
 }
 
 TEST(Campaign, NamesFileAndLineOfWhatItRefuses) {
-  EXPECT_THAT(refused(std::string(valve)), HasSubstr("names no recordings"));
+  EXPECT_THAT(refused_campaign(std::string(valve)), HasSubstr("names no recordings"));
   EXPECT_THAT(
-      refused("[valve]\nname = \"A\"\nrated_flow = 80\nstroke_mm = 2.4\n"),
+      refused_campaign("[valve]\nname = \"A\"\nrated_flow = 80\nstroke_mm = 2.4\n"),
       HasSubstr("campaign.toml, line 3: unknown key 'rated_flow' in [valve]; did you mean 'rated_flow_L_min'?"));
-  EXPECT_THAT(refused("[valve]\nname = \"A\"\nrated_flow_L_min = -80\nstroke_mm = 2.4\n"),
+  EXPECT_THAT(refused_campaign("[valve]\nname = \"A\"\nrated_flow_L_min = -80\nstroke_mm = 2.4\n"),
               HasSubstr("line 3: 'rated_flow_L_min' in [valve] is -80; it must be above zero"));
-  EXPECT_THAT(refused("[valve]\nname = \"A\"\nrated_flow_L_min = 80\n"), HasSubstr("[valve] needs a key 'stroke_mm'"));
-  EXPECT_THAT(refused("[valve]\nname = A\n"), HasSubstr("campaign.toml, line 2: "));
-  EXPECT_THAT(refused(with_recording("protocol = \"sprung\"\nfile = \"spring.csv\"\n")),
+  EXPECT_THAT(refused_campaign("[valve]\nname = \"A\"\nrated_flow_L_min = 80\n"),
+              HasSubstr("[valve] needs a key 'stroke_mm'"));
+  EXPECT_THAT(refused_campaign("[valve]\nname = A\n"), HasSubstr("campaign.toml, line 2: "));
+  EXPECT_THAT(refused_campaign(with_recording("protocol = \"sprung\"\nfile = \"spring.csv\"\n")),
               HasSubstr("line 6: unknown protocol \"sprung\"; did you mean 'spring'?"));
-  EXPECT_THAT(refused(with_recording("protocol = \"spring\"\nfile = \"lost.csv\"\n")),
+  EXPECT_THAT(refused_campaign(with_recording("protocol = \"spring\"\nfile = \"lost.csv\"\n")),
               HasSubstr("campaign.toml, line 7: the recording"));
 }
 
@@ -65,12 +66,13 @@ TEST(Campaign, RefusesChannelsAndUnitsThatDoNotFit) {
   const auto channels = [](std::string_view entry) {
     return with_recording("protocol = \"spring\"\nfile = \"spring.csv\"\n[recording.channels]\n") + std::string(entry);
   };
-  EXPECT_THAT(refused(channels("presure_upstream = { column = \"p\" }\n")),
+  EXPECT_THAT(refused_campaign(channels("presure_upstream = { column = \"p\" }\n")),
               HasSubstr("line 9: unknown channel 'presure_upstream'; did you mean 'pressure_upstream'?"));
-  EXPECT_THAT(refused(channels("pressure_upstream = { column = \"p\", unit = \"N\" }\n")),
+  EXPECT_THAT(refused_campaign(channels("pressure_upstream = { column = \"p\", unit = \"N\" }\n")),
               HasSubstr("line 9: channel pressure_upstream cannot be in 'N', which is a unit of force; allowed: bar"));
-  EXPECT_THAT(refused(channels("current = { colum = \"p\", unit = \"A\" }\n")), HasSubstr("did you mean 'column'?"));
-  EXPECT_THAT(refused(channels("current = { column = \"p\", unit = \"A\", scale = 0 }\n")),
+  EXPECT_THAT(refused_campaign(channels("current = { colum = \"p\", unit = \"A\" }\n")),
+              HasSubstr("did you mean 'column'?"));
+  EXPECT_THAT(refused_campaign(channels("current = { column = \"p\", unit = \"A\", scale = 0 }\n")),
               HasSubstr("the scale of channel current is zero"));
 }
 

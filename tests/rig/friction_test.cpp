@@ -5,11 +5,11 @@
 namespace spoolflow::rig {
 namespace {
 
-constexpr double viscosity = 46e-6;
+constexpr double cold_viscosity = 46e-6;
 
 /// A contact without Stribeck and ageing: pure displacement-dependent friction.
 FrictionConstants plain() {
-  return friction_constants({.base_N = 4.0, .stiction_ratio = 1.0, .ageing_gain = 0.0}, viscosity);
+  return friction_constants({.base_N = 4.0, .stiction_ratio = 1.0, .ageing_gain = 0.0}, cold_viscosity);
 }
 
 double force_after(const FrictionConstants& contact, FrictionState& state, double displacement_m) {
@@ -50,7 +50,7 @@ TEST(RigFriction, MinorLoopInsidePreSlidingCloses) {
 
 TEST(RigFriction, StribeckLevelFallsFromStictionToSliding) {
   const FrictionConstants contact = friction_constants(
-      {.base_N = 2.0, .stiction_ratio = 1.5, .ageing_gain = 0.0, .stribeck_velocity_m_per_s = 5e-3}, viscosity);
+      {.base_N = 2.0, .stiction_ratio = 1.5, .ageing_gain = 0.0, .stribeck_velocity_m_per_s = 5e-3}, cold_viscosity);
   EXPECT_NEAR(breakaway_N(contact, 1.0, 0.0, 0.0), 4.5, 1e-12);
   EXPECT_NEAR(breakaway_N(contact, 1.0, 0.0, 5e-3), 3.75, 1e-12);
   EXPECT_NEAR(breakaway_N(contact, 1.0, 0.0, 1.0), 3.0, 1e-3);
@@ -58,7 +58,7 @@ TEST(RigFriction, StribeckLevelFallsFromStictionToSliding) {
 
 TEST(RigFriction, BreakAwayGrowsWithTimeAtRestAndSlidingRenewsTheContact) {
   const Friction friction{.ageing_gain = 1.0, .ageing_time_s = 2.0, .ageing_distance_m = 3e-5};
-  const FrictionConstants contact = friction_constants(friction, viscosity);
+  const FrictionConstants contact = friction_constants(friction, cold_viscosity);
   double age = 0.0;
   for (int i = 0; i < 20000; ++i) age = aged(contact, age, 0.0, 1e-4);
   EXPECT_NEAR(age, 1.0 - std::exp(-1.0), 1e-6);
@@ -75,8 +75,8 @@ TEST(RigFriction, PreSlidingAloneDoesNotRenewTheContact) {
 
 TEST(RigFriction, GrowsWithLoadWearAndOilThickness) {
   const Friction worn{.wear_factor = 2.0};
-  EXPECT_NEAR(breakaway_N(friction_constants(worn, viscosity), 3.0, 0.0, 1.0),
-              2.0 * breakaway_N(friction_constants({}, viscosity), 3.0, 0.0, 1.0), 1e-12);
+  EXPECT_NEAR(breakaway_N(friction_constants(worn, cold_viscosity), 3.0, 0.0, 1.0),
+              2.0 * breakaway_N(friction_constants({}, cold_viscosity), 3.0, 0.0, 1.0), 1e-12);
   EXPECT_GT(friction_constants({}, 75e-6).base_N, friction_constants({}, 11e-6).base_N);
 }
 

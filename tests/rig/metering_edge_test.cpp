@@ -8,9 +8,10 @@ namespace spoolflow::rig {
 namespace {
 
 constexpr double density = 860.0;
-constexpr double viscosity = 30e-6;
+constexpr double warm_viscosity = 30e-6;
 
-EdgeFlow flow(const MeteringEdge& edge, double travel_m, double pressure_Pa, double viscosity_m2_per_s = viscosity) {
+EdgeFlow flow(const MeteringEdge& edge, double travel_m, double pressure_Pa,
+              double viscosity_m2_per_s = warm_viscosity) {
   return edge_flow(edge, edge_constants(edge, 12e-3, 5e-6, density, viscosity_m2_per_s), travel_m, pressure_Pa);
 }
 
@@ -27,7 +28,7 @@ TEST(RigMeteringEdge, LosesAsTurbulentAndLaminarResistanceInSeries) {
   const MeteringEdge edge;
   const EdgeFlow open = flow(edge, 1.0e-3, 35e5);
   const double u = open.velocity_m_per_s;
-  const double reynolds = 2.0 * open.opening_m * u / viscosity;
+  const double reynolds = 2.0 * open.opening_m * u / warm_viscosity;
   const double rounded = edge.edge_radius_m / (edge.edge_radius_m + open.opening_m);
   const double discharge = edge.discharge_coefficient + (0.95 - edge.discharge_coefficient) * rounded;
   const double turbulent = 0.5 * density * u * u;
@@ -71,7 +72,7 @@ TEST(RigMeteringEdge, LeaksThroughItsClearanceInsideTheOverlap) {
   const EdgeFlow closed = flow(edge, 0.0, 60e5);
   EXPECT_EQ(closed.area_m2, 0.0);
   const double annulus = std::numbers::pi * 12e-3 * std::pow(5e-6, 3) * (1.0 + 1.5 * 0.25) /
-                         (12.0 * density * viscosity * (edge.sealing_length_m + edge.overlap_m)) * 60e5;
+                         (12.0 * density * warm_viscosity * (edge.sealing_length_m + edge.overlap_m)) * 60e5;
   EXPECT_NEAR(closed.flow_m3_per_s / annulus, 1.0, 1e-12);
 }
 
@@ -85,9 +86,9 @@ TEST(RigMeteringEdge, WornEdgeOpensEarlierAndPassesMore) {
 TEST(RigFlowForce, IsTheMomentumOfJetAndOutlet) {
   const MeteringEdge edge;
   const FlowForce law;
-  const EdgeConstants constants = edge_constants(edge, 12e-3, 5e-6, density, viscosity);
+  const EdgeConstants constants = edge_constants(edge, 12e-3, 5e-6, density, warm_viscosity);
   const EdgeFlow open = edge_flow(edge, constants, 1.2e-3, 50e5);
-  const EdgeForce force = edge_force(law, constants, open, viscosity);
+  const EdgeForce force = edge_force(law, constants, open, warm_viscosity);
   const double Q = open.area_m2 * open.velocity_m_per_s;
   const double A1 = law.jet_contraction * open.area_m2 / force.jet.sine;  // radial area the jet fills
   const double paper_2 = density * Q * Q * force.jet.cosine / (A1 * force.jet.sine) -
@@ -98,14 +99,14 @@ TEST(RigFlowForce, IsTheMomentumOfJetAndOutlet) {
 
 TEST(RigFlowForce, ClosesWhicheverWayTheOilFlows) {
   const MeteringEdge edge;
-  const EdgeConstants constants = edge_constants(edge, 12e-3, 5e-6, density, viscosity);
-  const EdgeForce forth = edge_force({}, constants, edge_flow(edge, constants, 1.2e-3, 50e5), viscosity);
-  const EdgeForce back = edge_force({}, constants, edge_flow(edge, constants, 1.2e-3, -50e5), viscosity);
+  const EdgeConstants constants = edge_constants(edge, 12e-3, 5e-6, density, warm_viscosity);
+  const EdgeForce forth = edge_force({}, constants, edge_flow(edge, constants, 1.2e-3, 50e5), warm_viscosity);
+  const EdgeForce back = edge_force({}, constants, edge_flow(edge, constants, 1.2e-3, -50e5), warm_viscosity);
   EXPECT_EQ(forth.steady_N, back.steady_N);
 }
 
 TEST(RigFlowForce, AcceleratingOilPushesWithItsColumn) {
-  const EdgeConstants constants = edge_constants({}, 12e-3, 5e-6, density, viscosity);
+  const EdgeConstants constants = edge_constants({}, 12e-3, 5e-6, density, warm_viscosity);
   EXPECT_NEAR(transient_force_N(constants, density, 0.012, 0.4, 60e5), -density * 0.012 * 0.4, 1e-3);
   EXPECT_GT(transient_force_N(constants, density, 0.012, 1e9, 60e5), -60e5 * constants.chamber_area_m2 - 1.01);
 }

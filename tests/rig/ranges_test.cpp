@@ -90,7 +90,7 @@ BenchRun any_run(Draw& draw, const ValveUnderTest& valve) {
 }
 
 /// The first part of a run, as long as that.
-BenchRun beginning(BenchRun run, double duration_s) {
+BenchRun first_part(BenchRun run, double duration_s) {
   run.sample_rate_Hz = {{std::min(duration_s, run.duration_s()), 1000}};
   return run;
 }
@@ -101,7 +101,7 @@ TEST_P(AnyValve, InsideItsRangesStaysFiniteAndInsideItsHousing) {
   Draw draw(static_cast<std::uint64_t>(GetParam()));
   const ValveUnderTest valve = any_valve(draw);
   ASSERT_NO_THROW(check_ranges(valve.plant));
-  const BenchRun run = beginning(any_run(draw, valve), 0.12);
+  const BenchRun run = first_part(any_run(draw, valve), 0.12);
   const Simulation simulation = simulate(valve, run, 1, {.with_truth = true});
   for (std::size_t k = 0; k < truth_quantity_count; ++k) {
     for (const double value : simulation.truth.columns[k]) {

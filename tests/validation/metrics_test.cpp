@@ -30,7 +30,7 @@ TEST(ErrorFigures, OfNothingAreZeroWithZeroSamples) {
   EXPECT_DOUBLE_EQ(figures.p95, 0);
 }
 
-constexpr double full_scale = 1.0;
+constexpr double unit_scale = 1.0;
 
 /// Estimates 0.1 too much with a band of +-0.15, so that the reference is inside.
 ComparedSample moving_sample(double reference) {
@@ -42,7 +42,7 @@ ComparedSample resting_sample(double reference) {
 }
 
 TEST(ComparedSamples, AreToldApartByWhatTheSpoolDid) {
-  ComparedSamples samples(full_scale);
+  ComparedSamples samples(unit_scale);
   for (int k = 0; k < 30; ++k) samples.add(moving_sample(0.5));
   for (int k = 0; k < 10; ++k) samples.add(resting_sample(0.5));
   const Metrics metrics = samples.metrics();
@@ -58,7 +58,7 @@ TEST(ComparedSamples, AreToldApartByWhatTheSpoolDid) {
 }
 
 TEST(ComparedSamples, TellErrorsOfReadingOnlyWhereThereIsSomethingToRead) {
-  ComparedSamples samples(full_scale);
+  ComparedSamples samples(unit_scale);
   samples.add(moving_sample(0.05));  // below a tenth of full scale
   samples.add(moving_sample(0.5));
   const Metrics metrics = samples.metrics();
@@ -67,7 +67,7 @@ TEST(ComparedSamples, TellErrorsOfReadingOnlyWhereThereIsSomethingToRead) {
 }
 
 TEST(ComparedSamples, OfARunThatNeverMovedHaveNoFiguresOfMotion) {
-  ComparedSamples samples(full_scale);
+  ComparedSamples samples(unit_scale);
   samples.add(resting_sample(0.5));
   const Metrics metrics = samples.metrics();
   EXPECT_EQ(metrics.moving.error.samples, 0U);
@@ -75,9 +75,9 @@ TEST(ComparedSamples, OfARunThatNeverMovedHaveNoFiguresOfMotion) {
 }
 
 TEST(ComparedSamples, OfTwoRunsTogetherAreTheSamplesOfBoth) {
-  ComparedSamples first(full_scale);
+  ComparedSamples first(unit_scale);
   first.add(moving_sample(0.5));
-  ComparedSamples second(full_scale);
+  ComparedSamples second(unit_scale);
   second.add(resting_sample(0.5));
   second.add(resting_sample(0.7));
   first.append(second);

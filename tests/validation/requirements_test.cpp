@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double full_scale = 100 / 60000.0;
+constexpr double valve_scale = 100 / 60000.0;
 
 class RequirementsFile : public ::testing::Test {
  protected:
@@ -42,10 +42,10 @@ class RequirementsFile : public ::testing::Test {
 
 /// A run whose errors are 1, 2, … 100 hundredths of full scale while moving.
 Validation one_run(const std::string& name = "ramp", bool reference = true) {
-  ComparedSamples compared(full_scale);
+  ComparedSamples compared(valve_scale);
   for (int k = 1; k <= 100; ++k) {
-    const double error = 0.01 * k * full_scale;
-    compared.add({0.5 * full_scale + error, 0, full_scale, 0.5 * full_scale, true, false, false});
+    const double error = 0.01 * k * valve_scale;
+    compared.add({0.5 * valve_scale + error, 0, valve_scale, 0.5 * valve_scale, true, false, false});
   }
   Validation out;
   RunResult& run = out.runs.emplace_back();
@@ -108,7 +108,7 @@ TEST_F(RequirementsFile, LimitsAreJudgedAtTheFigureItself) {
       "[[limit]]\nfigure = 'band_coverage'\nat_least = 100\n"
       "[[limit]]\nfigure = 'fault_share'\nat_most = 1.9\n"
       "[[limit]]\nfigure = 'rms'\nwhen = 'moving'\nat_most = 1\n");
-  const std::vector<JudgedLimit> judged = judge(asked, one_run(), full_scale);
+  const std::vector<JudgedLimit> judged = judge(asked, one_run(), valve_scale);
   ASSERT_EQ(judged.size(), 7U);
   const std::vector<double> figures{96, 96, 100, 50.5, 100, 2, 58.168};
   const std::vector<bool> met{true, false, true, true, true, false, false};
@@ -125,7 +125,7 @@ TEST_F(RequirementsFile, AnEachIsJudgedForEachRunAndAnUnknownFigureIsNotMet) {
   const Requirements asked = read(
       "[[limit]]\nrun = 'each'\nfigure = 'p95'\nat_most = 99\n"
       "[[limit]]\nwhen = 'rest'\nfigure = 'p95'\nat_most = 99\n");
-  const std::vector<JudgedLimit> judged = judge(asked, validation, full_scale);
+  const std::vector<JudgedLimit> judged = judge(asked, validation, valve_scale);
   ASSERT_EQ(judged.size(), 3U);
   EXPECT_EQ(judged[0].run, "ramp");
   EXPECT_TRUE(judged[0].met);

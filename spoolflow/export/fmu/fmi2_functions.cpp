@@ -9,7 +9,7 @@
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Fmi2Instance;
 using fmu::Instance;
-using fmu::on;
+using fmu::on_fmi2;
 using fmu::StateBytes;
 
 SPOOLFLOW_FMI const char* fmi2GetTypesPlatform() {
@@ -21,7 +21,7 @@ SPOOLFLOW_FMI const char* fmi2GetVersion() {
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean, std::size_t, const fmi2String[]) {
-  return on(component, [](Instance&) {});  // warnings and errors are always logged, and nothing else is
+  return on_fmi2(component, [](Instance&) {});  // warnings and errors are always logged, and nothing else is
 }
 
 SPOOLFLOW_FMI fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
@@ -48,23 +48,23 @@ SPOOLFLOW_FMI void fmi2FreeInstance(fmi2Component component) {
 
 SPOOLFLOW_FMI fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean, fmi2Real, fmi2Real start_time,
                                              fmi2Boolean stop_defined, fmi2Real stop_time) {
-  return on(component, [&](Instance& instance) { instance.set_up(start_time, stop_defined != 0, stop_time); });
+  return on_fmi2(component, [&](Instance& instance) { instance.set_up(start_time, stop_defined != 0, stop_time); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2EnterInitializationMode(fmi2Component component) {
-  return on(component, [](Instance& instance) { instance.enter_initialization(); });
+  return on_fmi2(component, [](Instance& instance) { instance.enter_initialization(); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2ExitInitializationMode(fmi2Component component) {
-  return on(component, [](Instance& instance) { instance.exit_initialization(); });
+  return on_fmi2(component, [](Instance& instance) { instance.exit_initialization(); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2Terminate(fmi2Component component) {
-  return on(component, [](Instance& instance) { instance.terminate(); });
+  return on_fmi2(component, [](Instance& instance) { instance.terminate(); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2Reset(fmi2Component component) {
-  return on(component, [](Instance& instance) { instance.reset(); });
+  return on_fmi2(component, [](Instance& instance) { instance.reset(); });
 }
 
 namespace {
@@ -72,7 +72,7 @@ namespace {
 template <class Value>
 fmi2Status get(fmi2Component component, const fmi2ValueReference* references, std::size_t count, Value* values,
                fmu::Type type) {
-  return on(component, [&](Instance& instance) {
+  return on_fmi2(component, [&](Instance& instance) {
     for (std::size_t k = 0; k < count; ++k) values[k] = static_cast<Value>(instance.get(references[k], type));
   });
 }
@@ -80,13 +80,13 @@ fmi2Status get(fmi2Component component, const fmi2ValueReference* references, st
 template <class Value>
 fmi2Status set(fmi2Component component, const fmi2ValueReference* references, std::size_t count, const Value* values,
                fmu::Type type) {
-  return on(component, [&](Instance& instance) {
+  return on_fmi2(component, [&](Instance& instance) {
     for (std::size_t k = 0; k < count; ++k) instance.set(references[k], type, static_cast<double>(values[k]));
   });
 }
 
 fmi2Status no_strings(fmi2Component component, std::size_t count) {
-  return on(component, [&](Instance&) {
+  return on_fmi2(component, [&](Instance&) {
     if (count > 0) throw fmu::CallError("this FMU has no variables of type String");
   });
 }
@@ -125,7 +125,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SetInteger(fmi2Component component, const fmi2Value
 
 SPOOLFLOW_FMI fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference references[],
                                         std::size_t count, const fmi2Boolean values[]) {
-  return on(component, [&](Instance& instance) {
+  return on_fmi2(component, [&](Instance& instance) {
     for (std::size_t k = 0; k < count; ++k) instance.set(references[k], fmu::Type::boolean, values[k] != 0 ? 1 : 0);
   });
 }
@@ -136,7 +136,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueR
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return on(component, [&](Instance& instance) {
+  return on_fmi2(component, [&](Instance& instance) {
     if (*state == nullptr) {
       *state = std::make_unique<StateBytes>(instance.state()).release();
     } else {
@@ -146,14 +146,14 @@ SPOOLFLOW_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* 
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
-  return on(component, [&](Instance& instance) {
+  return on_fmi2(component, [&](Instance& instance) {
     if (state == nullptr) throw fmu::CallError("there is no state to set");
     instance.set_state(*static_cast<const StateBytes*>(state));
   });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return on(component, [&](Instance&) {
+  return on_fmi2(component, [&](Instance&) {
     if (state == nullptr) return;
     delete static_cast<StateBytes*>(*state);
     *state = nullptr;
@@ -161,12 +161,12 @@ SPOOLFLOW_FMI fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate*
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state, std::size_t* size) {
-  return on(component, [&](Instance&) { *size = static_cast<const StateBytes*>(state)->size(); });
+  return on_fmi2(component, [&](Instance&) { *size = static_cast<const StateBytes*>(state)->size(); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
                                                std::size_t size) {
-  return on(component, [&](Instance&) {
+  return on_fmi2(component, [&](Instance&) {
     const auto& from = *static_cast<const StateBytes*>(state);
     if (size < from.size()) throw fmu::CallError("the buffer is smaller than the serialized state");
     std::memcpy(bytes, from.data(), from.size());
@@ -175,7 +175,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUs
 
 SPOOLFLOW_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], std::size_t size,
                                                  fmi2FMUstate* state) {
-  return on(component, [&](Instance& instance) {
+  return on_fmi2(component, [&](Instance& instance) {
     StateBytes read(bytes, bytes + size);
     instance.check_state(read);
     if (*state == nullptr) {
@@ -187,7 +187,7 @@ SPOOLFLOW_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi2Boolean) {
-  return on(component, [&](Instance& instance) { instance.do_step(time, step); });
+  return on_fmi2(component, [&](Instance& instance) { instance.do_step(time, step); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2GetStatus(fmi2Component, const fmi2StatusKind, fmi2Status*) {
@@ -196,7 +196,7 @@ SPOOLFLOW_FMI fmi2Status fmi2GetStatus(fmi2Component, const fmi2StatusKind, fmi2
 
 SPOOLFLOW_FMI fmi2Status fmi2GetRealStatus(fmi2Component component, const fmi2StatusKind kind, fmi2Real* value) {
   if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
-  return on(component, [&](Instance& instance) { *value = instance.time_s(); });
+  return on_fmi2(component, [&](Instance& instance) { *value = instance.time_s(); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component, const fmi2StatusKind, fmi2Integer*) {
@@ -205,7 +205,7 @@ SPOOLFLOW_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component, const fmi2StatusKin
 
 SPOOLFLOW_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component component, const fmi2StatusKind kind, fmi2Boolean* value) {
   if (kind != fmi2Terminated) return fmi2Discard;
-  return on(component, [&](Instance&) { *value = 0; });  // this FMU never asks for an end
+  return on_fmi2(component, [&](Instance&) { *value = 0; });  // this FMU never asks for an end
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2GetStringStatus(fmi2Component, const fmi2StatusKind, fmi2String*) {

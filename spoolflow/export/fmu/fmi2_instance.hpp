@@ -46,15 +46,15 @@ class Fmi2Instance {
 
 /// `work` on the instance behind a component; fmi2Error where there is none.
 template <class Work>
-fmi2Status on(fmi2Component component, Work&& work) noexcept {
+fmi2Status on_fmi2(fmi2Component component, Work&& work) noexcept {
   if (component == nullptr) return fmi2Error;
   auto& behind = *static_cast<Fmi2Instance*>(component);
   return behind.guarded([&] { work(*behind.instance); });
 }
 
 /// A function that this FMU does not offer.
-inline fmi2Status not_offered(fmi2Component component, const char* function) noexcept {
-  return on(component, [&](Instance&) { throw CallError(std::string(function) + " is not offered by this FMU"); });
+inline fmi2Status not_offered_in_fmi2(fmi2Component component, const char* function) noexcept {
+  return on_fmi2(component, [&](Instance&) { throw CallError(std::string(function) + " is not offered by this FMU"); });
 }
 
 }  // namespace spoolflow::exports::fmu

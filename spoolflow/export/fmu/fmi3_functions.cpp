@@ -7,7 +7,7 @@
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Fmi3Instance;
 using fmu::Instance;
-using fmu::on;
+using fmu::on_fmi3;
 using fmu::StateBytes;
 using std::size_t;
 
@@ -16,7 +16,7 @@ SPOOLFLOW_FMI const char* fmi3GetVersion() {
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance handle, fmi3Boolean, size_t, const fmi3String[]) {
-  return on(handle, [](Instance&) {});  // warnings and errors are always logged, and nothing else is
+  return on_fmi3(handle, [](Instance&) {});  // warnings and errors are always logged, and nothing else is
 }
 
 SPOOLFLOW_FMI fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
@@ -46,26 +46,26 @@ SPOOLFLOW_FMI void fmi3FreeInstance(fmi3Instance handle) {
 SPOOLFLOW_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance handle, fmi3Boolean, fmi3Float64,
                                                      fmi3Float64 start_time, fmi3Boolean stop_defined,
                                                      fmi3Float64 stop_time) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     instance.set_up(start_time, stop_defined, stop_time);
     instance.enter_initialization();
   });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance handle) {
-  return on(handle, [](Instance& instance) { instance.exit_initialization(); });
+  return on_fmi3(handle, [](Instance& instance) { instance.exit_initialization(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3Terminate(fmi3Instance handle) {
-  return on(handle, [](Instance& instance) { instance.terminate(); });
+  return on_fmi3(handle, [](Instance& instance) { instance.terminate(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3Reset(fmi3Instance handle) {
-  return on(handle, [](Instance& instance) { instance.reset(); });
+  return on_fmi3(handle, [](Instance& instance) { instance.reset(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState* state) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     if (*state == nullptr) {
       *state = std::make_unique<StateBytes>(instance.state()).release();
     } else {
@@ -75,14 +75,14 @@ SPOOLFLOW_FMI fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState* stat
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     if (state == nullptr) throw fmu::CallError("there is no state to set");
     instance.set_state(*static_cast<const StateBytes*>(state));
   });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState* state) {
-  return on(handle, [&](Instance&) {
+  return on_fmi3(handle, [&](Instance&) {
     if (state == nullptr) return;
     delete static_cast<StateBytes*>(*state);
     *state = nullptr;
@@ -90,11 +90,11 @@ SPOOLFLOW_FMI fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState* sta
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMUState state, size_t* size) {
-  return on(handle, [&](Instance&) { *size = static_cast<const StateBytes*>(state)->size(); });
+  return on_fmi3(handle, [&](Instance&) { *size = static_cast<const StateBytes*>(state)->size(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
-  return on(handle, [&](Instance&) {
+  return on_fmi3(handle, [&](Instance&) {
     const auto& from = *static_cast<const StateBytes*>(state);
     if (size < from.size()) throw fmu::CallError("the buffer is smaller than the serialized state");
     std::memcpy(bytes, from.data(), from.size());
@@ -103,7 +103,7 @@ SPOOLFLOW_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState
 
 SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3Byte bytes[], size_t size,
                                                  fmi3FMUState* state) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     StateBytes read(size);
     if (size > 0) std::memcpy(read.data(), bytes, size);
     instance.check_state(read);
@@ -116,13 +116,14 @@ SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3EnterStepMode(fmi3Instance handle) {
-  return fmu::not_offered(handle, "fmi3EnterStepMode");  // it leads out of event mode, which this FMU does not have
+  return fmu::not_offered_in_fmi3(handle,
+                                  "fmi3EnterStepMode");  // it leads out of event mode, which this FMU does not have
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 time, fmi3Float64 step, fmi3Boolean,
                                     fmi3Boolean* event_handling_needed, fmi3Boolean* terminate_simulation,
                                     fmi3Boolean* early_return, fmi3Float64* last_successful_time) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     if (event_handling_needed != nullptr) *event_handling_needed = false;
     if (terminate_simulation != nullptr) *terminate_simulation = false;
     if (early_return != nullptr) *early_return = false;

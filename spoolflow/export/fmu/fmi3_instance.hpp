@@ -43,15 +43,15 @@ class Fmi3Instance {
 
 /// `work` on the instance behind the handle; fmi3Error where there is none.
 template <class Work>
-fmi3Status on(fmi3Instance handle, Work&& work) noexcept {
+fmi3Status on_fmi3(fmi3Instance handle, Work&& work) noexcept {
   if (handle == nullptr) return fmi3Error;
   auto& behind = *static_cast<Fmi3Instance*>(handle);
   return behind.guarded([&] { work(*behind.instance); });
 }
 
 /// A function that this FMU does not offer.
-inline fmi3Status not_offered(fmi3Instance handle, const char* function) noexcept {
-  return on(handle, [&](Instance&) { throw CallError(std::string(function) + " is not offered by this FMU"); });
+inline fmi3Status not_offered_in_fmi3(fmi3Instance handle, const char* function) noexcept {
+  return on_fmi3(handle, [&](Instance&) { throw CallError(std::string(function) + " is not offered by this FMU"); });
 }
 
 }  // namespace spoolflow::exports::fmu

@@ -3,7 +3,7 @@
 #include "spoolflow/export/fmu/fmi3_instance.hpp"
 
 using spoolflow::exports::fmu::Fmi3Instance;
-using spoolflow::exports::fmu::not_offered;
+using spoolflow::exports::fmu::not_offered_in_fmi3;
 using std::size_t;
 
 namespace {
@@ -30,137 +30,137 @@ SPOOLFLOW_FMI fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, fmi3Str
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3EnterEventMode(fmi3Instance handle) {
-  return not_offered(handle, "fmi3EnterEventMode");
+  return not_offered_in_fmi3(handle, "fmi3EnterEventMode");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance handle, fmi3ValueReference, size_t*) {
-  return not_offered(handle, "fmi3GetNumberOfVariableDependencies");
+  return not_offered_in_fmi3(handle, "fmi3GetNumberOfVariableDependencies");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetVariableDependencies(fmi3Instance handle, fmi3ValueReference, size_t[],
                                                      fmi3ValueReference[], size_t[], fmi3DependencyKind[], size_t) {
-  return not_offered(handle, "fmi3GetVariableDependencies");
+  return not_offered_in_fmi3(handle, "fmi3GetVariableDependencies");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetDirectionalDerivative(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                                       const fmi3ValueReference[], size_t, const fmi3Float64[], size_t,
                                                       fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetDirectionalDerivative");
+  return not_offered_in_fmi3(handle, "fmi3GetDirectionalDerivative");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetAdjointDerivative(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                                   const fmi3ValueReference[], size_t, const fmi3Float64[], size_t,
                                                   fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetAdjointDerivative");
+  return not_offered_in_fmi3(handle, "fmi3GetAdjointDerivative");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3EnterConfigurationMode(fmi3Instance handle) {
-  return not_offered(handle, "fmi3EnterConfigurationMode");
+  return not_offered_in_fmi3(handle, "fmi3EnterConfigurationMode");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance handle) {
-  return not_offered(handle, "fmi3ExitConfigurationMode");
+  return not_offered_in_fmi3(handle, "fmi3ExitConfigurationMode");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetOutputDerivatives(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                                   const fmi3Int32[], fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetOutputDerivatives");
+  return not_offered_in_fmi3(handle, "fmi3GetOutputDerivatives");
 }
 
 // Clocks and events.
 
 SPOOLFLOW_FMI fmi3Status fmi3GetIntervalDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3Float64[],
                                                 fmi3IntervalQualifier[]) {
-  return not_offered(handle, "fmi3GetIntervalDecimal");
+  return not_offered_in_fmi3(handle, "fmi3GetIntervalDecimal");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetIntervalFraction(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3UInt64[],
                                                  fmi3UInt64[], fmi3IntervalQualifier[]) {
-  return not_offered(handle, "fmi3GetIntervalFraction");
+  return not_offered_in_fmi3(handle, "fmi3GetIntervalFraction");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetShiftDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3Float64[]) {
-  return not_offered(handle, "fmi3GetShiftDecimal");
+  return not_offered_in_fmi3(handle, "fmi3GetShiftDecimal");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetShiftFraction(fmi3Instance handle, const fmi3ValueReference[], size_t, fmi3UInt64[],
                                               fmi3UInt64[]) {
-  return not_offered(handle, "fmi3GetShiftFraction");
+  return not_offered_in_fmi3(handle, "fmi3GetShiftFraction");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetIntervalDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                                 const fmi3Float64[]) {
-  return not_offered(handle, "fmi3SetIntervalDecimal");
+  return not_offered_in_fmi3(handle, "fmi3SetIntervalDecimal");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetIntervalFraction(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                                  const fmi3UInt64[], const fmi3UInt64[]) {
-  return not_offered(handle, "fmi3SetIntervalFraction");
+  return not_offered_in_fmi3(handle, "fmi3SetIntervalFraction");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetShiftDecimal(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                              const fmi3Float64[]) {
-  return not_offered(handle, "fmi3SetShiftDecimal");
+  return not_offered_in_fmi3(handle, "fmi3SetShiftDecimal");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetShiftFraction(fmi3Instance handle, const fmi3ValueReference[], size_t,
                                               const fmi3UInt64[], const fmi3UInt64[]) {
-  return not_offered(handle, "fmi3SetShiftFraction");
+  return not_offered_in_fmi3(handle, "fmi3SetShiftFraction");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance handle) {
-  return not_offered(handle, "fmi3EvaluateDiscreteStates");
+  return not_offered_in_fmi3(handle, "fmi3EvaluateDiscreteStates");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance handle, fmi3Boolean*, fmi3Boolean*, fmi3Boolean*,
                                                   fmi3Boolean*, fmi3Boolean*, fmi3Float64*) {
-  return not_offered(handle, "fmi3UpdateDiscreteStates");
+  return not_offered_in_fmi3(handle, "fmi3UpdateDiscreteStates");
 }
 
 // Model exchange.
 
 SPOOLFLOW_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance handle) {
-  return not_offered(handle, "fmi3EnterContinuousTimeMode");
+  return not_offered_in_fmi3(handle, "fmi3EnterContinuousTimeMode");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3CompletedIntegratorStep(fmi3Instance handle, fmi3Boolean, fmi3Boolean*, fmi3Boolean*) {
-  return not_offered(handle, "fmi3CompletedIntegratorStep");
+  return not_offered_in_fmi3(handle, "fmi3CompletedIntegratorStep");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetTime(fmi3Instance handle, fmi3Float64) {
-  return not_offered(handle, "fmi3SetTime");
+  return not_offered_in_fmi3(handle, "fmi3SetTime");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetContinuousStates(fmi3Instance handle, const fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3SetContinuousStates");
+  return not_offered_in_fmi3(handle, "fmi3SetContinuousStates");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetContinuousStateDerivatives");
+  return not_offered_in_fmi3(handle, "fmi3GetContinuousStateDerivatives");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetEventIndicators(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetEventIndicators");
+  return not_offered_in_fmi3(handle, "fmi3GetEventIndicators");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetContinuousStates(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetContinuousStates");
+  return not_offered_in_fmi3(handle, "fmi3GetContinuousStates");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance handle, fmi3Float64[], size_t) {
-  return not_offered(handle, "fmi3GetNominalsOfContinuousStates");
+  return not_offered_in_fmi3(handle, "fmi3GetNominalsOfContinuousStates");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance handle, size_t*) {
-  return not_offered(handle, "fmi3GetNumberOfEventIndicators");
+  return not_offered_in_fmi3(handle, "fmi3GetNumberOfEventIndicators");
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance handle, size_t*) {
-  return not_offered(handle, "fmi3GetNumberOfContinuousStates");
+  return not_offered_in_fmi3(handle, "fmi3GetNumberOfContinuousStates");
 }
 
 // Scheduled execution.
 
 SPOOLFLOW_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance handle, fmi3ValueReference, fmi3Float64) {
-  return not_offered(handle, "fmi3ActivateModelPartition");
+  return not_offered_in_fmi3(handle, "fmi3ActivateModelPartition");
 }

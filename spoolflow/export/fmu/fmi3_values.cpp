@@ -4,7 +4,7 @@
 
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Instance;
-using fmu::on;
+using fmu::on_fmi3;
 using std::size_t;
 
 namespace {
@@ -17,7 +17,7 @@ void require(size_t references, size_t values) {
 template <class Value>
 fmi3Status get(fmi3Instance handle, const fmi3ValueReference* references, size_t count, Value* values,
                size_t value_count, fmu::Type type) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     require(count, value_count);
     for (size_t k = 0; k < count; ++k) values[k] = static_cast<Value>(instance.get(references[k], type));
   });
@@ -26,7 +26,7 @@ fmi3Status get(fmi3Instance handle, const fmi3ValueReference* references, size_t
 template <class Value>
 fmi3Status set(fmi3Instance handle, const fmi3ValueReference* references, size_t count, const Value* values,
                size_t value_count, fmu::Type type) {
-  return on(handle, [&](Instance& instance) {
+  return on_fmi3(handle, [&](Instance& instance) {
     require(count, value_count);
     for (size_t k = 0; k < count; ++k) instance.set(references[k], type, static_cast<double>(values[k]));
   });
@@ -34,7 +34,7 @@ fmi3Status set(fmi3Instance handle, const fmi3ValueReference* references, size_t
 
 /// No variable has this type.
 fmi3Status none(fmi3Instance handle, size_t count, const char* type) {
-  return on(handle, [&](Instance&) {
+  return on_fmi3(handle, [&](Instance&) {
     if (count > 0) throw fmu::CallError(std::string("this FMU has no variables of type ") + type);
   });
 }

@@ -3,28 +3,6 @@
 namespace spoolflow::exports::fmu {
 namespace {
 
-Variable input(const char* name, const char* description, const char* unit, const char* display_unit, double start,
-               double nominal) {
-  return {.name = name,
-          .description = description,
-          .causality = Causality::input,
-          .variability = Variability::continuous,
-          .unit = unit,
-          .display_unit = display_unit,
-          .start = start,
-          .nominal = nominal};
-}
-
-Variable output(const char* name, const char* description, const char* unit, const char* display_unit, double nominal) {
-  return {.name = name,
-          .description = description,
-          .causality = Causality::output,
-          .variability = Variability::continuous,
-          .unit = unit,
-          .display_unit = display_unit,
-          .nominal = nominal};
-}
-
 Variable tunable(const char* name, const char* description, const char* unit, const char* display_unit, double start,
                  double lowest, double highest) {
   return {.name = name,

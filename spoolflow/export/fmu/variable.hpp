@@ -26,4 +26,29 @@ struct Variable {
   double nominal = no_limit;  ///< the size that the value usually has
 };
 
+/// A real input; `start` and `nominal` in the unit.
+inline Variable input(const char* name, const char* description, const char* unit, const char* display_unit,
+                      double start, double nominal) {
+  return {.name = name,
+          .description = description,
+          .causality = Causality::input,
+          .variability = Variability::continuous,
+          .unit = unit,
+          .display_unit = display_unit,
+          .start = start,
+          .nominal = nominal};
+}
+
+/// A real output; `nominal` in the unit.
+inline Variable output(const char* name, const char* description, const char* unit, const char* display_unit,
+                       double nominal) {
+  return {.name = name,
+          .description = description,
+          .causality = Causality::output,
+          .variability = Variability::continuous,
+          .unit = unit,
+          .display_unit = display_unit,
+          .nominal = nominal};
+}
+
 }  // namespace spoolflow::exports::fmu
