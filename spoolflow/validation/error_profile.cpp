@@ -39,10 +39,10 @@ double ErrorProfile::percentile(const Magnitudes& magnitudes, double share) cons
 }
 
 std::vector<ProfileBin> ErrorProfile::bins() const {
-  constexpr std::size_t fewest = 20;
+  constexpr std::size_t fewest_in_bin = 20;
   std::vector<ProfileBin> out;
   for (const auto& [index, magnitudes] : bins_) {
-    if (magnitudes.samples < std::max(fewest, samples_ / 1000)) continue;
+    if (magnitudes.samples < std::max(fewest_in_bin, samples_ / 1000)) continue;
     const double from = origin_ + index * bin_width_;
     out.push_back({from, from + bin_width_, magnitudes.samples, percentile(magnitudes, 0.5),
                    percentile(magnitudes, 0.95),
