@@ -1,4 +1,5 @@
 /// `spoolflow inspect`: what a recording holds, and a channel map for foreign column names.
+#include <algorithm>
 #include <cmath>
 
 #include <CLI/CLI.hpp>
@@ -63,7 +64,28 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
-void print_text(const InspectArguments& arguments, const recording::Inspection& found) {
+/// Columns that the map does not name.
+std::vector<std::string> columns_left_out(const recording::ChannelMap& map, const recording::Inspection& found) {
+  std::vector<std::string> out;
+  for (const std::string& column : found.contents.columns) {
+    const auto names_it = [&](const auto& entry) { return entry.second.column == column; };
+    if (std::none_of(map.sources.begin(), map.sources.end(), names_it)) out.push_back(column);
+  }
+  return out;
+}
+
+void print_proposal(const recording::ChannelMap& proposal) {
+  if (proposal.sources.empty()) {
+    fmt::print("No column name is known; write a channel map by hand (see docs/formats.md).\n");
+  } else {
+    fmt::print("Proposed channel map (check it, then give it with --channels MAP.toml):\n\n{}",
+               recording::written(proposal));
+  }
+}
+
+/// `map`: the one that the file was read with; null: none.
+void print_text(const InspectArguments& arguments, const recording::ChannelMap* map,
+                const recording::Inspection& found) {
   fmt::print("{}: {}, {} columns: {}\n", arguments.file, found.contents.format, found.contents.columns.size(),
              joined(found.contents.columns));
   if (!found.channels.empty()) {
@@ -89,11 +111,12 @@ void print_text(const InspectArguments& arguments, const recording::Inspection& 
     }
     fmt::print("\n");
   }
-  if (found.proposal.sources.empty()) {
-    fmt::print("No column name is known; write a channel map by hand (see docs/formats.md).\n");
+  if (map == nullptr) {
+    print_proposal(found.proposal);
+  } else if (const std::vector<std::string> columns = columns_left_out(*map, found); columns.empty()) {
+    fmt::print("Read with {}, which names every column.\n", arguments.channels);
   } else {
-    fmt::print("Proposed channel map (check it, then give it with --channels MAP.toml):\n\n{}",
-               recording::written(found.proposal));
+    fmt::print("Read with {}; columns that it does not name: {}\n", arguments.channels, joined(columns));
   }
 }
 
@@ -155,7 +178,7 @@ void inspect(const InspectArguments& arguments) {
   if (arguments.json) {
     print_json(found);
   } else {
-    print_text(arguments, found);
+    print_text(arguments, arguments.channels.empty() ? nullptr : &options.channels, found);
   }
 }
 
