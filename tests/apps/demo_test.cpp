@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 
 using Demo = CommandLine;
 
-TEST_F(Demo, GoesTheWholeWayWithoutAnyFileBesideTheProgram) {
+TEST_F(Demo, GoesTheWholeWayWithoutAnyFileBesideTheProgramAndShowsTheCommandsThatMakeTheSame) {
   const Answer answer = run("demo -q -o out");
   ASSERT_EQ(answer.status, 0) << answer.message;
   EXPECT_THAT(answer.output, EndsWith("\nout/report.html\n"));
@@ -29,13 +29,9 @@ TEST_F(Demo, GoesTheWholeWayWithoutAnyFileBesideTheProgram) {
   EXPECT_THAT(content("out/model.json"), StartsWith("{"));
   EXPECT_THAT(content("out/metrics.json"), HasSubstr("\"duty_cycle.csv"));
   EXPECT_THAT(content("out/estimate.csv"), StartsWith("time_s,flow_L_min,"));
-}
 
-TEST_F(Demo, ShowsTheCommandsThatMakeTheSameStepByStep) {
-  const Answer demo = run("demo -q -o out");
-  ASSERT_EQ(demo.status, 0) << demo.message;
   const std::string recording = content("out/duty_cycle.csv"), estimate = content("out/estimate.csv");
-  std::istringstream lines(demo.output);
+  std::istringstream lines(answer.output);
   int steps = 0;
   for (std::string line; std::getline(lines, line);) {
     const auto at = line.find("  spoolflow ");
