@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/apps/ahead.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
@@ -25,13 +26,26 @@
 namespace spoolflow::apps {
 namespace {
 
-void write_rows(recording::CsvWriter& out, const recording::SampleBlock& block,
-                const std::vector<sensor::Estimate<double>>& estimates, validation::StatusText& status_text) {
+/// Samples as they were read, and how far that is.
+struct ReadBlock {
+  recording::SampleBlock samples;
+  recording::ReadNotes notes;
+  std::optional<double> share;
+};
+
+/// What became of them.
+struct EstimatedBlock {
+  std::vector<double> time_s;
+  std::vector<sensor::Estimate<double>> estimates;
+  recording::ReadNotes notes;
+  std::optional<double> share;
+};
+
+void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, validation::StatusText& status_text) {
   using units::litre_per_minute_per_m3_per_s;
-  const auto& time_s = block.columns[static_cast<std::size_t>(recording::Channel::time)];
-  for (std::size_t k = 0; k < block.rows; ++k) {
-    const sensor::Estimate<double>& estimate = estimates[k];
-    out.number(time_s[k], 6);
+  for (std::size_t k = 0; k < block.estimates.size(); ++k) {
+    const sensor::Estimate<double>& estimate = block.estimates[k];
+    out.number(block.time_s[k], 6);
     out.number(estimate.flow_m3_per_s * litre_per_minute_per_m3_per_s, 4);
     out.number(estimate.flow_lower_m3_per_s * litre_per_minute_per_m3_per_s, 4);
     out.number(estimate.flow_upper_m3_per_s * litre_per_minute_per_m3_per_s, 4);
@@ -77,27 +91,47 @@ Task task_of(const EstimateArguments& arguments) {
   return task;
 }
 
-recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target) {
+/// `beside`: whether reading, estimating and writing may have a thread each.
+recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target,
+                                  bool beside) {
   const auto reader = recording::open_reader(recording, validation::sensor_channels(task.model, task.channels));
   validation::Estimation estimation(task.model, task.estimator);
   OutputFile output(target, task.inputs);
+  recording::ReadNotes notes;
   {
     Progress progress("estimating", task.quiet);
     recording::CsvWriter writer(output.stream());
     writer.header({"time_s", "flow_L_min", "flow_lower_L_min", "flow_upper_L_min", "pressure_difference_bar",
                    "magnetic_force_N", "flow_force_N", "friction_force_N", "status"});
-    recording::SampleBlock block;
-    std::vector<sensor::Estimate<double>> estimates;
+    Ahead<ReadBlock> reading(
+        [&](ReadBlock& block) {
+          const bool more = reader->next(block.samples);
+          block.notes = reader->notes();
+          block.share = reader->progress();
+          return more;
+        },
+        beside);
+    Ahead<EstimatedBlock> estimating(
+        [&](EstimatedBlock& block) {
+          ReadBlock* const read = reading.next();
+          if (read == nullptr) return false;
+          estimation.run(read->samples, block.estimates);
+          std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
+          block.notes = read->notes;
+          block.share = read->share;
+          return true;
+        },
+        beside);
     validation::StatusText status_text;
-    while (reader->next(block)) {
-      estimation.run(block, estimates);
-      write_rows(writer, block, estimates, status_text);
-      progress.update(reader->progress(), reader->notes().rows);
+    while (const EstimatedBlock* block = estimating.next()) {
+      write_rows(writer, *block, status_text);
+      notes = block->notes;
+      progress.update(block->share, notes.rows);
     }
     writer.flush();
   }
   output.commit();
-  return reader->notes();
+  return notes;
 }
 
 /// FOLDER/NAME.csv for each recording NAME.*. Throws OutputError where two would be the same.
@@ -143,7 +177,7 @@ void estimate_all(const Task& task, const std::vector<std::string>& recordings,
       try {
         std::unique_lock alone(one_at_a_time, std::defer_lock);
         if (!reads_beside_others(recordings[k])) alone.lock();
-        const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k]);
+        const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k], false);
         const std::lock_guard lock(told);
         tell(notes, recordings[k]);
       } catch (...) {
@@ -167,7 +201,8 @@ void estimate_all(const Task& task, const std::vector<std::string>& recordings,
 void estimate(const EstimateArguments& arguments) {
   Task task = task_of(arguments);
   if (arguments.recordings.size() == 1) {
-    tell(estimate_one(task, arguments.recordings.front(), arguments.output), arguments.recordings.front());
+    const bool beside = std::thread::hardware_concurrency() > 1;
+    tell(estimate_one(task, arguments.recordings.front(), arguments.output, beside), arguments.recordings.front());
     return;
   }
   const auto targets = targets_in(arguments.output, arguments.recordings);
