@@ -13,6 +13,7 @@
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/operating_map_figure.hpp"
 #include "spoolflow/report/run_budget_section.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/report/study_figure.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -70,14 +71,14 @@ void show_budget(HtmlPage& page, const model::Model& model, const Analysis& anal
   for (const Estimator estimator : estimators_of(analysis)) {
     shares.push_back({share_chart(analysis::mean_shares(analysis.points, estimator), estimator),
                       fmt::format("The {}: what makes the variance of its flow rate, mean over the working points.",
-                                  validation::name(estimator))});
+                                  sensor_name(estimator))});
   }
   page.html(legend_of_kinds);
   page.html(pair_of(shares));
   for (const Estimator estimator : estimators_of(analysis)) {
     const PointResult* const point = middle_point(analysis, estimator);
     if (point == nullptr) continue;
-    page.subsection(fmt::format("The {} at {}", validation::name(estimator), place_of(*point)));
+    page.subsection(fmt::format("The {} at {}", sensor_name(estimator), place_of(*point)));
     page.html(figure_of(contribution_chart(*point),
                         fmt::format("Contributions to the standard uncertainty of {} L/min at a flow rate of {} L/min; "
                                     "those below a hundredth of the largest are in the table only.",

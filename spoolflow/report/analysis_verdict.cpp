@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
@@ -92,13 +93,13 @@ AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Anal
   out.sentence = fmt::format(
       "Improve the {} next: it makes {} % of the variance of the {}'s flow rate, the mean over the working points. Of "
       "instruments and oil the {} counts most ({} %).",
-      sub_model->group, fixed(100 * sub_model->share, 0), validation::name(estimator), instrument->group,
+      sub_model->group, fixed(100 * sub_model->share, 0), sensor_name(estimator), instrument->group,
       fixed(100 * instrument->share, 0));
   if (instrument->share > sub_model->share) {
     out.sentence = fmt::format(
         "Improve the {} next: it makes {} % of the variance of the {}'s flow rate, the mean over the working points. "
         "Of the sub-models the {} counts most ({} %).",
-        instrument->group, fixed(100 * instrument->share, 0), validation::name(estimator), sub_model->group,
+        instrument->group, fixed(100 * instrument->share, 0), sensor_name(estimator), sub_model->group,
         fixed(100 * sub_model->share, 0));
   }
   if (analysis.study) out.remarks.push_back(across_the_series(*analysis.study));

@@ -4,6 +4,7 @@
 
 #include "spoolflow/report/budget_tables.hpp"
 #include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::report {
@@ -44,9 +45,9 @@ void budget_section(HtmlPage& page, const model::Model& model) {
       "the sensitivities.");
   std::vector<CaptionedChart> charts;
   for (const validation::Estimator estimator : validation::all_estimators(model)) {
-    charts.push_back({share_chart(analysis::mean_shares(results, estimator), estimator),
-                      fmt::format("The {}: share of the variance of its flow rate, mean over the points.",
-                                  validation::name(estimator))});
+    charts.push_back(
+        {share_chart(analysis::mean_shares(results, estimator), estimator),
+         fmt::format("The {}: share of the variance of its flow rate, mean over the points.", sensor_name(estimator))});
   }
   page.html(pair_of(charts));
   page.table(points_table(results, model.valve.rated_flow_m3_per_s));

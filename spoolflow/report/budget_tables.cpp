@@ -7,6 +7,7 @@
 
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
@@ -30,8 +31,7 @@ std::string tone_of(bool part_of_model) {
 
 HtmlTable budget_table(const validation::Budget& budget) {
   HtmlTable table({{"input", Set::text},
-                   {"type", Set::text},
-                   {"distribution", Set::text},
+                   {"type, distribution", Set::text},
                    {"from", Set::sentence},
                    {"standard<br>uncertainty"},
                    {"sensitivity<br>[L/min per unit]"},
@@ -41,14 +41,16 @@ HtmlTable budget_table(const validation::Budget& budget) {
   for (const validation::BudgetLine& line : budget.lines) {
     const validation::QuantityAbout& about = validation::about(line.input.quantity);
     table.row(
-        {html_text(about.title), line.input.evaluation == validation::Evaluation::type_a ? "A" : "B",
-         std::string(validation::name(line.input.distribution)), html_text(line.input.source),
+        {html_text(about.title),
+         fmt::format("{}, {}", line.input.evaluation == validation::Evaluation::type_a ? "A" : "B",
+                     validation::name(line.input.distribution)),
+         html_text(line.input.source),
          fmt::format("{} {}", three_digits(line.input.standard_uncertainty * about.per_SI), unit_text(about.unit)),
          three_digits(L_per_min_from_m3_per_s(line.sensitivity_m3_per_s) / about.per_SI),
          three_digits(L_per_min_from_m3_per_s(std::abs(line.contribution_m3_per_s))), fixed(100 * line.share, 1),
          freedom_text(line.degrees_of_freedom)});
   }
-  table.row({"<b>combined</b>", "", "",
+  table.row({"<b>combined</b>", "",
              fmt::format("k = {}: expanded uncertainty (95 %) <b>{} L/min</b>", fixed(budget.coverage_factor, 2),
                          three_digits(L_per_min_from_m3_per_s(budget.expanded_m3_per_s))),
              "", "", fmt::format("<b>{}</b>", three_digits(L_per_min_from_m3_per_s(budget.combined_m3_per_s))), "100",
@@ -105,10 +107,10 @@ BarChart contribution_chart(const analysis::PointResult& result) {
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
     return std::abs(a.contribution_m3_per_s) > std::abs(b.contribution_m3_per_s);
   });
-  BarChart chart{.description = fmt::format("Contributions to the standard uncertainty of the {}",
-                                            validation::name(result.estimator)),
-                 .axis = "Contribution to the standard uncertainty [L/min]",
-                 .bars = {}};
+  BarChart chart{
+      .description = fmt::format("Contributions to the standard uncertainty of the {}", sensor_name(result.estimator)),
+      .axis = "Contribution to the standard uncertainty [L/min]",
+      .bars = {}};
   const double largest = lines.empty() ? 0 : std::abs(lines.front().contribution_m3_per_s);
   for (const validation::BudgetLine& line : lines) {
     const double size_m3_per_s = std::abs(line.contribution_m3_per_s);
@@ -124,7 +126,7 @@ BarChart contribution_chart(const analysis::PointResult& result) {
 }
 
 BarChart share_chart(const std::vector<analysis::GroupShare>& shares, validation::Estimator estimator) {
-  BarChart chart{.description = fmt::format("Mean shares of the variance of the {}", validation::name(estimator)),
+  BarChart chart{.description = fmt::format("Mean shares of the variance of the {}", sensor_name(estimator)),
                  .axis = "Share of the variance, mean over the points [%]",
                  .bars = {}};
   for (const analysis::GroupShare& group : shares) {

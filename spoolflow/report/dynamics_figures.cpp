@@ -7,12 +7,13 @@
 
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/scaled.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 
 namespace spoolflow::report {
 namespace {
 
 std::string step_text(const validation::StepAnswer& answer, std::size_t steps) {
-  if (answer.followed == 0) return fmt::format(" The {} follows none of them.", validation::name(answer.estimator));
+  if (answer.followed == 0) return fmt::format(" The {} follows none of them.", sensor_name(answer.estimator));
   std::string out =
       fmt::format(" {}: {} ms {} the meter, {} ms from 10 to 90 %, {} % overshoot", validation::name(answer.estimator),
                   fixed(1e3 * std::abs(answer.delay_s), 0), answer.delay_s < 0 ? "before" : "after",

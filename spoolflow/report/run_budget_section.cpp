@@ -9,6 +9,7 @@
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/scaled.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
@@ -102,7 +103,7 @@ void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double fu
     double squares = 0;
     for (const double u : result.combined_m3_per_s) squares += u * u;
     const double rms = std::sqrt(squares / static_cast<double>(result.combined_m3_per_s.size()));
-    page.subsection(fmt::format("The {}", validation::name(result.estimator)));
+    page.subsection(fmt::format("The {}", sensor_name(result.estimator)));
     page.paragraph(fmt::format(
         "Standard uncertainty {} L/min ({} % FS), root mean square over the run; {} whole replays with drawn errors "
         "give {} times that.",

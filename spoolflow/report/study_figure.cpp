@@ -7,6 +7,7 @@
 
 #include "spoolflow/report/bar_chart.hpp"
 #include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 
 namespace spoolflow::report {
 
@@ -19,7 +20,7 @@ std::string study_figure(const analysis::Study& study, std::size_t output) {
     return found.factors[a].total.value > found.factors[b].total.value;
   });
   const std::string error = about.p95 ? "95th percentile of the error" : "RMS error";
-  BarChart chart{.description = fmt::format("Sobol indices of the {}'s {}", validation::name(about.estimator), error),
+  BarChart chart{.description = fmt::format("Sobol indices of the {}'s {}", sensor_name(about.estimator), error),
                  .axis = "Share of the variance from one valve to the next",
                  .bars = {},
                  .lowest = -0.2,
@@ -39,7 +40,7 @@ std::string study_figure(const analysis::Study& study, std::size_t output) {
       chart, fmt::format("{} of the {}: first-order index (solid; alone) / total index (pale; with all "
                          "interactions), whiskers 95 % confidence. Over the series the error is {} \u00b1 {} % FS "
                          "(mean, standard deviation).",
-                         error, validation::name(about.estimator), fixed(100 * found.mean, 2),
+                         error, sensor_name(about.estimator), fixed(100 * found.mean, 2),
                          fixed(100 * found.standard_deviation, 2)));
 }
 

@@ -14,6 +14,7 @@
 #include "spoolflow/report/requirements_table.hpp"
 #include "spoolflow/report/results_table.hpp"
 #include "spoolflow/report/run_figures.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/report/verdict.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -39,10 +40,10 @@ void show_tiles(HtmlPage& page, const validation::Validation& validation, double
   for (std::size_t e = validation.pooled.size(); e-- > 0;) {
     const validation::PooledResult& pooled = validation.pooled[e];
     tile(page, fixed(pooled.metrics->all.error.p95 * percent, 1) + " % FS",
-         fmt::format("95 % of the {}'s errors below, all runs", validation::name(pooled.estimator)));
+         fmt::format("95 % of the {}'s errors below, all runs", sensor_name(pooled.estimator)));
   }
   tile(page, fixed(leading.metrics->all.error.largest * percent, 0) + " % FS",
-       fmt::format("largest error of the {}", validation::name(leading.estimator)));
+       fmt::format("largest error of the {}", sensor_name(leading.estimator)));
   tile(page, fixed(100 * leading.metrics->all.band_coverage, 1) + " %",
        fmt::format("of the samples inside its 95 % band, {} % FS wide on average",
                    fixed(leading.metrics->all.band_mean_width_m3_per_s * percent, 1)));

@@ -96,7 +96,7 @@ TEST(DynamicsFigures, GiveDelayRiseAndCorner) {
   const std::vector<CaptionedFigure> figures = dynamics_figures(run);
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_THAT(figures[0].caption, HasSubstr("observer: 12 ms before the meter, 60 ms from 10 to 90 %, 5 % overshoot"));
-  EXPECT_THAT(figures[0].caption, HasSubstr("The condensed follows none"));
+  EXPECT_THAT(figures[0].caption, HasSubstr("The condensed sensor follows none"));
   EXPECT_THAT(figures[1].caption, HasSubstr("3 dB at 3.21 Hz"));
   const std::string drawing = svg_of(figures[1].figure, {}, "f");
   EXPECT_THAT(drawing, HasSubstr(">0.5<"));
