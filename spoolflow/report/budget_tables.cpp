@@ -34,7 +34,7 @@ HtmlTable budget_table(const validation::Budget& budget) {
                    {"type, distribution", Set::text},
                    {"from", Set::sentence},
                    {"standard<br>uncertainty"},
-                   {"sensitivity<br>[L/min per unit]"},
+                   {"sensitivity<br>[L/min / unit]"},
                    {"contribution<br>[L/min]"},
                    {"share<br>[%]"},
                    {"degrees of<br>freedom"}});
