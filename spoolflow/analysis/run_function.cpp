@@ -43,8 +43,8 @@ double pressure_deviation_Pa(const sensor::ObserverParameters<double>& valve,
                              const sensor::ObserverState<double>& state, const model::TimedSample& sample,
                              double step_s) {
   const bool rests = sensor::has(state.last.status, sensor::Status::spool_at_rest);
-  const double filter_Pa = std::sqrt(
-      std::max(0.0, state.pressure.variance_Pa2 + (rests ? state.pressure.liveliness * state.pressure.unseen_Pa2 : 0)));
+  const double filter_Pa = std::hypot(std::sqrt(std::max(0.0, state.pressure.variance_Pa2)),
+                                      sensor::unseen_change_Pa(state.pressure, valve.band.unseen_factor));
   if (!rests) return filter_Pa;
   const auto edge = valve.edge.at(state.oil_temperature_K, state.pressure.pressure_difference_Pa, sample.position_m);
   constexpr double smoothing_s = 0.03;  // as in friction.hpp

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/actuator.hpp"
+#include "spoolflow/calibration/band.hpp"
 #include "spoolflow/calibration/magnetic_force.hpp"
 #include "spoolflow/calibration/metering_edge.hpp"
 #include "spoolflow/calibration/operation.hpp"
@@ -27,17 +28,15 @@ constexpr sensor::FrictionParameters<double> assumed_friction{.ageing_ratio = 4,
 constexpr double assumed_backlash_m = 0.45e-6;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 /// Of the supply, which may be any: the same for every valve.
-constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
+constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 1e5,
                                                     .resting_drift_Pa_per_sqrt_s = 1e6,
-                                                    .least_liveliness = 0.03,
-                                                    .first_liveliness = 0.1,
+                                                    .least_liveliness = 0.01,
+                                                    .first_liveliness = 0.05,
                                                     .yielding_s = 0.03,
                                                     .force_correlation_s = 2e-3,
                                                     .ratio_deviation = 0.03,
-                                                    .ratio_drift_per_sqrt_s = 0.03};
-constexpr double coverage_factor = 1.4;
-/// Nothing of friction in operation is known without a recording of it: the band says so.
-constexpr double blind_coverage_factor = 2.0;
+                                                    .ratio_memory_s = 10};
+constexpr double coverage_factor = 2;
 
 FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
   FitResidual out;
@@ -92,10 +91,9 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   parameters.band = {.friction_share = 0.03,
                      .force_residual_N = std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()),
                      .flow_residual_m3_per_s = flow.rms(),
-                     .coverage_factor = operation.empty() ? blind_coverage_factor : coverage_factor,
-                     .force_share = 1,
-                     .creep_per_s = 0.5,
-                     .unseen_factor = 3,
+                     .coverage_factor = coverage_factor,
+                     .creep_per_s = 1,
+                     .unseen_factor = 4.2,
                      .reference_lag_s = 0.03};
   parameters.closed_below_m = closed_below_m;
   parameters.largest_current_A = magnetic.largest_current_A;
@@ -119,7 +117,9 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   } else {
     out.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
                     "contact_stiffness_N_per_m", "friction_tolerance_N",  "breakaway_share",
-                    "position_backlash_m",       "band_friction_share",   "band_force_share"};
+                    "position_backlash_m",       "band_friction_share",   "band_force_share",
+                    "band_rest_share",           "band_tolerance_N"};
+    scale_band(parameters, assumed_force_error_ratio);
   }
   for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
                               "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "band_reference_lag_s"})

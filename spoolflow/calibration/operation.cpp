@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "spoolflow/calibration/band.hpp"
+#include "spoolflow/calibration/replay.hpp"
+
 namespace spoolflow::calibration {
 namespace {
-
-using recording::Channel;
 
 /// A parameter that operation shows, with the range that is searched.
 struct Dial {
@@ -17,15 +18,10 @@ struct Dial {
 
 std::vector<Dial> dials(sensor::ObserverParameters<double>& parameters) {
   return {
-      {&parameters.friction.operation_ratio, 0.5, 2.5},
-      {&parameters.friction.ageing_ratio, 1.01, 12},
-      {&parameters.friction.ageing_s, 0.1, 20},
-      {&parameters.friction.contact_stiffness_N_per_m, 5e5, 5e7},
-      {&parameters.friction.tolerance_N, 0.3, 2.5},
-      {&parameters.friction.breakaway_share, 0.05, 0.4},
-      {&parameters.band.friction_share, 0.01, 0.2},
-      {&parameters.band.force_share, 0.7, 3},
-      {&parameters.position_sensor.backlash_m, 5e-8, 4e-6},
+      {&parameters.friction.operation_ratio, 0.5, 2.5}, {&parameters.friction.ageing_ratio, 1.01, 12},
+      {&parameters.friction.ageing_s, 0.1, 20},         {&parameters.friction.contact_stiffness_N_per_m, 5e5, 5e7},
+      {&parameters.friction.tolerance_N, 0.3, 2.5},     {&parameters.friction.breakaway_share, 0.05, 0.4},
+      {&parameters.band.friction_share, 0.01, 0.2},     {&parameters.position_sensor.backlash_m, 5e-8, 4e-6},
   };
 }
 
@@ -42,39 +38,18 @@ struct Outcome {
   }
 };
 
-void replay(const sensor::ObserverParameters<double>& parameters, const recording::Recording& recording,
-            std::size_t samples, Outcome& outcome) {
-  const auto time_s = recording[Channel::time];
-  const auto current_A = recording[Channel::current];
-  const auto position_m = recording[Channel::position];
-  const auto reference_m3_per_s = recording[Channel::flow_reference];
-  const auto at = [&](Channel channel, std::size_t k) {
-    return recording.has(channel) ? recording[channel][k] : std::numeric_limits<double>::quiet_NaN();
-  };
-  constexpr double outside_weight = 2 / 0.05;  // of a 95 % interval
-  sensor::ObserverState<double> state{};
-  double last_s = time_s[0];
-  for (std::size_t k = 0; k < samples; ++k) {
-    const sensor::Estimate<double> estimate = sensor::step(
-        parameters, state,
-        {time_s[k] - last_s, current_A[k], at(Channel::voltage, k), position_m[k], at(Channel::oil_temperature, k)});
-    last_s = time_s[k];
-    const double reference = reference_m3_per_s[k];
-    if (!std::isfinite(reference)) continue;
-    const double outside =
-        std::max({0.0, estimate.flow_lower_m3_per_s - reference, reference - estimate.flow_upper_m3_per_s});
-    outcome.interval_score += estimate.flow_upper_m3_per_s - estimate.flow_lower_m3_per_s + outside_weight * outside;
-    outcome.error.add(estimate.flow_m3_per_s - reference);
-    if (outside == 0) ++outcome.inside;
-  }
-}
-
 Outcome replay_all(const sensor::ObserverParameters<double>& parameters,
                    const std::vector<const recording::Recording*>& recordings) {
+  constexpr double outside_weight = 2 / 0.05;  // of a 95 % interval
   Outcome outcome;
-  for (const recording::Recording* recording : recordings) {
-    replay(parameters, *recording, std::min(recording->size(), operation_samples / recordings.size()), outcome);
-  }
+  replay(parameters, recordings, [&](const sensor::ObserverState<double>& state, double, double reference_m3_per_s) {
+    const sensor::Estimate<double>& estimate = state.last;
+    const double outside = std::max(
+        {0.0, estimate.flow_lower_m3_per_s - reference_m3_per_s, reference_m3_per_s - estimate.flow_upper_m3_per_s});
+    outcome.interval_score += estimate.flow_upper_m3_per_s - estimate.flow_lower_m3_per_s + outside_weight * outside;
+    outcome.error.add(estimate.flow_m3_per_s - reference_m3_per_s);
+    if (outside == 0) ++outcome.inside;
+  });
   return outcome;
 }
 
@@ -89,11 +64,16 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
                            const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
                            const std::function<void(double)>& progress) {
   const std::vector<Dial> all = dials(parameters);
+  scale_band(parameters, 0.7);  // as wide as most valves need, for the search
+  // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
+  const sensor::PressureParameters<double> supply = parameters.pressure;
+  constexpr double lively = 0.3;
+  parameters.pressure.least_liveliness = parameters.pressure.first_liveliness = lively;
   std::vector<double> prior;
   for (const Dial& dial : all) prior.push_back(*dial.value);
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
   const auto cost = [&] {
-    constexpr double pull = 0.03;
+    constexpr double pull = 0.1;
     double distance2 = 0;
     for (std::size_t k = 0; k < all.size(); ++k) distance2 += std::pow(std::log(*all[k].value / prior[k]), 2);
     return operation_score(parameters, recordings, full_scale_m3_per_s) * (1 + pull * distance2);
@@ -102,7 +82,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   OperationFit out{};
   out.score_before = operation_score(parameters, recordings, full_scale_m3_per_s);
   double best = cost();
-  constexpr int rounds = 8;
+  constexpr int rounds = 20;
   constexpr double first_step = 1.35;  // as a factor
   std::vector<double> step(all.size(), first_step);
   for (int round = 0; round < rounds; ++round) {
@@ -124,6 +104,9 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
     }
   }
 
+  parameters.pressure = supply;
+  out.force_error_ratio = force_error_ratio(parameters, recordings);
+  scale_band(parameters, out.force_error_ratio);
   const Outcome outcome = replay_all(parameters, recordings);
   out.score = outcome.score(full_scale_m3_per_s);
   out.flow_m3_per_s = outcome.error;

@@ -16,11 +16,10 @@ struct OperationFit {
   double score_before;  ///< see operation_score
   double score;
   FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
+  double force_error_ratio;   ///< see band.hpp; the band is scaled by it
   double band_coverage;       ///< share of the samples with the reference inside the band
-  std::size_t samples;        ///< that were used: at most `operation_samples` of all recordings together
+  std::size_t samples;        ///< that were used: see replay.hpp
 };
-
-inline constexpr std::size_t operation_samples = 120'000;
 
 /// Mean interval score of the 95 % band (Winkler 1972; Gneiting and Raftery 2007, eq. 43: its width, and 40 times
 /// what the reference lies outside) plus four times the RMS error, as a share of full scale. Small where the estimate

@@ -67,7 +67,7 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.number("first_liveliness", parameters.pressure.first_liveliness, 1e-6, 1.0);
   visitor.number("force_correlation_s", parameters.pressure.force_correlation_s, 1e-6, 10.0);
   visitor.number("friction_ratio_deviation", parameters.pressure.ratio_deviation, 1e-3, 2.0);
-  visitor.number("friction_ratio_drift_per_sqrt_s", parameters.pressure.ratio_drift_per_sqrt_s, 0.0, 10.0);
+  visitor.number("friction_ratio_memory_s", parameters.pressure.ratio_memory_s, 1e-3, 1e6);
   visitor.number("yielding_s", parameters.pressure.yielding_s, 1e-5, 1e3);
 
   visitor.number("band_friction_share", parameters.band.friction_share, 0.0, 10.0);
@@ -75,8 +75,10 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   visitor.number("band_flow_residual_m3_per_s", parameters.band.flow_residual_m3_per_s, 0.0, 1.0);
   visitor.number("band_coverage_factor", parameters.band.coverage_factor, 0.0, 100.0);
   visitor.number("band_force_share", parameters.band.force_share, 0.0, 10.0);
+  visitor.number("band_rest_share", parameters.band.rest_share, 0.0, 100.0);
+  visitor.number("band_tolerance_N", parameters.band.tolerance_N, 0.0, 1e4);
   visitor.number("band_creep_per_s", parameters.band.creep_per_s, 0.0, 10.0);
-  visitor.number("band_unseen_factor", parameters.band.unseen_factor, 0.0, 100.0);
+  visitor.number("band_unseen_factor", parameters.band.unseen_factor, 1e-3, 100.0);
   visitor.number("band_reference_lag_s", parameters.band.reference_lag_s, 0.0, 10.0);
 
   visitor.number("closed_below_m", parameters.closed_below_m, -1e-3, 0.1);

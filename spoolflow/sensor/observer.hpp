@@ -21,9 +21,11 @@ struct BandParameters {
   T force_residual_N{};  ///< standard deviation of all maps together
   T flow_residual_m3_per_s{};
   T coverage_factor{};  ///< standard deviations in the 95 % band
-  T force_share{};  ///< how much of the force errors that the parts tell the band counts: they are not all independent
-  T creep_per_s{};  ///< growth of the tolerance of friction with the time at rest, as a share of it
-  T unseen_factor{};  ///< how much wider unseen changes of pressure are taken than the drift that the estimate follows
+  T force_share{};      ///< how much of the force errors that the parts tell the band counts while the spool slides
+  T rest_share{};       ///< the same at rest
+  T tolerance_N{};      ///< standard deviation of friction told by the pre-sliding displacement
+  T creep_per_s{};      ///< growth of that tolerance with the time at rest, as a share of it
+  T unseen_factor{};    ///< standard deviation of unseen changes of pressure over the liveliest drift, at liveliness 1
   T reference_lag_s{};  ///< of the flow meter that the band is held against: it still reads what has been
 };
 
@@ -50,6 +52,7 @@ struct ObserverState {
   T oil_temperature_K{};  ///< smoothed
   T flow_m3_per_s{};      ///< as answered
   T metered_m3_per_s{};   ///< as a flow meter with its lag would read it
+  T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
   bool started{};
   Estimate<T> last{};
 };
@@ -73,6 +76,8 @@ constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state
   state.pressure.pressure_difference_Pa = T(0.5) * highest_Pa;
   state.pressure.variance_Pa2 = squared(T(0.3) * highest_Pa);
   state.pressure.liveliness = valve.pressure.first_liveliness;
+  state.pressure.doubt_Pa2 =
+      state.pressure.variance_Pa2 / squared(valve.band.unseen_factor * valve.pressure.first_liveliness);
   state.pressure.friction_ratio = valve.friction.operation_ratio;
   state.pressure.ratio_variance = squared(valve.pressure.ratio_deviation);
   state.pressure.innovation = usual_innovation<T>;
@@ -136,9 +141,12 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const T slope = larger(edge.flow_force_per_pressure_N_Pa, least_slope);
   const T force_noise_N = sqrt(squared(valve.band.force_residual_N) + squared(actuator.uncertainty_N) +
                                squared(valve.band.friction_share * bounds.sliding_N));
+  state.force_noise_N = force_noise_N;
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  if (closed) expect_change(valve.pressure, pressure);
   if (sliding) {
     drift(valve.pressure, pressure, dt, highest_Pa);
+    forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, dt);
   } else {
     drift_unseen(valve.pressure, pressure, dt, highest_Pa);
     // Slow enough to be followed in those samples that have least else to do.
@@ -176,19 +184,19 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   out.flow_m3_per_s = state.flow_m3_per_s;
   state.metered_m3_per_s +=
       smaller(dt / (valve.band.reference_lag_s + dt), T(1)) * (out.flow_m3_per_s - state.metered_m3_per_s);
-  const T unseen_Pa2 = sliding ? T(0) : pressure.liveliness * pressure.unseen_Pa2 * squared(valve.band.unseen_factor);
-  const T counted_N = valve.band.force_share * force_noise_N;
-  const T deviations = valve.band.coverage_factor * band_factor(pressure);
-  const T deviation_Pa = deviations * sqrt(pressure.variance_Pa2 + unseen_Pa2 + squared(counted_N / slope));
-  const T tolerance_N = valve.friction.tolerance_N * (T(1) + valve.band.creep_per_s * state.friction.rest_s);
-  const T certain_Pa = deviations * (counted_N + tolerance_N) / slope;
+  const T share = sliding ? valve.band.force_share : valve.band.rest_share;
+  const T unseen_Pa = unseen_change_Pa(pressure, valve.band.unseen_factor);
+  const T deviation_Pa = valve.band.coverage_factor * band_factor(pressure) *
+                         sqrt(squared(unseen_Pa) + squared(share * force_noise_N / slope));
+  const T tolerance_N = valve.band.tolerance_N * (T(1) + valve.band.creep_per_s * state.friction.rest_s);
+  const T certain_Pa = valve.band.coverage_factor * (valve.band.force_share * force_noise_N + tolerance_N) / slope;
   T below_Pa = deviation_Pa;
   T above_Pa = deviation_Pa;
   if (!sliding && !closed) {
     below_Pa = smaller(below_Pa, larger(resting.upper_N - apparent_friction_N, T(0)) / slope + certain_Pa);
     above_Pa = smaller(above_Pa, larger(apparent_friction_N - resting.lower_N, T(0)) / slope + certain_Pa);
   }
-  const T residual = T(2) * valve.band.flow_residual_m3_per_s;
+  const T residual = T(1.2) * valve.band.flow_residual_m3_per_s;
   const T lag_m3_per_s = state.metered_m3_per_s - out.flow_m3_per_s;
   out.flow_lower_m3_per_s =
       smaller(edge.conductance * sqrt(larger(pressure.pressure_difference_Pa - below_Pa, T(0))), out.flow_m3_per_s) -

@@ -18,9 +18,9 @@ struct PressureParameters {
   T least_liveliness{};             ///< share of that drift where the supply has proved steady, (0, 1]
   T first_liveliness{};             ///< the same, of a supply of which nothing is known yet
   T yielding_s{};                   ///< how fast it gives way to a force that friction at rest cannot explain
-  T force_correlation_s{};     ///< for how long errors of the forces stay alike: samples within are no new evidence
-  T ratio_deviation{};         ///< standard deviation of the friction ratio at any time
-  T ratio_drift_per_sqrt_s{};  ///< its random walk while the spool slides
+  T force_correlation_s{};  ///< for how long errors of the forces stay alike: samples within are no new evidence
+  T ratio_deviation{};      ///< standard deviation of the friction ratio at any time
+  T ratio_memory_s{};       ///< of sliding, in which it forgets what it has learnt
 };
 
 template <class T>
@@ -33,6 +33,7 @@ struct PressureState {
   T liveliness{};     ///< variance of unseen changes over that of the resting drift
   T settled_Pa{};     ///< when last seen
   T unseen_Pa2{};     ///< variance that has built up since, at full liveliness
+  T doubt_Pa2{};      ///< what of it no force has told of yet
   T innovation{};     ///< squared over its expected variance, averaged over the last seconds of sliding
 };
 
@@ -54,8 +55,16 @@ template <class T>
 constexpr void drift(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s, T highest_Pa) {
   if (state.variance_Pa2 < squared(T(0.4) * highest_Pa))
     state.variance_Pa2 += squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s;
-  if (state.ratio_variance < squared(pressure.ratio_deviation))
-    state.ratio_variance += squared(pressure.ratio_drift_per_sqrt_s) * time_step_s;
+}
+
+/// The friction ratio goes back towards what was calibrated: it has learnt where the spool was, and at what speed.
+template <class T>
+constexpr void forget_ratio(const PressureParameters<T>& pressure, PressureState<T>& state, T calibrated_ratio,
+                            T time_step_s) {
+  const T share = smaller(time_step_s / pressure.ratio_memory_s, T(1));
+  state.friction_ratio += share * (calibrated_ratio - state.friction_ratio);
+  state.covariance_Pa -= share * state.covariance_Pa;
+  state.ratio_variance += T(2) * share * (squared(pressure.ratio_deviation) - state.ratio_variance);
 }
 
 /// The same while nothing tells: as lively as the supply has shown itself.
@@ -64,16 +73,31 @@ constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState
                             T highest_Pa) {
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.unseen_Pa2 += variance_Pa2;
+  state.doubt_Pa2 += variance_Pa2;
   if (state.variance_Pa2 < squared(T(0.4) * highest_Pa)) state.variance_Pa2 += state.liveliness * variance_Pa2;
 }
 
-/// The pressure difference is seen again: what it did meanwhile tells how lively the supply is.
+/// Behind a closed valve the supply may do what it likes, however steady it has been.
+template <class T>
+constexpr void expect_change(const PressureParameters<T>& pressure, PressureState<T>& state) {
+  state.liveliness = larger(state.liveliness, pressure.first_liveliness);
+}
+
+/// One standard deviation of what the pressure difference may have done unseen [Pa]. In proportion to the liveliness,
+/// not to its root: a lively supply leaps, and leaps are more often large than those of a random walk.
+template <class T>
+constexpr T unseen_change_Pa(const PressureState<T>& state, T unseen_factor) {
+  return unseen_factor * state.liveliness * sqrt(state.doubt_Pa2);
+}
+
+/// The pressure difference is seen again: what it did meanwhile, beyond what the forces' errors make of it, tells how
+/// lively the supply is.
 template <class T>
 constexpr void learn_liveliness(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
   if (state.unseen_Pa2 > squared(noise_Pa)) {
     const T change2 = squared(state.pressure_difference_Pa - state.settled_Pa);
-    const T shown = smaller(change2 / state.unseen_Pa2, T(1));
-    const T pace = shown > state.liveliness ? T(0.5) : T(0.2);
+    const T shown = smaller((change2 - T(0.25) * squared(noise_Pa)) / state.unseen_Pa2, T(1));
+    const T pace = shown > state.liveliness ? T(0.8) : T(0.2);
     state.liveliness =
         limited(state.liveliness + pace * (shown - state.liveliness), squared(pressure.least_liveliness), T(1));
     state.unseen_Pa2 = T(0);
@@ -89,6 +113,7 @@ struct Correction {
   T covariance_N_Pa;  ///< of surprise and pressure difference
   T covariance_N;     ///< of surprise and friction ratio
   T variance_N2;      ///< of the surprise
+  T unseen_share;     ///< of what was believed before, left after it
 };
 
 /// A surprise beyond three standard deviations opens the variance at the pace of `time_step_s`: the pressure has
@@ -109,7 +134,8 @@ constexpr Correction<T> correction(PressureState<T>& state, const ForceSurprise<
     believed2 += opened2;
   }
   const T variance2 = believed2 + noise_N2;
-  return {surprise.force_N, with_pressure / variance2, with_pressure, with_ratio, variance2};
+  const T gain_Pa_per_N = with_pressure / variance2;
+  return {surprise.force_N, gain_Pa_per_N, with_pressure, with_ratio, variance2, T(1) - gain_Pa_per_N * slope};
 }
 
 template <class T>
@@ -117,6 +143,7 @@ constexpr void correct_pressure(PressureState<T>& state, const Correction<T>& to
   state.pressure_difference_Pa += told.gain_Pa_per_N * told.force_N;
   state.variance_Pa2 -= told.gain_Pa_per_N * told.covariance_N_Pa;
   state.covariance_Pa -= told.gain_Pa_per_N * told.covariance_N;
+  state.doubt_Pa2 *= squared(told.unseen_share);
 }
 
 /// While the spool slides: Kalman update of pressure difference and friction ratio, no matter how often it is sampled.
@@ -148,7 +175,7 @@ constexpr void update_breakaway(PressureState<T>& state, const ForceSurprise<T>&
 /// supply that leaps, narrower where every sample confirms the one before.
 template <class T>
 constexpr T band_factor(const PressureState<T>& state) {
-  return limited(sqrt(sqrt(state.innovation * (1 / usual_innovation<T>))), T(0.5), T(2.5));
+  return limited(sqrt(sqrt(state.innovation * (1 / usual_innovation<T>))), T(0.35), T(2.5));
 }
 
 /// Whether the pressure difference, at a given friction ratio, is known to better than half of `noise_N`.

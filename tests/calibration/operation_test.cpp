@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/band.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::calibration {
@@ -77,6 +78,44 @@ TEST(Operation, MissingReferenceSamplesAreLeftOut) {
   const double score = operation_score(valve, {&run}, full_scale_m3_per_s);
   EXPECT_TRUE(std::isfinite(score));
   EXPECT_NEAR(score, whole, 0.01 * whole);
+}
+
+/// Five seconds at rest, half open, under a current that balances spring and flow force; the meter reads
+/// `reference_m3_per_s`.
+recording::Recording rest(const sensor::ObserverParameters<double>& valve, double reference_m3_per_s) {
+  recording::Recording out;
+  for (int k = 0; k < 2500; ++k) {
+    out.column(Channel::time).push_back(2e-3 * k);
+    out.column(Channel::current).push_back(0.5 * valve.largest_current_A);
+    out.column(Channel::position).push_back(1.2e-3);
+    out.column(Channel::oil_temperature).push_back(323.15);
+    out.column(Channel::flow_reference).push_back(reference_m3_per_s);
+  }
+  return out;
+}
+
+TEST(ForceErrorRatio, GrowsWithTheErrorOfTheFlowAtRest) {
+  const sensor::ObserverParameters<double> valve = example_valve();
+  const recording::Recording low = rest(valve, 100 / 60e3);
+  const recording::Recording high = rest(valve, 200 / 60e3);
+  EXPECT_GT(force_error_ratio(valve, {&high}), 1.5 * force_error_ratio(valve, {&low}));
+}
+
+TEST(ForceErrorRatio, IsAssumedWhereTheSpoolNeverRests) {
+  const sensor::ObserverParameters<double> valve = example_valve();
+  recording::Recording run = triangle(valve, 1);
+  for (double& reference : run.column(Channel::flow_reference)) reference = std::nan("");
+  EXPECT_EQ(force_error_ratio(valve, {&run}), assumed_force_error_ratio);
+}
+
+TEST(ForceErrorRatio, ScalesWhatTheBandCounts) {
+  sensor::ObserverParameters<double> valve = example_valve();
+  scale_band(valve, 1);
+  const auto unscaled = valve.band;
+  scale_band(valve, 0.5);
+  EXPECT_DOUBLE_EQ(valve.band.force_share, 0.5 * unscaled.force_share);
+  EXPECT_DOUBLE_EQ(valve.band.rest_share, 0.5 * unscaled.rest_share);
+  EXPECT_DOUBLE_EQ(valve.band.tolerance_N, 0.5 * unscaled.tolerance_N);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
                                             .yielding_s = 0.03,
                                             .force_correlation_s = 2e-3,
                                             .ratio_deviation = 0.05,
-                                            .ratio_drift_per_sqrt_s = 0.03};
+                                            .ratio_memory_s = 10};
 constexpr double slope_N_per_Pa = 5e-6;
 constexpr double friction_N = 6;
 constexpr double highest_Pa = 70e5;
@@ -36,6 +36,7 @@ void slide(PressureState<double>& state, double true_Pa, double true_ratio, doub
            double dt_s) {
   for (int k = 0; k * dt_s < duration_s; ++k) {
     drift(supply, state, dt_s, highest_Pa);
+    forget_ratio(supply, state, 1.0, dt_s);
     const double surprise_N = slope_N_per_Pa * (true_Pa - state.pressure_difference_Pa) +
                               direction * friction_N * (true_ratio - state.friction_ratio);
     update_sliding(supply, state, {surprise_N, slope_N_per_Pa, direction * friction_N, 0.7}, dt_s);
@@ -106,6 +107,51 @@ TEST(PressureDifference, LearnsFromABreakawayButTheFrictionRatioDoesNot) {
   EXPECT_LT(state.variance_Pa2, before.variance_Pa2);
   EXPECT_EQ(state.friction_ratio, before.friction_ratio);
   EXPECT_EQ(state.ratio_variance, before.ratio_variance);
+}
+
+TEST(PressureDifference, ForgetsAFrictionRatioThatSlidingNoLongerConfirms) {
+  PressureState<double> state = begin(60e5);
+  state.friction_ratio = 1.3;
+  for (int k = 0; k < 30'000; ++k) forget_ratio(supply, state, 1.0, 1e-3);
+  EXPECT_NEAR(state.friction_ratio, 1, 0.02);
+  EXPECT_NEAR(state.ratio_variance, std::pow(supply.ratio_deviation, 2), 1e-6);
+}
+
+TEST(Band, ABreakawayTakesDoubtAboutUnseenChangesAway) {
+  PressureState<double> state = begin(60e5);
+  for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
+  const double before_Pa = unseen_change_Pa(state, 4.0);
+  update_breakaway(state, {0.0, slope_N_per_Pa, friction_N, 0.7});
+  EXPECT_LT(unseen_change_Pa(state, 4.0), 0.5 * before_Pa);
+}
+
+TEST(Band, TakesUnseenChangesForLargeWhereTheSupplyHasProvedLively) {
+  PressureState<double> state = begin(60e5);
+  for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
+  state.liveliness = 0.01;
+  const double steady_Pa = unseen_change_Pa(state, 4.0);
+  state.liveliness = 0.5;
+  EXPECT_NEAR(unseen_change_Pa(state, 4.0), 50 * steady_Pa, 1e-6 * steady_Pa);
+}
+
+TEST(PressureDifference, IsNotTakenForLivelyByWhatTheForcesErrorsMakeOfIt) {
+  PressureState<double> state = begin(60e5);
+  const double noise_Pa = 1e5;
+  state.settled_Pa = 60e5 - 0.4 * noise_Pa;
+  state.unseen_Pa2 = 1.1 * noise_Pa * noise_Pa;
+  learn_liveliness(supply, state, noise_Pa);
+  EXPECT_LT(state.liveliness, supply.first_liveliness);
+  state.settled_Pa = state.pressure_difference_Pa - 20 * noise_Pa;
+  state.unseen_Pa2 = 400 * noise_Pa * noise_Pa;
+  learn_liveliness(supply, state, noise_Pa);
+  EXPECT_GT(state.liveliness, 0.5);
+}
+
+TEST(PressureDifference, MayDoWhatItLikesBehindAClosedValve) {
+  PressureState<double> state = begin(60e5);
+  state.liveliness = 1e-4;
+  expect_change(supply, state);
+  EXPECT_DOUBLE_EQ(state.liveliness, supply.first_liveliness);
 }
 
 TEST(PressureDifference, GrowsUncertainAtRestAsFastAsTheSupplyHasProvedLively) {

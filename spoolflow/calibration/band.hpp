@@ -1,0 +1,22 @@
+#pragma once
+/// How much of the force errors that the parts tell the observer's band must count: what they do to the flow while the
+/// valve works shows, beside a reference flow, whether they are as large as the benches' residuals make them.
+#include <vector>
+
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+
+/// Where no operating recording tells: wider than any of the valves that were tried needs (docs/accuracy.md).
+inline constexpr double assumed_force_error_ratio = 2;
+
+/// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise
+/// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open.
+[[nodiscard]] double force_error_ratio(const sensor::ObserverParameters<double>& parameters,
+                                       const std::vector<const recording::Recording*>& recordings);
+
+/// Sets what the band counts in proportion to that ratio.
+void scale_band(sensor::ObserverParameters<double>& parameters, double force_error_ratio);
+
+}  // namespace spoolflow::calibration
