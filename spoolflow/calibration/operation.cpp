@@ -104,11 +104,11 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
     }
   }
 
+  out.score = operation_score(parameters, recordings, full_scale_m3_per_s);
   parameters.pressure = supply;
   out.force_error_ratio = force_error_ratio(parameters, recordings);
   scale_band(parameters, out.force_error_ratio);
   const Outcome outcome = replay_all(parameters, recordings);
-  out.score = outcome.score(full_scale_m3_per_s);
   out.flow_m3_per_s = outcome.error;
   out.samples = outcome.error.samples;
   out.band_coverage = static_cast<double>(outcome.inside) / static_cast<double>(std::max<std::size_t>(1, out.samples));

@@ -13,7 +13,7 @@ namespace spoolflow::calibration {
 
 /// How well the observer does on the operating recordings.
 struct OperationFit {
-  double score_before;  ///< see operation_score
+  double score_before;  ///< see operation_score; both with the supply and the band's scale of the search
   double score;
   FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
   double force_error_ratio;   ///< see band.hpp; the band is scaled by it

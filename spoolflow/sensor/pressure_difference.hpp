@@ -143,7 +143,8 @@ constexpr void correct_pressure(PressureState<T>& state, const Correction<T>& to
   state.pressure_difference_Pa += told.gain_Pa_per_N * told.force_N;
   state.variance_Pa2 -= told.gain_Pa_per_N * told.covariance_N_Pa;
   state.covariance_Pa -= told.gain_Pa_per_N * told.covariance_N;
-  state.doubt_Pa2 *= squared(told.unseen_share);
+  // Not below a pascal: while the spool slides on it would fade into denormal numbers, which some cores are slow with.
+  state.doubt_Pa2 = larger(state.doubt_Pa2 * squared(told.unseen_share), T(1));
 }
 
 /// While the spool slides: Kalman update of pressure difference and friction ratio, no matter how often it is sampled.

@@ -60,11 +60,9 @@ TEST(Operation, FrictionThatIsLargerThanOnTheBenchIsFound) {
   sensor::ObserverParameters<double> valve = example_valve();
   valve.friction.operation_ratio = 1;
   const recording::Recording run = triangle(valve, 1.3);
-  const double before = operation_score(valve, {&run}, full_scale_m3_per_s);
   double shown = 0;
   const OperationFit fit = fit_operation(valve, {&run}, full_scale_m3_per_s, [&](double share) { shown = share; });
-  EXPECT_DOUBLE_EQ(fit.score_before, before);
-  EXPECT_LT(fit.score, 0.95 * before);
+  EXPECT_LT(fit.score, 0.95 * fit.score_before);
   EXPECT_GT(valve.friction.operation_ratio, 1.05);
   EXPECT_EQ(fit.samples, run.size());
   EXPECT_GT(shown, 0.9);
