@@ -124,6 +124,9 @@ int main(int argc, char** argv) {
       Signals signals(file, valves);
       const auto condensed = exports::single_precision(sensor::laid_out(model.condensed.parameters));
       for (const bool own : {true, false}) compare<sensor::CondensedState<float>>("condensed", condensed, signals, own);
+      if (!model.observer) continue;
+      const auto observer = exports::single_precision(model.observer->parameters);
+      for (const bool own : {true, false}) compare<sensor::ObserverState<float>>("observer", observer, signals, own);
     }
   } catch (const std::exception& error) {
     fmt::print(stderr, "valve_batch: {}\n", error.what());

@@ -30,7 +30,7 @@ struct ActuatorState {
   CoilResistanceState<T> coil_resistance{};
   T lowest_flux_Wb{};  ///< since the first sample
   T highest_flux_Wb{};
-  bool started{};
+  Truth<T> started{};
 };
 
 /// What the solenoid answers.
@@ -42,7 +42,7 @@ struct ActuatorEstimate {
   T force_per_current_N_per_A{};   ///< what an error of the current means for the force
   T force_per_position_N_per_m{};  ///< what an error of the position means for the force
   T flux_linkage_Wb{};
-  bool inside_map{};  ///< current and position lie within what was calibrated
+  Truth<T> inside_map{};  ///< current and position lie within what was calibrated
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
@@ -73,12 +73,11 @@ template <class T>
                                                           ActuatorState<T>& state, const Sample<T>& sample) {
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
-  const bool begins = !state.started;
+  const Truth<T> begins = !state.started;
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
-  if (begins) {
-    state.started = true;
-    state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
-  }
+  state.started = Truth<T>(true);
+  state.lowest_flux_Wb = select(begins, state.coil.hysteresis.flux, state.lowest_flux_Wb);
+  state.highest_flux_Wb = select(begins, state.coil.hysteresis.flux, state.highest_flux_Wb);
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);

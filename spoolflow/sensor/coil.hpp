@@ -99,21 +99,21 @@ constexpr void demagnetise(CoilState<T>& state) {
 /// to have been demagnetised and then brought to this current slowly. Costs no more than any other step.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
-                                                     const Cell<T>& position, bool begins) {
+                                                     const Cell<T>& position, Truth<T> begins) {
   const auto& flux_map = coil.flux_linkage.map;
-  const T last_A = begins ? step.current_A : state.magnetising_current_A;
+  const T last_A = select(begins, step.current_A, state.magnetising_current_A);
   CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
-  if (begins) {
-    demagnetise(state);
-    step.time_step_s = T(1e6);
-  } else {
+  if (any(!begins)) {
     // Where the last flux rate would lead, along the map's line: exact within its cell.
     const T predicted_Wb = state.hysteresis.flux + state.flux_rate_V * step.time_step_s;
-    guess.current_A += (predicted_Wb - guess.flux.value) / guess.flux.row_slope;
-    guess.flux.value = predicted_Wb;
+    const T predicted_A = guess.current_A + (predicted_Wb - guess.flux.value) / guess.flux.row_slope;
+    guess.current_A = select(begins, guess.current_A, predicted_A);
+    guess.flux.value = select(begins, guess.flux.value, predicted_Wb);
   }
+  in_valves(begins, state, [&] { demagnetise(state); });
+  step.time_step_s = select(begins, T(1e6), step.time_step_s);
   solve_current(coil, state, step, position, guess);
-  if (begins) state.flux_rate_V = T(0);
+  state.flux_rate_V = select(begins, T(0), state.flux_rate_V);
 }
 
 }  // namespace spoolflow::sensor

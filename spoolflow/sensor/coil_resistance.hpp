@@ -20,7 +20,7 @@ template <class T>
 struct CoilResistanceState {
   T resistance_Ohm{};
   T variance_Ohm2{};
-  bool implausible{};  ///< known to better than a tenth, and not what copper can have between -60 and 220 degC
+  Truth<T> implausible{};  ///< known to better than a tenth, and not what copper can have between -60 and 220 degC
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
@@ -39,20 +39,24 @@ struct CoilEquation {
 template <class T>
 constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state,
                                  const CoilEquation<T>& sample) {
-  if (!(is_number(sample.voltage_V) && coil.resistance_Ohm > T(0) && sample.time_step_s > T(0))) return;
-  if (state.variance_Ohm2 == T(0)) state = {coil.resistance_Ohm, squared(coil.uncertainty_Ohm), false};
-  state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * sample.time_step_s;
-  const T misfit_V = sample.voltage_V - sample.flux_rate_V - state.resistance_Ohm * sample.current_A;
-  const T covariance = state.variance_Ohm2 * sample.current_A;
-  const T gain = covariance * sample.time_step_s /
-                 (covariance * sample.current_A * sample.time_step_s + squared(coil.voltage_noise_V_root_s) + T(1e-12));
-  state.resistance_Ohm += gain * misfit_V;
-  state.variance_Ohm2 -= gain * covariance;
-  constexpr T coldest = T(0.6);  // resistance over the calibrated one
-  constexpr T warmest = T(1.7);
-  state.implausible =
-      state.variance_Ohm2 < squared(T(0.1) * coil.resistance_Ohm) &&
-      (state.resistance_Ohm < coldest * coil.resistance_Ohm || state.resistance_Ohm > warmest * coil.resistance_Ohm);
+  in_valves(is_number(sample.voltage_V) && coil.resistance_Ohm > T(0) && sample.time_step_s > T(0), state, [&] {
+    const Truth<T> begins = state.variance_Ohm2 == T(0);
+    state.resistance_Ohm = select(begins, coil.resistance_Ohm, state.resistance_Ohm);
+    state.variance_Ohm2 = select(begins, squared(coil.uncertainty_Ohm), state.variance_Ohm2);
+    state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * sample.time_step_s;
+    const T misfit_V = sample.voltage_V - sample.flux_rate_V - state.resistance_Ohm * sample.current_A;
+    const T covariance = state.variance_Ohm2 * sample.current_A;
+    const T gain =
+        covariance * sample.time_step_s /
+        (covariance * sample.current_A * sample.time_step_s + squared(coil.voltage_noise_V_root_s) + T(1e-12));
+    state.resistance_Ohm += gain * misfit_V;
+    state.variance_Ohm2 -= gain * covariance;
+    const T coldest = T(0.6);  // resistance over the calibrated one
+    const T warmest = T(1.7);
+    state.implausible =
+        state.variance_Ohm2 < squared(T(0.1) * coil.resistance_Ohm) &&
+        (state.resistance_Ohm < coldest * coil.resistance_Ohm || state.resistance_Ohm > warmest * coil.resistance_Ohm);
+  });
 }
 
 }  // namespace spoolflow::sensor

@@ -29,7 +29,7 @@ struct FrictionState {
   T held_N{};      ///< friction as it was some milliseconds ago
   T earlier_N{};   ///< and some before
   T held_s{};
-  bool started{};
+  Truth<T> started{};
 };
 
 /// Friction lies between these; > 0 hinders opening.
@@ -69,19 +69,20 @@ template <class T>
                                                           const PositionSensor<T>& sensor,
                                                           const PositionPoint<T>& position, T apparent_N,
                                                           T time_step_s) {
-  if (!state.started) {
-    state.started = true;
+  in_valves(!state.started, state, [&] {
+    state.started = Truth<T>(true);
     state.smooth_m = state.followed_m = position.position_m;
     state.rest_s = friction.ageing_s;
-  }
-  constexpr T smoothing_s = T(0.03);
-  constexpr T delay_s = T(0.004);
+  });
+  const T smoothing_s = T(0.03);
+  const T delay_s = T(0.004);
   const T slack_m = T(2) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
   const T reach_N = friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
   const T holds_N = bounds.sticking_N + T(2) * friction.tolerance_N;
   T breakaway_N{};
   const T rested_s = state.rest_s;
-  if (position.motion == Motion::rest) {
+  const Truth<T> rests = is(position.motion, Motion::rest);
+  in_valves(rests, state, [&] {
     state.rest_s += time_step_s;
     const T share = larger(time_step_s / larger(state.rest_s, T(1e-9)), time_step_s / (smoothing_s + time_step_s));
     state.smooth_m += smaller(share, T(1)) * (position.position_m - state.smooth_m);
@@ -95,23 +96,23 @@ template <class T>
     // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
     const T most_N = larger(bounds.sticking_N - reach_N, T(0));
     state.gauge_N = limited(state.gauge_N, -most_N, most_N);
-  } else {
-    const bool up = position.travel_m > T(0);
-    const T direction = select(up, T(1), T(-1));
-    if (rested_s > T(0)) breakaway_N = direction * larger(direction * state.held_N, direction * state.earlier_N);
-    const bool sliding = position.motion != Motion::transient;
-    const T friction_N = sliding ? direction * bounds.sliding_N : limited(apparent_N, -holds_N, holds_N);
-    state.gauge_N = sliding ? friction_N - direction * reach_N : friction_N;
+  });
+  in_valves(!rests, state, [&] {
+    const T direction = select(position.travel_m > T(0), T(1), T(-1));
+    breakaway_N = select(!rests && rested_s > T(0),
+                         direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
+    const Truth<T> sliding = !is(position.motion, Motion::transient);
+    const T friction_N = select(sliding, direction * bounds.sliding_N, limited(apparent_N, -holds_N, holds_N));
+    state.gauge_N = select(sliding, friction_N - direction * reach_N, friction_N);
     state.smooth_m = position.position_m;
     state.followed_m = position.position_m - direction * slack_m;
     state.rest_s = T(0);
-  }
+  });
   state.held_s += time_step_s;
-  if (state.held_s > delay_s - T(0.5) * time_step_s) {  // no matter how the sum rounds
-    state.held_s = T(0);
-    state.earlier_N = state.held_N;
-    state.held_N = apparent_N;
-  }
+  const Truth<T> delayed = state.held_s > delay_s - T(0.5) * time_step_s;  // no matter how the sum rounds
+  state.held_s = select(delayed, T(0), state.held_s);
+  state.earlier_N = select(delayed, state.held_N, state.earlier_N);
+  state.held_N = select(delayed, apparent_N, state.held_N);
   return {limited(state.gauge_N - reach_N, -holds_N, holds_N), limited(state.gauge_N + reach_N, -holds_N, holds_N),
           breakaway_N, rested_s};
 }

@@ -98,7 +98,15 @@ constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteres
   const T change = flux - state.flux;
   const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
   HysteresisPoint<T> point{T(0), T(0)};
-  if (change < T(0)) {
+  if constexpr (!one_valve<T>) {
+    for (unsigned k = 0; k < hysteresis_elements; ++k) {
+      const T stiffness = hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k];
+      const T deflection = change + state.deflection[k];
+      const T kept = limited(deflection, -hysteresis.threshold[k], hysteresis.threshold[k]);
+      point.value += stiffness * kept;
+      point.slope += select(kept == deflection, stiffness, T(0));
+    }
+  } else if (change < T(0)) {
     detail::add_stops<false, 0, false>(hysteresis, state, -change, share, point);
     point.value = -point.value;
   } else {
@@ -111,7 +119,10 @@ constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteres
 template <class T>
 constexpr void advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
   const T change = flux - state.flux;
-  if (change < T(0)) {
+  if constexpr (!one_valve<T>) {
+    for (unsigned k = 0; k < hysteresis_elements; ++k)
+      state.deflection[k] = limited(change + state.deflection[k], -hysteresis.threshold[k], hysteresis.threshold[k]);
+  } else if (change < T(0)) {
     detail::move_stops<false, 0, false>(hysteresis, state, -change);
   } else {
     detail::move_stops<true, 0, false>(hysteresis, state, change);

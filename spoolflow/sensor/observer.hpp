@@ -53,7 +53,7 @@ struct ObserverState {
   T flow_m3_per_s{};      ///< as answered
   T metered_m3_per_s{};   ///< as a flow meter with its lag would read it
   T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
-  bool started{};
+  Truth<T> started{};
   Estimate<T> last{};
 };
 
@@ -64,15 +64,14 @@ static_assert(sizeof(ObserverState<float>) < 2048);
 namespace detail {
 
 /// A slip is over in a few milliseconds, and so are most of its swings of flow: the answer follows them at this pace.
-template <class T>
-inline constexpr T slip_smoothing_s = T(0.02);
+inline constexpr double slip_smoothing_s = 0.02;
 
 template <class T>
 constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
-  state.started = true;
+  state.started = Truth<T>(true);
   state.oil_temperature_K =
-      is_number(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1);
+      select(is_number(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.pressure.pressure_difference_Pa = T(0.5) * highest_Pa;
   state.pressure.variance_Pa2 = squared(T(0.3) * highest_Pa);
   state.pressure.liveliness = valve.pressure.first_liveliness;
@@ -80,16 +79,16 @@ constexpr void start(const ObserverParameters<T>& valve, ObserverState<T>& state
       state.pressure.variance_Pa2 / squared(valve.band.unseen_factor * valve.pressure.first_liveliness);
   state.pressure.friction_ratio = valve.friction.operation_ratio;
   state.pressure.ratio_variance = squared(valve.pressure.ratio_deviation);
-  state.pressure.innovation = usual_innovation<T>;
+  state.pressure.innovation = T(usual_innovation);
 }
 
 /// The oil warms slowly and its sensor is noisy.
 template <class T>
 constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& sample) {
-  constexpr T smoothing_s = T(2);
-  if (!is_number(sample.oil_temperature_K)) return;
-  state.oil_temperature_K +=
-      (sample.oil_temperature_K - state.oil_temperature_K) * smaller(sample.time_step_s / smoothing_s, T(1));
+  const T smoothing_s = T(2);
+  state.oil_temperature_K += select(
+      is_number(sample.oil_temperature_K),
+      (sample.oil_temperature_K - state.oil_temperature_K) * smaller(sample.time_step_s / smoothing_s, T(1)), T(0));
 }
 
 }  // namespace detail
@@ -100,11 +99,13 @@ constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& samp
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& sample) {
-  if (const Status held = unusable(sample); held != Status::none) {
-    state.last.status = held;
-    return state.last;
+  if constexpr (one_valve<T>) {
+    if (const Status held = unusable(sample); held != Status::none) {
+      state.last.status = held;
+      return state.last;
+    }
   }
-  if (!state.started) detail::start(valve, state, sample);
+  in_valves(!state.started, state, [&] { detail::start(valve, state, sample); });
   detail::follow_temperature(state, sample);
   const T dt = sample.time_step_s;
 
@@ -132,45 +133,51 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
       step(valve.friction, state.friction, bounds, valve.position_sensor, position, apparent_friction_N, dt);
 
   // Pressure difference: every newton tells while the spool slides; at rest only what friction cannot explain.
-  const bool closed = position.position_m < valve.closed_below_m;
-  const bool sliding = position.motion == Motion::opening || position.motion == Motion::closing;
-  const T direction = position.travel_m > T(0) ? T(1) : T(-1);
+  const Truth<T> closed = position.position_m < valve.closed_below_m;
+  const Truth<T> sliding = is(position.motion, Motion::opening) || is(position.motion, Motion::closing);
+  const T direction = select(position.travel_m > T(0), T(1), T(-1));
   const T friction_N =
-      sliding ? direction * bounds.sliding_N : limited(apparent_friction_N, resting.lower_N, resting.upper_N);
+      select(sliding, direction * bounds.sliding_N, limited(apparent_friction_N, resting.lower_N, resting.upper_N));
   const T least_slope = T(1e-8);
   const T slope = larger(edge.flow_force_per_pressure_N_Pa, least_slope);
   const T force_noise_N = sqrt(squared(valve.band.force_residual_N) + squared(actuator.uncertainty_N) +
                                squared(valve.band.friction_share * bounds.sliding_N));
   state.force_noise_N = force_noise_N;
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
-  if (closed) expect_change(valve.pressure, pressure);
-  if (sliding) {
+  in_valves(closed, pressure, [&] { expect_change(valve.pressure, pressure); });
+  in_valves(sliding, pressure, [&] {
     drift(valve.pressure, pressure, dt, highest_Pa);
     forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, dt);
-  } else {
-    drift_unseen(valve.pressure, pressure, dt, highest_Pa);
-    // Slow enough to be followed in those samples that have least else to do.
-    if (resting.breakaway_N == T(0)) follow_coil(valve.actuator, state.actuator, sample);
-  }
-  if (!closed) {
-    const T surprise_N = apparent_friction_N - friction_N;
-    if (sliding) {
-      const T whole_slope = larger(slope + direction * spool_per_pressure_N_Pa, T(0.3) * slope);
-      const T ratio_slope_N = direction * (edge.friction_N + actuator.friction_half_width_N);
+  });
+  in_valves(!sliding, pressure, [&] { drift_unseen(valve.pressure, pressure, dt, highest_Pa); });
+  // The coil is slow enough to be followed in those samples that have least else to do.
+  in_valves(!sliding && resting.breakaway_N == T(0), state.actuator,
+            [&] { follow_coil(valve.actuator, state.actuator, sample); });
+  const T surprise_N = apparent_friction_N - friction_N;
+  in_valves(!closed && sliding, pressure, [&] {
+    const T whole_slope = larger(slope + direction * spool_per_pressure_N_Pa, T(0.3) * slope);
+    const T ratio_slope_N = direction * (edge.friction_N + actuator.friction_half_width_N);
+    in_valves(dt > T(0), pressure, [&] {
       update_sliding(valve.pressure, pressure, {surprise_N, whole_slope, ratio_slope_N, force_noise_N}, dt);
-      if (settled(pressure, slope, force_noise_N)) learn_liveliness(valve.pressure, pressure, force_noise_N / slope);
-    } else if (resting.breakaway_N != T(0) && resting.rested_s > T(0.03) + T(0.5) * dt) {
-      const T aged = ageing(valve.friction, resting.rested_s);
-      const T expected_N = direction * (aged * spool_N + armature_N);
-      const T noise_N = sqrt(squared(force_noise_N) + squared(valve.friction.breakaway_share * expected_N));
-      const T whole_slope = larger(slope + direction * aged * spool_per_pressure_N_Pa, T(0.3) * slope);
-      const T ratio_slope_N = direction * (aged * edge.friction_N + actuator.friction_half_width_N);
-      update_breakaway(pressure, {resting.breakaway_N - expected_N, whole_slope, ratio_slope_N, noise_N});
-    } else if (position.motion == Motion::rest && surprise_N != T(0)) {
-      const T left_N = yield(valve.pressure, pressure, {surprise_N, slope, T(0), valve.friction.tolerance_N}, dt);
-      if (magnitude(apparent_friction_N) < bounds.sticking_N) state.friction.gauge_N += left_N;
-    }
-  }
+    });
+    in_valves(settled(pressure, slope, force_noise_N), pressure,
+              [&] { learn_liveliness(valve.pressure, pressure, force_noise_N / slope); });
+  });
+  const Truth<T> breaks =
+      !closed && !sliding && resting.breakaway_N != T(0) && resting.rested_s > T(0.03) + T(0.5) * dt;
+  in_valves(breaks, pressure, [&] {
+    const T aged = ageing(valve.friction, resting.rested_s);
+    const T expected_N = direction * (aged * spool_N + armature_N);
+    const T noise_N = sqrt(squared(force_noise_N) + squared(valve.friction.breakaway_share * expected_N));
+    const T whole_slope = larger(slope + direction * aged * spool_per_pressure_N_Pa, T(0.3) * slope);
+    const T ratio_slope_N = direction * (aged * edge.friction_N + actuator.friction_half_width_N);
+    update_breakaway(pressure, {resting.breakaway_N - expected_N, whole_slope, ratio_slope_N, noise_N});
+  });
+  const Truth<T> yields = !closed && !sliding && !breaks && is(position.motion, Motion::rest) && surprise_N != T(0);
+  in_valves(yields, pressure, [&] {
+    const T left_N = yield(valve.pressure, pressure, {surprise_N, slope, T(0), valve.friction.tolerance_N}, dt);
+    state.friction.gauge_N += select(yields && magnitude(apparent_friction_N) < bounds.sticking_N, left_N, T(0));
+  });
   pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
 
   // Flow rate with its band.
@@ -178,13 +185,13 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const T root = sqrt(pressure.pressure_difference_Pa);
   const T flow_m3_per_s = larger(edge.conductance * root, T(0));
   const T following =
-      position.motion == Motion::transient ? smaller(dt / (detail::slip_smoothing_s<T> + dt), T(1)) : T(1);
+      select(is(position.motion, Motion::transient), smaller(dt / (T(detail::slip_smoothing_s) + dt), T(1)), T(1));
   const T change_m3_per_s = following * (flow_m3_per_s - state.flow_m3_per_s);
   state.flow_m3_per_s += change_m3_per_s;
   out.flow_m3_per_s = state.flow_m3_per_s;
   state.metered_m3_per_s +=
       smaller(dt / (valve.band.reference_lag_s + dt), T(1)) * (out.flow_m3_per_s - state.metered_m3_per_s);
-  const T share = sliding ? valve.band.force_share : valve.band.rest_share;
+  const T share = select(sliding, valve.band.force_share, valve.band.rest_share);
   const T unseen_Pa = unseen_change_Pa(pressure, valve.band.unseen_factor);
   const T deviation_Pa = valve.band.coverage_factor * band_factor(pressure) *
                          sqrt(squared(unseen_Pa) + squared(share * force_noise_N / slope));
@@ -192,9 +199,12 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const T certain_Pa = valve.band.coverage_factor * (valve.band.force_share * force_noise_N + tolerance_N) / slope;
   T below_Pa = deviation_Pa;
   T above_Pa = deviation_Pa;
-  if (!sliding && !closed) {
-    below_Pa = smaller(below_Pa, larger(resting.upper_N - apparent_friction_N, T(0)) / slope + certain_Pa);
-    above_Pa = smaller(above_Pa, larger(apparent_friction_N - resting.lower_N, T(0)) / slope + certain_Pa);
+  const Truth<T> bounded = !sliding && !closed;
+  if (any(bounded)) {
+    below_Pa = select(
+        bounded, smaller(below_Pa, larger(resting.upper_N - apparent_friction_N, T(0)) / slope + certain_Pa), below_Pa);
+    above_Pa = select(
+        bounded, smaller(above_Pa, larger(apparent_friction_N - resting.lower_N, T(0)) / slope + certain_Pa), above_Pa);
   }
   const T residual = T(1.2) * valve.band.flow_residual_m3_per_s;
   const T lag_m3_per_s = state.metered_m3_per_s - out.flow_m3_per_s;
@@ -210,7 +220,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   out.spring_force_N = spring_N;
   out.flow_force_N = edge.flow_force_N;
   out.friction_force_N = friction_N;
-  Status status{};
+  typename ScalarTypes<T>::StatusWord status{};
   mark(status, closed, Status::closed);
   mark(status, !sliding, Status::spool_at_rest);
   mark(status, !actuator.inside_map, Status::outside_force_map);

@@ -26,7 +26,31 @@ enum class Motion : std::uint8_t {
   closing,
 };
 
+constexpr bool is(Motion motion, Motion which) {
+  return motion == which;
+}
+constexpr Motion select(bool condition, Motion yes, Motion no) {
+  return condition ? yes : no;
+}
+constexpr int select(bool condition, int yes, int no) {
+  return condition ? yes : no;
+}
+
+/// What a spool does; of several, what each of them does.
+template <class T>
+using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
+
 inline constexpr int position_blocks = 32;
+
+/// One number of a ring; a pack takes each valve's own.
+template <class T>
+constexpr T in_ring(const std::array<T, position_blocks>& ring, int place) {
+  return ring[static_cast<unsigned>(place)];
+}
+template <class T>
+constexpr void put_in_ring(std::array<T, position_blocks>& ring, int place, T value) {
+  ring[static_cast<unsigned>(place)] = value;
+}
 
 /// Trivially copyable memory of a track. The ring holds means over blocks of some milliseconds, newest at `newest`.
 template <class T>
@@ -43,17 +67,17 @@ struct PositionState {
   T fault_s{};      ///< how long the fault has lasted
   T unsettled_s{};  ///< time until a slip counts as over
   T travel_m{};     ///< over the last blocks of a motion, sign of the velocity
-  std::int32_t samples{};
-  std::int32_t newest{};
-  std::int32_t blocks{};
-  Motion motion{Motion::rest};
+  Index<T> samples{};
+  Index<T> newest{};
+  Index<T> blocks{};
+  MotionOf<T> motion{};  ///< at rest
 };
 
 template <class T>
 struct PositionPoint {
   T position_m;  ///< free of drift and faults
-  Motion motion;
-  bool fault;
+  MotionOf<T> motion;
+  Truth<T> fault;
   T travel_m;  ///< sign of the velocity of what `motion` tells
 };
 
@@ -62,61 +86,68 @@ namespace detail {
 /// The mean that is `back` blocks before the newest of a ring.
 template <class T>
 constexpr T block(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int back) {
-  return ring[static_cast<unsigned>((state.newest - back) & (position_blocks - 1))];
+  return in_ring(ring, (state.newest - back) & (position_blocks - 1));
 }
 
 /// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `apart`
 /// blocks of the ring.
 template <class T>
-constexpr Motion even_travel(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int apart,
-                             T threshold_m) {
+constexpr MotionOf<T> even_travel(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int apart,
+                                  T threshold_m) {
   const T now = block(state, ring, 0);
   const T before = block(state, ring, apart);
   const T newest_m = now - before;
-  if (magnitude(newest_m) < threshold_m) return Motion::rest;
+  const T size_m = magnitude(newest_m);
+  const MotionOf<T> rest = MotionOf<T>(Motion::rest);
+  Truth<T> even = !(size_m < threshold_m);
+  if (!any(even)) return rest;
   const T direction = select(newest_m > T(0), T(1), T(-1));
   const T earlier = block(state, ring, 2 * apart);
   const T middle_m = direction * (before - earlier);
-  if (!(middle_m > T(0)) || middle_m < threshold_m) return Motion::rest;
+  even = even && middle_m > T(0) && !(middle_m < threshold_m);
+  if (!any(even)) return rest;
   const T oldest_m = direction * (earlier - block(state, ring, 3 * apart));
-  if (!(oldest_m > T(0)) || oldest_m < threshold_m) return Motion::rest;
-  const T size_m = magnitude(newest_m);
+  even = even && oldest_m > T(0) && !(oldest_m < threshold_m);
+  if (!any(even)) return rest;
   const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
-  if (larger(larger(size_m, middle_m), oldest_m) > T(2) * least_m + threshold_m) return Motion::rest;
-  return newest_m > T(0) ? Motion::opening : Motion::closing;
+  even = even && !(larger(larger(size_m, middle_m), oldest_m) > T(2) * least_m + threshold_m);
+  return select(even, select(newest_m > T(0), MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
 }
 
 template <class T>
 [[gnu::always_inline]] constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& state) {
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
-  const auto newest = static_cast<unsigned>(state.newest);
-  state.block_m[newest] = state.sum_m * state.per_block_samples;
-  state.four_blocks_m[newest] = T(0.25) * (state.block_m[newest] + block(state, state.block_m, 1) +
-                                           block(state, state.block_m, 2) + block(state, state.block_m, 3));
+  put_in_ring(state.block_m, state.newest, state.sum_m * state.per_block_samples);
+  put_in_ring(state.four_blocks_m, state.newest,
+              T(0.25) * (block(state, state.block_m, 0) + block(state, state.block_m, 1) +
+                         block(state, state.block_m, 2) + block(state, state.block_m, 3)));
   state.block_s = state.sum_s;
-  state.blocks = state.blocks < position_blocks ? state.blocks + 1 : position_blocks;
+  state.blocks = select(state.blocks < position_blocks, state.blocks + 1, Index<T>(position_blocks));
   state.sum_m = state.sum_s = T(0);
-  state.samples = 0;
+  state.samples = Index<T>(0);
   const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);  // of the difference of two blocks
 
-  Motion motion = Motion::rest;
-  if (state.blocks > 6) motion = even_travel(state, state.block_m, 2, T(3) * noise_m);
-  if (motion == Motion::rest && state.blocks > 27)
-    motion = even_travel(state, state.four_blocks_m, 8, T(1.5) * noise_m);
-  const bool even = motion != Motion::rest;
-  if (!even && state.blocks > 2) {
+  using Motions = MotionOf<T>;
+  Motions motion = Motions(Motion::rest);
+  const Truth<T> near = state.blocks > 6;
+  if (any(near)) motion = select(near, even_travel(state, state.block_m, 2, T(3) * noise_m), motion);
+  const Truth<T> far = is(motion, Motion::rest) && state.blocks > 27;
+  if (any(far)) motion = select(far, even_travel(state, state.four_blocks_m, 8, T(1.5) * noise_m), motion);
+  const Truth<T> even = !is(motion, Motion::rest);
+  const Truth<T> uneven = !even && state.blocks > 2;
+  if (any(uneven)) {
     const T signed_travel_m = block(state, state.block_m, 0) - block(state, state.block_m, 2);
-    const T travel_m = magnitude(signed_travel_m);
     // A slip: faster than 0.5 mm/s and beyond five times the noise.
-    if (travel_m > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m)) {
-      state.unsettled_s = T(0.03);
-      state.travel_m = signed_travel_m;
-    }
+    const Truth<T> slips =
+        uneven && magnitude(signed_travel_m) > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m);
+    state.unsettled_s = select(slips, T(0.03), state.unsettled_s);
+    state.travel_m = select(slips, signed_travel_m, state.travel_m);
   }
-  if (even) state.travel_m = motion == Motion::opening ? T(1e-6) : T(-1e-6);
-  state.unsettled_s = even ? T(0) : larger(state.unsettled_s - state.block_s, T(0));
-  state.motion = even ? motion : (state.unsettled_s > T(0.5) * state.block_s ? Motion::transient : Motion::rest);
+  state.travel_m = select(even, select(is(motion, Motion::opening), T(1e-6), T(-1e-6)), state.travel_m);
+  state.unsettled_s = select(even, T(0), larger(state.unsettled_s - state.block_s, T(0)));
+  const Truth<T> unsettled = state.unsettled_s > T(0.5) * state.block_s;
+  state.motion = select(even, motion, select(unsettled, Motions(Motion::transient), Motions(Motion::rest)));
 }
 
 }  // namespace detail
@@ -127,32 +158,35 @@ template <class T>
 [[gnu::always_inline]] constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                        T time_step_s, T position_m, T oil_temperature_K) {
   const T drift_free_m = position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
-  if (state.blocks == 0 && state.samples == 0) state.last_m = drift_free_m;
+  state.last_m = select(state.blocks == 0 && state.samples == 0, drift_free_m, state.last_m);
   const T corrected_m = drift_free_m - state.offset_m;
   const T surprise_m = corrected_m - state.last_m - state.step_m;
   const T credible_m =
       T(20) * sensor.noise_m + T(20e-6) + sensor.hardest_acceleration_m_per_s2 * time_step_s * time_step_s;
   T believed_m = corrected_m;
-  if (magnitude(surprise_m) > credible_m) {
+  const Truth<T> jumps = magnitude(surprise_m) > credible_m;
+  if (any(jumps)) {
     const T offset_m = state.offset_m + surprise_m;
-    state.offset_m = magnitude(offset_m) < credible_m ? T(0) : offset_m;
-    state.fault_s = T(0);
-    believed_m = drift_free_m - state.offset_m;
+    state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
+    state.fault_s = select(jumps, T(0), state.fault_s);
+    believed_m = select(jumps, drift_free_m - state.offset_m, believed_m);
   }
-  if (state.offset_m != T(0)) {
-    state.fault_s += time_step_s;
-    if (state.fault_s > T(0.25) + T(0.5) * time_step_s) {
-      state.offset_m = T(0);
-      believed_m = drift_free_m;
-    }
+  const Truth<T> faulty = state.offset_m != T(0);
+  if (any(faulty)) {
+    state.fault_s = select(faulty, state.fault_s + time_step_s, state.fault_s);
+    const Truth<T> believes = faulty && state.fault_s > T(0.25) + T(0.5) * time_step_s;
+    state.offset_m = select(believes, T(0), state.offset_m);
+    believed_m = select(believes, drift_free_m, believed_m);
   }
   state.step_m = limited(believed_m - state.last_m, -credible_m, credible_m);
   state.last_m = believed_m;
   state.sum_m += believed_m;
   state.sum_s += time_step_s;
-  ++state.samples;
-  constexpr T block_s = T(2e-3);
-  if (state.sum_s > block_s - T(0.5) * time_step_s) detail::close_block(sensor, state);
+  state.samples = state.samples + 1;
+  const T block_s = T(2e-3);
+  in_valves(
+      state.sum_s > block_s - T(0.5) * time_step_s,
+      state, [&]() __attribute__((always_inline)) { detail::close_block(sensor, state); });
   return {believed_m, state.motion, state.offset_m != T(0), state.travel_m};
 }
 

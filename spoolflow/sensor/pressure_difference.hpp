@@ -39,8 +39,7 @@ struct PressureState {
 
 /// The averaged innovation of a sensor whose band is as wide as its parts tell. Less than 1, since most of what they
 /// tell is common to many samples and taken up by the pressure difference.
-template <class T>
-inline constexpr T usual_innovation = T(0.3);
+inline constexpr double usual_innovation = 0.3;
 
 /// A force balance as a measurement of the pressure difference.
 template <class T>
@@ -53,8 +52,8 @@ struct ForceSurprise {
 
 template <class T>
 constexpr void drift(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s, T highest_Pa) {
-  if (state.variance_Pa2 < squared(T(0.4) * highest_Pa))
-    state.variance_Pa2 += squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s;
+  state.variance_Pa2 += select(state.variance_Pa2 < squared(T(0.4) * highest_Pa),
+                               squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s, T(0));
 }
 
 /// The friction ratio goes back towards what was calibrated: it has learnt where the spool was, and at what speed.
@@ -74,7 +73,8 @@ constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.unseen_Pa2 += variance_Pa2;
   state.doubt_Pa2 += variance_Pa2;
-  if (state.variance_Pa2 < squared(T(0.4) * highest_Pa)) state.variance_Pa2 += state.liveliness * variance_Pa2;
+  state.variance_Pa2 +=
+      select(state.variance_Pa2 < squared(T(0.4) * highest_Pa), state.liveliness * variance_Pa2, T(0));
 }
 
 /// Behind a closed valve the supply may do what it likes, however steady it has been.
@@ -94,15 +94,15 @@ constexpr T unseen_change_Pa(const PressureState<T>& state, T unseen_factor) {
 /// lively the supply is.
 template <class T>
 constexpr void learn_liveliness(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
-  if (state.unseen_Pa2 > squared(noise_Pa)) {
+  in_valves(state.unseen_Pa2 > squared(noise_Pa), state, [&] {
     const T change2 = squared(state.pressure_difference_Pa - state.settled_Pa);
     const T shown = smaller((change2 - T(0.25) * squared(noise_Pa)) / state.unseen_Pa2, T(1));
-    const T pace = shown > state.liveliness ? T(0.8) : T(0.2);
+    const T pace = select(shown > state.liveliness, T(0.8), T(0.2));
     state.liveliness =
         limited(state.liveliness + pace * (shown - state.liveliness), squared(pressure.least_liveliness), T(1));
     state.unseen_Pa2 = T(0);
-  }
-  if (state.unseen_Pa2 == T(0)) state.settled_Pa = state.pressure_difference_Pa;
+  });
+  state.settled_Pa = select(state.unseen_Pa2 == T(0), state.pressure_difference_Pa, state.settled_Pa);
 }
 
 /// What a surprise says of the pressure difference, in the sense of Kalman.
@@ -126,9 +126,10 @@ constexpr Correction<T> correction(PressureState<T>& state, const ForceSurprise<
   const T with_ratio = state.covariance_Pa * slope + state.ratio_variance * surprise.ratio_slope_N;
   T believed2 = slope * with_pressure + surprise.ratio_slope_N * with_ratio;
   const T excess2 = squared(surprise.force_N) * T(1.0 / 9) - believed2 - squared(surprise.noise_N);
-  constexpr T opening_s = T(0.05);
-  if (excess2 > T(0)) {
-    const T opened2 = excess2 * smaller(time_step_s / opening_s, T(1));
+  const T opening_s = T(0.05);
+  const Truth<T> exceeds = excess2 > T(0);
+  if (any(exceeds)) {
+    const T opened2 = select(exceeds, excess2 * smaller(time_step_s / opening_s, T(1)), T(0));
     state.variance_Pa2 += opened2 / squared(slope);
     with_pressure += opened2 / slope;
     believed2 += opened2;
@@ -151,16 +152,15 @@ constexpr void correct_pressure(PressureState<T>& state, const Correction<T>& to
 template <class T>
 constexpr void update_sliding(const PressureParameters<T>& pressure, PressureState<T>& state,
                               const ForceSurprise<T>& surprise, T time_step_s) {
-  if (!(time_step_s > T(0))) return;
   const T noise_N2 = squared(surprise.noise_N) * (pressure.force_correlation_s / time_step_s);
-  constexpr T averaging_s = T(5);
+  const T averaging_s = T(5);
   const T expected_N2 = squared(surprise.slope_N_per_Pa) * state.variance_Pa2 + squared(surprise.noise_N);
   state.innovation +=
       (squared(surprise.force_N) / expected_N2 - state.innovation) * smaller(time_step_s / averaging_s, T(1));
   const Correction<T> told = correction(state, surprise, noise_N2, time_step_s);
   const T ratio_gain_1_per_N = told.covariance_N / told.variance_N2;
-  constexpr T least = T(0.05);  // dither may all but free the spool
-  constexpr T most = T(2.5);
+  const T least = T(0.05);  // dither may all but free the spool
+  const T most = T(2.5);
   state.friction_ratio = limited(state.friction_ratio + ratio_gain_1_per_N * told.force_N, least, most);
   state.ratio_variance -= ratio_gain_1_per_N * told.covariance_N;
   correct_pressure(state, told);
@@ -176,12 +176,12 @@ constexpr void update_breakaway(PressureState<T>& state, const ForceSurprise<T>&
 /// supply that leaps, narrower where every sample confirms the one before.
 template <class T>
 constexpr T band_factor(const PressureState<T>& state) {
-  return limited(sqrt(sqrt(state.innovation * (1 / usual_innovation<T>))), T(0.35), T(2.5));
+  return limited(sqrt(sqrt(state.innovation * (T(1) / T(usual_innovation)))), T(0.35), T(2.5));
 }
 
 /// Whether the pressure difference, at a given friction ratio, is known to better than half of `noise_N`.
 template <class T>
-constexpr bool settled(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
+constexpr Truth<T> settled(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
   const T variance2 = state.variance_Pa2 * state.ratio_variance - squared(state.covariance_Pa);
   return squared(slope_N_per_Pa) * variance2 < T(0.25) * squared(noise_N) * state.ratio_variance;
 }

@@ -39,6 +39,18 @@ constexpr T select(bool condition, T yes, T no) {
   return condition ? yes : no;
 }
 
+/// Whether it holds for one valve at least; where it holds for none, nothing need be done.
+constexpr bool any(bool condition) {
+  return condition;
+}
+
+/// Does `body` to the state of those valves for which the condition holds: one valve branches, a pack does it to all
+/// and takes back what it did to the others. What the body writes beside the state it selects itself.
+template <class State, class Body>
+[[gnu::always_inline]] constexpr void in_valves(bool condition, State& /*state*/, const Body& body) {
+  if (condition) body();
+}
+
 /// The integer part of a number >= 0, as a table index.
 template <std::floating_point T>
 constexpr int table_index(T value) {

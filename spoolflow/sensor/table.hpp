@@ -227,13 +227,14 @@ struct Volume {
     const T upper_left = layer.share - upper_right;
     const T lower_right = column.share - upper_right;
     const T lower_left = T(1) - layer.share - lower_right;
-    const auto between = [&](const T* corner) {
-      const T* const above = corner + Rows * Columns;
-      return lower_left * corner[0] + lower_right * corner[1] + upper_left * above[0] + upper_right * above[1];
+    const auto place = corner(values.data(), (layer.index * Rows + row.index) * Columns + column.index);
+    const auto between = [&](int from) {
+      const auto [low_left, low_right] = two(place, from);
+      const auto [high_left, high_right] = two(place, from + Rows * Columns);
+      return lower_left * low_left + lower_right * low_right + upper_left * high_left + upper_right * high_right;
     };
-    const T* const corner = &node(layer.index, row.index, column.index);
-    const T low = between(corner);
-    const T rise = between(corner + Columns) - low;
+    const T low = between(0);
+    const T rise = between(Columns) - low;
     return {low + row.share * rise, rise * per_row_spacing};
   }
 };

@@ -5,6 +5,7 @@
 namespace spoolflow::validation {
 
 const BatchSteps condensed_avx2 = condensed_steps;
+const BatchSteps observer_avx2 = observer_steps;
 
 }  // namespace spoolflow::validation
 #else
@@ -13,6 +14,7 @@ const BatchSteps condensed_avx2 = condensed_steps;
 namespace spoolflow::validation {
 
 const BatchSteps condensed_avx2{};
+const BatchSteps observer_avx2{};
 
 }  // namespace spoolflow::validation
 #endif

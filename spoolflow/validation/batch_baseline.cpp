@@ -3,5 +3,6 @@
 namespace spoolflow::validation {
 
 const BatchSteps condensed_baseline = condensed_steps;
+const BatchSteps observer_baseline = observer_steps;
 
 }  // namespace spoolflow::validation

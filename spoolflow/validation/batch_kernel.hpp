@@ -5,6 +5,7 @@
 #include <new>
 
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/validation/batch_steps.hpp"
 #include "spoolflow/validation/pack_tables.hpp"
@@ -22,6 +23,28 @@ class Described {
   template <class Table>
   void table(const char* /*key*/, const Table& numbers, int /*per_record*/) {
     add(numbers.data());
+  }
+  template <class Map>
+  void map(const char* key, const Map& map, const char* /*row_key*/, const char* column_key) {
+    axis(key, map.row_axis, 0);
+    axis(column_key, map.column_axis, 0);
+    add(map.values.data());
+  }
+  template <class Curve>
+  void curve(const char* /*key*/, const Curve& curve, const char* axis_key) {
+    axis(axis_key, curve.axis, 0);
+    add(curve.values.data());
+  }
+  template <class Volume>
+  void volume(const char* /*key*/, const Volume& volume) {
+    add(volume.values.data());
+  }
+  void axis(const char* /*key*/, const sensor::Axis<float>& axis, int /*points*/) {
+    for (const float* number : {&axis.first, &axis.spacing, &axis.per_spacing}) add(number);
+  }
+  template <std::size_t Count>
+  void list(const char* /*key*/, const std::array<float, Count>& values, double /*lowest*/, double /*highest*/) {
+    for (const float& value : values) add(&value);
   }
   void number(const char* /*key*/, const float& value, double /*lowest*/, double /*highest*/) { add(&value); }
   [[nodiscard]] const float* at(std::size_t k) const { return addresses_[k]; }
@@ -46,6 +69,28 @@ class SideBySide {
     table.numbers = numbers_;
     table.first = std::bit_cast<Pack::Index>(first);
     ++next_;
+  }
+  template <class Map>
+  void map(const char* key, Map& map, const char* /*row_key*/, const char* column_key) {
+    axis(key, map.row_axis, 0);
+    axis(column_key, map.column_axis, 0);
+    table(key, map.values, 0);
+  }
+  template <class Curve>
+  void curve(const char* key, Curve& curve, const char* axis_key) {
+    axis(axis_key, curve.axis, 0);
+    table(key, curve.values, 0);
+  }
+  template <class Volume>
+  void volume(const char* key, Volume& volume) {
+    table(key, volume.values, 0);
+  }
+  void axis(const char* key, sensor::Axis<Pack>& axis, int /*points*/) {
+    for (Pack* number : {&axis.first, &axis.spacing, &axis.per_spacing}) this->number(key, *number, 0, 0);
+  }
+  template <std::size_t Count>
+  void list(const char* key, std::array<Pack, Count>& values, double lowest, double highest) {
+    for (Pack& value : values) number(key, value, lowest, highest);
   }
   void number(const char* /*key*/, Pack& value, double /*lowest*/, double /*highest*/) {
     std::array<float, valves_together> numbers;
@@ -120,6 +165,17 @@ constexpr BatchSteps condensed_steps{
           [](auto& tables, auto& visitor) { model::describe_condensed_tables(tables, visitor); });
     },
     step_rows<CondensedTogether>};
+
+using ObserverTogether = Together<sensor::ObserverParameters<Pack>, sensor::ObserverState<Pack>>;
+
+constexpr BatchSteps observer_steps{
+    sizeof(ObserverTogether), alignof(ObserverTogether),
+    [](void* memory, const void* const* valves, const float* numbers) {
+      begin_valves<sensor::ObserverParameters<float>, sensor::ObserverParameters<Pack>, sensor::ObserverState<Pack>>(
+          memory, valves, numbers,
+          [](auto& parameters, auto& visitor) { model::describe_observer(parameters, visitor); });
+    },
+    step_rows<ObserverTogether>};
 
 }  // namespace
 }  // namespace spoolflow::validation

@@ -32,6 +32,8 @@ struct BatchSteps {
 };
 
 extern const BatchSteps condensed_baseline;
+extern const BatchSteps observer_baseline;
+extern const BatchSteps observer_avx2;
 extern const BatchSteps condensed_avx2;  ///< bytes = 0 where the compiler's target has none
 
 }  // namespace spoolflow::validation

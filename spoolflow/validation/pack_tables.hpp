@@ -1,7 +1,7 @@
 #pragma once
-/// Tables of several valves, each with its own numbers. A register fetches from all of them by turning rows into lanes:
-/// each valve's neighbouring numbers are loaded at once and then dealt out.
-#include "spoolflow/validation/valve_pack.hpp"
+/// Tables and rings of several valves, each with its own numbers. A register fetches from all of them by turning rows
+/// into lanes: each valve's neighbouring numbers are loaded at once and then dealt out.
+#include "spoolflow/validation/pack_status.hpp"
 
 namespace spoolflow::validation {
 
@@ -129,6 +129,31 @@ template <class Register, int Count>
                                                                             int number) {
   return detail::fetch<detail::Pair>(from, number,
                                      [](const auto& pair) { return detail::pairs_to_lanes<Register>(pair); });
+}
+
+/// Each valve's own number of a ring.
+template <class Register, int Count, std::size_t Size>
+ValvePack<Register, Count> in_ring(const std::array<ValvePack<Register, Count>, Size>& ring,
+                                   const PackIndex<Register, Count>& place) {
+  using Lanes = validation::Lanes<Register, Count>;
+  const auto places = std::bit_cast<std::array<std::int32_t, Lanes::valves>>(place.lanes);
+  const auto* const numbers = reinterpret_cast<const float*>(ring.data());
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) {
+    return Register([&](auto k) {
+      const std::size_t valve = r * Lanes::width + k;
+      return numbers[static_cast<std::size_t>(places[valve]) * Lanes::valves + valve];
+    });
+  });
+}
+template <class Register, int Count, std::size_t Size>
+void put_in_ring(std::array<ValvePack<Register, Count>, Size>& ring, const PackIndex<Register, Count>& place,
+                 const ValvePack<Register, Count>& value) {
+  using Lanes = validation::Lanes<Register, Count>;
+  const auto places = std::bit_cast<std::array<std::int32_t, Lanes::valves>>(place.lanes);
+  const auto values = std::bit_cast<std::array<float, Lanes::valves>>(value.lanes);
+  auto* const numbers = reinterpret_cast<float*>(ring.data());
+  for (std::size_t valve = 0; valve < Lanes::valves; ++valve)
+    numbers[static_cast<std::size_t>(places[valve]) * Lanes::valves + valve] = values[valve];
 }
 
 }  // namespace spoolflow::validation

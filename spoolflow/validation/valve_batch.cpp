@@ -16,6 +16,10 @@ const BatchSteps& steps_of(const sensor::CondensedTables<float>* /*kind*/, Instr
   return instructions == InstructionSet::avx2 ? condensed_avx2 : condensed_baseline;
 }
 
+const BatchSteps& steps_of(const sensor::ObserverParameters<float>* /*kind*/, InstructionSet instructions) {
+  return instructions == InstructionSet::avx2 ? observer_avx2 : observer_baseline;
+}
+
 /// So many samples of some valves are done before those of the next: what they read and write stays in the cache.
 constexpr std::size_t samples_in_block = 64;
 
@@ -131,5 +135,6 @@ void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows&
 }
 
 template class ValveBatch<sensor::CondensedTables<float>>;
+template class ValveBatch<sensor::ObserverParameters<float>>;
 
 }  // namespace spoolflow::validation

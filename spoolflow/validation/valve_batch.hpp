@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spoolflow/sensor/condensed.hpp"
+#include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::validation {
 
@@ -49,7 +50,7 @@ inline constexpr std::size_t valves_together = 8;
 struct BatchSteps;
 
 /// Sensors of several valves, in single precision: what they answer is what single sensors of float answer.
-/// `Parameters` is sensor::CondensedTables<float>.
+/// `Parameters` is sensor::CondensedTables<float> or sensor::ObserverParameters<float>.
 template <class Parameters>
 class ValveBatch {
  public:
@@ -70,5 +71,6 @@ class ValveBatch {
 };
 
 extern template class ValveBatch<sensor::CondensedTables<float>>;
+extern template class ValveBatch<sensor::ObserverParameters<float>>;
 
 }  // namespace spoolflow::validation

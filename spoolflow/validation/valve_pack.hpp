@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
 namespace spoolflow::validation {
@@ -39,6 +40,10 @@ template <class Register, int Count>
 struct PackTruth {
   using Integers = typename Lanes<Register, Count>::Integers;
   std::array<Integers, Count> lanes{};
+
+  PackTruth() = default;
+  explicit PackTruth(const std::array<Integers, Count>& all) : lanes(all) {}
+  explicit PackTruth(bool value) { lanes.fill(Integers(value ? -1 : 0)); }
 
   friend PackTruth operator!(const PackTruth& a) {
     return each_register<PackTruth>([&](std::size_t r) { return ~a.lanes[r]; });
@@ -70,8 +75,33 @@ bool any(const PackTruth<Register, Count>& truth) {
 template <class Register, int Count>
 struct PackIndex {
   using Integers = typename Lanes<Register, Count>::Integers;
+  using Truth = PackTruth<Register, Count>;
   std::array<Integers, Count> lanes{};
 
+  PackIndex() = default;
+  explicit PackIndex(const std::array<Integers, Count>& all) : lanes(all) {}
+  explicit PackIndex(int value) { lanes.fill(Integers(value)); }
+  explicit PackIndex(sensor::Motion motion) : PackIndex(static_cast<int>(motion)) {}
+
+  friend PackIndex operator+(const PackIndex& a, int b) { return a + PackIndex(b); }
+  friend PackIndex operator-(const PackIndex& a, int b) { return a + PackIndex(-b); }
+  friend PackIndex operator&(const PackIndex& a, int b) {
+    return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] & Integers(b); });
+  }
+  friend Truth operator==(const PackIndex& a, int b) {
+    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] == Integers(b); });
+  }
+  friend Truth operator>(const PackIndex& a, int b) {
+    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] > Integers(b); });
+  }
+  friend Truth operator<(const PackIndex& a, int b) {
+    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] < Integers(b); });
+  }
+  friend Truth is(const PackIndex& motion, sensor::Motion which) { return motion == static_cast<int>(which); }
+  friend PackIndex select(const Truth& condition, const PackIndex& yes, const PackIndex& no) {
+    return each_register<PackIndex>(
+        [&](std::size_t r) { return (yes.lanes[r] & condition.lanes[r]) | (no.lanes[r] & ~condition.lanes[r]); });
+  }
   friend PackIndex operator*(const PackIndex& a, int factor) {
     return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] * Integers(factor); });
   }
@@ -217,35 +247,6 @@ PackIndex<Register, Count> table_index(const ValvePack<Register, Count>& value) 
       [&](std::size_t r) { return simd::static_simd_cast<typename Index::Integers>(value.lanes[r]); });
 }
 
-/// Status words.
-template <class Register, int Count>
-struct PackStatus {
-  PackIndex<Register, Count> words;
-
-  friend PackStatus operator|(const PackStatus& a, const PackStatus& b) {
-    using Index = PackIndex<Register, Count>;
-    return {each_register<Index>([&](std::size_t r) { return a.words.lanes[r] | b.words.lanes[r]; })};
-  }
-};
-
-/// Which valves have any bit.
-template <class Register, int Count>
-PackTruth<Register, Count> is_any(const PackStatus<Register, Count>& status) {
-  return each_comparison<Register, Count>([&](std::size_t r) { return status.words.lanes[r] != 0; });
-}
-
-template <class Register, int Count>
-PackStatus<Register, Count> when(const PackTruth<Register, Count>& condition, sensor::Status bit) {
-  using Index = PackIndex<Register, Count>;
-  return {each_register<Index>(
-      [&](std::size_t r) { return condition.lanes[r] & typename Index::Integers(static_cast<std::int32_t>(bit)); })};
-}
-
-template <class Register, int Count>
-void mark(PackStatus<Register, Count>& status, const PackTruth<Register, Count>& condition, sensor::Status bit) {
-  status = status | when(condition, bit);
-}
-
 /// Of `kept`, what belongs to the valves of `condition`, in place of what `out` has. Both are made of packs and nothing
 /// else, a number of 32 bits a valve each.
 template <class Register, int Count, class Packs>
@@ -258,6 +259,15 @@ void keep(const PackTruth<Register, Count>& condition, const Packs& kept, Packs&
     now = blended(condition.lanes[k % Count], old, now);
     std::memcpy(reinterpret_cast<char*>(&out) + k * sizeof(Register), &now, sizeof(Register));
   }
+}
+
+template <class Register, int Count, class State, class Body>
+[[gnu::always_inline]] inline void in_valves(const PackTruth<Register, Count>& condition, State& state,
+                                             const Body& body) {
+  if (!any(condition)) return;
+  const State before = state;
+  body();
+  keep(!condition, before, state);
 }
 
 }  // namespace spoolflow::validation

@@ -27,7 +27,7 @@ PressureState<double> begin(double pressure_Pa) {
   state.friction_ratio = 1;
   state.ratio_variance = std::pow(supply.ratio_deviation, 2);
   state.liveliness = supply.first_liveliness;
-  state.innovation = usual_innovation<double>;
+  state.innovation = usual_innovation;
   return state;
 }
 
