@@ -6,7 +6,9 @@
 #include <utility>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
+#include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/position_sensor.hpp"
 
 namespace spoolflow::calibration {
@@ -192,6 +194,24 @@ sensor::CoilResistance<double> resistance_of(const FluxChanges& changes, const S
   return {resistance_Ohm, uncertainty_Ohm, uncertainty_Ohm / std::sqrt(600.0), changes.voltage_noise_V_root_s};
 }
 
+/// The resistance over the recordings, and the flux at the largest current with the widest and the narrowest gap.
+model::Fit known_parameters(const FluxChanges& changes, const Solution& solution, double misfit) {
+  const Eigen::Index all = solution.unknowns.size();
+  constexpr Eigen::Index last_row = (flux_rows - zero_row - 2) * flux_columns;
+  Eigen::MatrixXd share = Eigen::MatrixXd::Zero(3, all);
+  share.row(0).tail(all - nodes).setConstant(1 / static_cast<double>(all - nodes));
+  share(1, last_row) = 1;
+  share(2, last_row + flux_columns - 1) = 1;
+  const Eigen::VectorXd values = share * solution.unknowns;
+  const auto flux_name = [&](int column) {
+    return fmt::format("flux_linkage_at_{:.3g}_A_{:.3g}_mm_Wb", changes.map.row_axis.at(flux_rows - 1),
+                       1e3 * changes.map.column_axis.at(column));
+  };
+  return known_from(
+      "coil resistance and flux linkage", {"coil_resistance_Ohm", flux_name(0), flux_name(flux_columns - 1)},
+      {values(0), values(1), values(2)}, std::max(misfit, 1.0) * (share * solution.covariance * share.transpose()));
+}
+
 /// Flux rises with current: a slope of at least a twentieth of the map's mean keeps the sensor's equation solvable.
 void fill_nodes(FluxMap& map, const Eigen::VectorXd& unknowns) {
   const double mean_rise =
@@ -250,6 +270,7 @@ FluxLinkageFit fit_flux_linkage(std::span<const FluxEvidence> evidence,
   fit.flux_linkage.map = changes.map;
   fill_nodes(fit.flux_linkage.map, last.unknowns);
   fit.coil_resistance = resistance_of(changes, last);
+  fit.known = known_parameters(changes, last, fit.misfit);
   return fit;
 }
 

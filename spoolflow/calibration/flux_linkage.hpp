@@ -4,6 +4,7 @@
 
 #include "spoolflow/calibration/fit_residual.hpp"
 #include "spoolflow/calibration/flux_evidence.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/sensor/coil_resistance.hpp"
 #include "spoolflow/sensor/flux_linkage.hpp"
 
@@ -14,6 +15,7 @@ struct FluxLinkageFit {
   bool measured;  ///< false: there was no voltage; shaped after the force, 1 Wb/A on average
   sensor::CoilResistance<double> coil_resistance;  ///< all zero where not measured
   FitResidual residual;                            ///< of flux changes over short windows [Wb]
+  model::Fit known;                                ///< empty where not measured
   double misfit;                                   ///< its mean square in units of the variance that noise explains
 };
 

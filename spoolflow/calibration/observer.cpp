@@ -106,7 +106,9 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
       {"flow rate", "m3/s", flow.rms(), flow.largest},
       {"position drift", "m", position.drift_residual_m, position.drift_residual_m},
   };
+  if (actuator.flux_linkage.measured) out.fits.push_back(actuator.flux_linkage.known);
   if (actuator.dynamics) {
+    out.fits.push_back(actuator.dynamics->known);
     for (const TestResidual& test : actuator.dynamics->tests)
       out.residuals.push_back(
           {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});

@@ -66,7 +66,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   const std::vector<Dial> all = dials(parameters);
   scale_band(parameters, 0.7);  // as wide as most valves need, for the search
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
-  const sensor::PressureParameters<double> supply = parameters.pressure;
+  const sensor::PressureParameters<double> given_supply = parameters.pressure;
   constexpr double lively = 0.3;
   parameters.pressure.least_liveliness = parameters.pressure.first_liveliness = lively;
   std::vector<double> prior;
@@ -105,7 +105,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   }
 
   out.score = operation_score(parameters, recordings, full_scale_m3_per_s);
-  parameters.pressure = supply;
+  parameters.pressure = given_supply;
   out.force_error_ratio = force_error_ratio(parameters, recordings);
   scale_band(parameters, out.force_error_ratio);
   const Outcome outcome = replay_all(parameters, recordings);

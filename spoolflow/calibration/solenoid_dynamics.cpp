@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/coil_deviation.hpp"
+#include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/nonnegative_least_squares.hpp"
 
 namespace spoolflow::calibration {
@@ -169,7 +170,7 @@ std::string name_of(int k, const sensor::Coil<double>& coil) {
 }
 
 /// Values with their covariance, from the curvature at those unknowns that are not held at zero.
-void describe_parameters(SolenoidDynamicsFit& fit, const sensor::Coil<double>& coil, const Trial& solution) {
+model::Fit known_parameters(const sensor::Coil<double>& coil, const Trial& solution) {
   const Eigen::Index all = solution.deviation.curvature.rows();
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < all; ++k)
@@ -187,15 +188,13 @@ void describe_parameters(SolenoidDynamicsFit& fit, const sensor::Coil<double>& c
     for (Eigen::Index c = 0; c < count; ++c)
       if (free[static_cast<std::size_t>(r)] < coil_unknowns && free[static_cast<std::size_t>(c)] < coil_unknowns)
         covariance(free[static_cast<std::size_t>(r)], free[static_cast<std::size_t>(c)]) = known(r, c);
-  for (int k = 0; k < coil_unknowns; ++k)
-    fit.parameters.push_back(
-        {name_of(k, coil), solution.unknowns[static_cast<std::size_t>(k)], std::sqrt(std::max(0.0, covariance(k, k)))});
-  for (int r = 0; r < coil_unknowns; ++r) {
-    for (int c = 0; c < coil_unknowns; ++c) {
-      const double scale = std::sqrt(covariance(r, r) * covariance(c, c));
-      fit.correlation.push_back(r == c ? 1.0 : scale > 0 ? covariance(r, c) / scale : 0.0);
-    }
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (int k = 0; k < coil_unknowns; ++k) {
+    names.push_back(name_of(k, coil));
+    values.push_back(solution.unknowns[static_cast<std::size_t>(k)]);
   }
+  return known_from("magnetic hysteresis and eddy currents", names, values, covariance);
 }
 
 }  // namespace
@@ -213,7 +212,7 @@ SolenoidDynamicsFit fit_solenoid_dynamics(const SolenoidSamples& given, const se
   fit.coil = coil_with(task, solution.unknowns);
   fit.iterations = solution.iterations;
   fit.tests = residuals_of(given, fit.coil, magnetic_force);
-  describe_parameters(fit, coil, solution);
+  fit.known = known_parameters(coil, solution);
   return fit;
 }
 

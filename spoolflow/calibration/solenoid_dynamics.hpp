@@ -1,22 +1,15 @@
 #pragma once
 /// Magnetic hysteresis and eddy currents from current loops, sines and steps at held positions (protocol
 /// `solenoid_dynamic`).
-#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/fit_residual.hpp"
 #include "spoolflow/calibration/solenoid_samples.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/magnetic_force.hpp"
 
 namespace spoolflow::calibration {
-
-/// One parameter as fitted.
-struct FittedParameter {
-  std::string name;  ///< with its unit as suffix
-  double value;
-  double uncertainty;  ///< one standard deviation
-};
 
 /// The residual of one part of the protocol.
 struct TestResidual {
@@ -29,8 +22,7 @@ struct TestResidual {
 
 struct SolenoidDynamicsFit {
   sensor::Coil<double> coil;  ///< the given one with hysteresis and eddy currents as fitted
-  std::vector<FittedParameter> parameters;
-  std::vector<double> correlation;  ///< square, row after row, in the order of `parameters`
+  model::Fit known;           ///< of hysteresis and eddy currents
   std::vector<TestResidual> tests;
   int iterations;
 };

@@ -53,6 +53,20 @@ struct Residual {
   double largest;
 };
 
+/// A parameter as fitted.
+struct FittedParameter {
+  std::string name;  ///< with its SI unit as suffix
+  double value;
+  double uncertainty;  ///< one standard deviation, from the fit's residual; 0 where the fit held it at its bound
+};
+
+/// What one least-squares fit knows of its parameters.
+struct Fit {
+  std::string of;  ///< "coil and flux linkage", …
+  std::vector<FittedParameter> parameters;
+  std::vector<double> correlation;  ///< square and symmetric, row after row, -1 to 1, in the order of `parameters`
+};
+
 /// The condensed sensor (paper section 3) with the range that it was measured over.
 struct Condensed {
   sensor::CondensedParameters<double> parameters;
@@ -68,6 +82,7 @@ struct Observer {
   sensor::ObserverParameters<double> parameters;
   Range oil_temperature_K;
   std::vector<Residual> residuals;
+  std::vector<Fit> fits;              ///< may be empty
   std::vector<std::string> defaults;  ///< what no recording showed, and was assumed
 };
 

@@ -1,5 +1,6 @@
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,10 +49,28 @@ std::vector<Residual> residuals(const JsonNode& node) {
   return out;
 }
 
+Fit fit(const JsonNode& node) {
+  Fit out{node.at("of").text(), {}, {}};
+  for (const JsonNode& each : node.at("parameters").elements()) {
+    constexpr double any = std::numeric_limits<double>::max();
+    out.parameters.push_back(
+        {each.at("name").text(), each.at("value").number(), each.at("uncertainty").number(0, any)});
+  }
+  out.correlation = node.at("correlation").numbers();
+  const std::size_t wanted = out.parameters.size() * out.parameters.size();
+  if (out.correlation.size() != wanted) {
+    node.at("correlation").refuse(fmt::format("has {} entries, {} would fit", out.correlation.size(), wanted));
+  }
+  return out;
+}
+
 Observer observer(const JsonNode& node) {
   Observer out{};
   out.oil_temperature_K = range(node.at("oil_temperature_range_K"));
   out.residuals = residuals(node.at("residuals"));
+  if (node.has("fits")) {
+    for (const JsonNode& each : node.at("fits").elements()) out.fits.push_back(fit(each));
+  }
   for (const JsonNode& each : node.at("defaults").elements()) out.defaults.push_back(each.text());
   describe_observer(out.parameters, TableReader(node));
   return out;

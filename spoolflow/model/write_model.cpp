@@ -50,9 +50,22 @@ Json instruments(const Instruments& instruments) {
   return out;
 }
 
+Json fits(const std::vector<Fit>& fits) {
+  Json out = Json::array();
+  for (const Fit& fit : fits) {
+    Json parameters = Json::array();
+    for (const FittedParameter& each : fit.parameters) {
+      parameters.push_back({{"name", each.name}, {"value", each.value}, {"uncertainty", each.uncertainty}});
+    }
+    out.push_back({{"of", fit.of}, {"parameters", parameters}, {"correlation", fit.correlation}});
+  }
+  return out;
+}
+
 Json observer(const Observer& observer) {
   Json out{{"oil_temperature_range_K", range(observer.oil_temperature_K)},
            {"residuals", residuals(observer.residuals)},
+           {"fits", fits(observer.fits)},
            {"defaults", observer.defaults}};
   describe_observer(observer.parameters, TableWriter(out));
   return out;

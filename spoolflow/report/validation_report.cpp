@@ -8,6 +8,7 @@
 #include "spoolflow/report/direction_figures.hpp"
 #include "spoolflow/report/dynamics_figures.hpp"
 #include "spoolflow/report/envelope_figures.hpp"
+#include "spoolflow/report/fits_section.hpp"
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/model_sections.hpp"
 #include "spoolflow/report/number_text.hpp"
@@ -139,7 +140,9 @@ void write_calibration_report(std::ostream& out, const model::Model& model) {
   show_verdict(page, calibration_verdict(model));
   show_valve(page, model, {});
   show_residuals(page, model);
+  show_fits(page, model);
   show_maps(page, model);
+  show_temperatures(page, model);
   show_blindness(page, model, {});
   show_inputs(page, model, {});
   out << page.str();
