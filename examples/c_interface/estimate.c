@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
     spoolflow_estimate estimate;
     spoolflow_step(sensor, &sample, &estimate);
     spoolflow_status_text(estimate.status, status, sizeof status);
-    printf("%.6f,%.4f,%.4f,%.4f,%s\n", sample.time_s, estimate.flow_m3_per_s * 60000,
+    printf("%.6f,%.6f,%.6f,%.6f,%s\n", sample.time_s, estimate.flow_m3_per_s * 60000,
            estimate.flow_lower_m3_per_s * 60000, estimate.flow_upper_m3_per_s * 60000, status);
   }
   spoolflow_destroy(sensor);

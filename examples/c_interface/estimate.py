@@ -72,7 +72,7 @@ def main():
     names = ctypes.create_string_buffer(256)
     for k, row in enumerate(rows):
         library.spoolflow_status_text(status[k], names, len(names))
-        print(f"{number(row['time_s']):.6f},{flow[k] * 60000:.4f},{lower[k] * 60000:.4f},{upper[k] * 60000:.4f},"
+        print(f"{number(row['time_s']):.6f},{flow[k] * 60000:.6f},{lower[k] * 60000:.6f},{upper[k] * 60000:.6f},"
               f"{names.value.decode()}")
 
 

@@ -46,9 +46,9 @@ void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, validati
   for (std::size_t k = 0; k < block.estimates.size(); ++k) {
     const sensor::Estimate<double>& estimate = block.estimates[k];
     out.number(block.time_s[k], 6);
-    out.number(estimate.flow_m3_per_s * litre_per_minute_per_m3_per_s, 4);
-    out.number(estimate.flow_lower_m3_per_s * litre_per_minute_per_m3_per_s, 4);
-    out.number(estimate.flow_upper_m3_per_s * litre_per_minute_per_m3_per_s, 4);
+    out.number(estimate.flow_m3_per_s * litre_per_minute_per_m3_per_s, 6);
+    out.number(estimate.flow_lower_m3_per_s * litre_per_minute_per_m3_per_s, 6);
+    out.number(estimate.flow_upper_m3_per_s * litre_per_minute_per_m3_per_s, 6);
     out.number(estimate.pressure_difference_Pa / units::pascal_per_bar, 4);
     out.number(estimate.magnetic_force_N, 3);
     out.number(estimate.flow_force_N, 3);

@@ -20,15 +20,6 @@ std::string asset(std::string_view name) {
   throw std::logic_error("no embedded file " + std::string(name));
 }
 
-constexpr const char* terminals_and_icons = R"(<?xml version="1.0" encoding="UTF-8"?>
-<fmiTerminalsAndIcons fmiVersion="3.0">
-  <GraphicalRepresentation>
-    <CoordinateSystem x1="-100" y1="-100" x2="100" y2="100" suggestedScalingFactorTo_mm="0.1"/>
-    <Icon x1="-100" y1="-100" x2="100" y2="100"/>
-  </GraphicalRepresentation>
-</fmiTerminalsAndIcons>
-)";
-
 /// Seconds since 1970 of an ISO 8601 time in UTC.
 std::time_t seconds(const std::string& time) {
   std::tm utc{};
@@ -71,11 +62,10 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
   if (fmi2) {
     members.push_back({"model.png", asset("icon.png")});
   } else {
-    members.push_back({"terminalsAndIcons/terminalsAndIcons.xml", terminals_and_icons});
     members.push_back({"terminalsAndIcons/icon.png", asset("icon.png")});
     members.push_back({"terminalsAndIcons/icon.svg", asset("icon.svg")});
-    members.push_back({"sources/buildDescription.xml", build_description(content)});
   }
+  members.push_back({"sources/buildDescription.xml", build_description(content)});
   for (const EmbeddedFile& source : parts.sources) {
     members.push_back({"sources/" + std::string(source.name), std::string(source.bytes)});
   }

@@ -30,7 +30,7 @@ struct FmuContent {
 /// modelDescription.xml by FMI 2.0 (schema fmi2ModelDescription.xsd) or 3.0 (fmi3ModelDescription.xsd).
 [[nodiscard]] std::string model_description_fmi2(const FmuContent& content);
 [[nodiscard]] std::string model_description_fmi3(const FmuContent& content);
-/// sources/buildDescription.xml (FMI 3.0).
+/// sources/buildDescription.xml by FMI 3.0; FMI 2.0 takes the same file since 2.0.4, and only it names the language.
 [[nodiscard]] std::string build_description(const FmuContent& content);
 /// documentation/index.html
 [[nodiscard]] std::string fmu_documentation(const FmuContent& content);

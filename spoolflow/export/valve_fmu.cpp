@@ -35,8 +35,7 @@ std::string notes(const rig::ValveUnderTest& valve) {
       "the inputs of the same names of the sensor's FMU; the other outputs are true values that no instrument shows. "
       "The valve "
       "steps every 0.1 ms; a communication step that is no multiple of it ends at the next one. An input that is NaN "
-      "is "
-      "refused: the step is discarded.</p>\n",
+      "or outside its range is refused: the step is discarded.</p>\n",
       xml_text(valve.name), valve.rating.flow_L_per_min, valve.plant.spool.stroke_m * units::millimetre_per_metre,
       xml_text(valve.fluid), load_name(valve.plant.load.kind));
 }

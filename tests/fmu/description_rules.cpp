@@ -157,14 +157,16 @@ void check_files(const UnpackedFmu& fmu, Violations& out) {
       fmi2 ? "binaries/linux64/" + identifier + ".so" : "binaries/x86_64-linux/" + identifier + ".so",
       fmi2 ? "binaries/win64/" + identifier + ".dll" : "binaries/x86_64-windows/" + identifier + ".dll",
       fmi2 ? "model.png" : "terminalsAndIcons/icon.png"};
-  const auto build = fmi2 ? fmu.description() : xml_elements(fmu.content("sources/buildDescription.xml"));
-  std::size_t sources = 0;
-  for (const XmlElement& element : build) {
-    if (element.name != "File" && element.name != "SourceFile") continue;
-    wanted.insert("sources/" + element["name"]);
-    ++sources;
+  Violations described, built;
+  for (const XmlElement& element : fmu.description()) {
+    if (element.name == "File") described.push_back(element["name"]);
   }
-  if (sources == 0) out.push_back("no sources are listed");
+  for (const XmlElement& element : xml_elements(fmu.content("sources/buildDescription.xml"))) {
+    if (element.name == "SourceFile") built.push_back(element["name"]);
+  }
+  if (built.empty()) out.push_back("no sources are listed");
+  if (fmi2 && described != built) out.push_back("modelDescription and buildDescription name other sources");
+  for (const std::string& source : built) wanted.insert("sources/" + source);
   for (const std::string& name : wanted) {
     if (!std::filesystem::is_regular_file(fmu.folder() / name)) out.push_back("no file " + name);
   }

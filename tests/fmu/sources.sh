@@ -12,6 +12,8 @@ for what in "$model" size_6; do
   (cd fmu && cmake -E tar xf ../x.fmu)
   cd fmu/sources
   files=$(sed -n 's/.*<SourceFile name="\([^"]*\)".*/\1/p' buildDescription.xml)
+  if g++ -std=c++17 -fsyntax-only -I. ${files%%.cpp*}.cpp 2>message; then exit 1; fi # CMake's default in importers
+  grep -q 'compile them with -std=c++20' message
   g++ -std=c++20 -O0 -fPIC -shared -fvisibility=hidden -I. $files -o ../../compiled.so
   cd ../..
   nm -D --defined-only compiled.so | sed -n 's/.* T \(fmi[23]\)/\1/p' | sort >compiled

@@ -98,6 +98,22 @@ TEST_P(ValveFmu, DiscardsAStepWithAnInputThatIsNoNumber) {
   EXPECT_TRUE(std::isfinite(valve->value("flow")));
 }
 
+TEST_P(ValveFmu, DiscardsAStepWithAnInputThatNoPlantHasAndGoesOn) {
+  const auto valve = begun();
+  run(*valve, 1.0e-3, 0, 20);
+  const double flow = valve->value("flow");
+  valve->put("ambient_temperature", 25);  // meant as degC
+  EXPECT_EQ(valve->step(0.020, 1e-3), FmuStatus::discard);
+  EXPECT_THAT(log.messages, Contains(HasSubstr("ambient_temperature = 25 is outside 233.15 to 423.15 K")));
+  valve->put("ambient_temperature", 298.15);
+  valve->put("pressure_difference_set", 1e300);
+  EXPECT_EQ(valve->step(0.020, 1e-3), FmuStatus::discard);
+  EXPECT_EQ(valve->value("flow"), flow);
+  valve->put("pressure_difference_set", 5e6);
+  run(*valve, 1.0e-3, 20, 30);
+  EXPECT_TRUE(std::isfinite(valve->value("flow")));
+}
+
 TEST_P(ValveFmu, FeedsTheSensorsFmu) {
   // The sensor was calibrated on another valve of this size: the coupling is under test here, not the accuracy.
   const UnpackedFmu sensor_fmu(sensor_fmu_of_example(GetParam()));

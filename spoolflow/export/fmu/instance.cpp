@@ -140,7 +140,7 @@ void Instance::set(std::uint32_t reference, Type type, double value) {
   }
   if (parameter && !(std::isfinite(value) && !(value < asked.lowest) && !(value > asked.highest))) {
     throw CallError(asked.name + " = " + number_text(value) + " is outside " + number_text(asked.lowest) + " to " +
-                    number_text(asked.highest) + (asked.unit.empty() ? "" : " " + asked.unit));
+                    number_text(asked.highest) + (asked.unit.empty() || asked.unit == "1" ? "" : " " + asked.unit));
   }
   values_[reference] = value;
   if (parameter) clock_.tuned = 1;

@@ -7,6 +7,7 @@
 
 #include "spoolflow/export/fmu/component.hpp"
 #include "spoolflow/export/fmu/instance.hpp"
+#include "spoolflow/export/fmu/number_text.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
 #include "spoolflow/rig/winding_current.hpp"
@@ -110,11 +111,15 @@ class ValveComponent : public Component {
   [[nodiscard]] std::span<char> memory() override { return {reinterpret_cast<char*>(&*memory_), sizeof(ValveMemory)}; }
 
  private:
-  /// The plant does not survive a NaN: a step with one is refused before anything has moved.
+  /// The plant does not survive a NaN or an absurd input: a step with one is refused before anything has moved.
   void check_inputs(std::span<const double> values) const {
     for (std::size_t k = 0; k < variables_.size(); ++k) {
-      if (variables_[k].causality == Causality::input && !std::isfinite(values[k])) {
-        throw StepRefused("the input " + variables_[k].name + " is no finite number");
+      const Variable& input = variables_[k];
+      if (input.causality != Causality::input) continue;
+      if (!std::isfinite(values[k])) throw StepRefused("the input " + input.name + " is no finite number");
+      if (values[k] < input.lowest || values[k] > input.highest) {
+        throw StepRefused("the input " + input.name + " = " + number_text(values[k]) + " is outside " +
+                          number_text(input.lowest) + " to " + number_text(input.highest) + " " + input.unit);
       }
     }
   }

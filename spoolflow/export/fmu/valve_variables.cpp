@@ -16,6 +16,19 @@ Variable tunable(const char* name, const char* description, const char* unit, co
           .highest = highest};
 }
 
+/// Beyond these the plant's laws have no answer.
+Variable within(double lowest, double highest, Variable input) {
+  input.lowest = lowest;
+  input.highest = highest;
+  return input;
+}
+Variable pressure(const char* name, const char* description, double start_Pa) {
+  return within(0, 600e5, input(name, description, "Pa", "bar", start_Pa, start_Pa));
+}
+Variable temperature(const char* name, const char* description, double start_K) {
+  return within(233.15, 423.15, input(name, description, "K", "degC", start_K, 300));
+}
+
 }  // namespace
 
 std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_flow_m3_per_s) {
@@ -23,12 +36,13 @@ std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_fl
   return {
       {.name = "time", .description = "simulation time", .causality = Causality::independent, .unit = "s"},
       input("position_set", "set position of the spool, > 0 opens P to B, < 0 opens P to A", "m", "mm", 0, stroke_m),
-      input("pressure_difference_set", "difference that the bench holds over the open edge (load: held difference)",
-            "Pa", "bar", 5e6, 5e6),
-      input("supply_pressure", "set pressure of the supply, gauge (loads: orifice, cylinder)", "Pa", "bar", 1e7, 1e7),
-      input("load_force", "force on the cylinder, > 0 against moving out (load: cylinder)", "N", "", 0, 1000),
-      input("oil_temperature_set", "temperature of the oil at the supply", "K", "degC", 323.15, 300),
-      input("ambient_temperature", "temperature of the surroundings", "K", "degC", 298.15, 300),
+      pressure("pressure_difference_set", "difference that the bench holds over the open edge (load: held difference)",
+               5e6),
+      pressure("supply_pressure", "set pressure of the supply, gauge (loads: orifice, cylinder)", 1e7),
+      within(-1e6, 1e6,
+             input("load_force", "force on the cylinder, > 0 against moving out (load: cylinder)", "N", "", 0, 1000)),
+      temperature("oil_temperature_set", "temperature of the oil at the supply", 323.15),
+      temperature("ambient_temperature", "temperature of the surroundings", 298.15),
       output("current", "measured coil current, mean over the sample step; of solenoid a negative", "A", "", 1),
       output("voltage", "measured coil voltage, mean over the sample step; of solenoid a negative", "V", "", 10),
       output("position", "position as the valve's sensor gives it, with drift, noise and faults", "m", "mm", stroke_m),

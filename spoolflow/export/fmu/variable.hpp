@@ -1,5 +1,8 @@
 #pragma once
 /// What an FMU shows of itself: each variable is described once, for modelDescription.xml and for the running instance.
+#ifndef __cpp_concepts
+#error "the sources of this FMU are C++20: compile them with -std=c++20; in CMake -DCMAKE_CXX_STANDARD=20"
+#endif
 #include <limits>
 #include <string>
 
