@@ -9,7 +9,8 @@ library. Two comparisons:
         balances them (by the analysis' own sensitivities to current and force)
     independent_monte_carlo.py run SPOOLFLOW MODEL.json ANALYSIS.json RECORDING.csv [TRIALS]
         observer along the recording that ANALYSIS.json was made with (--recording): whole replays; the lines
-        pressure_belief and oil_viscosity cannot be perturbed from outside and are left out of both sides
+        pressure_belief and oil_viscosity cannot be perturbed from outside and are left out of both sides; of the
+        noises, of which the recording holds one already, both sides take the half that the program adds
 """
 import copy
 import csv
@@ -21,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 
+noise_share = 0.5
 folder = pathlib.Path(tempfile.mkdtemp(prefix="independent_monte_carlo_"))
 
 
@@ -125,8 +127,8 @@ def run(spoolflow, model, analysis, recording, trials=40):
             out.write(",".join(head) + "\n")
             for row in rows:
                 read = list(row)
-                noise_mA = random.gauss(0, lines["current_noise"]["standard_uncertainty"])
-                noise_um = random.gauss(0, lines["position_noise"]["standard_uncertainty"])
+                noise_mA = random.gauss(0, noise_share * lines["current_noise"]["standard_uncertainty"])
+                noise_um = random.gauss(0, noise_share * lines["position_noise"]["standard_uncertainty"])
                 read[column["current_A"]] = (row[column["current_A"]] * (1 + e["current_gain"] / 100)
                                              + 1e-3 * (e["current_offset"] + e["magnetising_current"] + noise_mA))
                 read[column["position_mm"]] = (row[column["position_mm"]] * (1 + e["position_gain"] / 100)
@@ -138,7 +140,8 @@ def run(spoolflow, model, analysis, recording, trials=40):
         answers.append([answer[k] + e["flow_map"] for k in watched])
     variances = [deviation([answer[j] for answer in answers]) ** 2 for j in range(len(watched))]
     independent = math.sqrt(sum(variances) / len(variances))
-    kept = sum(line["share"] for name, line in lines.items() if name not in left_out)
+    kept = sum(line["share"] * (noise_share**2 if name.endswith("noise") else 1)
+               for name, line in lines.items() if name not in left_out)
     budget = result["combined_standard_rms_L_min"] * math.sqrt(kept)
     print(f"{trials} replays, {len(watched)} instants, root mean square: independent {independent:.4f} L/min, budget "
           f"without {' and '.join(left_out)} {budget:.4f} L/min; independent over budget {independent / budget:.3f}")

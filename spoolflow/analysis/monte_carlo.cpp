@@ -66,7 +66,20 @@ TrialFigures figures_of(std::vector<double>& outputs) {
   const auto at = [&](double share) { return outputs[static_cast<std::size_t>(std::lround(share * (n - 1)))]; };
   out.lower = at(0.025);
   out.upper = at(0.975);
+  const auto held = static_cast<std::size_t>(std::lround(0.95 * n));
+  out.shortest_lower = outputs.front();
+  out.shortest_upper = outputs.back();
+  for (std::size_t k = 0; k + held < outputs.size(); ++k) {
+    if (outputs[k + held] - outputs[k] >= out.shortest_upper - out.shortest_lower) continue;
+    out.shortest_lower = outputs[k];
+    out.shortest_upper = outputs[k + held];
+  }
   return out;
+}
+
+StatedInterval stated_interval(const validation::Budget& budget, double undisturbed, const MonteCarlo& check) {
+  if (!check.comparison.validated) return {check.figures.lower, check.figures.upper, false};
+  return {undisturbed - budget.expanded_m3_per_s, undisturbed + budget.expanded_m3_per_s, true};
 }
 
 double numerical_tolerance(double standard_uncertainty, int digits) {

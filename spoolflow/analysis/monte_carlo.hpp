@@ -17,8 +17,9 @@ struct MonteCarloSettings {
 struct TrialFigures {
   std::size_t trials = 0;
   double mean = 0, standard_deviation = 0;
-  double lower = 0, upper = 0;             ///< 95 %, as much probability below as above
-  double standard_error_of_deviation = 0;  ///< what another seed would change of the standard deviation
+  double lower = 0, upper = 0;                    ///< 95 %, as much probability below as above
+  double shortest_lower = 0, shortest_upper = 0;  ///< the shortest interval that holds 95 % (JCGM 101, 5.3.4)
+  double standard_error_of_deviation = 0;         ///< what another seed would change of the standard deviation
 };
 
 /// Whether the budget may stand for the distributions (JCGM 101, clause 8).
@@ -33,6 +34,16 @@ struct MonteCarlo {
   TrialFigures figures;
   Comparison comparison;
 };
+
+/// The 95 % interval to be stated [m3/s].
+struct StatedInterval {
+  double lower = 0, upper = 0;
+  bool by_budget = false;  ///< else by the trials
+};
+
+/// The budget's where the trials validate it, else theirs (JCGM 101, 8.2). `undisturbed` as in `compared`.
+[[nodiscard]] StatedInterval stated_interval(const validation::Budget& budget, double undisturbed,
+                                             const MonteCarlo& check);
 
 /// Errors of all inputs, drawn from their distributions with their correlations.
 [[nodiscard]] validation::InputErrors<double> drawn_errors(const validation::Budget& budget,

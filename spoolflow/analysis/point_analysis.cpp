@@ -52,6 +52,7 @@ PointResult at_point(const model::Model& model, Estimator estimator, const Worki
                            .most_trials = static_cast<std::size_t>(trials.most_trials),
                            .digits = static_cast<int>(trials.digits)},
                           validation::mixed_bits(scenario.seed) + number);
+  out.stated = stated_interval(out.budget, out.flow_m3_per_s, out.check);
   return out;
 }
 

@@ -17,6 +17,7 @@ struct PointResult {
   double flow_m3_per_s = 0;
   validation::Budget budget;
   MonteCarlo check;
+  StatedInterval stated;
 };
 
 /// The points that a scenario names, at the map's oil temperature where it names none.

@@ -20,6 +20,9 @@ using validation::InputUncertainty;
 using validation::SeededNumbers;
 
 constexpr int noise_runs = 16;
+/// Noise comes on top of what the recording holds already: half of it, counted double, lifts the sum to no more than
+/// 1.12 times the noise that the sensor was calibrated to.
+constexpr double noise_share = 0.5;
 /// Samples of all trials together: longer runs get fewer trials.
 constexpr double most_samples = 1.5e8;
 constexpr std::size_t fewest_trials = 50;
@@ -67,6 +70,7 @@ class RunBudget {
   /// Piece by piece, in any order and from any thread.
   void prepare() {
     contributions_.resize(inputs_.uncertainties.size());
+    drawn_.resize(trials_);
     answers_.resize(trials_);
     if (function_.estimator() == Estimator::condensed) slopes_ = function_.slopes();
     budget_.correlations = inputs_.correlations;
@@ -76,16 +80,25 @@ class RunBudget {
     if (piece < contributions_.size()) {
       contributions_[piece] = contributions(inputs_.uncertainties[piece]);
     } else {
-      answers_[piece - contributions_.size()] = trial(piece - contributions_.size());
+      try_out(piece - contributions_.size());
     }
   }
   [[nodiscard]] RunResult result();
 
  private:
   [[nodiscard]] Contributions contributions(const InputUncertainty& input) const;
-  [[nodiscard]] std::vector<float> trial(std::size_t number) const;
+  void try_out(std::size_t trial);
   void combine_instants(RunResult& out);
   void take_trials(RunResult& out) const;
+  /// Errors [m3/s] with a shape of their own, all combinations: two-point ones and the pressure belief's.
+  [[nodiscard]] std::vector<double> large_errors(std::size_t instant) const;
+  /// Share of the errors at an instant between `lower` and `upper`: these, and with each all others together normal;
+  /// `u`: standard uncertainty of all [m3/s].
+  [[nodiscard]] double share_within(std::size_t instant, double lower, double upper, double u) const;
+  /// Whether the reference errs with that input as the calibration does, so that the difference shows nothing of it.
+  [[nodiscard]] bool shared_with_reference(InputQuantity quantity) const;
+  /// What the reference shows of the errors that it shares with the calibration, trial by trial [m3/s].
+  [[nodiscard]] std::vector<double> reference_by_trial(std::size_t instant) const;
   [[nodiscard]] BandShares band_shares(const RunResult& result) const;
 
   RunFunction function_;
@@ -96,7 +109,8 @@ class RunBudget {
   validation::Budget budget_;  ///< the lines from which trials are drawn
   std::vector<validation::PerQuantity<double>> slopes_;
   std::vector<Contributions> contributions_;
-  std::vector<std::vector<float>> answers_;
+  std::vector<InputErrors<double>> drawn_;  ///< of the trials
+  std::vector<BandedFlow> answers_;         ///< of the trials
 };
 
 Contributions RunBudget::contributions(const InputUncertainty& input) const {
@@ -109,32 +123,31 @@ Contributions RunBudget::contributions(const InputUncertainty& input) const {
   } else if (input.quantity == InputQuantity::pressure_belief) {
     out = function_.belief_m3_per_s();
   } else if (is_noise(input.quantity)) {
-    error[input.quantity] = u;
+    error[input.quantity] = noise_share * u;
     for (int run = 0; run < noise_runs; ++run) {
       SeededNumbers numbers(1, validation::about(input.quantity).name, static_cast<std::uint64_t>(run));
-      const std::vector<double> noisy = function_(error, numbers);
+      const std::vector<double> noisy = function_(error, numbers).flow_m3_per_s;
       for (std::size_t k = 0; k < out.size(); ++k)
-        out[k] += std::pow(noisy[k] - function_.flow_m3_per_s()[k], 2) / noise_runs;
+        out[k] += std::pow(noisy[k] - function_.undisturbed().flow_m3_per_s[k], 2) / noise_runs;
     }
-    for (double& value : out) value = std::sqrt(value);
+    for (double& value : out) value = std::sqrt(value) / noise_share;
   } else {
     error[input.quantity] = u;
-    const std::vector<double> above = function_(error, none);
+    const std::vector<double> above = function_(error, none).flow_m3_per_s;
     error[input.quantity] = -u;
-    const std::vector<double> below = function_(error, none);
+    const std::vector<double> below = function_(error, none).flow_m3_per_s;
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = 0.5 * (above[k] - below[k]);
   }
   return out;
 }
 
-std::vector<float> RunBudget::trial(std::size_t number) const {
-  SeededNumbers numbers(scenario_.seed, "trial along a run", number);
-  InputErrors<double> error = drawn_errors(budget_, numbers);
+void RunBudget::try_out(std::size_t trial) {
+  SeededNumbers numbers(scenario_.seed, "trial along a run", trial);
+  InputErrors<double> error = drawn_[trial] = drawn_errors(budget_, numbers);
   for (const InputUncertainty& input : inputs_.uncertainties) {
-    if (is_noise(input.quantity)) error[input.quantity] = input.standard_uncertainty;
+    if (is_noise(input.quantity)) error[input.quantity] = noise_share * input.standard_uncertainty;
   }
-  const std::vector<double> flow = function_(error, numbers);
-  return {flow.begin(), flow.end()};
+  answers_[trial] = function_(error, numbers);
 }
 
 void RunBudget::combine_instants(RunResult& out) {
@@ -170,9 +183,9 @@ void RunBudget::take_trials(RunResult& out) const {
   double of_budget = 0;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
     double mean = 0;
-    for (const std::vector<float>& answer : answers_) mean += static_cast<double>(answer[k]) / n;
+    for (const BandedFlow& answer : answers_) mean += answer.flow_m3_per_s[k] / n;
     double squares = 0;
-    for (const std::vector<float>& answer : answers_) squares += std::pow(static_cast<double>(answer[k]) - mean, 2);
+    for (const BandedFlow& answer : answers_) squares += std::pow(answer.flow_m3_per_s[k] - mean, 2);
     out.deviation_m3_per_s.push_back(std::sqrt(squares / (n - 1)));
     of_trials += squares / (n - 1);
     of_budget += out.combined_m3_per_s[k] * out.combined_m3_per_s[k];
@@ -180,27 +193,96 @@ void RunBudget::take_trials(RunResult& out) const {
   out.deviation_ratio = of_budget > 0 ? std::sqrt(of_trials / of_budget) : std::nan("");
 }
 
+std::vector<double> RunBudget::large_errors(std::size_t instant) const {
+  std::vector<double> out{0};
+  const auto with_each = [&](const std::vector<double>& errors) {
+    std::vector<double> all;
+    for (const double before : out)
+      for (const double error : errors) all.push_back(before + error);
+    out = std::move(all);
+  };
+  for (std::size_t j = 0; j < contributions_.size(); ++j) {
+    const InputUncertainty& input = inputs_.uncertainties[j];
+    if (input.distribution == validation::Distribution::two_point) {
+      with_each({-contributions_[j][instant], contributions_[j][instant]});
+    } else if (input.quantity == InputQuantity::pressure_belief) {
+      constexpr int levels = 15;
+      std::vector<double> errors;
+      for (int k = 0; k < levels; ++k) {
+        const double normal = validation::normal_quantile((k + 0.5) / levels);
+        errors.push_back(function_.beliefs()[instant].flow_error_m3_per_s(normal));
+      }
+      with_each(errors);
+    }
+  }
+  return out;
+}
+
+double RunBudget::share_within(std::size_t instant, double lower, double upper, double u) const {
+  double squares = 0;
+  for (std::size_t j = 0; j < contributions_.size(); ++j) {
+    const InputUncertainty& input = inputs_.uncertainties[j];
+    const bool large =
+        input.distribution == validation::Distribution::two_point || input.quantity == InputQuantity::pressure_belief;
+    if (large) squares += std::pow(contributions_[j][instant], 2);
+  }
+  const double others = std::sqrt(std::max(u * u - squares, 1e-24));
+  const std::vector<double> large = large_errors(instant);
+  double share = 0;
+  for (const double error : large) {
+    share += (validation::normal_share_below((upper + error) / others) -
+              validation::normal_share_below((lower + error) / others)) /
+             static_cast<double>(large.size());
+  }
+  return share;
+}
+
+bool RunBudget::shared_with_reference(InputQuantity quantity) const {
+  return !scenario_.run.other_bench &&
+         (quantity == InputQuantity::flow_meter || quantity == InputQuantity::oil_density ||
+          quantity == InputQuantity::oil_viscosity);
+}
+
+std::vector<double> RunBudget::reference_by_trial(std::size_t instant) const {
+  std::vector<double> out(trials_);
+  for (std::size_t j = 0; j < contributions_.size(); ++j) {
+    const InputUncertainty& input = inputs_.uncertainties[j];
+    if (!shared_with_reference(input.quantity) || !(input.standard_uncertainty > 0)) continue;
+    for (std::size_t trial = 0; trial < trials_; ++trial)
+      out[trial] += drawn_[trial][input.quantity] / input.standard_uncertainty * contributions_[j][instant];
+  }
+  return out;
+}
+
 BandShares RunBudget::band_shares(const RunResult& result) const {
   const std::vector<double> lagged = function_.lagged_m3_per_s(1e-3 * scenario_.run.reference_lag_ms);
+  const double meter_share =
+      scenario_.run.other_bench ? 0.01 * scenario_.run.reference_meter_percent / std::numbers::sqrt3 : 0;
   BandShares out;
+  out.other_bench = scenario_.run.other_bench;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
     const double reference = result.reference_m3_per_s[k];
     if (!std::isfinite(reference)) continue;
     ++out.instants;
-    const double meter = 0.01 * scenario_.run.reference_meter_percent / std::numbers::sqrt3 * std::abs(reference);
-    const double u = std::max(std::hypot(result.combined_m3_per_s[k], meter), 1e-12);
+    const double meter = meter_share * std::abs(reference);
+    double variance = std::pow(result.combined_m3_per_s[k], 2) + meter * meter;
+    for (std::size_t j = 0; j < contributions_.size(); ++j) {
+      if (shared_with_reference(inputs_.uncertainties[j].quantity)) variance -= std::pow(contributions_[j][k], 2);
+    }
+    const double u = std::sqrt(std::max(variance, 1e-24));
     const double lower = result.lower_m3_per_s[k];
     const double upper = result.upper_m3_per_s[k];
     out.in_band += lower <= reference && reference <= upper ? 1 : 0;
-    out.in_band_by_budget += validation::normal_share_below((upper - lagged[k]) / u) -
-                             validation::normal_share_below((lower - lagged[k]) / u);
+    out.in_band_by_budget += share_within(k, lower - lagged[k], upper - lagged[k], u);
     double inside = 0;
     SeededNumbers numbers(scenario_.seed, "reference meter", k);
-    for (const std::vector<float>& answer : answers_) {
-      const double error = static_cast<double>(answer[k]) - result.flow_m3_per_s[k];
-      const double shown =
-          lagged[k] + error + meter * validation::quantile(validation::Distribution::rectangular, numbers.uniform());
-      inside += lower <= shown && shown <= upper ? 1 : 0;
+    const std::vector<double> shared = reference_by_trial(k);
+    for (std::size_t trial = 0; trial < trials_; ++trial) {
+      // What the recording made of the sensor is the truth to a trial, which has a band of its own.
+      const double shown = lagged[k] + shared[trial] +
+                           meter * validation::quantile(validation::Distribution::rectangular, numbers.uniform());
+      const BandedFlow& answer = answers_[trial];
+      inside += answer.lower_m3_per_s[k] <= shown && shown <= answer.upper_m3_per_s[k] ? 1 : 0;
     }
     out.in_band_by_trials += inside / static_cast<double>(trials_);
     out.in_budget_interval += std::abs(reference - lagged[k]) <= result.coverage_factor * u ? 1 : 0;
@@ -219,9 +301,9 @@ RunResult RunBudget::result() {
     out.time_s.push_back(run_.samples[k].time_s);
     if (!run_.reference_m3_per_s.empty()) out.reference_m3_per_s.push_back(run_.reference_m3_per_s[k]);
   }
-  out.flow_m3_per_s = function_.flow_m3_per_s();
-  out.lower_m3_per_s = function_.lower_m3_per_s();
-  out.upper_m3_per_s = function_.upper_m3_per_s();
+  out.flow_m3_per_s = function_.undisturbed().flow_m3_per_s;
+  out.lower_m3_per_s = function_.undisturbed().lower_m3_per_s;
+  out.upper_m3_per_s = function_.undisturbed().upper_m3_per_s;
   combine_instants(out);
   take_trials(out);
   if (!out.reference_m3_per_s.empty()) {

@@ -16,8 +16,9 @@ namespace spoolflow::analysis {
 struct BandShares {
   std::size_t instants = 0;       ///< with a reference
   double in_band = 0;             ///< of the sensor's own band
-  double in_band_by_budget = 0;   ///< what the budget predicts, normal errors
+  double in_band_by_budget = 0;   ///< what the budget predicts
   double in_band_by_trials = 0;   ///< what Monte Carlo predicts
+  bool other_bench = false;       ///< the errors of oil and flow meter count in both predictions
   double in_budget_interval = 0;  ///< in the budget's expanded interval, 95 % of which are promised
 };
 

@@ -37,26 +37,13 @@ class Noisy {
   SeededNumbers& numbers_;
 };
 
-/// What the observer's filter leaves open of the pressure difference, one standard deviation. At rest no more than what
-/// friction can hide: it lies within the reach of the pre-sliding gauge.
-double pressure_deviation_Pa(const sensor::ObserverParameters<double>& valve,
-                             const sensor::ObserverState<double>& state, const model::TimedSample& sample,
-                             double step_s) {
-  const bool rests = sensor::has(state.last.status, sensor::Status::spool_at_rest);
-  const double filter_Pa = std::hypot(std::sqrt(std::max(0.0, state.pressure.variance_Pa2)),
-                                      sensor::unseen_change_Pa(state.pressure, valve.band.unseen_factor));
-  if (!rests) return filter_Pa;
-  const auto edge = valve.edge.at(state.oil_temperature_K, state.pressure.pressure_difference_Pa, sample.position_m);
-  constexpr double smoothing_s = 0.03;  // as in friction.hpp
-  const double slack_m = 2 * valve.position_sensor.noise_m * std::sqrt(0.5 * step_s / (smoothing_s + step_s));
-  const double reach_N = valve.friction.contact_stiffness_N_per_m * (valve.position_sensor.backlash_m + slack_m);
-  const double tolerance_N = valve.friction.tolerance_N * (1 + valve.band.creep_per_s * state.friction.rest_s);
-  const double hidden_N =
-      std::hypot(reach_N * validation::deviation_per_half_width(validation::Distribution::rectangular), tolerance_N);
-  return std::min(filter_Pa, hidden_N / std::max(edge.flow_force_per_pressure_N_Pa, 1e-8));
-}
-
 }  // namespace
+
+void BandedFlow::add(const sensor::Estimate<double>& answer, double shift_m3_per_s) {
+  flow_m3_per_s.push_back(answer.flow_m3_per_s + shift_m3_per_s);
+  lower_m3_per_s.push_back(answer.flow_lower_m3_per_s + shift_m3_per_s);
+  upper_m3_per_s.push_back(answer.flow_upper_m3_per_s + shift_m3_per_s);
+}
 
 RunFunction::RunFunction(const model::Model& model, Estimator estimator, const RunSamples& run)
     : model_(model),
@@ -78,20 +65,12 @@ void RunFunction::run_undisturbed() {
     every_flow_m3_per_s_.push_back(answer.flow_m3_per_s);
     if (instant == run_.instants.end() || *instant != k) continue;
     ++instant;
-    flow_m3_per_s_.push_back(answer.flow_m3_per_s);
-    lower_m3_per_s_.push_back(answer.flow_lower_m3_per_s);
-    upper_m3_per_s_.push_back(answer.flow_upper_m3_per_s);
+    undisturbed_.add(answer);
     pressure_Pa_.push_back(answer.pressure_difference_Pa);
+    if (estimator_ != Estimator::observer) continue;
     const double step_s = k == 0 ? 0 : run_.samples[k].time_s - run_.samples[k - 1].time_s;
-    constexpr double least_Pa = 1e4;  // Q ~ sqrt(dp): no slope at zero
-    double deviation_Pa = 0;
-    if (estimator_ == Estimator::observer) {
-      const auto& valve = model_.observer->parameters;
-      deviation_Pa = validation::believed_share_of_deviation(valve) *
-                     pressure_deviation_Pa(valve, sensor.state().observer, run_.samples[k], step_s);
-    }
-    belief_m3_per_s_.push_back(0.5 * answer.flow_m3_per_s / std::max(answer.pressure_difference_Pa, least_Pa) *
-                               deviation_Pa);
+    beliefs_.push_back(validation::pressure_belief(model_.observer->parameters, sensor.state().observer,
+                                                   run_.samples[k].position_m, step_s));
   }
 }
 
@@ -110,31 +89,37 @@ std::vector<double> RunFunction::lagged_m3_per_s(double lag_s) const {
   return out;
 }
 
-std::vector<double> RunFunction::operator()(const InputErrors<double>& error, SeededNumbers& noise) const {
+std::vector<double> RunFunction::belief_m3_per_s() const {
+  std::vector<double> out;
+  for (const validation::PressureBelief& belief : beliefs_) out.push_back(belief.flow_uncertainty_m3_per_s());
+  return out;
+}
+
+BandedFlow RunFunction::operator()(const InputErrors<double>& error, SeededNumbers& noise) const {
   return estimator_ == Estimator::condensed ? condensed(error, noise) : observer(error, noise);
 }
 
-std::vector<double> RunFunction::condensed(const InputErrors<double>& error, SeededNumbers& noise) const {
+BandedFlow RunFunction::condensed(const InputErrors<double>& error, SeededNumbers& noise) const {
   const auto valve = validation::disturbed<double>(model_.condensed.parameters, error);
   model::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);  // has no memory: the instants are enough
   Noisy noisy(error, noise);
-  std::vector<double> out;
+  BandedFlow out;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
     const model::TimedSample& given = run_.samples[run_.instants[k]];
     const InputErrors<double>& now = noisy.next();
     const sensor::Sample<double> read = validation::disturbed<double>(as_sample(given), surroundings_[k], now);
     const auto answer =
         sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
-    out.push_back(answer.flow_m3_per_s - validation::unseen_flow_m3_per_s(surroundings_[k], now));
+    out.add(answer, -validation::unseen_flow_m3_per_s(surroundings_[k], now));
   }
   return out;
 }
 
-std::vector<double> RunFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
+BandedFlow RunFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
   const auto valve = validation::disturbed(model_.observer->parameters, error, temperature_per_viscosity_K_);
   model::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);
   Noisy noisy(error, noise);
-  std::vector<double> out;
+  BandedFlow out;
   auto instant = run_.instants.begin();
   for (std::size_t k = 0; k < run_.samples.size(); ++k) {
     const model::TimedSample& given = run_.samples[k];
@@ -143,8 +128,8 @@ std::vector<double> RunFunction::observer(const InputErrors<double>& error, Seed
         sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
     if (instant == run_.instants.end() || *instant != k) continue;
     ++instant;
-    out.push_back(answer.flow_m3_per_s + error[InputQuantity::flow_map] +
-                  error[InputQuantity::pressure_belief] * belief_m3_per_s_[out.size()]);
+    const validation::PressureBelief& belief = beliefs_[out.flow_m3_per_s.size()];
+    out.add(answer, error[InputQuantity::flow_map] + belief.flow_error_m3_per_s(error[InputQuantity::pressure_belief]));
   }
   return out;
 }

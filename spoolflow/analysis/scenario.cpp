@@ -17,6 +17,7 @@ rig::Settings settings_of(Scenario& scenario) {
   out.add_flag("points.pairs", scenario.points.pairs).add_flag("points.closing", scenario.points.closing);
   out.add_flag("instruments.one_load_cell", scenario.instruments.one_load_cell);
   out.add_flag("monte_carlo.adaptive", scenario.monte_carlo.adaptive);
+  out.add_flag("run.other_bench", scenario.run.other_bench);
   out.add_flag("study.skip", scenario.study.skip).add_flag("study.given_model", scenario.study.given_model);
   out.add_text("study.valve", scenario.study.valve);
   return out;
@@ -96,6 +97,7 @@ std::string scenario_template() {
   out += lines_of("map", scenario.map);
   out += "\n# With --recording.";
   out += lines_of("run", scenario.run);
+  out += flag("other_bench", "true: not the campaign's oil and flow meter, so that their errors show");
   out += "\n# The global study on the virtual rig; [study.spread] holds standard deviations, cut off at 2.5 of them.";
   std::string study = lines_of("study", scenario.study);
   const std::string own =

@@ -108,10 +108,12 @@ struct MapSettings {
 struct RunSettings {
   double reference_meter_percent = 0.5;
   double reference_lag_ms = 30;
+  bool other_bench = false;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit(Parameter{"reference_meter_percent", "%", 0, 20, "half width, of the reading"}, self.reference_meter_percent);
+    visit(Parameter{"reference_meter_percent", "%", 0, 20, "half width, of the reading; counts with other_bench"},
+          self.reference_meter_percent);
     visit(Parameter{"reference_lag_ms", "ms", 0, 10000, "first order; the estimate is lagged likewise"},
           self.reference_lag_ms);
   }

@@ -64,6 +64,8 @@ Json monte_carlo(const analysis::MonteCarlo& check) {
           {"standard_error_of_deviation_L_min", L_per_min_from_m3_per_s(figures.standard_error_of_deviation)},
           {"lower_L_min", L_per_min_from_m3_per_s(figures.lower)},
           {"upper_L_min", L_per_min_from_m3_per_s(figures.upper)},
+          {"shortest_lower_L_min", L_per_min_from_m3_per_s(figures.shortest_lower)},
+          {"shortest_upper_L_min", L_per_min_from_m3_per_s(figures.shortest_upper)},
           {"deviation_over_budget", finite(comparison.deviation_ratio)},
           {"lower_difference_L_min", L_per_min_from_m3_per_s(comparison.lower_difference)},
           {"upper_difference_L_min", L_per_min_from_m3_per_s(comparison.upper_difference)},
@@ -93,6 +95,9 @@ Json point(const analysis::PointResult& result, double full_scale_m3_per_s) {
   out["budget"] = lines(budget);
   out["correlations"] = correlations(budget);
   out["monte_carlo"] = monte_carlo(result.check);
+  out["stated_interval_95"] = {{"lower_L_min", L_per_min_from_m3_per_s(result.stated.lower)},
+                               {"upper_L_min", L_per_min_from_m3_per_s(result.stated.upper)},
+                               {"by", result.stated.by_budget ? "budget" : "monte_carlo"}};
   return out;
 }
 

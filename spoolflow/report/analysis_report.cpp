@@ -86,20 +86,28 @@ void show_budget(HtmlPage& page, const model::Model& model, const Analysis& anal
                                     fixed(units::L_per_min_from_m3_per_s(point->flow_m3_per_s), 1)),
                         legend_of_kinds));
     page.table(budget_table(point->budget));
+    if (!point->stated.by_budget) {
+      page.note(
+          fmt::format("The trials do not validate this expanded uncertainty: the 95 % interval to state is theirs, "
+                      "{} to {} L/min.",
+                      fixed(units::L_per_min_from_m3_per_s(point->stated.lower), 2),
+                      fixed(units::L_per_min_from_m3_per_s(point->stated.upper), 2)));
+    }
     for (const validation::Correlation& c : point->budget.correlations) {
       page.note(fmt::format("Correlated: {} with {}, r = {}: {}.", validation::about(c.one).title,
                             validation::about(c.other).title, fixed(c.coefficient, 2), c.source));
     }
   }
   page.section("All working points, and the check by Monte Carlo");
-  page.paragraph(
-      fmt::format("After JCGM 101: all errors drawn from their distributions, {} trials a point through the same code. "
-                  "The budget is "
-                  "validated where both ends of its 95 % interval lie within half a unit of digit {} of the standard "
-                  "uncertainty of "
-                  "those of the trials (clause 8).",
-                  analysis.points.empty() ? 0 : analysis.points.front().check.figures.trials,
-                  fixed(analysis.scenario.monte_carlo.digits, 0)));
+  page.paragraph(fmt::format(
+      "After JCGM 101: all errors drawn from their distributions, {} trials a point through the same code. "
+      "The budget is "
+      "validated where both ends of its 95 % interval lie within half a unit of digit {} of the standard "
+      "uncertainty of those of the trials (clause 8). Where they do not, the interval stated is that of the "
+      "trials, as much probability below it as above: friction of unknown direction is two-valued, and no "
+      "multiple of a standard deviation describes that.",
+      analysis.points.empty() ? 0 : analysis.points.front().check.figures.trials,
+      fixed(analysis.scenario.monte_carlo.digits, 0)));
   page.table(points_table(analysis.points, model.valve.rated_flow_m3_per_s));
 }
 

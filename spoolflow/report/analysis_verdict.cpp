@@ -26,8 +26,9 @@ std::string range_of_expanded(const model::Model& model, const analysis::Analysi
   double highest = 0;
   for (const analysis::PointResult& point : analysis.points) {
     if (point.estimator != estimator || !point.reachable) continue;
-    lowest = std::min(lowest, point.budget.expanded_m3_per_s);
-    highest = std::max(highest, point.budget.expanded_m3_per_s);
+    const double half = 0.5 * (point.stated.upper - point.stated.lower);
+    lowest = std::min(lowest, half);
+    highest = std::max(highest, half);
   }
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
   return fmt::format("{} to {} % of full scale", fixed(lowest * percent, 1), fixed(highest * percent, 1));
@@ -46,8 +47,9 @@ std::string agreement(const analysis::Analysis& analysis, validation::Estimator 
     highest = std::max(highest, point.check.comparison.deviation_ratio);
   }
   return fmt::format(
-      "{}: Monte Carlo's standard deviation is {} to {} times the budget's; the budget's interval is validated after "
-      "JCGM 101, clause 8, at {} of {} points. Where it is not, the interval of the trials is the one to use.",
+      "{}: Monte Carlo's standard deviation is {} to {} times the budget's. The 95 % interval stated is the budget's "
+      "at "
+      "{} of {} points, where the trials validate it (JCGM 101, clause 8), and the trials' own at the others.",
       validation::name(estimator), fixed(lowest, 2), fixed(highest, 2), validated, points);
 }
 
@@ -103,8 +105,8 @@ AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Anal
         fixed(100 * sub_model->share, 0));
   }
   if (analysis.study) out.remarks.push_back(across_the_series(*analysis.study));
-  out.remarks.push_back(fmt::format("Expanded uncertainty (95 %) at the working points: {}.",
-                                    range_of_expanded(model, analysis, estimator)));
+  out.remarks.push_back(fmt::format("Half the stated 95 % interval of the {} at the working points: {}.",
+                                    sensor_name(estimator), range_of_expanded(model, analysis, estimator)));
   for (const validation::Estimator each : {validation::Estimator::condensed, validation::Estimator::observer}) {
     const bool there = std::any_of(analysis.points.begin(), analysis.points.end(),
                                    [&](const auto& point) { return point.estimator == each && point.reachable; });

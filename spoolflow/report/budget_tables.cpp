@@ -67,9 +67,9 @@ HtmlTable points_table(const std::vector<analysis::PointResult>& points, double 
                                          {"standard<br>[L/min]"},          {"k"},
                                          {"expanded<br>[L/min]"},          {"expanded<br>[% FS]"}};
   if (any_tried) {
-    for (const char* heading :
-         {"interval of<br>the trials [L/min]", "deviation of the trials<br>over the budget's", "budget<br>validated"})
-      columns.push_back({heading});
+    columns.push_back({"deviation of the trials<br>over the budget's"});
+    columns.push_back({"95 % interval<br>stated [L/min]"});
+    columns.push_back({"by", Set::text});
   }
   HtmlTable table(std::move(columns));
   const validation::Estimator* before = nullptr;
@@ -90,11 +90,11 @@ HtmlTable points_table(const std::vector<analysis::PointResult>& points, double 
     for (const std::string& cell :
          {L_min(result.flow_m3_per_s), L_min(budget.combined_m3_per_s), fixed(budget.coverage_factor, 2),
           L_min(budget.expanded_m3_per_s), fixed(100 * budget.expanded_m3_per_s / full_scale_m3_per_s, 2),
-          tried ? fmt::format("{} to {}", L_min(result.check.figures.lower), L_min(result.check.figures.upper)) : "",
           tried ? fixed(result.check.comparison.deviation_ratio, 2) : "",
-          std::string(!tried                              ? ""
-                      : result.check.comparison.validated ? "yes"
-                                                          : "no")}) {
+          tried ? fmt::format("{} to {}", L_min(result.stated.lower), L_min(result.stated.upper)) : "",
+          std::string(!tried                    ? ""
+                      : result.stated.by_budget ? "budget"
+                                                : "trials")}) {
       cells.push_back(cell);
     }
     table.row(cells, begins);

@@ -112,10 +112,13 @@ void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double fu
     if (result.shares) {
       page.paragraph(fmt::format(
           "Of {} instants with a reference, {} lie in the sensor's own 95 % band; the budget predicts {}, the trials "
-          "predict {}. In the budget's own 95 % interval lie {}. The reference meter's uncertainty and lag count in "
-          "these.",
+          "predict {}. In the budget's own 95 % interval lie {}. {}",
           result.shares->instants, percent(result.shares->in_band), percent(result.shares->in_band_by_budget),
-          percent(result.shares->in_band_by_trials), percent(result.shares->in_budget_interval)));
+          percent(result.shares->in_band_by_trials), percent(result.shares->in_budget_interval),
+          result.shares->other_bench
+              ? "The errors of oil and flow meters count in these, and the reference meter's lag."
+              : "The reference is taken to share oil and flow meter with the calibration, so that their errors do not "
+                "show; its lag counts."));
     }
     page.figure(course(result));
     page.html(figure_of(parts(result),

@@ -41,6 +41,9 @@ struct FrictionInterval {
   T rested_s;     ///< how long it had rested before
 };
 
+/// Of the position that the gauge of pre-sliding reads.
+inline constexpr double gauge_smoothing_s = 0.03;
+
 /// What bounds friction at this sample.
 template <class T>
 struct FrictionBounds {
@@ -61,6 +64,20 @@ constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& frictio
   return {spool_N + armature_N, ageing(friction, state.rest_s) * spool_N + armature_N};
 }
 
+/// By how much noise may fake a displacement at rest.
+template <class T>
+[[gnu::always_inline]] constexpr T gauge_slack_m(const PositionSensor<T>& sensor, T time_step_s) {
+  const T smoothing_s = T(gauge_smoothing_s);
+  return T(2) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
+}
+
+/// How far to either side of what the pre-sliding displacement tells friction may lie.
+template <class T>
+[[gnu::always_inline]] constexpr T gauge_reach_N(const FrictionParameters<T>& friction, const PositionSensor<T>& sensor,
+                                                 T slack_m) {
+  return friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
+}
+
 /// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
 /// while the spool slips it is all there is. Returns where friction may lie at rest.
 template <class T>
@@ -74,10 +91,10 @@ template <class T>
     state.smooth_m = state.followed_m = position.position_m;
     state.rest_s = friction.ageing_s;
   });
-  const T smoothing_s = T(0.03);
+  const T smoothing_s = T(gauge_smoothing_s);
   const T delay_s = T(0.004);
-  const T slack_m = T(2) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
-  const T reach_N = friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
+  const T slack_m = gauge_slack_m(sensor, time_step_s);
+  const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(2) * friction.tolerance_N;
   T breakaway_N{};
   const T rested_s = state.rest_s;

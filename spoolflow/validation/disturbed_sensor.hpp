@@ -105,12 +105,6 @@ T unseen_flow_m3_per_s(const Surroundings& surroundings, const InputErrors<T>& e
   return T(surroundings.flow_per_temperature_m3_per_s_K) * warmth_K(surroundings, error);
 }
 
-/// What a standard deviation of the observer's filter stands for: its band holds 95 % with `coverage_factor` of them,
-/// which was found on recordings.
-[[nodiscard]] inline double believed_share_of_deviation(const sensor::ObserverParameters<double>& valve) {
-  return valve.band.coverage_factor * deviation_per_half_width(Distribution::normal);
-}
-
 /// The observer's model with errors. `temperature_per_viscosity_K` as in Surroundings.
 [[nodiscard]] sensor::ObserverParameters<double> disturbed(const sensor::ObserverParameters<double>& valve,
                                                            const InputErrors<double>& error,

@@ -131,9 +131,11 @@ class Collection {
     const auto& residuals = observer_ ? model_.observer->residuals : model_.condensed.residuals;
     const auto sweeps = [](std::size_t loops, int points) { return 2.0 * static_cast<double>(loops) * points; };
     add(residual(InputQuantity::spring, residuals, "spring force", sweeps(1, sensor::spring_positions)));
+    as_operation_shows(inputs_.uncertainties.back());
     const double spring_N = inputs_.uncertainties.back().standard_uncertainty;
     InputUncertainty axial = residual(InputQuantity::flow_force_map, residuals, "axial force",
                                       sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
+    as_operation_shows(axial);
     axial.standard_uncertainty = std::hypot(axial.standard_uncertainty, spring_N);
     axial.source += " and of the spring, which is taken off it";
     add_load_cell(axial);
@@ -149,8 +151,15 @@ class Collection {
       const auto& actuator = model_.observer->parameters.actuator;
       magnetic.standard_uncertainty = actuator.force_uncertainty_N;
       magnetic.source = "model, magnetic_force_uncertainty_N (of the force bench's residuals)";
-      add({InputQuantity::magnetising_current, actuator.current_uncertainty_A, Evaluation::type_a, Distribution::normal,
-           judged_degrees_of_freedom, "model, magnetising_current_uncertainty_A"});
+      as_operation_shows(magnetic);
+      InputUncertainty magnetising{InputQuantity::magnetising_current,
+                                   actuator.current_uncertainty_A,
+                                   Evaluation::type_a,
+                                   Distribution::normal,
+                                   judged_degrees_of_freedom,
+                                   "model, magnetising_current_uncertainty_A"};
+      as_operation_shows(magnetising);
+      add(std::move(magnetising));
     } else {
       add({InputQuantity::magnetic_hysteresis, deviation_per_half_width(Distribution::rectangular), Evaluation::type_b,
            Distribution::rectangular, judged_degrees_of_freedom,
@@ -170,6 +179,15 @@ class Collection {
     }
   }
 
+  /// The observer was run on an operating recording: its forces were found to err by that share of what the benches'
+  /// residuals say (more than 1: by more).
+  void as_operation_shows(InputUncertainty& forces) const {
+    if (!observer_ || assumed("band_force_share")) return;
+    const double share = model_.observer->parameters.band.force_share;
+    forces.standard_uncertainty *= share;
+    forces.source += fmt::format("; times {:.2g}, what the operating recording shows of it (band_force_share)", share);
+  }
+
   [[nodiscard]] bool campaign_has_force() const { return model_.instruments.force_N && is_default(figures_.load_cell); }
   /// The campaign states a force in newtons: it counts in the maps that were measured with it.
   void add_load_cell(InputUncertainty& map) const {
@@ -185,12 +203,24 @@ class Collection {
                   "half the width of the measured loops; this sensor does not know the direction"});
     }
     const auto& parameters = model_.observer->parameters;
+    const bool assumed_share = assumed("band_friction_share");
+    InputUncertainty of_map{InputQuantity::friction,
+                            parameters.band.friction_share,
+                            assumed_share ? Evaluation::type_b : Evaluation::type_a,
+                            Distribution::normal,
+                            judged_degrees_of_freedom,
+                            assumed_share ? "assumed by the model, no operating recording: band_friction_share"
+                                          : "model, band_friction_share"};
+    as_operation_shows(of_map);
+    of_map.standard_uncertainty = std::hypot(of_map.standard_uncertainty, parameters.pressure.ratio_deviation);
+    of_map.source += "; and friction_ratio_deviation";
+    add(std::move(of_map));
+  }
+
+  /// Whether no recording showed that parameter of the observer.
+  [[nodiscard]] bool assumed(std::string_view parameter) const {
     const auto& defaults = model_.observer->defaults;
-    const bool assumed = std::find(defaults.begin(), defaults.end(), "band_friction_share") != defaults.end();
-    add({InputQuantity::friction, std::hypot(parameters.band.friction_share, parameters.pressure.ratio_deviation),
-         assumed ? Evaluation::type_b : Evaluation::type_a, Distribution::normal, judged_degrees_of_freedom,
-         assumed ? "assumed by the model, no operating recording: band_friction_share, friction_ratio_deviation"
-                 : "model, band_friction_share of the operating recording and friction_ratio_deviation"});
+    return std::find(defaults.begin(), defaults.end(), parameter) != defaults.end();
   }
 
   [[nodiscard]] double oil_span_K() const {

@@ -21,7 +21,7 @@ std::optional<PointFunction> PointFunction::at(const model::Model& model, Estima
   if (!course) return std::nullopt;
   out.course_ = std::move(*course);
   out.temperature_per_viscosity_K_ = temperature_per_viscosity_K(model.fluid, point.oil_temperature_K);
-  out.learn_filter();
+  out.learn_belief();
   return out;
 }
 
@@ -52,18 +52,18 @@ double PointFunction::observer(const InputErrors<double>& error, SeededNumbers& 
         sensor::Sample<double>{0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K}, now);
     answer = sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
   }
+  const double u_Pa = belief_.standard_uncertainty_Pa();
   return answer.flow_m3_per_s + error[InputQuantity::flow_map] +
-         flow_per_pressure_m3_per_s_Pa_ * error[InputQuantity::pressure_belief];
+         (u_Pa > 0 ? belief_.flow_error_m3_per_s(error[InputQuantity::pressure_belief] / u_Pa) : 0);
 }
 
-void PointFunction::learn_filter() {
-  model::RunningSensor sensor(&model_->observer->parameters, model_->valve.rated_flow_m3_per_s);
-  sensor::Estimate<double> answer;
-  for (const model::TimedSample& sample : course_) answer = sensor.step(sample);
-  pressure_deviation_Pa_ = believed_share_of_deviation(model_->observer->parameters) *
-                           std::sqrt(std::max(0.0, sensor.state().observer.pressure.variance_Pa2));
-  constexpr double least_Pa = 1e4;  // Q ~ sqrt(dp): no slope at zero
-  flow_per_pressure_m3_per_s_Pa_ = 0.5 * answer.flow_m3_per_s / std::max(answer.pressure_difference_Pa, least_Pa);
+void PointFunction::learn_belief() {
+  const auto& valve = model_->observer->parameters;
+  model::RunningSensor sensor(&valve, model_->valve.rated_flow_m3_per_s);
+  for (const model::TimedSample& sample : course_) sensor.step(sample);
+  const std::size_t last = course_.size() - 1;
+  belief_ = pressure_belief(valve, sensor.state().observer, course_[last].position_m,
+                            course_[last].time_s - course_[last - 1].time_s);
 }
 
 double PointFunction::current_A() const {
@@ -84,7 +84,7 @@ Budget PointFunction::budget(const Inputs& inputs, int noise_runs) const {
     BudgetLine line{input};
     line.degrees_of_freedom = input.degrees_of_freedom;
     double& u = line.input.standard_uncertainty;
-    if (input.quantity == InputQuantity::pressure_belief) u = pressure_deviation_Pa_;
+    if (input.quantity == InputQuantity::pressure_belief) u = belief_.standard_uncertainty_Pa();
     const bool noise =
         input.quantity == InputQuantity::position_noise || input.quantity == InputQuantity::current_noise;
     InputErrors<double> error;

@@ -8,6 +8,7 @@
 #include "spoolflow/validation/estimator.hpp"
 #include "spoolflow/validation/input_uncertainties.hpp"
 #include "spoolflow/validation/operating_point.hpp"
+#include "spoolflow/validation/pressure_belief.hpp"
 #include "spoolflow/validation/seeded_numbers.hpp"
 
 namespace spoolflow::validation {
@@ -28,8 +29,6 @@ class PointFunction {
   [[nodiscard]] double current_A() const;
   /// The position as it is read there: the observer's with its sensor's drift.
   [[nodiscard]] double position_reading_m() const;
-  /// Standard deviation of the pressure difference that the observer's filter claims; 0 of the condensed sensor.
-  [[nodiscard]] double pressure_deviation_Pa() const { return pressure_deviation_Pa_; }
 
   /// Sensitivities and budget there. Condensed sensor: automatic differentiation through its templates. Observer, which
   /// branches on motion and surprises: central differences over plus and minus one standard uncertainty (JCGM 100,
@@ -41,7 +40,7 @@ class PointFunction {
       : model_(&model), estimator_(estimator), point_(point) {}
   [[nodiscard]] double condensed(const InputErrors<double>& error) const;
   [[nodiscard]] double observer(const InputErrors<double>& error, SeededNumbers& noise) const;
-  void learn_filter();
+  void learn_belief();
 
   const model::Model* model_;
   Estimator estimator_;
@@ -50,8 +49,7 @@ class PointFunction {
   Surroundings surroundings_;               // condensed
   std::vector<model::TimedSample> course_;  // observer
   double temperature_per_viscosity_K_ = 0;
-  double pressure_deviation_Pa_ = 0;
-  double flow_per_pressure_m3_per_s_Pa_ = 0;
+  PressureBelief belief_;  // observer
 };
 
 }  // namespace spoolflow::validation

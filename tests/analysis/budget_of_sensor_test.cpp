@@ -1,5 +1,6 @@
 /// The budget of the sensor calibrated on the example recordings, at points and along a run.
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,38 @@ TEST(MonteCarlo, AdaptiveTrialsEndWhenTheFiguresAreStable) {
   EXPECT_EQ(check.figures.trials % 300, 0U);
 }
 
+TEST(MonteCarlo, StatesTheTrialsIntervalWhereFrictionIsTwoValuedAndTheBudgetsWhereItHolds) {
+  const auto stated_at_middle = [](Estimator estimator, std::size_t trials) {
+    const auto function = PointFunction::at(example(), estimator, middle());
+    const validation::Budget budget = function->budget(validation::inputs_of(example(), estimator, {}));
+    const MonteCarlo check = monte_carlo(*function, budget, {.trials = trials}, 1);
+    SeededNumbers none(0, "");
+    return std::pair(stated_interval(budget, (*function)({}, none), check), check.figures);
+  };
+  const auto [condensed, trials] = stated_at_middle(Estimator::condensed, 4000);
+  EXPECT_FALSE(condensed.by_budget);
+  EXPECT_EQ(condensed.lower, trials.lower);
+  EXPECT_EQ(condensed.upper, trials.upper);
+  EXPECT_LE(trials.shortest_upper - trials.shortest_lower, trials.upper - trials.lower);
+  MonteCarlo agreeing;
+  agreeing.comparison.validated = true;
+  validation::Budget budget;
+  budget.expanded_m3_per_s = 2;
+  const StatedInterval by_budget = stated_interval(budget, 10, agreeing);
+  EXPECT_TRUE(by_budget.by_budget);
+  EXPECT_EQ(by_budget.lower, 8);
+  EXPECT_EQ(by_budget.upper, 12);
+}
+
+TEST(MonteCarlo, TheShortestIntervalLeavesOutTheThinTail) {
+  std::vector<double> outputs;  // exponential: all probability near zero
+  for (int k = 0; k < 1000; ++k) outputs.push_back(-std::log(1 - (k + 0.5) / 1000));
+  const TrialFigures figures = figures_of(outputs);
+  EXPECT_NEAR(figures.shortest_lower, 0, 0.01);
+  EXPECT_NEAR(figures.shortest_upper, -std::log(0.05), 0.05);
+  EXPECT_NEAR(figures.lower, -std::log(0.975), 0.01);
+}
+
 TEST(MonteCarlo, ToleranceIsHalfAUnitOfTheLastDigitThatCounts) {
   EXPECT_DOUBLE_EQ(numerical_tolerance(0.35, 1), 0.05);
   EXPECT_DOUBLE_EQ(numerical_tolerance(0.35, 2), 0.005);
@@ -128,10 +161,11 @@ RunSamples course(bool with_reference) {
   RunSamples run{"course", *validation::course_to(example(), middle()), {}, {}};
   for (std::size_t k = 0; k < run.samples.size(); k += 3) run.instants.push_back(k);
   if (with_reference) {
-    SeededNumbers none(0, "");
-    const double flow = (*PointFunction::at(example(), Estimator::observer, middle()))({}, none);
-    run.reference_m3_per_s.assign(run.samples.size(), NAN);
-    for (std::size_t k = run.samples.size() - 20; k < run.samples.size(); ++k) run.reference_m3_per_s[k] = flow;
+    model::RunningSensor sensor(&example().observer->parameters, example().valve.rated_flow_m3_per_s);
+    for (std::size_t k = 0; k < run.samples.size(); ++k) {
+      const double flow = sensor.step(run.samples[k]).flow_m3_per_s;
+      run.reference_m3_per_s.push_back(k + 20 < run.samples.size() ? NAN : flow);
+    }
   }
   return run;
 }
@@ -139,6 +173,7 @@ RunSamples course(bool with_reference) {
 Scenario few_trials() {
   Scenario scenario;
   scenario.monte_carlo.trials_along_run = 60;
+  scenario.run.reference_lag_ms = 0;
   return scenario;
 }
 
@@ -164,6 +199,17 @@ TEST(BudgetAlongARun, CountsTheSamplesThatHaveAReference) {
   EXPECT_GE(shares.instants, 6U);
   EXPECT_EQ(shares.in_budget_interval, 1) << "the reference is what the sensor says";
   EXPECT_GT(shares.in_band_by_budget, 0.5);
+}
+
+TEST(BudgetAlongARun, ErrorsOfOilAndMeterShowOnAnotherBenchOnly) {
+  Scenario other = few_trials();
+  other.run.other_bench = true;
+  const auto predicted = [&](const Scenario& scenario) {
+    return *analyse_run(example(), course(true), scenario, 1, [](double) {}).results.back().shares;
+  };
+  const BandShares same = predicted(few_trials());
+  EXPECT_GT(same.in_band_by_budget, predicted(other).in_band_by_budget);
+  EXPECT_GE(same.in_band_by_trials, predicted(other).in_band_by_trials);
 }
 
 TEST(BudgetAlongARun, ServesARunOfOneSampleAndRefusesOneWithout) {
