@@ -28,6 +28,7 @@ struct AnalyseArguments {
   std::string recording;
   std::string channels;
   std::string self_check;
+  std::vector<std::string> units;
   std::uint32_t samples = 0;  ///< 0: as the scenario says
   std::uint64_t seed = 0;     ///< 0: as the scenario says
   unsigned jobs = 0;          ///< 0: all cores
@@ -128,6 +129,7 @@ void analyse(const AnalyseArguments& arguments) {
   if (arguments.print_scenario) return print_text(analysis::scenario_template());
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
+  const report::ReaderUnits units(arguments.units);
   const model::Model model = model::read_model(arguments.model);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
   std::vector<std::filesystem::path> inputs{arguments.model};
@@ -164,7 +166,7 @@ void analyse(const AnalyseArguments& arguments) {
     }
     if (whole) results.study = study(model, results.scenario, *valve, arguments, progress);
   }
-  if (page) report::write_analysis_report(page->stream(), model, results);
+  if (page) report::write_analysis_report(page->stream(), model, results, units);
   if (figures) report::write_analysis_json(figures->stream(), model, results);
   commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
   if (const auto state = state_file(arguments)) std::filesystem::remove(*state);
@@ -211,6 +213,7 @@ void add_analyse_command(CLI::App& program) {
   command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")
       ->type_name("NAME")
       ->check(CLI::IsMember({"ishigami"}));
+  add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { analyse(*arguments); });
 }

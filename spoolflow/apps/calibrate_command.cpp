@@ -47,6 +47,7 @@ void print_summary(const model::Model& model) {
 
 void calibrate(const CalibrateArguments& arguments) {
   const recording::Campaign campaign = recording::read_campaign(arguments.campaign);
+  const report::ReaderUnits units(arguments.units);
   std::vector<std::filesystem::path> inputs = files_of(campaign);
   OutputFile output(arguments.model, inputs);
   std::optional<OutputFile> page;
@@ -61,7 +62,7 @@ void calibrate(const CalibrateArguments& arguments) {
     });
   }
   model::write_model(output.stream(), model);
-  if (page) report::write_calibration_report(page->stream(), model);
+  if (page) report::write_calibration_report(page->stream(), model, units);
   commit_together({&output, page ? &*page : nullptr});
   if (!arguments.quiet) print_summary(model);
 }
@@ -82,6 +83,7 @@ void add_calibrate_command(CLI::App& program) {
       ->required();
   command->add_option("--report", arguments->report, "HTML page to write about the calibration")
       ->type_name("PAGE.html");
+  add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { calibrate(*arguments); });
 }

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/report/reader_units.hpp"
+
 namespace spoolflow::apps {
 namespace {
 
@@ -46,6 +48,26 @@ CLI::App* add_command(CLI::App& program, const CommandText& text) {
 
 void add_quiet(CLI::App& command, bool& quiet) {
   command.add_flag("-q,--quiet", quiet, "no progress (it is shown on a terminal only)");
+}
+
+void add_units(CLI::App& command, std::vector<std::string>& units) {
+  std::string choice;
+  for (const report::ReaderQuantity& quantity : report::reader_quantities()) {
+    if (!choice.empty()) choice += ", ";
+    bool first = true;
+    for (const report::ReaderUnit& unit : quantity.units) {
+      if (unit.asked.empty()) continue;
+      choice += fmt::format("{}{}", first ? "" : "|", unit.asked);
+      first = false;
+    }
+  }
+  // One word: a list would swallow the arguments behind it.
+  const auto split = [&units](const std::string& list) {
+    std::istringstream rest(list);
+    for (std::string name; std::getline(rest, name, ',');) units.push_back(name);
+  };
+  command.add_option_function<std::string>("--units", split, "units of the report, with commas between: " + choice)
+      ->type_name("UNITS");
 }
 
 }  // namespace spoolflow::apps

@@ -23,4 +23,7 @@ CLI::App* add_command(CLI::App& program, const CommandText& text);
 /// `-q,--quiet`: no progress.
 void add_quiet(CLI::App& command, bool& quiet);
 
+/// `--units LIST`: the units of the report.
+void add_units(CLI::App& command, std::vector<std::string>& units);
+
 }  // namespace spoolflow::apps

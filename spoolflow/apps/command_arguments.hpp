@@ -24,8 +24,9 @@ void campaign(const CampaignArguments& arguments);
 
 struct CalibrateArguments {
   std::string campaign;
-  std::string model;   ///< to write
-  std::string report;  ///< to write; empty: none
+  std::string model;                    ///< to write
+  std::string report;                   ///< to write; empty: none
+  std::vector<std::string> units = {};  ///< of the report
   bool quiet = false;
 };
 void calibrate(const CalibrateArguments& arguments);
@@ -49,6 +50,7 @@ struct ValidateArguments {
   std::string requirements = {};          ///< requirements file; empty: none
   std::vector<std::string> compare = {};  ///< figures of other validations
   std::string estimator = "both";
+  std::vector<std::string> units = {};  ///< of the report
   double reference_lag_ms = 30;
   bool apply_reference_lag = false;
   bool quiet = false;

@@ -7,16 +7,19 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/demo_files.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/report/reader_units.hpp"
 
 namespace spoolflow::apps {
 namespace {
 
 struct DemoArguments {
   std::string folder = "spoolflow_demo";
+  std::vector<std::string> units;
   bool quiet = false;
 };
 
 void demo(const DemoArguments& arguments) {
+  const report::ReaderUnits refused_early(arguments.units);  // before minutes of simulation
   const std::filesystem::path folder = arguments.folder;
   const auto in_folder = [&](const char* name) { return (folder / name).string(); };
   make_output_folder(folder);
@@ -37,6 +40,7 @@ void demo(const DemoArguments& arguments) {
   calibrate({.campaign = in_folder("campaign/campaign.toml"),
              .model = in_folder("model.json"),
              .report = in_folder("calibration.html"),
+             .units = arguments.units,
              .quiet = arguments.quiet});
   estimate({.model = in_folder("model.json"),
             .recordings = {runs.back()},
@@ -49,6 +53,7 @@ void demo(const DemoArguments& arguments) {
             .report = in_folder("report.html"),
             .json = in_folder("metrics.json"),
             .channels = {},
+            .units = arguments.units,
             .quiet = arguments.quiet});
   fmt::print(
       "\nThe recordings are simulated by the virtual test rig; they, the model and the estimate are in {0}. The same "
@@ -75,6 +80,7 @@ void add_demo_command(CLI::App& program) {
                             "the path of the report comes last on standard output",
                             {"spoolflow demo -o demo"}});
   command->add_option("-o,--output", arguments->folder, "folder to write")->type_name("DIR")->capture_default_str();
+  add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { demo(*arguments); });
 }

@@ -50,6 +50,7 @@ void print_figures(const model::Model& model, const validation::Validation& vali
 }  // namespace
 
 void validate(const ValidateArguments& arguments) {
+  const report::ReaderUnits units(arguments.units);
   const model::Model model = model::read_model(arguments.model);
   validation::ValidationOptions options{
       chosen(arguments.estimator, model), {}, arguments.reference_lag_ms * 1e-3, arguments.apply_reference_lag};
@@ -73,7 +74,7 @@ void validate(const ValidateArguments& arguments) {
     validation = validation::validate(model, {arguments.recordings.begin(), arguments.recordings.end()}, options,
                                       [&](double share) { progress.update(share); });
   }
-  if (page) report::write_validation_report(page->stream(), model, validation, others);
+  if (page) report::write_validation_report(page->stream(), model, validation, others, units);
   if (figures) report::write_metrics(figures->stream(), model, validation);
   commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
   if (arguments.json != "-" && arguments.report != "-") print_figures(model, validation);
@@ -106,6 +107,7 @@ void add_validate_command(CLI::App& program) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->needs(report);
+  add_units(*command, arguments->units);
   command->add_option("--estimator", arguments->estimator, "both, condensed or observer")
       ->type_name("NAME")
       ->check(CLI::IsMember({"both", "condensed", "observer"}))

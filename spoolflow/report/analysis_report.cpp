@@ -79,13 +79,13 @@ void show_budget(HtmlPage& page, const model::Model& model, const Analysis& anal
     const PointResult* const point = middle_point(analysis, estimator);
     if (point == nullptr) continue;
     page.subsection(fmt::format("The {} at {}", sensor_name(estimator), place_of(*point)));
-    page.html(figure_of(contribution_chart(*point),
+    page.html(figure_of(page.units().of(contribution_chart(*point)),
                         fmt::format("Contributions to the standard uncertainty of {} L/min at a flow rate of {} L/min; "
                                     "those below a hundredth of the largest are in the table only.",
                                     three_digits(units::L_per_min_from_m3_per_s(point->budget.combined_m3_per_s)),
                                     fixed(units::L_per_min_from_m3_per_s(point->flow_m3_per_s), 1)),
                         legend_of_kinds));
-    page.table(budget_table(point->budget));
+    page.table(budget_table(point->budget, page.units()));
     if (!point->stated.by_budget) {
       page.note(
           fmt::format("The trials do not validate this expanded uncertainty: the 95 % interval to state is theirs, "
@@ -115,7 +115,7 @@ void show_maps(HtmlPage& page, const model::Model& model, const Analysis& analys
   page.section("Over the operating map");
   page.paragraph("The budget again in every cell, while the spool passes it.");
   for (const analysis::OperatingMap& map : analysis.maps) {
-    page.html(operating_map_figures(map, model.valve.rated_flow_m3_per_s));
+    page.html(operating_map_figures(map, model.valve.rated_flow_m3_per_s, page.units()));
   }
 }
 
@@ -135,8 +135,10 @@ void show_study(HtmlPage& page, const analysis::Study& study) {
 
 }  // namespace
 
-void write_analysis_report(std::ostream& out, const model::Model& model, const Analysis& analysis) {
-  HtmlPage page("spoolflow analysis report", "Uncertainty of the flow rate of " + model.valve.name, origin_of(model));
+void write_analysis_report(std::ostream& out, const model::Model& model, const Analysis& analysis,
+                           const ReaderUnits& units) {
+  HtmlPage page("spoolflow analysis report", "Uncertainty of the flow rate of " + model.valve.name, origin_of(model),
+                units);
   show_verdict(page, analysis_verdict(model, analysis));
   show_budget(page, model, analysis);
   show_maps(page, model, analysis);

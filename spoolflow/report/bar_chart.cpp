@@ -40,7 +40,7 @@ Frame frame_of(const BarChart& chart, double width_px) {
   }
   if (!(highest > chart.lowest)) highest = chart.lowest + 1;
   const double letter_px = 7;
-  return {std::min(0.55 * width_px, 14 + letter_px * static_cast<double>(longest_name)),
+  return {std::min(0.62 * width_px, 14 + letter_px * static_cast<double>(longest_name)),
           width_px - 14 - letter_px * static_cast<double>(longest_text),
           top_px + row_px * static_cast<double>(chart.bars.size()), chart.lowest, chart.highest.value_or(highest)};
 }

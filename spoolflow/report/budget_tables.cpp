@@ -29,8 +29,8 @@ std::string tone_of(bool part_of_model) {
 
 }  // namespace
 
-HtmlTable budget_table(const validation::Budget& budget) {
-  HtmlTable table({{"input", Set::text},
+HtmlTable budget_table(const validation::Budget& budget, const ReaderUnits& units) {
+  HtmlTable table({{"input", Set::sentence},
                    {"type, distribution", Set::text},
                    {"from", Set::sentence},
                    {"standard<br>uncertainty"},
@@ -40,13 +40,15 @@ HtmlTable budget_table(const validation::Budget& budget) {
                    {"degrees of<br>freedom"}});
   for (const validation::BudgetLine& line : budget.lines) {
     const validation::QuantityAbout& about = validation::about(line.input.quantity);
+    // The table is turned into the reader's units by its headings; what a sensitivity counts per stands in the cells.
+    const double per_SI = about.per_SI * units.instead_of(about.unit).factor;
     table.row(
         {html_text(about.title),
          fmt::format("{}, {}", line.input.evaluation == validation::Evaluation::type_a ? "A" : "B",
                      validation::name(line.input.distribution)),
          html_text(line.input.source),
          fmt::format("{} {}", three_digits(line.input.standard_uncertainty * about.per_SI), unit_text(about.unit)),
-         three_digits(L_per_min_from_m3_per_s(line.sensitivity_m3_per_s) / about.per_SI),
+         three_digits(L_per_min_from_m3_per_s(line.sensitivity_m3_per_s) / per_SI),
          three_digits(L_per_min_from_m3_per_s(std::abs(line.contribution_m3_per_s))), fixed(100 * line.share, 1),
          freedom_text(line.degrees_of_freedom)});
   }

@@ -3,11 +3,12 @@
 #include "spoolflow/analysis/analysis.hpp"
 #include "spoolflow/report/bar_chart.hpp"
 #include "spoolflow/report/html_table.hpp"
+#include "spoolflow/report/reader_units.hpp"
 
 namespace spoolflow::report {
 
 /// Every line of one budget, with units and sources.
-[[nodiscard]] HtmlTable budget_table(const validation::Budget& budget);
+[[nodiscard]] HtmlTable budget_table(const validation::Budget& budget, const ReaderUnits& units = {});
 
 /// One line a point: flow, uncertainty, and what Monte Carlo says of it where trials were made.
 [[nodiscard]] HtmlTable points_table(const std::vector<analysis::PointResult>& points, double full_scale_m3_per_s);

@@ -23,8 +23,8 @@ std::string legend(const CaptionedFigure& figure) {
 
 }  // namespace
 
-HtmlPage::HtmlPage(std::string kind, std::string title, std::string origin)
-    : kind_(std::move(kind)), title_(std::move(title)), origin_(std::move(origin)) {}
+HtmlPage::HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units)
+    : kind_(std::move(kind)), title_(std::move(title)), origin_(std::move(origin)), units_(units) {}
 
 void HtmlPage::section(std::string_view heading) {
   ++sections_;
@@ -49,9 +49,10 @@ std::string HtmlPage::caption(const std::string& text) {
 }
 
 std::string HtmlPage::drawings(const CaptionedFigure& figure, const Layout& layout) const {
+  const Figure drawn = units_.of(figure.figure);
   return fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>", legend(figure),
-                     svg_of(figure.figure, layout, fmt::format("f{}w", figures_)),
-                     svg_of(figure.figure, narrow, fmt::format("f{}n", figures_)));
+                     svg_of(drawn, layout, fmt::format("f{}w", figures_)),
+                     svg_of(drawn, narrow, fmt::format("f{}n", figures_)));
 }
 
 void HtmlPage::figure(const CaptionedFigure& figure) {
@@ -76,14 +77,15 @@ void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
 
 std::string HtmlPage::str() const {
   return fmt::format(
-             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+             "<!doctype html>\n<html lang=\"en\"{6}><head><meta charset=\"utf-8\">"
              "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
              "<meta http-equiv=\"Content-Security-Policy\" content=\"{0}\">"
              "<title>{1}: {2}</title><style>{3}</style></head>\n<body><main>\n"
              "<header><p class=\"kicker\">{1}</p><h1>{2}</h1><p class=\"kicker\">{4}</p>\n"
              "<nav aria-label=\"Contents\">{5}</nav></header>\n",
-             nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_) +
-         body_ + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
+             nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_,
+             units_.attributes()) +
+         units_.markup(body_) + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
 }
 
 }  // namespace spoolflow::report

@@ -1,12 +1,13 @@
 #pragma once
 /// One self-contained page: style sheet and script inside, no network. Without script it shows the same, standing
-/// still.
+/// still. Everything that comes in is turned into the reader's units, but for drawings made outside (`units()`).
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "spoolflow/report/figure.hpp"
 #include "spoolflow/report/html_table.hpp"
+#include "spoolflow/report/reader_units.hpp"
 #include "spoolflow/report/svg_figure.hpp"
 
 namespace spoolflow::report {
@@ -23,14 +24,15 @@ struct CaptionedFigure {
 class HtmlPage {
  public:
   /// `kind` stands above the title, `origin` below it: where and when the page was made.
-  HtmlPage(std::string kind, std::string title, std::string origin);
+  HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units = {});
 
   void section(std::string_view heading);     ///< appears in the contents
   void subsection(std::string_view heading);  ///< does not
   void paragraph(std::string_view text);
   void note(std::string_view text);  ///< small print
   void html(std::string_view markup) { body_ += markup; }
-  void table(const HtmlTable& table) { body_ += table.str(); }
+  void table(const HtmlTable& table) { body_ += units_.of(table).str(); }
+  [[nodiscard]] const ReaderUnits& units() const { return units_; }
   /// Over the whole width; drawn a second time for narrow screens, so that its text keeps its size.
   void figure(const CaptionedFigure& figure);
   /// Two beside each other where there is room; drawn twice as well.
@@ -43,6 +45,7 @@ class HtmlPage {
   [[nodiscard]] std::string caption(const std::string& text);
 
   std::string kind_, title_, origin_;
+  ReaderUnits units_;
   std::string body_;
   std::string contents_;
   int sections_ = 0;

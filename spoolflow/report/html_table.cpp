@@ -22,11 +22,13 @@ const char* class_of(Set set) {
 }  // namespace
 
 void HtmlTable::row(const std::vector<std::string>& cells, bool begins_group) {
-  rows_ += begins_group ? "<tr class=\"first\">" : "<tr>";
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    rows_ += std::string("<td") + class_of(columns_[c].set) + ">" + (c < cells.size() ? cells[c] : "") + "</td>";
+  rows_.push_back({cells, begins_group});
+}
+
+void HtmlTable::change_column(std::size_t column, const std::function<std::string(const std::string&)>& change) {
+  for (Row& row : rows_) {
+    if (column < row.cells.size()) row.cells[column] = change(row.cells[column]);
   }
-  rows_ += "</tr>\n";
 }
 
 std::string HtmlTable::str() const {
@@ -34,7 +36,16 @@ std::string HtmlTable::str() const {
   for (const Column& column : columns_) {
     head += std::string("<th scope=\"col\"") + class_of(column.set) + ">" + column.heading + "</th>";
   }
-  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows_ +
+  std::string rows;
+  for (const Row& row : rows_) {
+    rows += row.begins_group ? "<tr class=\"first\">" : "<tr>";
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      rows +=
+          std::string("<td") + class_of(columns_[c].set) + ">" + (c < row.cells.size() ? row.cells[c] : "") + "</td>";
+    }
+    rows += "</tr>\n";
+  }
+  return "<div class=\"scroll\"><table><thead><tr>" + head + "</tr></thead><tbody>\n" + rows +
          "</tbody></table></div>\n";
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,18 @@ class HtmlTable {
   [[nodiscard]] std::string str() const;
   [[nodiscard]] bool empty() const { return rows_.empty(); }
 
+  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  void heading(std::size_t column, const std::string& text) { columns_[column].heading = text; }
+  /// Every cell of a column becomes what `change` makes of it.
+  void change_column(std::size_t column, const std::function<std::string(const std::string&)>& change);
+
  private:
+  struct Row {
+    std::vector<std::string> cells;
+    bool begins_group;
+  };
   std::vector<Column> columns_;
-  std::string rows_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace spoolflow::report

@@ -85,8 +85,8 @@ void add_residuals(HtmlTable& table, const std::string& estimator, const std::ve
     if (unit == "m3/s") factor = units::litre_per_minute_per_m3_per_s, unit = "L/min";
     if (unit == "m") factor = 1e6, unit = "\u00b5m";
     if (unit == "Pa") factor = 1 / units::pascal_per_bar, unit = "bar";
-    table.row({html_text(residual.of), estimator, three_digits(residual.rms * factor),
-               three_digits(residual.largest * factor), html_text(unit)},
+    table.row({html_text(residual.of), estimator, three_digits(residual.rms * factor) + " " + html_text(unit),
+               three_digits(residual.largest * factor) + " " + html_text(unit)},
               &residual == &residuals.front());
   }
 }
@@ -127,7 +127,7 @@ void show_valve(HtmlPage& page, const model::Model& model, const std::vector<val
 
 void show_residuals(HtmlPage& page, const model::Model& model) {
   page.subsection("How well the maps fit the samples they were made from");
-  HtmlTable table({{"Map", Set::text}, {"of the", Set::text}, {"RMS"}, {"largest"}, {"unit", Set::text}});
+  HtmlTable table({{"Map", Set::text}, {"of the", Set::text}, {"RMS"}, {"largest"}});
   add_residuals(table, "condensed", model.condensed.residuals);
   if (model.observer) add_residuals(table, "observer", model.observer->residuals);
   page.table(table);

@@ -8,6 +8,7 @@
 #include "spoolflow/report/heat_scale.hpp"
 #include "spoolflow/report/html_text.hpp"
 #include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/sensor_name.hpp"
 #include "spoolflow/report/ticks.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/estimator.hpp"
@@ -51,9 +52,11 @@ struct Grid {
 
 /// Draws axes and, for every cell of the map, what `look` and `text` say.
 template <class Look, class Text>
-std::string drawn(const OperatingMap& map, const std::string& description, const Look& look, const Text& text) {
-  const Grid x{map.position_m, 1e3, left_px, right_px};
-  const Grid y{map.pressure_difference_Pa, 1e-5, bottom_px, upper_px};
+std::string drawn(const OperatingMap& map, const ReaderUnits& units, const std::string& description, const Look& look,
+                  const Text& text) {
+  const ReaderUnit across_unit = units.instead_of("mm");
+  const Grid x{map.position_m, 1e3 * across_unit.factor, left_px, right_px};
+  const Grid y{map.pressure_difference_Pa, 1e-5 * units.instead_of("bar").factor, bottom_px, upper_px};
   std::string out = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", width_px, height_px,
                                 html_text(description));
   const std::size_t columns = map.position_m.size();
@@ -83,8 +86,8 @@ std::string drawn(const OperatingMap& map, const std::string& description, const
                        y.px(up.at[k]) + 4, up.text[k]);
   }
   out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", left_px, upper_px, bottom_px, right_px);
-  out += fmt::format(R"(<text class="label" text-anchor="middle" x="{}" y="{}">Position [mm]</text></svg>)",
-                     0.5 * (left_px + right_px), bottom_px + 36);
+  out += fmt::format(R"(<text class="label" text-anchor="middle" x="{}" y="{}">Position [{}]</text></svg>)",
+                     0.5 * (left_px + right_px), bottom_px + 36, across_unit.shown);
   return out;
 }
 
@@ -109,8 +112,9 @@ std::vector<std::string_view> groups_of(const OperatingMap& map) {
 
 }  // namespace
 
-std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_per_s) {
-  const std::string name(validation::name(map.estimator));
+std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_per_s, const ReaderUnits& units) {
+  const std::string name(sensor_name(map.estimator));
+  const std::string_view pressure = units.instead_of("bar").shown;
   const std::vector<std::string_view> groups = groups_of(map);
   const auto tone_of = [&](const MapCell& cell) {
     const std::string_view group = validation::about(cell.dominant).group;
@@ -118,14 +122,15 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
     return fmt::format("style=\"fill:var(--{})\"", tones[std::min(place, tones.size() - 1)]);
   };
   const std::string heat = drawn(
-      map, name + ": expanded uncertainty over position and pressure difference",
+      map, units, name + ": expanded uncertainty over position and pressure difference",
       [&](const MapCell& cell) {
         return fmt::format("class=\"h{}\"", heat_scale.colour(100 * cell.expanded_m3_per_s / full_scale_m3_per_s));
       },
       [](const MapCell&) { return std::string(); });
-  const std::string dominant = drawn(
-      map, name + ": group of inputs with the largest share of the variance, over position and pressure difference",
-      tone_of, [](const MapCell& cell) { return letters_of(validation::about(cell.dominant).group); });
+  const std::string dominant =
+      drawn(map, units,
+            name + ": group of inputs with the largest share of the variance, over position and pressure difference",
+            tone_of, [](const MapCell& cell) { return letters_of(validation::about(cell.dominant).group); });
   std::string legend = "<div class=\"heat\"><span>Counts most:</span>";
   for (std::size_t k = 0; k < groups.size(); ++k) {
     legend += colour_key(fmt::format("style=\"fill:var(--{})\"", tones[std::min(k, tones.size() - 1)]),
@@ -133,11 +138,11 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
   }
   legend += "</div>";
   return fmt::format(
-      "<div class=\"pair\"><figure>{}<p class=\"soft\" style=\"margin:0 0 0 44px\">Pressure difference [bar]</p>{}"
+      "<div class=\"pair\"><figure>{}<p class=\"soft\" style=\"margin:0 0 0 44px\">Pressure difference [{}]</p>{}"
       "<figcaption>The {}: expanded uncertainty (95 %). Empty: outside the calibrated maps.</figcaption></figure>\n"
-      "<figure>{}<p class=\"soft\" style=\"margin:0 0 0 44px\">Pressure difference [bar]</p>{}"
+      "<figure>{}<p class=\"soft\" style=\"margin:0 0 0 44px\">Pressure difference [{}]</p>{}"
       "<figcaption>The {}: which group of inputs has the largest share of the variance.</figcaption></figure></div>\n",
-      heat_scale.legend("Expanded uncertainty, % FS"), heat, name, legend, dominant, name);
+      heat_scale.legend("Expanded uncertainty, % FS"), pressure, heat, name, legend, pressure, dominant, name);
 }
 
 }  // namespace spoolflow::report

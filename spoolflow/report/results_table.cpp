@@ -125,12 +125,12 @@ HtmlTable all_figures_table(const validation::Validation& validation, double ful
                    {"Estimator", Set::text},
                    {"Samples", Set::text},
                    {"number"},
-                   {"95 % below"},
-                   {"RMS"},
-                   {"largest"},
-                   {"bias"},
+                   {"95 % below<br>[L/min / % FS]"},
+                   {"RMS<br>[L/min / % FS]"},
+                   {"largest<br>[L/min / % FS]"},
+                   {"bias<br>[L/min / % FS]"},
                    {"in band %"},
-                   {"band width"},
+                   {"band width<br>[L/min / % FS]"},
                    {"width / RMS"}});
   const double percent = 100 / full_scale_m3_per_s;
   for (const validation::RunResult& run : validation.runs) {

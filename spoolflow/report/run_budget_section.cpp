@@ -18,12 +18,20 @@ namespace {
 using analysis::RunResult;
 constexpr double L_min = units::litre_per_minute_per_m3_per_s;
 
+/// Whether nothing was recorded before an instant for much longer than usual.
+bool after_gap(const std::vector<double>& time_s, std::size_t k) {
+  constexpr double many = 20;
+  const double usual_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size());
+  return k > 0 && time_s[k] - time_s[k - 1] > many * usual_s;
+}
+
 CaptionedFigure course(const RunResult& result) {
   const std::string name(validation::name(result.estimator));
   std::vector<double> below, above, error, expanded, of_trials;
   for (std::size_t k = 0; k < result.time_s.size(); ++k) {
     const double half = result.coverage_factor * result.combined_m3_per_s[k];
-    below.push_back(L_min * (result.flow_m3_per_s[k] - half));
+    // NaN breaks the area.
+    below.push_back(after_gap(result.time_s, k) ? NAN : L_min * (result.flow_m3_per_s[k] - half));
     above.push_back(L_min * (result.flow_m3_per_s[k] + half));
     expanded.push_back(L_min * half);
     of_trials.push_back(L_min * result.coverage_factor * result.deviation_m3_per_s[k]);
@@ -64,7 +72,7 @@ CaptionedFigure course(const RunResult& result) {
   return {{.description = "The " + name + "'s flow rate with the budget's interval over time",
            .x_title = "Time [s]",
            .panels = {flow, size}},
-          fmt::format("The {} along the run with the budget's 95 % interval (k = {}).", name,
+          fmt::format("The {} along the run with the budget's 95 % interval (k = {}).", sensor_name(result.estimator),
                       fixed(result.coverage_factor, 2))};
 }
 
@@ -121,7 +129,7 @@ void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double fu
                 "show; its lag counts."));
     }
     page.figure(course(result));
-    page.html(figure_of(parts(result),
+    page.html(figure_of(page.units().of(parts(result)),
                         "What makes the uncertainty along the run; less than a hundredth of the largest "
                         "left out."));
   }

@@ -100,9 +100,9 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
 }  // namespace
 
 void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
-                             const std::vector<ComparedValidation>& others) {
+                             const std::vector<ComparedValidation>& others, const ReaderUnits& units) {
   const double full_scale = model.valve.rated_flow_m3_per_s;
-  HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin_of(model));
+  HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin_of(model), units);
   show_verdict(page, verdict(model, validation));
   show_tiles(page, validation, 100 / full_scale);
   show_requirements(page, validation);
@@ -125,18 +125,15 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
   page.table(status_table(validation));
   page.section("All figures");
   const HtmlTable figures = all_figures_table(validation, full_scale);
-  if (!figures.empty()) {
-    page.note("Flow figures: L/min / % FS.");
-    page.table(figures);
-  }
+  if (!figures.empty()) page.table(figures);
   show_definitions(page, validation, full_scale);
   show_residuals(page, model);
   show_inputs(page, model, validation.runs);
   out << page.str();
 }
 
-void write_calibration_report(std::ostream& out, const model::Model& model) {
-  HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model));
+void write_calibration_report(std::ostream& out, const model::Model& model, const ReaderUnits& units) {
+  HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model), units);
   show_verdict(page, calibration_verdict(model));
   show_valve(page, model, {});
   show_residuals(page, model);

@@ -4,14 +4,15 @@
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/report/comparison.hpp"
+#include "spoolflow/report/reader_units.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::report {
 
 /// `others` stand beside it.
 void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
-                             const std::vector<ComparedValidation>& others = {});
+                             const std::vector<ComparedValidation>& others = {}, const ReaderUnits& units = {});
 /// What was calibrated, from the model alone.
-void write_calibration_report(std::ostream& out, const model::Model& model);
+void write_calibration_report(std::ostream& out, const model::Model& model, const ReaderUnits& units = {});
 
 }  // namespace spoolflow::report

@@ -125,8 +125,10 @@ void Judge::add_status(std::vector<std::string>& out) const {
     for (const validation::StatusRow& status : run.results.back().status) {
       const bool told = status.fault || (status.name.starts_with("outside") && status.share > 0.05);
       if (!told) continue;
-      out.push_back(fmt::format("{}: {} for {} % of the time. {}", run.name, status.name,
-                                fixed(100 * status.share, status.share < 0.01 ? 2 : 0), status.meaning));
+      constexpr double least_share = 5e-5;  // of what two decimals tell
+      const std::string percent =
+          status.share < least_share ? "less than 0.01" : fixed(100 * status.share, status.share < 0.01 ? 2 : 0);
+      out.push_back(fmt::format("{}: {} for {} % of the time. {}", run.name, status.name, percent, status.meaning));
     }
   }
 }

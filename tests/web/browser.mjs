@@ -46,6 +46,16 @@ async function opened(name, { width = 1280, javaScriptEnabled = true, colorSchem
   return { page, complaints };
 }
 
+/** What the page shows as text, scripts and style sheets left out. */
+const textOf = (page) => page.evaluate(() => {
+  const walk = document.createTreeWalker(document.querySelector('main'), NodeFilter.SHOW_TEXT);
+  let text = '';
+  while (walk.nextNode()) {
+    if (!walk.currentNode.parentElement.closest('script, style, header')) text += walk.currentNode.textContent + '\n';
+  }
+  return text;
+});
+
 /** The first run's plots, brought to life. */
 async function plots(page) {
   const figure = page.locator('figure.run-plots').first();
@@ -98,6 +108,47 @@ for (const name of all) {
     }
   });
 }
+
+test('the page about an analysis: no network, console or overflow, wide and narrow, and every figure in print', async () => {
+  for (const width of [1280, 390]) {
+    const { page, complaints } = await opened('analysis', { width, colorScheme: width === 390 ? 'dark' : 'light' });
+    assert.deepEqual(complaints, []);
+    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(content <= window, `${content} px of content at ${width} px`);
+    await picture(page, `analysis_${width}`);
+    const cut = await page.evaluate(() => [...document.querySelectorAll('figure svg text')].filter((text) => {
+      const [inner, outer] = [text.getBoundingClientRect(), text.ownerSVGElement.getBoundingClientRect()];
+      return inner.width > 0 && (inner.left < outer.left - 1 || inner.right > outer.right + 1);
+    }).map((text) => text.textContent));
+    assert.deepEqual(cut, [], `cut off at ${width} px`);
+  }
+  const { page } = await opened('analysis', { colorScheme: 'dark' });
+  await page.emulateMedia({ media: 'print' });
+  const drawings = await page.evaluate(() => [...document.querySelectorAll('figure')].map((figure) =>
+    [...figure.querySelectorAll('svg[role=img]')].filter((svg) => svg.getBoundingClientRect().height > 40).length));
+  assert.ok(drawings.length >= 12, `${drawings.length} figures`);
+  assert.ok(drawings.every((count) => count === 1), `drawings a figure: ${drawings}`);
+  assert.match(await page.textContent('main'), /stated/);
+  const pdf = await page.pdf({ format: 'A4', ...(pictures ? { path: join(pictures, 'analysis.pdf') } : {}) });
+  assert.ok(pdf.length > 50_000);
+});
+
+test('a page made in other units has no other anywhere, and its plots begin in them', async () => {
+  for (const name of ['american', 'imperial']) {
+    const { page, complaints } = await opened(name);
+    const text = await textOf(page);
+    assert.deepEqual(complaints, []);
+    // "a pale status bar" is none
+    assert.doesNotMatch(text, /\[(bar|L\/min|mm|°C|N)\b|[0-9] (bar|L\/min|mm|°C|N)(?![²/\w])/);
+    assert.match(text, /psi/);
+    assert.match(text, /gal\/min/);
+    await picture(page, name);
+  }
+  const { page } = await opened('imperial');
+  const shown = await readOut(await plots(page));
+  assert.equal(shown.values[0].title, 'Flow rate [gal/min (US)]');
+  assert.equal(await page.locator('select[name=pressure]').inputValue(), 'psi');
+});
 
 test('dragging zooms all plots of the run, a double click shows the whole run again', async () => {
   const { page } = await opened('usual');

@@ -35,6 +35,16 @@ if (!existsSync(made) || statSync(made).mtimeMs < newest) {
   const limits = '[[limit]]\nfigure = "p95"\nat_most = 5\n\n[[limit]]\nrun = "each"\nfigure = "fault_share"\nat_most = 100\n';
   writeFileSync(join(folder, 'limits.toml'), limits);
   run('validate', model, 'gaps.csv', '--report', 'gaps.html', '--requirements', 'limits.toml', '--compare', 'usual.json');
+  const scenario = [
+    '[points]', 'positions_percent = [50, 95]', 'pressure_differences_bar = [20, 60]',
+    '[monte_carlo]', 'trials = 200', 'trials_along_run = 20',
+    '[map]', 'positions = 12', 'pressure_differences = 8',
+    '[study]', 'base_samples = 2', 'run_s = 1', 'given_model = true'];
+  writeFileSync(join(folder, 'few.toml'), scenario.join('\n') + '\n');
+  run('analyse', model, '--scenario', 'few.toml', '--recording', 'gaps.csv', '--report', 'analysis.html');
+  run('analyse', model, '--scenario', 'few.toml', '--recording', 'gaps.csv', '--report', 'american.html',
+    '--units', 'gal/min,psi,in,F,lbf');
+  run('validate', model, 'single.csv', '--report', 'imperial.html', '--units', 'gal/min,psi,in,F,lbf');
   for (const name of ['unmeasured', 'single', 'million']) {
     run('validate', model, `${name}.csv`, '--report', `${name}.html`);
   }

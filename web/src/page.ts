@@ -4,7 +4,7 @@ import { themeControl } from './theme';
 import { choices, ReadersUnits } from './units';
 
 performance.mark('spoolflow begin');
-const units = new ReadersUnits();
+const units = new ReadersUnits(document.documentElement.dataset);
 const figures = [...document.querySelectorAll<HTMLElement>('figure.run-plots')];
 
 function unitControl({ quantity, label, names }: (typeof choices)[number]): HTMLElement {
@@ -13,6 +13,7 @@ function unitControl({ quantity, label, names }: (typeof choices)[number]): HTML
   const select = document.createElement('select');
   select.name = quantity;
   for (const name of names) select.add(new Option(name));
+  select.selectedIndex = units.chosenOf(quantity);
   select.addEventListener('change', () => units.choose(quantity, select.selectedIndex));
   out.append(select);
   return out;

@@ -44,6 +44,18 @@ export class ReadersUnits {
   private readonly chosen: Record<Quantity, number> = { flow: 0, error: 0, pressure: 0, position: 0, force: 0 };
   private readonly listeners: (() => void)[] = [];
 
+  /** `page`: the root's data attributes, by which a page says in which units it was made (`flowUnit`: place of the unit). */
+  constructor(page: DOMStringMap = {}) {
+    for (const { quantity, names } of choices) {
+      const index = Number(page[`${quantity}Unit`] ?? 0);
+      if (index > 0 && index < names.length) this.chosen[quantity] = index;
+    }
+  }
+
+  chosenOf(quantity: Quantity): number {
+    return this.chosen[quantity];
+  }
+
   choose(quantity: Quantity, index: number): void {
     this.chosen[quantity] = index;
     for (const listener of this.listeners) listener();
