@@ -66,7 +66,7 @@ void add_units(CLI::App& command, std::vector<std::string>& units) {
     std::istringstream rest(list);
     for (std::string name; std::getline(rest, name, ',');) units.push_back(name);
   };
-  command.add_option_function<std::string>("--units", split, "units of the report, with commas between: " + choice)
+  command.add_option_function<std::string>("--units", split, "units of the report, with commas between:\n" + choice)
       ->type_name("UNITS");
 }
 
