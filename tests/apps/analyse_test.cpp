@@ -84,6 +84,20 @@ TEST_F(Analyse, RefusesToOverwriteItsInputs) {
   EXPECT_EQ(content("s.toml"), small);
 }
 
+TEST_F(Analyse, WritesItsPageInTheUnitsAskedForAndRefusesOthers) {
+  write("s.toml",
+        "[points]\npositions_percent = [50]\npressure_differences_bar = [40]\n[monte_carlo]\ntrials = 100\n"
+        "[map]\npositions = 2\npressure_differences = 2\n[study]\nskip = true\n");
+  const std::string command = "analyse " + model + " --scenario s.toml --report r.html --json o.json --units ";
+  EXPECT_EQ(run(command + "psi,gal/min").status, 0);
+  EXPECT_THAT(content("r.html"), HasSubstr("580 psi"));
+  EXPECT_EQ(content("r.html").find("40 bar"), std::string::npos);
+  EXPECT_THAT(content("o.json"), HasSubstr("\"pressure_difference_bar\": 40.0")) << "files keep their units";
+  const Answer refused = run(command + "psi,furlong");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.message, HasSubstr("'furlong' is none of L/min, m3/h, gal/min, bar"));
+}
+
 TEST_F(Analyse, SaysWhereNoPointLiesInsideTheMaps) {
   write("s.toml",
         "[points]\npressure_differences_bar = [300]\n[map]\npositions = 2\npressure_differences = 2\n"
