@@ -18,13 +18,18 @@ if(SPOOLFLOW_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# spoolflow_folder(NAME [LINKS target…] [PRIVATE_LINKS target…])
-# All *.cpp of the folder become the library spoolflow_NAME; a folder without *.cpp is header-only.
+# spoolflow_folder(NAME [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
+# All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME; a folder without *.cpp is
+# header-only.
 function(spoolflow_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS;APART")
   list(TRANSFORM arg_LINKS REPLACE "^spoolflow/" "spoolflow_")
   list(TRANSFORM arg_PRIVATE_LINKS REPLACE "^spoolflow/" "spoolflow_")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(TRANSFORM arg_APART PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  if(arg_APART)
+    list(REMOVE_ITEM sources ${arg_APART})
+  endif()
   if(sources)
     add_library(spoolflow_${name} STATIC ${sources})
     target_link_libraries(spoolflow_${name} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
