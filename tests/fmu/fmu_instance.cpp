@@ -69,8 +69,12 @@ class Instance : public FmuInstance {
     void* state = nullptr;
     std::size_t size = 0;
     if (call(get, &state) != FmuStatus::ok) return {};
+    // What importers get wrong: no state at all, and (fmusim 0.0.39) the handle where its address belongs.
+    void* const none = nullptr;
+    const std::string size_of = "SerializedFMU" + std::string(1, get[6]) + "tateSize";
+    if (call(size_of, none, &size) != FmuStatus::error || call(free, state) != FmuStatus::ok) return {};
     std::vector<char> bytes;
-    if (call("SerializedFMU" + std::string(1, get[6]) + "tateSize", state, &size) == FmuStatus::ok) {
+    if (call(size_of, state, &size) == FmuStatus::ok) {
       bytes.resize(size);
       if (call("SerializeFMU" + std::string(1, get[6]) + "tate", state, bytes.data(), size) != FmuStatus::ok)
         bytes.clear();

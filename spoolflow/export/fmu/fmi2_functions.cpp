@@ -9,6 +9,7 @@
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Fmi2Instance;
 using fmu::Instance;
+using fmu::KeptState;
 using fmu::on_fmi2;
 using fmu::StateBytes;
 
@@ -138,36 +139,33 @@ SPOOLFLOW_FMI fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueR
 SPOOLFLOW_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
   return on_fmi2(component, [&](Instance& instance) {
     if (*state == nullptr) {
-      *state = std::make_unique<StateBytes>(instance.state()).release();
+      *state = std::make_unique<KeptState>(KeptState{.bytes = instance.state()}).release();
     } else {
-      *static_cast<StateBytes*>(*state) = instance.state();
+      static_cast<KeptState*>(*state)->bytes = instance.state();
     }
   });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
-  return on_fmi2(component, [&](Instance& instance) {
-    if (state == nullptr) throw fmu::CallError("there is no state to set");
-    instance.set_state(*static_cast<const StateBytes*>(state));
-  });
+  return on_fmi2(component, [&](Instance& instance) { instance.set_state(fmu::bytes_of(state)); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
   return on_fmi2(component, [&](Instance&) {
     if (state == nullptr) return;
-    delete static_cast<StateBytes*>(*state);
+    delete static_cast<KeptState*>(*state);
     *state = nullptr;
   });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state, std::size_t* size) {
-  return on_fmi2(component, [&](Instance&) { *size = static_cast<const StateBytes*>(state)->size(); });
+  return on_fmi2(component, [&](Instance&) { *size = fmu::bytes_of(state).size(); });
 }
 
 SPOOLFLOW_FMI fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[],
                                                std::size_t size) {
   return on_fmi2(component, [&](Instance&) {
-    const auto& from = *static_cast<const StateBytes*>(state);
+    const StateBytes& from = fmu::bytes_of(state);
     if (size < from.size()) throw fmu::CallError("the buffer is smaller than the serialized state");
     std::memcpy(bytes, from.data(), from.size());
   });
@@ -179,9 +177,9 @@ SPOOLFLOW_FMI fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
     StateBytes read(bytes, bytes + size);
     instance.check_state(read);
     if (*state == nullptr) {
-      *state = std::make_unique<StateBytes>(std::move(read)).release();
+      *state = std::make_unique<KeptState>(KeptState{.bytes = std::move(read)}).release();
     } else {
-      *static_cast<StateBytes*>(*state) = std::move(read);
+      static_cast<KeptState*>(*state)->bytes = std::move(read);
     }
   });
 }

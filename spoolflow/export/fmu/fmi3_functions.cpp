@@ -7,6 +7,7 @@
 namespace fmu = spoolflow::exports::fmu;
 using fmu::Fmi3Instance;
 using fmu::Instance;
+using fmu::KeptState;
 using fmu::on_fmi3;
 using fmu::StateBytes;
 using std::size_t;
@@ -67,35 +68,32 @@ SPOOLFLOW_FMI fmi3Status fmi3Reset(fmi3Instance handle) {
 SPOOLFLOW_FMI fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState* state) {
   return on_fmi3(handle, [&](Instance& instance) {
     if (*state == nullptr) {
-      *state = std::make_unique<StateBytes>(instance.state()).release();
+      *state = std::make_unique<KeptState>(KeptState{.bytes = instance.state()}).release();
     } else {
-      *static_cast<StateBytes*>(*state) = instance.state();
+      static_cast<KeptState*>(*state)->bytes = instance.state();
     }
   });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state) {
-  return on_fmi3(handle, [&](Instance& instance) {
-    if (state == nullptr) throw fmu::CallError("there is no state to set");
-    instance.set_state(*static_cast<const StateBytes*>(state));
-  });
+  return on_fmi3(handle, [&](Instance& instance) { instance.set_state(fmu::bytes_of(state)); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState* state) {
   return on_fmi3(handle, [&](Instance&) {
     if (state == nullptr) return;
-    delete static_cast<StateBytes*>(*state);
+    delete static_cast<KeptState*>(*state);
     *state = nullptr;
   });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMUState state, size_t* size) {
-  return on_fmi3(handle, [&](Instance&) { *size = static_cast<const StateBytes*>(state)->size(); });
+  return on_fmi3(handle, [&](Instance&) { *size = fmu::bytes_of(state).size(); });
 }
 
 SPOOLFLOW_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
   return on_fmi3(handle, [&](Instance&) {
-    const auto& from = *static_cast<const StateBytes*>(state);
+    const StateBytes& from = fmu::bytes_of(state);
     if (size < from.size()) throw fmu::CallError("the buffer is smaller than the serialized state");
     std::memcpy(bytes, from.data(), from.size());
   });
@@ -108,9 +106,9 @@ SPOOLFLOW_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3
     if (size > 0) std::memcpy(read.data(), bytes, size);
     instance.check_state(read);
     if (*state == nullptr) {
-      *state = std::make_unique<StateBytes>(std::move(read)).release();
+      *state = std::make_unique<KeptState>(KeptState{.bytes = std::move(read)}).release();
     } else {
-      *static_cast<StateBytes*>(*state) = std::move(read);
+      static_cast<KeptState*>(*state)->bytes = std::move(read);
     }
   });
 }

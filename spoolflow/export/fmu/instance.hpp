@@ -30,6 +30,19 @@ enum class Mode : std::int32_t { instantiated, initialization, step, terminated 
 /// A state in memory: what serialising writes.
 using StateBytes = std::vector<char>;
 
+/// What a state's handle points to. It begins with a null pointer because fmusim 0.0.39 asks to free a handle where the
+/// standard wants its address: what it then finds there is no state, and freed is nothing.
+struct KeptState {
+  const void* nothing = nullptr;
+  StateBytes bytes{};
+};
+
+/// Throws CallError for a null handle.
+[[nodiscard]] inline const StateBytes& bytes_of(const void* state) {
+  if (state == nullptr) throw CallError("there is no state; get or deserialize one first");
+  return static_cast<const KeptState*>(state)->bytes;
+}
+
 class Instance {
  public:
   explicit Instance(std::unique_ptr<Component> component);
