@@ -1,5 +1,8 @@
 #include "spoolflow/report/html_table.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include "spoolflow/report/html_text.hpp"
 
 namespace spoolflow::report {
@@ -19,6 +22,13 @@ const char* class_of(Set set) {
   return "";
 }
 
+/// Two units in brackets below each other: columns are as wide as their numbers.
+std::string heading_of(std::string heading) {
+  constexpr std::string_view between = " / ";
+  const std::size_t at = heading.find(between, std::min(heading.find('['), heading.size()));
+  return at == std::string::npos ? heading : heading.replace(at, between.size(), " /<br>");
+}
+
 }  // namespace
 
 void HtmlTable::row(const std::vector<std::string>& cells, bool begins_group) {
@@ -34,7 +44,7 @@ void HtmlTable::change_column(std::size_t column, const std::function<std::strin
 std::string HtmlTable::str() const {
   std::string head;
   for (const Column& column : columns_) {
-    head += std::string("<th scope=\"col\"") + class_of(column.set) + ">" + column.heading + "</th>";
+    head += std::string("<th scope=\"col\"") + class_of(column.set) + ">" + heading_of(column.heading) + "</th>";
   }
   std::string rows;
   for (const Row& row : rows_) {

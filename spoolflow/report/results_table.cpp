@@ -69,7 +69,7 @@ void add_all_figures(HtmlTable& table, const std::string& run, const std::string
   };
   bool first = true;
   for (const Group& group : {Group{"all", metrics.all}, Group{"moving", metrics.moving}, Group{"at rest", metrics.rest},
-                             Group{"around reversal", metrics.reversal}}) {
+                             Group{"reversal", metrics.reversal}}) {
     const validation::ErrorFigures& error = group.figures.error;
     if (error.samples == 0) continue;
     table.row({first ? run : "", first ? estimator : "", group.name, fmt::format("{}", error.samples),
@@ -129,9 +129,9 @@ HtmlTable all_figures_table(const validation::Validation& validation, double ful
                    {"RMS<br>[L/min / % FS]"},
                    {"largest<br>[L/min / % FS]"},
                    {"bias<br>[L/min / % FS]"},
-                   {"in band %"},
+                   {"in band<br>%"},
                    {"band width<br>[L/min / % FS]"},
-                   {"width / RMS"}});
+                   {"width<br>/ RMS"}});
   const double percent = 100 / full_scale_m3_per_s;
   for (const validation::RunResult& run : validation.runs) {
     for (const validation::EstimatorResult& result : run.results) {

@@ -36,7 +36,7 @@ TEST(ReaderUnits, TurnColumnsThatTellTheirUnitInBrackets) {
   table.row({"other", "10.00 to 20.00", "\u2013", "3"});
   const std::string shown = american().of(table).str();
   EXPECT_NE(shown.find("flow<br>[gal/min]"), std::string::npos);
-  EXPECT_NE(shown.find("error<br>[gal/min / % FS]"), std::string::npos);
+  EXPECT_NE(shown.find("error<br>[gal/min /<br>% FS]"), std::string::npos);
   EXPECT_NE(shown.find("<i style=\"width:90px\"></i>9.999"), std::string::npos);
   EXPECT_NE(shown.find("+0.9999 / +4.7"), std::string::npos);
   EXPECT_NE(shown.find("2.642 to 5.283"), std::string::npos);
