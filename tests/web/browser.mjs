@@ -56,6 +56,10 @@ const textOf = (page) => page.evaluate(() => {
   return text;
 });
 
+/** By how many pixels tables go beyond the page, where they do. */
+const tablesBeyond = (page) => page.evaluate(() => [...document.querySelectorAll('.scroll')]
+  .map((room) => room.querySelector('table').scrollWidth - room.clientWidth).filter((beyond) => beyond > 0));
+
 /** The first run's plots, brought to life. */
 async function plots(page) {
   const figure = page.locator('figure.run-plots').first();
@@ -142,6 +146,12 @@ test('a page made in other units has no other anywhere, and its plots begin in t
     assert.doesNotMatch(text, /\[(bar|L\/min|mm|°C|N)\b|[0-9] (bar|L\/min|mm|°C|N)(?![²/\w])/);
     assert.match(text, /psi/);
     assert.match(text, /gal\/min/);
+    assert.deepEqual(await tablesBeyond(page), [], 'tables wider than the page');
+    await page.setViewportSize({ width: 718, height: 900 });  // A4 less its margins
+    await page.emulateMedia({ media: 'print' });
+    assert.deepEqual(await tablesBeyond(page), [], 'tables wider than the paper');
+    await page.emulateMedia({ media: 'screen' });
+    await page.setViewportSize({ width: 1280, height: 900 });
     await picture(page, name);
   }
   const { page } = await opened('imperial');
