@@ -55,10 +55,11 @@ model::Model virtual_model(const rig::ValveAndCampaign& asked, unsigned workers,
       calibration::calibrate_condensed({spring, force_map, by_protocol["axial_force_map"]}, out.valve);
   out.condensed = std::move(condensed.condensed);
   out.evidence = std::move(condensed.evidence);
-  out.observer = calibration::calibrate_observer(
+  calibration::ObserverCalibration full = calibration::calibrate_observer(
       {spring, force_map, by_protocol["solenoid_dynamic"], by_protocol["axial_force_map"], by_protocol["operation"]},
       out.valve, out.condensed.parameters.closed_below_m,
       [&](double share) { progress(measuring_share + (1 - measuring_share) * share); });
+  out.observer = std::move(full.observer);
   return out;
 }
 

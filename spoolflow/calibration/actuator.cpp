@@ -129,6 +129,8 @@ ActuatorFit fit_actuator(const ActuatorRecordings& recordings, const MagneticFor
     coil.hysteresis = default_hysteresis(fit.loop_widths->coercive_current_A, full_flux_Wb);
   }
   const ArmatureFrictionFit friction = fit_armature_friction(strokes, map, coil, stroke_m);
+  fit.friction = friction.known;
+  fit.profiles = friction.profiles;
   fit.strokes_N = friction.residual;
   fit.actuator.magnetic_force = friction.magnetic_force;
   fit.actuator.friction_N = friction.friction_N;

@@ -17,6 +17,8 @@ struct ActuatorFit {
   FluxLinkageFit flux_linkage;
   std::optional<SolenoidDynamicsFit> dynamics;  ///< only with a recording of `solenoid_dynamic`
   std::optional<LoopWidths> loop_widths;        ///< only without
+  model::Fit friction;                          ///< what is known of the armature's friction
+  std::vector<model::MapResidual> profiles;     ///< of the force map's strokes, over position
   FitResidual strokes_N;                        ///< of the force map's strokes about map and friction
 };
 

@@ -6,7 +6,10 @@
 
 #include "spoolflow/calibration/bench_strokes.hpp"
 #include "spoolflow/calibration/both_directions.hpp"
+#include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/interpolation.hpp"
+#include "spoolflow/calibration/linear_least_squares.hpp"
+#include "spoolflow/calibration/map_residuals.hpp"
 #include "spoolflow/calibration/nonnegative_least_squares.hpp"
 
 namespace spoolflow::calibration {
@@ -55,6 +58,19 @@ double force_beyond(const sensor::MagneticForce<double>& magnetic_force, double 
   return force.value + force.row_slope * std::max(0.0, current_A - edge_A);
 }
 
+/// What is known of those unknowns that are not held at zero; the last column is the right side.
+LinearLeastSquares among_free(const Eigen::MatrixXd& all, const Eigen::VectorXd& solution) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < solution.size(); ++k)
+    if (solution(k) > 0) free.push_back(k);
+  LinearLeastSquares out{solution, Eigen::MatrixXd::Zero(solution.size(), solution.size())};
+  if (free.empty()) return out;
+  const Eigen::MatrixXd free_columns = all(Eigen::all, free);
+  out.covariance(free, free) =
+      least_squares(free_columns, all.col(solution.size()), Measured::in_a_row, "the loops' widths").covariance;
+  return out;
+}
+
 }  // namespace
 
 ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const MagneticForceFit& map,
@@ -97,14 +113,25 @@ ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const 
     for (int column = 0; column < columns; ++column)
       fit.magnetic_force.map.node(row, column) += correction.node(row, column);
 
+  std::vector<Eigen::Vector3d> rows;
   for (const Level& level : levels) {
+    ResidualProfile profile(stroke_m);
     for (const Sweep& sweep : level.sweeps) {
       const double sign = sweep.direction == Direction::opening ? 1 : -1;
-      for (std::size_t k = sweep.begin; k < sweep.end; ++k)
-        fit.residual.add(samples.force_N[k] - force_beyond(fit.magnetic_force, magnetising_A[k], position_m[k]) +
-                         sign * fit.friction_N.at(magnetising_A[k], position_m[k]).value);
+      for (std::size_t k = sweep.begin; k < sweep.end; ++k) {
+        const double magnetic_N = force_beyond(fit.magnetic_force, magnetising_A[k], position_m[k]);
+        rows.emplace_back(-sign, -sign * magnetic_N, samples.force_N[k] - magnetic_N);
+        const double left_N = rows.back()(2) + sign * fit.friction_N.at(magnetising_A[k], position_m[k]).value;
+        fit.residual.add(left_N);
+        profile.add(position_m[k], left_N);
+      }
     }
+    fit.profiles.push_back(profile.at(level.value, 0));
   }
+  const Eigen::MatrixXd all = stacked(rows);
+  fit.known = known_from("armature friction as a constant and a share of the magnetic force",
+                         {"constant_friction_N", "friction_per_magnetic_force"},
+                         least_squares(all.leftCols(2), all.col(2), Measured::in_a_row, "the armature's friction"));
   return fit;
 }
 
@@ -123,8 +150,15 @@ LoopWidths part_loop_widths(const MagneticForceFit& map) {
     equations.right += half_width_N * row;
   });
   const Eigen::VectorXd solution = solve_nonnegative(equations);
-  LoopWidths out{solution(0), solution(1), solution(2), {}};
-  visit([&](const Eigen::Vector3d& row, double half_width_N) { out.residual.add(half_width_N - row.dot(solution)); });
+  LoopWidths out{solution(0), solution(1), solution(2), {}, {}};
+  std::vector<Eigen::Vector4d> rows;
+  visit([&](const Eigen::Vector3d& row, double half_width_N) {
+    out.residual.add(half_width_N - row.dot(solution));
+    rows.emplace_back(row(0), row(1), row(2), half_width_N);
+  });
+  out.known = known_from("widths of the force map's loops: armature friction and coercive current",
+                         {"constant_friction_N", "friction_per_magnetic_force", "coercive_current_A"},
+                         among_free(stacked(rows), solution));
   return out;
 }
 

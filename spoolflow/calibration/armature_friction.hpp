@@ -5,6 +5,7 @@
 #include "spoolflow/calibration/fit_residual.hpp"
 #include "spoolflow/calibration/magnetic_force.hpp"
 #include "spoolflow/calibration/solenoid_samples.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/sensor/coil.hpp"
 
 namespace spoolflow::calibration {
@@ -14,7 +15,9 @@ using FrictionMap = sensor::Map<double, sensor::force_map_currents, sensor::forc
 struct ArmatureFrictionFit {
   FrictionMap friction_N;                        ///< half width over current and position, >= 0
   sensor::MagneticForce<double> magnetic_force;  ///< over magnetising current, both directions averaged
+  model::Fit known;                              ///< friction as a constant and a share of the magnetic force
   FitResidual residual;                          ///< of the strokes about both [N]
+  std::vector<model::MapResidual> profiles;      ///< the same over position, each held current by itself
 };
 
 /// Runs the coil along the recording of `solenoid_force_map`, so that the force of each stroke stands over its
@@ -28,6 +31,7 @@ struct LoopWidths {
   double constant_N;
   double per_force;
   double coercive_current_A;
+  model::Fit known;
   FitResidual residual;  ///< [N]
 };
 [[nodiscard]] LoopWidths part_loop_widths(const MagneticForceFit& map);

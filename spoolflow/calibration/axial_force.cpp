@@ -26,26 +26,33 @@ std::vector<double> measured_pressure_difference_Pa(const recording::Recording& 
   return difference;
 }
 
+const HeldQuantity held_quantity{"pressure difference", "bar", 1e-5};
+
 }  // namespace
+
+HeldPressures find_held_pressures(const recording::Recording& recording, double stroke_m) {
+  HeldPressures out{measured_pressure_difference_Pa(recording), {}};
+  const auto held = recording.has(Channel::pressure_difference_set)
+                        ? recording[Channel::pressure_difference_set]
+                        : std::span<const double>(out.pressure_difference_Pa);
+  out.levels = sort_by_level(find_bench_strokes(recording[Channel::position], stroke_m), held);
+  require_levels(out.levels, least_pressures, held_quantity, recording.file.filename().string());
+  return out;
+}
 
 AxialForceFit fit_axial_force(const recording::Recording& recording, double stroke_m) {
   const std::string file = recording.file.filename().string();
   const auto position_m = recording[Channel::position];
   const auto force_N = recording[Channel::axial_force];
   const auto flow_m3_per_s = recording[recording.has(Channel::flow) ? Channel::flow : Channel::flow_reference];
-  const std::vector<double> pressure_Pa = measured_pressure_difference_Pa(recording);
-  const auto held = recording.has(Channel::pressure_difference_set) ? recording[Channel::pressure_difference_set]
-                                                                    : std::span<const double>(pressure_Pa);
-  const HeldQuantity quantity{"pressure difference", "bar", 1e-5};
-  const std::vector<Level> levels = sort_by_level(find_bench_strokes(position_m, stroke_m), held);
-  require_levels(levels, least_pressures, quantity, file);
+  const auto [pressure_Pa, levels] = find_held_pressures(recording, stroke_m);
 
   AxialForceFit fit{};
   fit.oil_temperature_K = mean_oil_temperature_K(recording);
   const std::vector<double> grid_m = equally_spaced(0, stroke_m, sensor::flow_map_positions);
   const sensor::Axis<double> axis{0, grid_m[1], 1 / grid_m[1]};
   for (const Level& level : levels) {
-    const std::string what = fmt::format("{}: {} {}", file, quantity.name, quantity.written(level.value));
+    const std::string what = fmt::format("{}: {} {}", file, held_quantity.name, held_quantity.written(level.value));
     const BothDirections force = average_both_directions({level, position_m, force_N}, grid_m, what);
     const BothDirections flow = average_both_directions({level, position_m, flow_m3_per_s}, grid_m, what);
     const BothDirections pressure = average_both_directions({level, position_m, pressure_Pa}, grid_m, what);

@@ -15,6 +15,15 @@ struct AxialForceFit {
   FitResidual flow_residual;                 ///< of the samples about their level's curve [m3/s]
 };
 
+/// The strokes of a recording sorted by the pressure difference that was held.
+struct HeldPressures {
+  std::vector<double> pressure_difference_Pa;  ///< of each sample
+  std::vector<Level> levels;                   ///< rising
+};
+
+/// As `fit_axial_force` needs them. Throws CalibrationError.
+[[nodiscard]] HeldPressures find_held_pressures(const recording::Recording& recording, double stroke_m);
+
 /// Needs `position`, `axial_force`, `flow` (or `flow_reference`), and a pressure difference: `pressure_difference`, or
 /// `pressure_upstream` and `pressure_downstream`; `pressure_difference_set` helps to tell the levels apart. At least
 /// three levels, each opening and closing over the whole stroke. Throws CalibrationError.

@@ -119,11 +119,15 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   out.evidence = std::move(condensed.evidence);
   constexpr double fitting_share = 0.45;
   progress("full sensor", fitting_share);
-  out.observer = calibrate_observer(
+  ObserverCalibration full = calibrate_observer(
       {only(loaded, Protocol::spring, campaign), only(loaded, Protocol::solenoid_force_map, campaign),
        of(loaded, Protocol::solenoid_dynamic), axial_force_maps, of(loaded, Protocol::operation)},
       out.valve, out.condensed.parameters.closed_below_m,
       [&](double share) { progress("full sensor in operation", fitting_share + (1 - fitting_share) * share); });
+  out.observer = std::move(full.observer);
+  out.evidence.solenoid = std::move(full.solenoid);
+  out.evidence.magnetic_force_residuals = std::move(full.magnetic_force_residuals);
+  out.evidence.axial_force_residuals = std::move(full.axial_force_residuals);
   progress("done", 1.0);
   return out;
 }

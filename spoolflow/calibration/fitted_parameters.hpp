@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "spoolflow/calibration/linear_least_squares.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::calibration {
@@ -26,6 +27,11 @@ namespace spoolflow::calibration {
     }
   }
   return fit;
+}
+
+[[nodiscard]] inline model::Fit known_from(std::string of, const std::vector<std::string>& names,
+                                           const LinearLeastSquares& fit) {
+  return known_from(std::move(of), names, {fit.solution.begin(), fit.solution.end()}, fit.covariance);
 }
 
 }  // namespace spoolflow::calibration

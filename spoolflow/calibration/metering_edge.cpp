@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/interpolation.hpp"
+#include "spoolflow/calibration/linear_least_squares.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -31,6 +35,17 @@ EdgeColumn column_at(const AxialForceFit& fit, std::size_t position, double spri
   }
   conductance.insert(conductance.begin(), conductance.front());
   force_N = non_decreasing(force_N);
+  // The supply holds the highest level a little below what it was set to: the trend goes on to there.
+  const std::size_t last = known_Pa.size() - 1;
+  const double beyond_Pa = 0.05 * known_Pa[last];
+  const auto go_on = [&](std::vector<double>& values) {
+    const double slope = (values[last] - values[last - 1]) / (known_Pa[last] - known_Pa[last - 1]);
+    values.push_back(values[last] + slope * beyond_Pa);
+  };
+  go_on(force_N);
+  go_on(friction_N);
+  conductance.push_back(conductance[last]);
+  known_Pa.push_back(known_Pa[last] + beyond_Pa);
   return {interpolate_monotone({known_Pa, force_N}, pressures_Pa),
           interpolate_monotone({known_Pa, friction_N}, pressures_Pa),
           interpolate_monotone({known_Pa, conductance}, pressures_Pa)};
@@ -39,6 +54,48 @@ EdgeColumn column_at(const AxialForceFit& fit, std::size_t position, double spri
 double interpolated(const std::vector<double>& at, const std::vector<double>& values, double x) {
   if (at.size() == 1) return values.front();
   return interpolate_monotone({at, values}, std::vector<double>{x}).front();
+}
+
+/// The maps where the valve is three quarters open: flow force over pressure, friction over pressure, conductance, each
+/// with its slope over temperature where there are several.
+std::vector<model::Fit> laws_of(const std::vector<const AxialForceFit*>& fits, const sensor::Spring<double>& spring) {
+  const std::vector<double>& grid_m = fits.front()->loops.front().position_m;
+  const std::size_t at = 3 * grid_m.size() / 4;
+  double middle_K = 0;
+  for (const AxialForceFit* fit : fits) middle_K += fit->oil_temperature_K / static_cast<double>(fits.size());
+  std::vector<Eigen::Vector3d> force, friction, conductance;  // pressure, warmth, what is measured
+  for (const AxialForceFit* fit : fits) {
+    for (const model::AxialForceLoop& loop : fit->loops) {
+      const double pressure_Pa = loop.pressure_difference_Pa[at];
+      if (!(pressure_Pa > 0)) continue;
+      const double warmth_K = fit->oil_temperature_K - middle_K;
+      force.emplace_back(pressure_Pa, pressure_Pa * warmth_K,
+                         0.5 * (loop.opening_N[at] + loop.closing_N[at]) - spring.at(grid_m[at]).value);
+      friction.emplace_back(pressure_Pa, warmth_K, 0.5 * std::abs(loop.opening_N[at] - loop.closing_N[at]));
+      conductance.emplace_back(1, warmth_K, loop.flow_m3_per_s[at] / std::sqrt(pressure_Pa));
+    }
+  }
+  const bool several = fits.size() > 1;
+  const std::string where = fmt::format("at {:.2f} mm and {:.0f} \u00b0C", 1e3 * grid_m[at], middle_K - 273.15);
+  std::vector<model::Fit> out;
+  const auto add = [&](const std::string& of, const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
+                       std::vector<std::string> names) {
+    const Eigen::Index unknowns = matrix.cols() - (several ? 0 : 1);  // the slope over temperature stands last
+    names.resize(static_cast<std::size_t>(unknowns));
+    if (matrix.rows() <= unknowns) return;
+    out.push_back(known_from(of + " " + where, names,
+                             least_squares(matrix.leftCols(unknowns), right, Measured::apart, of.c_str())));
+  };
+  const Eigen::MatrixXd force_rows = stacked(force), conductance_rows = stacked(conductance);
+  Eigen::MatrixXd friction_rows(force_rows.rows(), 4);
+  friction_rows << Eigen::VectorXd::Ones(force_rows.rows()), stacked(friction);
+  add("flow force", force_rows.leftCols(2), force_rows.col(2),
+      {"flow_force_per_pressure_N_per_Pa", "flow_force_per_pressure_and_temperature_N_per_Pa_K"});
+  add("spool friction", friction_rows.leftCols(3), friction_rows.col(3),
+      {"friction_without_pressure_N", "friction_per_pressure_N_per_Pa", "friction_per_temperature_N_per_K"});
+  add("conductance, flow rate over the root of the pressure difference,", conductance_rows.leftCols(2),
+      conductance_rows.col(2), {"conductance_m3_per_s_rootPa", "conductance_per_temperature_m3_per_s_rootPa_K"});
+  return out;
 }
 
 }  // namespace
@@ -64,6 +121,7 @@ MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor:
   MeteringEdgeFit out{};
   out.lowest_temperature_K = known_K.front();
   out.highest_temperature_K = known_K.back();
+  out.known = laws_of(used, spring);
   sensor::MeteringEdge<double>& edge = out.edge;
   const double width_K = std::max(known_K.back() - known_K.front(), 20.0);  // one temperature: a band of 10 K around it
   const double first_K = known_K.size() > 1 ? known_K.front() : known_K.front() - 0.5 * width_K;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/axial_force.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
 #include "spoolflow/sensor/spring.hpp"
 
@@ -12,6 +13,7 @@ struct MeteringEdgeFit {
   sensor::MeteringEdge<double> edge;
   double lowest_temperature_K;
   double highest_temperature_K;
+  std::vector<model::Fit> known;  ///< each map at three quarters of the stroke, as a law of pressure and temperature
 };
 
 /// One fit an oil temperature, any order, positions free of drift. With one temperature the maps do not depend on it;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "spoolflow/calibration/actuator.hpp"
 #include "spoolflow/calibration/band.hpp"
 #include "spoolflow/calibration/magnetic_force.hpp"
+#include "spoolflow/calibration/map_residuals.hpp"
 #include "spoolflow/calibration/metering_edge.hpp"
 #include "spoolflow/calibration/operation.hpp"
 #include "spoolflow/calibration/position_sensor.hpp"
@@ -58,8 +60,8 @@ std::vector<const recording::Recording*> with_reference(const std::vector<const 
 
 }  // namespace
 
-model::Observer calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                   double closed_below_m, const std::function<void(double)>& progress) {
+ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
+                                       double closed_below_m, const std::function<void(double)>& progress) {
   std::vector<const recording::Recording*> bench{&recordings.spring};
   bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
   const PositionSensorFit position = fit_position_sensor(bench, valve.stroke_m);
@@ -71,14 +73,24 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   std::optional<recording::Recording> dynamic;
   if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
   const ActuatorFit actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, magnetic, valve.stroke_m);
-  std::vector<AxialForceFit> axial;
+  std::vector<recording::Recording> axial_recordings;
   for (const recording::Recording* recording : recordings.axial_force_maps)
-    axial.push_back(fit_axial_force(without_zero_offset(*recording, valve.stroke_m), valve.stroke_m));
+    axial_recordings.push_back(without_zero_offset(*recording, valve.stroke_m));
+  std::vector<AxialForceFit> axial;
+  for (const recording::Recording& recording : axial_recordings)
+    axial.push_back(fit_axial_force(recording, valve.stroke_m));
   const FitResidual flow = together(axial, &AxialForceFit::flow_residual);
   const FitResidual axial_force = together(axial, &AxialForceFit::force_residual);
   const MeteringEdgeFit edge = fit_metering_edge(axial, spring.spring, spring.friction_half_width_N);
 
-  model::Observer out{};
+  ObserverCalibration calibration{};
+  calibration.magnetic_force_residuals = actuator.profiles;
+  if (actuator.dynamics) calibration.solenoid = actuator.dynamics->traces;
+  for (const recording::Recording& recording : axial_recordings) {
+    std::vector<model::MapResidual> each = axial_force_residuals(recording, spring.spring, edge.edge, valve.stroke_m);
+    std::move(each.begin(), each.end(), std::back_inserter(calibration.axial_force_residuals));
+  }
+  model::Observer& out = calibration.observer;
   sensor::ObserverParameters<double>& parameters = out.parameters;
   parameters.actuator = actuator.actuator;
   parameters.spring = spring.spring;
@@ -106,6 +118,11 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
       {"flow rate", "m3/s", flow.rms(), flow.largest},
       {"position drift", "m", position.drift_residual_m, position.drift_residual_m},
   };
+  out.fits.push_back(spring.known);
+  out.fits.insert(out.fits.end(), edge.known.begin(), edge.known.end());
+  if (position.known) out.fits.push_back(*position.known);
+  if (actuator.loop_widths) out.fits.push_back(actuator.loop_widths->known);
+  if (!actuator.loop_widths) out.fits.push_back(actuator.friction);
   if (actuator.flux_linkage.measured) out.fits.push_back(actuator.flux_linkage.known);
   if (actuator.dynamics) {
     out.fits.push_back(actuator.dynamics->known);
@@ -115,6 +132,7 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
   }
   if (!operation.empty()) {
     const OperationFit fit = fit_operation(parameters, operation, valve.rated_flow_m3_per_s, progress);
+    out.fits.push_back(fit.known);
     out.residuals.push_back({"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
   } else {
     out.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
@@ -130,7 +148,7 @@ model::Observer calibrate_observer(const ObserverRecordings& recordings, const m
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");
   }
-  return out;
+  return calibration;
 }
 
 }  // namespace spoolflow::calibration

@@ -16,10 +16,18 @@ struct ObserverRecordings {
   std::vector<const recording::Recording*> operation;  ///< none, or runs with pressure difference or flow reference
 };
 
+struct ObserverCalibration {
+  model::Observer observer;
+  std::vector<model::SolenoidTrace> solenoid;  ///< these three: see model::Evidence
+  std::vector<model::MapResidual> magnetic_force_residuals;
+  std::vector<model::MapResidual> axial_force_residuals;
+};
+
 /// Bench maps free of position drift, then what only operation shows; what no recording shows is assumed, and said so
 /// in `defaults`. `closed_below_m` is the condensed model's; `progress` is told the share done. Throws
 /// CalibrationError.
-[[nodiscard]] model::Observer calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                                 double closed_below_m, const std::function<void(double)>& progress);
+[[nodiscard]] ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
+                                                     double closed_below_m,
+                                                     const std::function<void(double)>& progress);
 
 }  // namespace spoolflow::calibration

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/fit_residual.hpp"
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -15,18 +16,12 @@ namespace spoolflow::calibration {
 struct OperationFit {
   double score_before;  ///< see operation_score; both with the supply and the band's scale of the search
   double score;
+  model::Fit known;           ///< of the parameters that were searched, see operation_uncertainty.hpp
   FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
   double force_error_ratio;   ///< see band.hpp; the band is scaled by it
   double band_coverage;       ///< share of the samples with the reference inside the band
   std::size_t samples;        ///< that were used: see replay.hpp
 };
-
-/// Mean interval score of the 95 % band (Winkler 1972; Gneiting and Raftery 2007, eq. 43: its width, and 40 times
-/// what the reference lies outside) plus four times the RMS error, as a share of full scale. Small where the estimate
-/// is close and the band as narrow as it may be. Infinite where there is nothing to compare.
-[[nodiscard]] double operation_score(const sensor::ObserverParameters<double>& parameters,
-                                     const std::vector<const recording::Recording*>& recordings,
-                                     double full_scale_m3_per_s);
 
 /// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
 /// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference;

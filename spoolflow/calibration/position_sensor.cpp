@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "spoolflow/calibration/bench_strokes.hpp"
+#include "spoolflow/calibration/fitted_parameters.hpp"
+#include "spoolflow/calibration/linear_least_squares.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -59,28 +63,22 @@ PositionSensorFit fit_position_sensor(const std::vector<const recording::Recordi
   std::erase_if(noises_m, [](double noise) { return std::isnan(noise); });
   PositionSensorFit fit{0, 323.15, 0, noises_m.empty() ? 1e-6 : median_of(noises_m)};
   if (temperatures_K.empty()) return fit;
-  const auto n = static_cast<double>(temperatures_K.size());
-  double mean_K = 0;
-  double mean_m = 0;
-  for (std::size_t k = 0; k < closed_m.size(); ++k) {
-    mean_K += temperatures_K[k] / n;
-    mean_m += closed_m[k] / n;
-  }
-  double covariance = 0;
-  double variance = 0;
-  for (std::size_t k = 0; k < closed_m.size(); ++k) {
-    covariance += (temperatures_K[k] - mean_K) * (closed_m[k] - mean_m);
-    variance += (temperatures_K[k] - mean_K) * (temperatures_K[k] - mean_K);
-  }
   const auto [lowest_K, highest_K] = std::minmax_element(temperatures_K.begin(), temperatures_K.end());
   if (*highest_K - *lowest_K < 10) return fit;
-  fit.drift_m_per_K = covariance / variance;
-  fit.drift_free_K = std::abs(fit.drift_m_per_K) > 1e-10 ? mean_K - mean_m / fit.drift_m_per_K : mean_K;
-  for (std::size_t k = 0; k < closed_m.size(); ++k) {
-    const double deviation = closed_m[k] - fit.drift_m_per_K * (temperatures_K[k] - fit.drift_free_K);
-    fit.drift_residual_m += deviation * deviation / n;
+  const Eigen::Map<const Eigen::VectorXd> temperature(temperatures_K.data(),
+                                                      static_cast<Eigen::Index>(temperatures_K.size()));
+  const Eigen::Map<const Eigen::VectorXd> closed(closed_m.data(), temperature.size());
+  const double mean_K = temperature.mean();
+  Eigen::MatrixXd line(temperature.size(), 2);
+  line << Eigen::VectorXd::Ones(temperature.size()), temperature.array() - mean_K;
+  const LinearLeastSquares drift = least_squares(line, closed, Measured::apart, "the drift of the position sensor");
+  fit.drift_m_per_K = drift.solution(1);
+  fit.drift_free_K = std::abs(fit.drift_m_per_K) > 1e-10 ? mean_K - drift.solution(0) / fit.drift_m_per_K : mean_K;
+  fit.drift_residual_m = (closed - line * drift.solution).norm() / std::sqrt(static_cast<double>(closed.size()));
+  if (closed.size() > 2) {
+    fit.known = known_from("drift of the position sensor",
+                           {fmt::format("closed_reading_at_{:.0f}_K_m", mean_K), "position_drift_m_per_K"}, drift);
   }
-  fit.drift_residual_m = std::sqrt(fit.drift_residual_m);
   return fit;
 }
 

@@ -1,17 +1,20 @@
 #pragma once
 /// Zero drift and noise of the valve's position sensor, from where the bench finds the spool closed.
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
 
 struct PositionSensorFit {
-  double drift_m_per_K;     ///< of the zero point
-  double drift_free_K;      ///< oil temperature at which the closed spool reads zero
-  double drift_residual_m;  ///< of the closed positions about the line
-  double noise_m;           ///< standard deviation of one sample
+  double drift_m_per_K;                  ///< of the zero point
+  double drift_free_K;                   ///< oil temperature at which the closed spool reads zero
+  double drift_residual_m;               ///< of the closed positions about the line
+  double noise_m;                        ///< standard deviation of one sample
+  std::optional<model::Fit> known = {};  ///< of the drift's line; only from three temperatures on
 };
 
 /// Where a bench recording finds the spool closed: the median of what it reads within the hold at its lower end.

@@ -13,7 +13,14 @@ namespace spoolflow::calibration {
 /// Samples of all operating recordings together that are used, from the beginning of each.
 inline constexpr std::size_t operation_samples = 120'000;
 
-/// Calls `each(state, position_m, reference_m3_per_s)` after every sample that has a reference.
+struct ReplayedSample {
+  const sensor::ObserverState<double>& state;  ///< after the sample
+  double time_s;
+  double position_m;
+  double reference_m3_per_s;
+};
+
+/// Calls `each(ReplayedSample)` after every sample that has a reference.
 template <class Each>
 void replay(const sensor::ObserverParameters<double>& parameters,
             const std::vector<const recording::Recording*>& recordings, Each&& each) {
@@ -34,7 +41,8 @@ void replay(const sensor::ObserverParameters<double>& parameters,
           parameters, state,
           {time_s[k] - last_s, current_A[k], at(Channel::voltage, k), position_m[k], at(Channel::oil_temperature, k)});
       last_s = time_s[k];
-      if (std::isfinite(reference_m3_per_s[k])) each(state, position_m[k], reference_m3_per_s[k]);
+      if (std::isfinite(reference_m3_per_s[k]))
+        each(ReplayedSample{state, time_s[k], position_m[k], reference_m3_per_s[k]});
     }
   }
 }

@@ -8,7 +8,9 @@
 #include "spoolflow/calibration/bench_strokes.hpp"
 #include "spoolflow/calibration/both_directions.hpp"
 #include "spoolflow/calibration/calibration_error.hpp"
+#include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/interpolation.hpp"
+#include "spoolflow/calibration/linear_least_squares.hpp"
 #include "spoolflow/calibration/sliding_friction.hpp"
 
 namespace spoolflow::calibration {
@@ -34,6 +36,22 @@ FitResidual even_friction(const recording::Recording& recording, const Level& le
                                .stretches = level.sweeps},
                               FrictionSymmetry::by_direction, FrictionMotion::even_strokes)
       .residual;
+}
+
+/// Preload, stiffness and dry friction, as though the spring were straight and friction the same at all positions.
+model::Fit straight_spring(const recording::Recording& recording, const Level& level) {
+  const auto position_m = recording[Channel::position];
+  const auto force_N = recording[Channel::axial_force];
+  std::vector<Eigen::Vector4d> rows;
+  for (const Sweep& sweep : level.sweeps) {
+    const double sign = sweep.direction == Direction::opening ? 1 : -1;
+    for (std::size_t k = sweep.begin; k < sweep.end; ++k)
+      if (!std::isnan(position_m[k]) && !std::isnan(force_N[k])) rows.emplace_back(1, position_m[k], sign, force_N[k]);
+  }
+  const Eigen::MatrixXd all = stacked(rows);
+  const LinearLeastSquares fit = least_squares(all.leftCols(3), all.col(3), Measured::in_a_row, "the spring");
+  return known_from("spring as a straight line, dry friction of the spool",
+                    {"spring_preload_N", "spring_stiffness_N_per_m", "dry_friction_N"}, fit);
 }
 
 }  // namespace
@@ -62,6 +80,7 @@ SpringFit fit_spring(const recording::Recording& recording, double stroke_m) {
     }
   }
   fit.even_friction_residual = even_friction(recording, level, fit.spring);
+  fit.known = straight_spring(recording, level);
   fit.oil_temperature_K = mean_oil_temperature_K(recording);
   return fit;
 }

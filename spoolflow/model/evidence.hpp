@@ -23,6 +23,27 @@ struct AxialForceLoop {
   std::vector<double> pressure_difference_Pa;  ///< measured, both directions averaged
 };
 
+/// One part of `solenoid_dynamic` at one held position, thinned for drawing: what the load cell showed and what the
+/// calibrated actuator makes of the same current.
+struct SolenoidTrace {
+  int test;  ///< the protocol's number of the part; 0 where the recording does not tell
+  double position_m;
+  std::vector<double> current_A;
+  std::vector<double> measured_N;  ///< magnetic force
+  std::vector<double> model_N;     ///< with hysteresis and eddy currents
+  std::vector<double> map_N;       ///< of the averaged map over the coil current alone
+};
+
+/// What the full sensor's maps leave of the bench strokes at one held value, over position: mean and RMS of the
+/// samples' deviations from map and friction.
+struct MapResidual {
+  double held;               ///< coil current [A] or pressure difference [Pa]
+  double oil_temperature_K;  ///< 0 where it was not recorded
+  std::vector<double> position_m;
+  std::vector<double> mean_N;
+  std::vector<double> rms_N;
+};
+
 /// The largest slope of flow over flow force that the map has at each point: how much a newton costs there.
 struct SensitivityMap {
   std::vector<double> position_m;                 ///< rows
@@ -40,6 +61,9 @@ struct Uniqueness {
 struct Evidence {
   std::vector<MagneticForceLoop> magnetic_force;
   std::vector<AxialForceLoop> axial_force;
+  std::vector<SolenoidTrace> solenoid;                ///< empty without `solenoid_dynamic`
+  std::vector<MapResidual> magnetic_force_residuals;  ///< rising current; these three are empty without an observer
+  std::vector<MapResidual> axial_force_residuals;     ///< of each recording, rising pressure difference
   SensitivityMap sensitivity;
   Uniqueness uniqueness;
 };

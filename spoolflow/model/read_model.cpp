@@ -102,6 +102,16 @@ std::vector<double> column(const JsonNode& node, const char* key, std::size_t co
   return values;
 }
 
+std::vector<MapResidual> map_residuals(const JsonNode& node) {
+  std::vector<MapResidual> out;
+  for (const JsonNode& each : node.elements()) {
+    const std::vector<double> position_m = each.at("position_m").rising_numbers();
+    out.push_back({each.at("held").number(), each.at("oil_temperature_K").number(), position_m,
+                   column(each, "mean_N", position_m.size()), column(each, "rms_N", position_m.size())});
+  }
+  return out;
+}
+
 Evidence evidence(const JsonNode& node) {
   Evidence out;
   for (const JsonNode& loop : node.at("magnetic_force_loops").elements()) {
@@ -116,6 +126,19 @@ Evidence evidence(const JsonNode& node) {
     out.axial_force.push_back({loop.at("pressure_difference_set_Pa").number(), position_m, column(loop, "opening_N", n),
                                column(loop, "closing_N", n), column(loop, "flow_m3_per_s", n),
                                column(loop, "pressure_difference_Pa", n)});
+  }
+  if (node.has("solenoid_traces")) {
+    for (const JsonNode& trace : node.at("solenoid_traces").elements()) {
+      const std::vector<double> current_A = trace.at("current_A").numbers();
+      const std::size_t n = current_A.size();
+      out.solenoid.push_back({static_cast<int>(trace.at("test").number(0, 1e6)), trace.at("position_m").number(),
+                              current_A, column(trace, "measured_N", n), column(trace, "model_N", n),
+                              column(trace, "map_N", n)});
+    }
+  }
+  if (node.has("magnetic_force_residuals")) {
+    out.magnetic_force_residuals = map_residuals(node.at("magnetic_force_residuals"));
+    out.axial_force_residuals = map_residuals(node.at("axial_force_residuals"));
   }
   const JsonNode sensitivity = node.at("sensitivity");
   out.sensitivity.position_m = sensitivity.at("position_m").rising_numbers();

@@ -81,6 +81,18 @@ Json condensed(const Condensed& condensed) {
   return out;
 }
 
+Json map_residuals(const std::vector<MapResidual>& residuals) {
+  Json out = Json::array();
+  for (const MapResidual& each : residuals) {
+    out.push_back({{"held", each.held},
+                   {"oil_temperature_K", each.oil_temperature_K},
+                   {"position_m", each.position_m},
+                   {"mean_N", each.mean_N},
+                   {"rms_N", each.rms_N}});
+  }
+  return out;
+}
+
 Json evidence(const Evidence& evidence) {
   Json magnetic = Json::array();
   for (const MagneticForceLoop& loop : evidence.magnetic_force) {
@@ -98,8 +110,20 @@ Json evidence(const Evidence& evidence) {
                      {"flow_m3_per_s", loop.flow_m3_per_s},
                      {"pressure_difference_Pa", loop.pressure_difference_Pa}});
   }
+  Json solenoid = Json::array();
+  for (const SolenoidTrace& trace : evidence.solenoid) {
+    solenoid.push_back({{"test", trace.test},
+                        {"position_m", trace.position_m},
+                        {"current_A", trace.current_A},
+                        {"measured_N", trace.measured_N},
+                        {"model_N", trace.model_N},
+                        {"map_N", trace.map_N}});
+  }
   return {{"magnetic_force_loops", magnetic},
           {"axial_force_loops", axial},
+          {"solenoid_traces", solenoid},
+          {"magnetic_force_residuals", map_residuals(evidence.magnetic_force_residuals)},
+          {"axial_force_residuals", map_residuals(evidence.axial_force_residuals)},
           {"sensitivity",
            {{"position_m", evidence.sensitivity.position_m},
             {"pressure_difference_Pa", evidence.sensitivity.pressure_difference_Pa},

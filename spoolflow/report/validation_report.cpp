@@ -13,6 +13,7 @@
 #include "spoolflow/report/model_sections.hpp"
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/requirements_table.hpp"
+#include "spoolflow/report/residual_figures.hpp"
 #include "spoolflow/report/results_table.hpp"
 #include "spoolflow/report/run_figures.hpp"
 #include "spoolflow/report/sensor_name.hpp"
@@ -137,9 +138,10 @@ void write_calibration_report(std::ostream& out, const model::Model& model, cons
   show_verdict(page, calibration_verdict(model));
   show_valve(page, model, {});
   show_residuals(page, model);
-  show_fits(page, model);
   show_maps(page, model);
   show_temperatures(page, model);
+  show_model_against_bench(page, model);
+  show_fits(page, model);
   show_blindness(page, model, {});
   show_inputs(page, model, {});
   out << page.str();

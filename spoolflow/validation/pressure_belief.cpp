@@ -10,7 +10,7 @@
 namespace spoolflow::validation {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// value times standard normal density; zero at infinity.
 double first_moment(double value) {
@@ -74,8 +74,8 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
   PressureBelief::Parts parts{
       .deviation_Pa = share * sensor::band_factor(state.pressure) *
                       sensor::unseen_change_Pa(state.pressure, valve.band.unseen_factor),
-      .below_Pa = infinite,
-      .above_Pa = infinite,
+      .below_Pa = unbounded,
+      .above_Pa = unbounded,
       .pressure_difference_Pa = believed_Pa,
       .highest_Pa = valve.edge.highest_pressure_difference_Pa(),
       .conductance = std::max(0.0, edge.conductance),

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/calibration/band.hpp"
+#include "spoolflow/calibration/operation_score.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::calibration {

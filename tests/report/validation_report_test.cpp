@@ -136,6 +136,17 @@ TEST(CalibrationReport, IsOneWellFormedPage) {
   EXPECT_EQ(unbalanced_markup(out.str()), "");
   EXPECT_THAT(out.str(), HasSubstr("the paper's Fig. 5"));
   EXPECT_THAT(out.str(), HasSubstr("the paper's Fig. 8"));
+  EXPECT_THAT(out.str(), Not(HasSubstr("The model against the bench")));
+  model::Model measured = small_model();
+  measured.evidence.solenoid = {{1, 1.2e-3, {0, 1, 2}, {0, 11, 20}, {0, 10.5, 20}, {0, 10, 20}}};
+  measured.evidence.axial_force_residuals = {{60e5, 323.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}},
+                                             {60e5, 343.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}}};
+  std::ostringstream with;
+  write_calibration_report(with, measured);
+  EXPECT_EQ(unbalanced_markup(with.str()), "");
+  EXPECT_THAT(with.str(),
+              HasSubstr("The map alone leaves 0.577 N (RMS), the model with hysteresis and eddy currents 0.289 N"));
+  EXPECT_THAT(with.str(), HasSubstr("70 \u00b0C: axial force less model [N]"));
   model::Model bare = small_model();
   bare.evidence = {};
   bare.condensed.residuals.clear();

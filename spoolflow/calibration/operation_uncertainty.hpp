@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+
+/// What the operating recordings tell of the parameters at which their score is smallest: covariance of an M-estimator
+/// (Huber 1967) on a logarithmic scale, from the score's curvature and from how much its slope differs between
+/// stretches of some seconds. `pull` is the curvature's half that the weak pull of the search adds. A parameter at the
+/// end of its range has uncertainty 0. The score's curvature comes from differences of ten percent: two digits at best.
+[[nodiscard]] model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
+                                            const std::vector<const recording::Recording*>& recordings,
+                                            double full_scale_m3_per_s, double pull);
+
+}  // namespace spoolflow::calibration

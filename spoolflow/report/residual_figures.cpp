@@ -1,0 +1,157 @@
+#include "spoolflow/report/residual_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/number_text.hpp"
+#include "spoolflow/report/scaled.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using model::MapResidual;
+using model::SolenoidTrace;
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < a.size(); ++k) out.push_back(a[k] - b[k]);
+  return out;
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// The parts at the middle of the held positions.
+std::vector<const SolenoidTrace*> at_middle_position(const std::vector<SolenoidTrace>& traces) {
+  std::vector<double> positions_m;
+  for (const SolenoidTrace& trace : traces) positions_m.push_back(trace.position_m);
+  std::sort(positions_m.begin(), positions_m.end());
+  const double middle_m = positions_m[positions_m.size() / 2];
+  std::vector<const SolenoidTrace*> out;
+  for (const SolenoidTrace& trace : traces)
+    if (trace.position_m == middle_m) out.push_back(&trace);
+  return out;
+}
+
+/// How far the force lies from the averaged map, over current: measured, and what the model makes of it.
+CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
+  constexpr std::size_t most_parts = 6;
+  std::vector<const SolenoidTrace*> parts = at_middle_position(traces);
+  if (parts.size() > most_parts) parts.resize(most_parts);
+  Figure figure{.description = "Magnetic force less the averaged map over coil current, measured and modelled",
+                .x_title = "Coil current [A]"};
+  double map_N = 0, model_N = 0;
+  std::size_t samples = 0;
+  for (const SolenoidTrace* part : parts) {
+    const std::vector<double> measured_N = difference(part->measured_N, part->map_N);
+    const std::vector<double> modelled_N = difference(part->model_N, part->map_N);
+    const bool first = part == parts.front();
+    Panel panel{.title = part->test == 0 ? "Force less the averaged map [N]"
+                                         : fmt::format("Part {}: force less the averaged map [N]", part->test),
+                .height_px = 170};
+    panel.marks.push_back({.shape = Shape::dots,
+                           .tone = "condensed",
+                           .name = first ? "measured" : "",
+                           .width_px = 4.5,
+                           .x = part->current_A,
+                           .y = measured_N});
+    panel.marks.push_back({.shape = Shape::dots,
+                           .tone = "observer",
+                           .name = first ? "model with hysteresis and eddy currents" : "",
+                           .width_px = 2.2,
+                           .x = part->current_A,
+                           .y = modelled_N});
+    figure.panels.push_back(std::move(panel));
+    const auto count = static_cast<double>(measured_N.size());
+    map_N += std::pow(rms(measured_N), 2) * count;
+    model_N += std::pow(rms(difference(measured_N, modelled_N)), 2) * count;
+    samples += measured_N.size();
+  }
+  const double root = std::sqrt(static_cast<double>(std::max<std::size_t>(1, samples)));
+  return {
+      std::move(figure),
+      fmt::format("The solenoid at {} mm, armature held: how far the magnetic force lies from the averaged map. The "
+                  "map alone leaves {} N (RMS), the model with hysteresis and eddy currents {} N.",
+                  fixed(units::mm_from_m(parts.front()->position_m), 2), three_digits(std::sqrt(map_N) / root),
+                  three_digits(std::sqrt(model_N) / root))};
+}
+
+/// Mean deviations of one family of strokes as lines, RMS in the caption.
+Panel residual_panel(std::string title, const std::vector<const MapResidual*>& family,
+                     const std::function<std::string(const MapResidual&)>& name, bool named) {
+  Panel panel{.title = std::move(title), .height_px = 200};
+  for (std::size_t k = 0; k < family.size(); ++k) {
+    panel.marks.push_back(
+        {.ramp = family.size() < 2 ? 0.5 : static_cast<double>(k) / static_cast<double>(family.size() - 1),
+         .name = named ? name(*family[k]) : "",
+         .width_px = 1.2,
+         .x = scaled(family[k]->position_m, units::millimetre_per_metre),
+         .y = family[k]->mean_N});
+  }
+  return panel;
+}
+
+double rms_of(const std::vector<MapResidual>& residuals) {
+  std::vector<double> all_N;
+  for (const MapResidual& each : residuals) all_N.insert(all_N.end(), each.rms_N.begin(), each.rms_N.end());
+  return rms(all_N);
+}
+
+CaptionedFigure magnetic_residual_figure(const std::vector<MapResidual>& residuals) {
+  std::vector<const MapResidual*> family;
+  for (const MapResidual& each : residuals) family.push_back(&each);
+  Figure figure{.description = "What the magnetic force map leaves of the strokes, over position",
+                .x_title = "Position [mm]"};
+  figure.panels.push_back(residual_panel(
+      "Magnetic force less model [N]", family, [](const MapResidual& each) { return fixed(each.held, 2) + " A"; },
+      true));
+  return {
+      std::move(figure),
+      fmt::format("What magnetic force, hysteresis and armature friction leave of the force map's strokes, averaged "
+                  "at each position; single samples deviate by {} N (RMS).",
+                  three_digits(rms_of(residuals)))};
+}
+
+CaptionedFigure axial_residual_figure(const std::vector<MapResidual>& residuals) {
+  std::map<double, std::vector<const MapResidual*>> by_temperature;
+  for (const MapResidual& each : residuals) by_temperature[each.oil_temperature_K].push_back(&each);
+  Figure figure{.description = "What spring, flow force and friction leave of the axial-force strokes, over position",
+                .x_title = "Position [mm]"};
+  for (const auto& [temperature_K, family] : by_temperature) {
+    const std::string warm = temperature_K > 0 ? fixed(units::degC_from_K(temperature_K), 0) + " \u00b0C: " : "";
+    figure.panels.push_back(residual_panel(
+        warm + "axial force less model [N]", family,
+        [](const MapResidual& each) { return three_digits(units::bar_from_Pa(each.held)) + " bar"; },
+        figure.panels.empty()));
+  }
+  return {
+      std::move(figure),
+      fmt::format("What spring, flow force and friction leave of the axial-force strokes, averaged at each position; "
+                  "single samples deviate by {} N (RMS).",
+                  three_digits(rms_of(residuals)))};
+}
+
+}  // namespace
+
+void show_model_against_bench(HtmlPage& page, const model::Model& model) {
+  const model::Evidence& evidence = model.evidence;
+  std::vector<CaptionedFigure> residuals;
+  if (!evidence.axial_force_residuals.empty())
+    residuals.push_back(axial_residual_figure(evidence.axial_force_residuals));
+  if (!evidence.magnetic_force_residuals.empty())
+    residuals.push_back(magnetic_residual_figure(evidence.magnetic_force_residuals));
+  if (residuals.empty() && evidence.solenoid.empty()) return;
+  page.section("The model against the bench");
+  if (!evidence.solenoid.empty()) page.figure(loops_figure(evidence.solenoid));
+  if (!residuals.empty()) page.pair(residuals);
+}
+
+}  // namespace spoolflow::report
