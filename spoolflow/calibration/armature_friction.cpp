@@ -58,16 +58,15 @@ double force_beyond(const sensor::MagneticForce<double>& magnetic_force, double 
   return force.value + force.row_slope * std::max(0.0, current_A - edge_A);
 }
 
-/// What is known of those unknowns that are not held at zero; the last column is the right side.
-LinearLeastSquares among_free(const Eigen::MatrixXd& all, const Eigen::VectorXd& solution) {
+/// Covariance of the solution, from those unknowns that are not held at zero; the last column is the right side.
+Eigen::MatrixXd covariance_among_free(const Eigen::MatrixXd& all, const Eigen::VectorXd& solution) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < solution.size(); ++k)
     if (solution(k) > 0) free.push_back(k);
-  LinearLeastSquares out{solution, Eigen::MatrixXd::Zero(solution.size(), solution.size())};
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(solution.size(), solution.size());
   if (free.empty()) return out;
-  const Eigen::MatrixXd free_columns = all(Eigen::all, free);
-  out.covariance(free, free) =
-      least_squares(free_columns, all.col(solution.size()), Measured::in_a_row, "the loops' widths").covariance;
+  const LinearLeastSquares fit = least_squares(all(Eigen::all, free), all.col(solution.size()), "the loops' widths");
+  out(free, free) = fit.covariance(independent_in_a_row(fit.deviation));
   return out;
 }
 
@@ -129,9 +128,9 @@ ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const 
     fit.profiles.push_back(profile.at(level.value, 0));
   }
   const Eigen::MatrixXd all = stacked(rows);
-  fit.known = known_from("armature friction as a constant and a share of the magnetic force",
-                         {"constant_friction_N", "friction_per_magnetic_force"},
-                         least_squares(all.leftCols(2), all.col(2), Measured::in_a_row, "the armature's friction"));
+  fit.known = known_from_samples("armature friction as a constant and a share of the magnetic force",
+                                 {"constant_friction_N", "friction_per_magnetic_force"},
+                                 least_squares(all.leftCols(2), all.col(2), "the armature's friction"));
   return fit;
 }
 
@@ -158,7 +157,7 @@ LoopWidths part_loop_widths(const MagneticForceFit& map) {
   });
   out.known = known_from("widths of the force map's loops: armature friction and coercive current",
                          {"constant_friction_N", "friction_per_magnetic_force", "coercive_current_A"},
-                         among_free(stacked(rows), solution));
+                         {solution.begin(), solution.end()}, covariance_among_free(stacked(rows), solution));
   return out;
 }
 

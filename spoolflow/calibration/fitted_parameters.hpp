@@ -29,9 +29,15 @@ namespace spoolflow::calibration {
   return fit;
 }
 
-[[nodiscard]] inline model::Fit known_from(std::string of, const std::vector<std::string>& names,
-                                           const LinearLeastSquares& fit) {
-  return known_from(std::move(of), names, {fit.solution.begin(), fit.solution.end()}, fit.covariance);
+/// The same of a linear fit whose rows were measured apart, or of samples in a row.
+[[nodiscard]] inline model::Fit known_from_apart(std::string of, const std::vector<std::string>& names,
+                                                 const LinearLeastSquares& fit) {
+  return known_from(std::move(of), names, {fit.solution.begin(), fit.solution.end()}, fit.covariance());
+}
+[[nodiscard]] inline model::Fit known_from_samples(std::string of, const std::vector<std::string>& names,
+                                                   const LinearLeastSquares& fit) {
+  return known_from(std::move(of), names, {fit.solution.begin(), fit.solution.end()},
+                    fit.covariance(independent_in_a_row(fit.deviation)));
 }
 
 }  // namespace spoolflow::calibration

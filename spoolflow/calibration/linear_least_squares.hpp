@@ -16,17 +16,22 @@ template <class Row>
 
 struct LinearLeastSquares {
   Eigen::VectorXd solution;
-  Eigen::MatrixXd covariance;  ///< from the residual; zero where nothing is left over to tell it
+  Eigen::VectorXd deviation;  ///< of the right side from the matrix times the solution
+  Eigen::MatrixXd inverse;    ///< of the normal equations' matrix
+
+  /// Of the solution, if so many of the deviations are independent. JCGM 100, H.3. Zero where there are no more rows
+  /// than unknowns, so that nothing is left over to tell it.
+  [[nodiscard]] Eigen::MatrixXd covariance(double independent) const;
+  /// The same of rows that were measured apart from each other.
+  [[nodiscard]] Eigen::MatrixXd covariance() const { return covariance(static_cast<double>(deviation.size())); }
 };
 
-/// How the rows follow each other: measured apart, or samples in a row, whose deviations are alike where neighbours
-/// share noise or what the model omits.
-enum class Measured { apart, in_a_row };
+/// Of samples in a row, whose deviations are alike where neighbours share noise or what the model omits, only
+/// n (1 - r) / (1 + r) count as independent, r their correlation from one to the next (Bayley and Hammersley 1946).
+[[nodiscard]] double independent_in_a_row(const Eigen::VectorXd& deviation);
 
-/// Minimises |matrix * x - right|. Of rows in a row only n (1 - r) / (1 + r) count as independent, with r the
-/// deviations' correlation from one to the next (Bayley and Hammersley 1946). JCGM 100, H.3. Throws CalibrationError
-/// naming `what` where the rows do not tell the unknowns apart.
+/// Minimises |matrix * x - right|. Throws CalibrationError naming `what` where the rows do not tell the unknowns apart.
 [[nodiscard]] LinearLeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
-                                               Measured measured, const char* what);
+                                               const char* what);
 
 }  // namespace spoolflow::calibration

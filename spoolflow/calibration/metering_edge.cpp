@@ -83,8 +83,8 @@ std::vector<model::Fit> laws_of(const std::vector<const AxialForceFit*>& fits, c
     const Eigen::Index unknowns = matrix.cols() - (several ? 0 : 1);  // the slope over temperature stands last
     names.resize(static_cast<std::size_t>(unknowns));
     if (matrix.rows() <= unknowns) return;
-    out.push_back(known_from(of + " " + where, names,
-                             least_squares(matrix.leftCols(unknowns), right, Measured::apart, of.c_str())));
+    out.push_back(
+        known_from_apart(of + " " + where, names, least_squares(matrix.leftCols(unknowns), right, of.c_str())));
   };
   const Eigen::MatrixXd force_rows = stacked(force), conductance_rows = stacked(conductance);
   Eigen::MatrixXd friction_rows(force_rows.rows(), 4);

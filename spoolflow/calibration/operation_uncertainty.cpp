@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
-
+#include "spoolflow/calibration/definite_matrix.hpp"
 #include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/operation_score.hpp"
 
@@ -28,11 +27,14 @@ Eigen::VectorXd scores(const std::vector<OperationOutcome>& stretches, double rm
   return out;
 }
 
-/// Inverse of a curvature in which no direction may bend less than the pull alone makes it.
-Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& curvature, double least) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(curvature);
-  const Eigen::VectorXd bends = solver.eigenvalues().cwiseMax(least);
-  return solver.eigenvectors() * bends.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+/// Inverse of a curvature that differences may have made too flat somewhere: the pull is added until it is definite.
+Eigen::MatrixXd inverse_of(Eigen::MatrixXd curvature, double pull) {
+  const Eigen::Index unknowns = curvature.rows();
+  if (!curvature.allFinite() || !(pull > 0)) return Eigen::MatrixXd::Zero(unknowns, unknowns);
+  for (double added = pull;; added *= 2) {
+    if (std::optional<Eigen::MatrixXd> inverse = inverse_of_definite(curvature)) return *inverse;
+    curvature.diagonal().array() += added;
+  }
 }
 
 }  // namespace
@@ -78,9 +80,9 @@ model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
   }
   slopes.rowwise() -= slopes.colwise().mean();
   const double stretches = static_cast<double>(slopes.rows());
-  const Eigen::MatrixXd scatter = stretches / std::max(1.0, stretches - 1) * slopes.transpose() * slopes;
+  const Eigen::MatrixXd scatter = stretches / std::max(1.0, stretches - 1) * slopes.transpose().lazyProduct(slopes);
   const Eigen::MatrixXd inverse = inverse_of(curvature, 2 * pull);
-  const Eigen::MatrixXd on_log_scale = inverse * scatter * inverse;
+  const Eigen::MatrixXd on_log_scale = inverse.lazyProduct(scatter).eval().lazyProduct(inverse);
 
   const auto all = static_cast<Eigen::Index>(dials.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all, all);

@@ -71,13 +71,14 @@ PositionSensorFit fit_position_sensor(const std::vector<const recording::Recordi
   const double mean_K = temperature.mean();
   Eigen::MatrixXd line(temperature.size(), 2);
   line << Eigen::VectorXd::Ones(temperature.size()), temperature.array() - mean_K;
-  const LinearLeastSquares drift = least_squares(line, closed, Measured::apart, "the drift of the position sensor");
+  const LinearLeastSquares drift = least_squares(line, closed, "the drift of the position sensor");
   fit.drift_m_per_K = drift.solution(1);
   fit.drift_free_K = std::abs(fit.drift_m_per_K) > 1e-10 ? mean_K - drift.solution(0) / fit.drift_m_per_K : mean_K;
   fit.drift_residual_m = (closed - line * drift.solution).norm() / std::sqrt(static_cast<double>(closed.size()));
   if (closed.size() > 2) {
-    fit.known = known_from("drift of the position sensor",
-                           {fmt::format("closed_reading_at_{:.0f}_K_m", mean_K), "position_drift_m_per_K"}, drift);
+    fit.known =
+        known_from_apart("drift of the position sensor",
+                         {fmt::format("closed_reading_at_{:.0f}_K_m", mean_K), "position_drift_m_per_K"}, drift);
   }
   return fit;
 }

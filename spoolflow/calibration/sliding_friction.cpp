@@ -4,9 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include "spoolflow/calibration/calibration_error.hpp"
+#include "spoolflow/calibration/linear_least_squares.hpp"
 #include "spoolflow/calibration/zero_phase_filter.hpp"
 
 namespace spoolflow::calibration {
@@ -92,26 +91,19 @@ SlidingFrictionFit fit_sliding_friction(const SlidingHistory& history, FrictionS
     for (Eigen::Index c = 0; c < columns; ++c) matrix(r, c) = unknowns[static_cast<std::size_t>(c)].regressor[k];
     right(r) = force_N[k];
   }
-  const Eigen::VectorXd scale = matrix.colwise().norm();
-  if (matrix.rows() <= columns || !(scale.minCoeff() > 0))
+  if (matrix.rows() <= columns || !(matrix.colwise().squaredNorm().minCoeff() > 0))
     throw CalibrationError("friction cannot be identified: the recording does not slide both ways");
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix * scale.cwiseInverse().asDiagonal());
-  if (solver.rank() < columns)
-    throw CalibrationError(
-        "friction cannot be identified: the recorded motion does not tell its parts from each other");
-  const Eigen::VectorXd solution = solver.solve(right).cwiseQuotient(scale);
+  const LinearLeastSquares solved = least_squares(matrix, right, "friction");
 
   SlidingFrictionFit fit{};
   fit.force_rms_N = right.norm() / std::sqrt(static_cast<double>(right.size()));
-  const Eigen::VectorXd deviation = right - matrix * solution;
-  for (const double each : deviation) fit.residual.add(each);
+  for (const double each : solved.deviation) fit.residual.add(each);
   // Neighbouring rows share their noise: two of each period of the bandwidth are independent, and count.
   const double independent = static_cast<double>(matrix.rows()) * std::min(1.0, 2 * rows_bandwidth_Hz * step_s);
-  const double variance_N2 = deviation.squaredNorm() / independent;
-  const Eigen::MatrixXd covariance = variance_N2 * (matrix.transpose() * matrix).inverse();
+  const Eigen::MatrixXd covariance = solved.covariance(independent);
   for (Eigen::Index c = 0; c < columns; ++c) {
     for (double FrictionLaw::*member : unknowns[static_cast<std::size_t>(c)].members) {
-      fit.law.*member = solution(c);
+      fit.law.*member = solved.solution(c);
       fit.uncertainty.*member = std::sqrt(covariance(c, c));
     }
   }

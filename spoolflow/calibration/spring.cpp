@@ -49,9 +49,9 @@ model::Fit straight_spring(const recording::Recording& recording, const Level& l
       if (!std::isnan(position_m[k]) && !std::isnan(force_N[k])) rows.emplace_back(1, position_m[k], sign, force_N[k]);
   }
   const Eigen::MatrixXd all = stacked(rows);
-  const LinearLeastSquares fit = least_squares(all.leftCols(3), all.col(3), Measured::in_a_row, "the spring");
-  return known_from("spring as a straight line, dry friction of the spool",
-                    {"spring_preload_N", "spring_stiffness_N_per_m", "dry_friction_N"}, fit);
+  const LinearLeastSquares fit = least_squares(all.leftCols(3), all.col(3), "the spring");
+  return known_from_samples("spring as a straight line, dry friction of the spool",
+                            {"spring_preload_N", "spring_stiffness_N_per_m", "dry_friction_N"}, fit);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace spoolflow::validation {
 namespace {
 
 constexpr double step_s = 0.01;
-constexpr double stroke_m = 2e-3;
+constexpr double whole_stroke_m = 2e-3;
 
 /// A triangle: 5 % of the stroke a second up to fully open, 4 s of hold, down again, straight up to a tenth.
 struct Triangle {
@@ -52,9 +52,9 @@ TEST(Phases, OfANoisyMeasuredPositionAreThoseOfTheCommandButForTheEdges) {
   std::mt19937 generator(3);
   std::normal_distribution<double> noise_m(0, 1e-6);
   std::vector<double> position_m;
-  for (const double share : triangle.share) position_m.push_back(share * stroke_m + noise_m(generator));
+  for (const double share : triangle.share) position_m.push_back(share * whole_stroke_m + noise_m(generator));
   const Phases commanded = phases_of_command(triangle.time_s, triangle.share);
-  const Phases measured = phases_of_position(triangle.time_s, position_m, stroke_m);
+  const Phases measured = phases_of_position(triangle.time_s, position_m, whole_stroke_m);
   EXPECT_TRUE(measured.from_measured_position);
   int different = 0;
   for (std::size_t k = 0; k < position_m.size(); ++k) {
@@ -73,7 +73,7 @@ TEST(Phases, OfASpoolThatOnlyShakesByNoiseAreRest) {
     time_s.push_back(k * 1e-3);
     position_m.push_back(1e-3 + noise_m(generator));
   }
-  const Phases phases = phases_of_position(time_s, position_m, stroke_m);
+  const Phases phases = phases_of_position(time_s, position_m, whole_stroke_m);
   for (std::size_t k = 0; k < time_s.size(); ++k) {
     EXPECT_TRUE(phases.rest[k]) << k;
     EXPECT_FALSE(phases.reversal[k]) << k;
@@ -82,10 +82,10 @@ TEST(Phases, OfASpoolThatOnlyShakesByNoiseAreRest) {
 
 TEST(Phases, SurviveMissingPositionsGapsAndASingleSample) {
   const double nothing = std::nan("");
-  const Phases single = phases_of_position(std::vector{0.0}, std::vector{nothing}, stroke_m);
+  const Phases single = phases_of_position(std::vector{0.0}, std::vector{nothing}, whole_stroke_m);
   EXPECT_FALSE(single.moving[0]);
-  const Phases holes =
-      phases_of_position(std::vector{0.0, 0.001, 5.0, 5.001}, std::vector{1e-3, nothing, nothing, 1e-3}, stroke_m);
+  const Phases holes = phases_of_position(std::vector{0.0, 0.001, 5.0, 5.001},
+                                          std::vector{1e-3, nothing, nothing, 1e-3}, whole_stroke_m);
   EXPECT_EQ(holes.moving, std::vector<bool>(4, false));
   EXPECT_EQ(phases_of_command(std::vector{0.0}, std::vector{0.5}).rest, std::vector<bool>{true});
   EXPECT_TRUE(phases_of_command({}, {}).moving.empty());

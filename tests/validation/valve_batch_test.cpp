@@ -14,7 +14,7 @@ namespace spoolflow::validation {
 namespace {
 
 /// A valve with forces and flows of its own; `k` makes it another one.
-sensor::CondensedParameters<float> valve(int k) {
+sensor::CondensedParameters<float> condensed_valve(int k) {
   sensor::CondensedParameters<float> out{};
   const float wide = 1.0F + 0.05F * static_cast<float>(k);
   const auto axis = [&](float last, int points) {
@@ -55,12 +55,12 @@ using Tables = sensor::CondensedTables<float>;
 
 std::vector<Tables> models(std::size_t count) {
   std::vector<Tables> out(count);
-  for (std::size_t k = 0; k < count; ++k) sensor::lay_out(valve(static_cast<int>(k)), out[k]);
+  for (std::size_t k = 0; k < count; ++k) sensor::lay_out(condensed_valve(static_cast<int>(k)), out[k]);
   return out;
 }
 
 /// A number a sample and valve.
-struct Rows {
+struct ManyRows {
   std::vector<float> time_step_s, current_A, voltage_V, position_m, oil_temperature_K;
 
   [[nodiscard]] SampleRows all() const { return {time_step_s, current_A, voltage_V, position_m, oil_temperature_K}; }
@@ -70,11 +70,11 @@ struct Rows {
 };
 
 /// Currents and positions in and beyond the maps; some are missing, some time steps run backwards.
-Rows wild_rows(std::size_t count) {
+ManyRows wild_rows(std::size_t count) {
   std::mt19937 generator(11);
   std::uniform_real_distribution<float> current_A(-0.5F, 4.5F), position_m(-0.3e-3F, 3.5e-3F), chance(0, 1);
   const float missing = std::numeric_limits<float>::quiet_NaN();
-  Rows out;
+  ManyRows out;
   for (std::size_t k = 0; k < count; ++k) {
     out.time_step_s.push_back(chance(generator) < 0.02F ? -1e-3F : 1e-3F);
     out.current_A.push_back(chance(generator) < 0.05F ? missing : current_A(generator));
@@ -94,7 +94,7 @@ TEST_P(EveryInstructionSet, AnswersForManyValvesAsSingleSensorsDo) {
   const std::vector<Tables> tables = models(valves - 1);
   std::vector<const Tables*> in_batch(1, &tables[3]);  // one model stands twice
   for (const Tables& table : tables) in_batch.push_back(&table);
-  const Rows rows = wild_rows(valves * samples);
+  const ManyRows rows = wild_rows(valves * samples);
   std::vector<float> flow(valves * samples), lower(flow), upper(flow), pressure(flow), force(flow);
   std::vector<sensor::Status> status(valves * samples);
   EstimateRows estimates{};
@@ -122,8 +122,8 @@ TEST_P(EveryInstructionSet, AnswersForManyValvesAsSingleSensorsDo) {
 TEST_P(EveryInstructionSet, GoesOnWhereTheLastCallEnded) {
   const std::vector<Tables> tables = models(1);
   const std::vector<const Tables*> in_batch(valves_together, tables.data());
-  Rows held = wild_rows(valves_together);
-  Rows good = held;
+  ManyRows held = wild_rows(valves_together);
+  ManyRows good = held;
   std::fill(good.time_step_s.begin(), good.time_step_s.end(), 1e-3F);
   std::fill(good.current_A.begin(), good.current_A.end(), 1.5F);
   std::fill(good.position_m.begin(), good.position_m.end(), 1e-3F);
@@ -145,7 +145,7 @@ TEST(ValveBatch, RefusesWhatIsNoWholeNumberOfValvesOrSamples) {
   EXPECT_THROW(ValveBatch<Tables>{seven}, std::invalid_argument);
   ValveBatch<Tables> batch(eight);
   EXPECT_THROW(batch.step(wild_rows(12).all(), {}), std::invalid_argument);
-  Rows rows = wild_rows(16);
+  ManyRows rows = wild_rows(16);
   rows.position_m.resize(8);
   EXPECT_THROW(batch.step(rows.all(), {}), std::invalid_argument);
 }

@@ -1,0 +1,12 @@
+#pragma once
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace spoolflow::calibration {
+
+/// Inverse of a symmetric positive definite matrix, such as that of normal equations; nothing where a direction is
+/// flat, after scaling to a diagonal of ones, to within rounding.
+[[nodiscard]] std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix);
+
+}  // namespace spoolflow::calibration
