@@ -81,11 +81,11 @@ TEST(Phases, OfASpoolThatOnlyShakesByNoiseAreRest) {
 }
 
 TEST(Phases, SurviveMissingPositionsGapsAndASingleSample) {
-  const double nothing = std::nan("");
-  const Phases single = phases_of_position(std::vector{0.0}, std::vector{nothing}, whole_stroke_m);
+  const double missing_m = std::nan("");
+  const Phases single = phases_of_position(std::vector{0.0}, std::vector{missing_m}, whole_stroke_m);
   EXPECT_FALSE(single.moving[0]);
   const Phases holes = phases_of_position(std::vector{0.0, 0.001, 5.0, 5.001},
-                                          std::vector{1e-3, nothing, nothing, 1e-3}, whole_stroke_m);
+                                          std::vector{1e-3, missing_m, missing_m, 1e-3}, whole_stroke_m);
   EXPECT_EQ(holes.moving, std::vector<bool>(4, false));
   EXPECT_EQ(phases_of_command(std::vector{0.0}, std::vector{0.5}).rest, std::vector<bool>{true});
   EXPECT_TRUE(phases_of_command({}, {}).moving.empty());
