@@ -46,9 +46,10 @@ constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceSt
     state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * sample.time_step_s;
     const T misfit_V = sample.voltage_V - sample.flux_rate_V - state.resistance_Ohm * sample.current_A;
     const T covariance = state.variance_Ohm2 * sample.current_A;
-    const T gain =
-        covariance * sample.time_step_s /
-        (covariance * sample.current_A * sample.time_step_s + squared(coil.voltage_noise_V_root_s) + T(1e-12));
+    // Where the flux changes fast, most of the voltage drives it, and its model may be a third wrong.
+    const T noise2 =
+        squared(coil.voltage_noise_V_root_s) + squared(T(1.0 / 3) * sample.flux_rate_V) * sample.time_step_s + T(1e-12);
+    const T gain = covariance * sample.time_step_s / (covariance * sample.current_A * sample.time_step_s + noise2);
     state.resistance_Ohm += gain * misfit_V;
     state.variance_Ohm2 -= gain * covariance;
     const T coldest = T(0.6);  // resistance over the calibrated one

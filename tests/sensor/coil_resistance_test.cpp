@@ -34,6 +34,17 @@ TEST(CoilResistance, OfHalfTheTurnsOrABadContactIsAFault) {
   EXPECT_TRUE(followed(20).implausible);
 }
 
+TEST(CoilResistance, OfAColdStartIsNoFaultThoughTheFluxOfTheFirstMillisecondsIsModelledPoorly) {
+  CoilResistanceState<double> state;
+  for (int n = 0; n < 1000; ++n) follow_resistance(coil, state, {1e-3, 0, 0, 0});
+  for (const double flux_rate_V : {20.0, 14.0, 8.0, 4.0, 2.0, 1.0, 0.5}) {
+    const double current_A = 0.5 - 0.02 * flux_rate_V;
+    follow_resistance(coil, state, {1e-3, current_A, 10 * current_A + 1.4 * flux_rate_V, flux_rate_V});
+    EXPECT_FALSE(state.implausible) << flux_rate_V;
+    EXPECT_NEAR(state.resistance_Ohm, 10, 3) << flux_rate_V;
+  }
+}
+
 TEST(CoilResistance, WithoutCurrentOrVoltageNothingIsSaid) {
   EXPECT_FALSE(followed(5, 0).implausible);
   CoilResistanceState<double> state;
