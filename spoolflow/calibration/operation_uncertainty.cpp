@@ -53,7 +53,7 @@ model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
     const double before_a = *dials[a].value, before_b = *dials[b].value;
     *dials[a].value *= std::exp(log_a);
     *dials[b].value *= std::exp(log_b);
-    const Eigen::VectorXd out =
+    Eigen::VectorXd out =
         scores(replay_stretches(parameters, recordings, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
     *dials[a].value = before_a;
     *dials[b].value = before_b;
