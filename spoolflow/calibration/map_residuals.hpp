@@ -20,7 +20,7 @@ class ResidualProfile {
   [[nodiscard]] model::MapResidual at(double held, double oil_temperature_K) const;
 
  private:
-  static constexpr std::size_t bins = 48;
+  static constexpr std::size_t bins = 24;
   double stroke_m_;
   std::vector<FitResidual> bins_;
   std::vector<double> sums_;

@@ -161,36 +161,39 @@ std::vector<TestResidual> residuals_of(const SolenoidSamples& samples, const sen
   return list;
 }
 
-/// Some hundred samples of each part at each held position, rounded as far as a plot shows.
+/// Some hundred samples of each part at the middle of the held positions, rounded as far as a plot shows.
 std::vector<model::SolenoidTrace> traces_of(const SolenoidSamples& samples, const sensor::Coil<double>& coil,
                                             const sensor::MagneticForce<double>& magnetic_force) {
-  constexpr std::size_t points = 240;
+  constexpr std::size_t points = 160;
   const auto rounded = [](double value) { return std::round(1e3 * value) / 1e3; };  // to mA and mN
-  std::vector<model::SolenoidTrace> out;
-  for (const HeldArmature& held : held_armature(samples)) {
-    sensor::CoilState<double> state;
-    const auto position =
-        sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, held.position_m);
-    std::map<int, std::size_t> length;
-    for (std::size_t k = held.begin; k < held.end; ++k) ++length[samples.test[k]];
-    std::map<int, std::size_t> seen;
-    std::map<int, model::SolenoidTrace> traces;
-    for (std::size_t k = held.begin; k < held.end; ++k) {
-      const auto& sample = samples.samples[k];
-      sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == held.begin);
-      const int test = samples.test[k];
-      const std::size_t before = seen[test]++;
-      if (before * points / length[test] == (before + 1) * points / length[test]) continue;  // thinned
-      model::SolenoidTrace& trace = traces[test];
-      trace.test = test;
-      trace.position_m = held.position_m;
-      trace.current_A.push_back(rounded(sample.current_A));
-      trace.measured_N.push_back(rounded(samples.force_N[k]));
-      trace.model_N.push_back(rounded(magnetic_force.at(state.magnetising_current_A, held.position_m).value));
-      trace.map_N.push_back(rounded(magnetic_force.at(sample.current_A, held.position_m).value));
-    }
-    for (auto& [test, trace] : traces) out.push_back(std::move(trace));
+  std::vector<HeldArmature> all = held_armature(samples);
+  if (all.empty()) return {};
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end(),
+                   [](const HeldArmature& a, const HeldArmature& b) { return a.position_m < b.position_m; });
+  const HeldArmature& held = *middle;
+  sensor::CoilState<double> state;
+  const auto position = sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, held.position_m);
+  std::map<int, std::size_t> length;
+  for (std::size_t k = held.begin; k < held.end; ++k) ++length[samples.test[k]];
+  std::map<int, std::size_t> seen;
+  std::map<int, model::SolenoidTrace> traces;
+  for (std::size_t k = held.begin; k < held.end; ++k) {
+    const auto& sample = samples.samples[k];
+    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == held.begin);
+    const int test = samples.test[k];
+    const std::size_t before = seen[test]++;
+    if (before * points / length[test] == (before + 1) * points / length[test]) continue;  // thinned
+    model::SolenoidTrace& trace = traces[test];
+    trace.test = test;
+    trace.position_m = held.position_m;
+    trace.current_A.push_back(rounded(sample.current_A));
+    trace.measured_N.push_back(rounded(samples.force_N[k]));
+    trace.model_N.push_back(rounded(magnetic_force.at(state.magnetising_current_A, held.position_m).value));
+    trace.map_N.push_back(rounded(magnetic_force.at(sample.current_A, held.position_m).value));
   }
+  std::vector<model::SolenoidTrace> out;
+  for (auto& [test, trace] : traces) out.push_back(std::move(trace));
   return out;
 }
 

@@ -24,7 +24,7 @@ struct SolenoidDynamicsFit {
   sensor::Coil<double> coil;  ///< the given one with hysteresis and eddy currents as fitted
   model::Fit known;           ///< of hysteresis and eddy currents
   std::vector<TestResidual> tests;
-  std::vector<model::SolenoidTrace> traces;  ///< of each part at each held position
+  std::vector<model::SolenoidTrace> traces;  ///< of each part at the middle position
   int iterations;
 };
 

@@ -23,8 +23,8 @@ struct AxialForceLoop {
   std::vector<double> pressure_difference_Pa;  ///< measured, both directions averaged
 };
 
-/// One part of `solenoid_dynamic` at one held position, thinned for drawing: what the load cell showed and what the
-/// calibrated actuator makes of the same current.
+/// One part of `solenoid_dynamic`, of its held positions the middle one, thinned for drawing: what the load cell showed
+/// and what the calibrated actuator makes of the same current.
 struct SolenoidTrace {
   int test;  ///< the protocol's number of the part; 0 where the recording does not tell
   double position_m;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -29,45 +30,32 @@ double rms(const std::vector<double>& values) {
   return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// The parts at the middle of the held positions.
-std::vector<const SolenoidTrace*> at_middle_position(const std::vector<SolenoidTrace>& traces) {
-  std::vector<double> positions_m;
-  for (const SolenoidTrace& trace : traces) positions_m.push_back(trace.position_m);
-  std::sort(positions_m.begin(), positions_m.end());
-  const double middle_m = positions_m[positions_m.size() / 2];
-  std::vector<const SolenoidTrace*> out;
-  for (const SolenoidTrace& trace : traces)
-    if (trace.position_m == middle_m) out.push_back(&trace);
-  return out;
-}
-
 /// How far the force lies from the averaged map, over current: measured, and what the model makes of it.
 CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
   constexpr std::size_t most_parts = 6;
-  std::vector<const SolenoidTrace*> parts = at_middle_position(traces);
-  if (parts.size() > most_parts) parts.resize(most_parts);
+  const std::span<const SolenoidTrace> parts(traces.data(), std::min(most_parts, traces.size()));
   Figure figure{.description = "Magnetic force less the averaged map over coil current, measured and modelled",
                 .x_title = "Coil current [A]"};
   double map_N = 0, model_N = 0;
   std::size_t samples = 0;
-  for (const SolenoidTrace* part : parts) {
-    const std::vector<double> measured_N = difference(part->measured_N, part->map_N);
-    const std::vector<double> modelled_N = difference(part->model_N, part->map_N);
-    const bool first = part == parts.front();
-    Panel panel{.title = part->test == 0 ? "Force less the averaged map [N]"
-                                         : fmt::format("Part {}: force less the averaged map [N]", part->test),
+  for (const SolenoidTrace& part : parts) {
+    const std::vector<double> measured_N = difference(part.measured_N, part.map_N);
+    const std::vector<double> modelled_N = difference(part.model_N, part.map_N);
+    const bool first = &part == &parts.front();
+    Panel panel{.title = part.test == 0 ? "Force less the averaged map [N]"
+                                        : fmt::format("Part {}: force less the averaged map [N]", part.test),
                 .height_px = 170};
     panel.marks.push_back({.shape = Shape::dots,
                            .tone = "condensed",
                            .name = first ? "measured" : "",
                            .width_px = 4.5,
-                           .x = part->current_A,
+                           .x = part.current_A,
                            .y = measured_N});
     panel.marks.push_back({.shape = Shape::dots,
                            .tone = "observer",
                            .name = first ? "model with hysteresis and eddy currents" : "",
                            .width_px = 2.2,
-                           .x = part->current_A,
+                           .x = part.current_A,
                            .y = modelled_N});
     figure.panels.push_back(std::move(panel));
     const auto count = static_cast<double>(measured_N.size());
@@ -80,7 +68,7 @@ CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
       std::move(figure),
       fmt::format("The solenoid at {} mm, armature held: how far the magnetic force lies from the averaged map. The "
                   "map alone leaves {} N (RMS), the model with hysteresis and eddy currents {} N.",
-                  fixed(units::mm_from_m(parts.front()->position_m), 2), three_digits(std::sqrt(map_N) / root),
+                  fixed(units::mm_from_m(parts.front().position_m), 2), three_digits(std::sqrt(map_N) / root),
                   three_digits(std::sqrt(model_N) / root))};
 }
 
