@@ -53,12 +53,16 @@ def seen_by_sensor(time, columns, step):
     return {name: np.interp(points, time, values) for name, values in columns.items()}
 
 
+def write_columns(path, time_name, time, columns):
+    with open(path, "w", newline="") as out:
+        write = csv.writer(out)
+        write.writerow([time_name, *columns])
+        write.writerows(zip(time.tolist(), *(values.tolist() for values in columns.values())))
+
+
 def estimate(spoolflow, model, folder, time, columns):
     recording, result = folder / "held.csv", folder / "estimate.csv"
-    with open(recording, "w", newline="") as out:
-        write = csv.writer(out)
-        write.writerow(["time_s", *columns])
-        write.writerows(zip(time.tolist(), *(values.tolist() for values in columns.values())))
+    write_columns(recording, "time_s", time, columns)
     subprocess.run([spoolflow, "estimate", model, recording, "-o", result, "--quiet"], check=True)
     columns = read_columns(result, ["flow_L_min", "flow_lower_L_min", "flow_upper_L_min", "status"])
     return np.array([columns[name].astype(float) / 60000 for name in list(columns)[:3]]), columns["status"]
@@ -85,10 +89,7 @@ def fmpy_problems(fmu):
 
 def fmusim_run(fmu, step, time, inputs, folder):
     table, out = folder / "inputs.csv", folder / "outputs.csv"
-    with open(table, "w", newline="") as lines:
-        write = csv.writer(lines)
-        write.writerow(["time", *inputs])
-        write.writerows(zip(time.tolist(), *(values.tolist() for values in inputs.values())))
+    write_columns(table, "time", time, inputs)
     recorded = [word for name in [*OUTPUTS, "status"] for word in ("--output-variable", name)]
     subprocess.run(["fmusim", "--interface-type", "cs", "--start-time", repr(float(time[0])), "--stop-time",
                     repr(float(time[-1])), "--output-interval", repr(step), "--input-file", table, "--output-file", out,

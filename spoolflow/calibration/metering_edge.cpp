@@ -8,6 +8,7 @@
 #include "spoolflow/calibration/fitted_parameters.hpp"
 #include "spoolflow/calibration/interpolation.hpp"
 #include "spoolflow/calibration/linear_least_squares.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -76,7 +77,8 @@ std::vector<model::Fit> laws_of(const std::vector<const AxialForceFit*>& fits, c
     }
   }
   const bool several = fits.size() > 1;
-  const std::string where = fmt::format("at {:.2f} mm and {:.0f} \u00b0C", 1e3 * grid_m[at], middle_K - 273.15);
+  const std::string where =
+      fmt::format("at {:.2f} mm and {:.0f} \u00b0C", units::mm_from_m(grid_m[at]), units::degC_from_K(middle_K));
   std::vector<model::Fit> out;
   const auto add = [&](const std::string& of, const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
                        std::vector<std::string> names) {

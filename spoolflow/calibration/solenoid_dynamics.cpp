@@ -126,6 +126,18 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
+/// Calls `each(k, magnetising current [A])` at every sample of a held armature, the coil begun anew.
+template <class Each>
+void along(const HeldArmature& held, const SolenoidSamples& samples, const sensor::Coil<double>& coil, Each&& each) {
+  sensor::CoilState<double> state;
+  const auto position = sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, held.position_m);
+  for (std::size_t k = held.begin; k < held.end; ++k) {
+    const auto& sample = samples.samples[k];
+    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == held.begin);
+    each(k, state.magnetising_current_A);
+  }
+}
+
 /// Residuals of each part of the protocol, every sample counted.
 std::vector<TestResidual> residuals_of(const SolenoidSamples& samples, const sensor::Coil<double>& coil,
                                        const sensor::MagneticForce<double>& magnetic_force) {
@@ -135,21 +147,17 @@ std::vector<TestResidual> residuals_of(const SolenoidSamples& samples, const sen
   std::map<int, Deviations> tests;
   std::map<int, TestResidual> out;
   for (const HeldArmature& held : held_armature(samples)) {
-    sensor::CoilState<double> state;
-    const auto position =
-        sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, held.position_m);
-    for (std::size_t k = held.begin; k < held.end; ++k) {
-      const auto& sample = samples.samples[k];
-      sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == held.begin);
-      const auto deviation_N = [&](double current_A) {
-        return samples.force_N[k] - magnetic_force.at(current_A, held.position_m).value;
+    along(held, samples, coil, [&](std::size_t k, double magnetising_A) {
+      const double current_A = samples.samples[k].current_A;
+      const auto deviation_N = [&](double at_A) {
+        return samples.force_N[k] - magnetic_force.at(at_A, held.position_m).value;
       };
       TestResidual& test = out[samples.test[k]];
-      test.static_map_N.add(deviation_N(sample.current_A));
-      test.model_N.add(deviation_N(state.magnetising_current_A));
-      tests[samples.test[k]].static_map_N.push_back(std::abs(deviation_N(sample.current_A)));
-      tests[samples.test[k]].model_N.push_back(std::abs(deviation_N(state.magnetising_current_A)));
-    }
+      test.static_map_N.add(deviation_N(current_A));
+      test.model_N.add(deviation_N(magnetising_A));
+      tests[samples.test[k]].static_map_N.push_back(std::abs(deviation_N(current_A)));
+      tests[samples.test[k]].model_N.push_back(std::abs(deviation_N(magnetising_A)));
+    });
   }
   std::vector<TestResidual> list;
   for (auto& [number, test] : out) {
@@ -172,26 +180,23 @@ std::vector<model::SolenoidTrace> traces_of(const SolenoidSamples& samples, cons
   std::nth_element(all.begin(), middle, all.end(),
                    [](const HeldArmature& a, const HeldArmature& b) { return a.position_m < b.position_m; });
   const HeldArmature& held = *middle;
-  sensor::CoilState<double> state;
-  const auto position = sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, held.position_m);
   std::map<int, std::size_t> length;
   for (std::size_t k = held.begin; k < held.end; ++k) ++length[samples.test[k]];
   std::map<int, std::size_t> seen;
   std::map<int, model::SolenoidTrace> traces;
-  for (std::size_t k = held.begin; k < held.end; ++k) {
-    const auto& sample = samples.samples[k];
-    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == held.begin);
+  along(held, samples, coil, [&](std::size_t k, double magnetising_A) {
+    const double current_A = samples.samples[k].current_A;
     const int test = samples.test[k];
     const std::size_t before = seen[test]++;
-    if (before * points / length[test] == (before + 1) * points / length[test]) continue;  // thinned
+    if (before * points / length[test] == (before + 1) * points / length[test]) return;  // thinned
     model::SolenoidTrace& trace = traces[test];
     trace.test = test;
     trace.position_m = held.position_m;
-    trace.current_A.push_back(rounded(sample.current_A));
+    trace.current_A.push_back(rounded(current_A));
     trace.measured_N.push_back(rounded(samples.force_N[k]));
-    trace.model_N.push_back(rounded(magnetic_force.at(state.magnetising_current_A, held.position_m).value));
-    trace.map_N.push_back(rounded(magnetic_force.at(sample.current_A, held.position_m).value));
-  }
+    trace.model_N.push_back(rounded(magnetic_force.at(magnetising_A, held.position_m).value));
+    trace.map_N.push_back(rounded(magnetic_force.at(current_A, held.position_m).value));
+  });
   std::vector<model::SolenoidTrace> out;
   for (auto& [test, trace] : traces) out.push_back(std::move(trace));
   return out;

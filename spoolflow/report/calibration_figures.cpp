@@ -15,11 +15,6 @@ namespace {
 using units::litre_per_minute_per_m3_per_s;
 using units::millimetre_per_metre;
 
-/// Where the k-th of n lines stands in its family.
-double ramp(std::size_t k, std::size_t n) {
-  return n < 2 ? 0.5 : static_cast<double>(k) / static_cast<double>(n - 1);
-}
-
 std::string bar_text(double pressure_Pa) {
   return three_digits(units::bar_from_Pa(pressure_Pa)) + " bar";
 }

@@ -21,6 +21,11 @@ struct Mark {
   std::vector<double> y_upper = {};  ///< areas only: they lie between y and y_upper
 };
 
+/// Where the k-th of n lines stands in its family.
+[[nodiscard]] inline double ramp(std::size_t k, std::size_t n) {
+  return n < 2 ? 0.5 : static_cast<double>(k) / static_cast<double>(n - 1);
+}
+
 /// A stretch of a timeline; `share` of it has the property.
 struct Span {
   double from, to, share;

@@ -102,12 +102,16 @@ Titled titled(const std::string& title, const ReaderUnits& reader) {
   return out;
 }
 
+void convert(double& value, const ReaderUnit& unit) {
+  value = unit.factor * value + unit.offset;
+}
+
 void convert(std::vector<double>& values, const ReaderUnit& unit) {
-  for (double& value : values) value = unit.factor * value + unit.offset;
+  for (double& value : values) convert(value, unit);
 }
 
 void convert(std::optional<double>& value, const ReaderUnit& unit) {
-  if (value) value = unit.factor * *value + unit.offset;
+  if (value) convert(*value, unit);
 }
 
 }  // namespace
@@ -208,7 +212,7 @@ Figure ReaderUnits::of(Figure figure) const {
   convert(figure.x_lowest, x);
   convert(figure.x_highest, x);
   for (AxisMark& mark : figure.x_marks) {
-    mark.at = x.factor * mark.at + x.offset;
+    convert(mark.at, x);
     if (x.factor != 1) mark.text = each_converted(mark.text, x);
   }
   for (Panel& panel : figure.panels) {
@@ -218,15 +222,15 @@ Figure ReaderUnits::of(Figure figure) const {
     convert(panel.lowest, y);
     convert(panel.highest, y);
     for (Cell& cell : panel.cells) {
-      cell.x_from = x.factor * cell.x_from + x.offset;
-      cell.x_to = x.factor * cell.x_to + x.offset;
-      cell.y_from = y.factor * cell.y_from + y.offset;
-      cell.y_to = y.factor * cell.y_to + y.offset;
+      convert(cell.x_from, x);
+      convert(cell.x_to, x);
+      convert(cell.y_from, y);
+      convert(cell.y_to, y);
     }
     for (Row& row : panel.rows) {
       for (Span& span : row.spans) {
-        span.from = x.factor * span.from + x.offset;
-        span.to = x.factor * span.to + x.offset;
+        convert(span.from, x);
+        convert(span.to, x);
       }
     }
     for (Mark& mark : panel.marks) {

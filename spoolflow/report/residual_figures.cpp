@@ -1,13 +1,13 @@
 #include "spoolflow/report/residual_figures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <span>
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/fit_residual.hpp"
 #include "spoolflow/report/number_text.hpp"
 #include "spoolflow/report/scaled.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -24,20 +24,13 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
   return out;
 }
 
-double rms(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
 /// How far the force lies from the averaged map, over current: measured, and what the model makes of it.
 CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
   constexpr std::size_t most_parts = 6;
   const std::span<const SolenoidTrace> parts(traces.data(), std::min(most_parts, traces.size()));
   Figure figure{.description = "Magnetic force less the averaged map over coil current, measured and modelled",
                 .x_title = "Coil current [A]"};
-  double map_N = 0, model_N = 0;
-  std::size_t samples = 0;
+  calibration::FitResidual map_N, model_N;
   for (const SolenoidTrace& part : parts) {
     const std::vector<double> measured_N = difference(part.measured_N, part.map_N);
     const std::vector<double> modelled_N = difference(part.model_N, part.map_N);
@@ -58,18 +51,17 @@ CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
                            .x = part.current_A,
                            .y = modelled_N});
     figure.panels.push_back(std::move(panel));
-    const auto count = static_cast<double>(measured_N.size());
-    map_N += std::pow(rms(measured_N), 2) * count;
-    model_N += std::pow(rms(difference(measured_N, modelled_N)), 2) * count;
-    samples += measured_N.size();
+    for (std::size_t k = 0; k < measured_N.size(); ++k) {
+      map_N.add(measured_N[k]);
+      model_N.add(measured_N[k] - modelled_N[k]);
+    }
   }
-  const double root = std::sqrt(static_cast<double>(std::max<std::size_t>(1, samples)));
   return {
       std::move(figure),
       fmt::format("The solenoid at {} mm, armature held: how far the magnetic force lies from the averaged map. The "
                   "map alone leaves {} N (RMS), the model with hysteresis and eddy currents {} N.",
-                  fixed(units::mm_from_m(parts.front().position_m), 2), three_digits(std::sqrt(map_N) / root),
-                  three_digits(std::sqrt(model_N) / root))};
+                  fixed(units::mm_from_m(parts.front().position_m), 2), three_digits(map_N.rms()),
+                  three_digits(model_N.rms()))};
 }
 
 /// Mean deviations of one family of strokes as lines, RMS in the caption.
@@ -77,20 +69,20 @@ Panel residual_panel(std::string title, const std::vector<const MapResidual*>& f
                      const std::function<std::string(const MapResidual&)>& name, bool named) {
   Panel panel{.title = std::move(title), .height_px = 200};
   for (std::size_t k = 0; k < family.size(); ++k) {
-    panel.marks.push_back(
-        {.ramp = family.size() < 2 ? 0.5 : static_cast<double>(k) / static_cast<double>(family.size() - 1),
-         .name = named ? name(*family[k]) : "",
-         .width_px = 1.2,
-         .x = scaled(family[k]->position_m, units::millimetre_per_metre),
-         .y = family[k]->mean_N});
+    panel.marks.push_back({.ramp = ramp(k, family.size()),
+                           .name = named ? name(*family[k]) : "",
+                           .width_px = 1.2,
+                           .x = scaled(family[k]->position_m, units::millimetre_per_metre),
+                           .y = family[k]->mean_N});
   }
   return panel;
 }
 
 double rms_of(const std::vector<MapResidual>& residuals) {
-  std::vector<double> all_N;
-  for (const MapResidual& each : residuals) all_N.insert(all_N.end(), each.rms_N.begin(), each.rms_N.end());
-  return rms(all_N);
+  calibration::FitResidual all_N;
+  for (const MapResidual& each : residuals)
+    for (const double rms_N : each.rms_N) all_N.add(rms_N);
+  return all_N.rms();
 }
 
 CaptionedFigure magnetic_residual_figure(const std::vector<MapResidual>& residuals) {
