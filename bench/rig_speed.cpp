@@ -13,12 +13,12 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/rig/protocol.hpp"
-#include "spoolflow/rig/recording_file.hpp"
-#include "spoolflow/rig/simulate.hpp"
-#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/rig/bench/protocol.hpp"
+#include "spoolflow/rig/bench/recording_file.hpp"
+#include "spoolflow/rig/bench/simulate.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "tests/cvode/plant_cvode.hpp"
-#include "tests/rig/smooth_plant.hpp"
+#include "tests/rig/plant/smooth_plant.hpp"
 
 namespace {
 

@@ -18,13 +18,26 @@ if(SPOOLFLOW_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+# spoolflow_link_names(LIST): in it the folder spoolflow/rig/plant becomes its target spoolflow_rig_plant.
+function(spoolflow_link_names list)
+  set(names "")
+  foreach(link IN LISTS ${list})
+    if(link MATCHES "^spoolflow/")
+      string(REPLACE "/" "_" link ${link})
+    endif()
+    list(APPEND names ${link})
+  endforeach()
+  set(${list} ${names} PARENT_SCOPE)
+endfunction()
+
 # spoolflow_folder(NAME [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME; a folder without *.cpp is
-# header-only.
+# header-only. A room has its folder's name before its own: rig/plant becomes spoolflow_rig_plant.
 function(spoolflow_folder name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS;APART")
-  list(TRANSFORM arg_LINKS REPLACE "^spoolflow/" "spoolflow_")
-  list(TRANSFORM arg_PRIVATE_LINKS REPLACE "^spoolflow/" "spoolflow_")
+  spoolflow_link_names(arg_LINKS)
+  spoolflow_link_names(arg_PRIVATE_LINKS)
+  string(REPLACE "/" "_" name ${name})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(TRANSFORM arg_APART PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   if(arg_APART)
@@ -39,11 +52,11 @@ function(spoolflow_folder name)
   endif()
 endfunction()
 
-# spoolflow_tests(FOLDER [LINKS target…]): tests/FOLDER/*_test.cpp become one program, its tests found by ctest.
+# spoolflow_tests(FOLDER [LINKS target…]): *_test.cpp of tests/FOLDER and its rooms become one program, its tests found by ctest.
 function(spoolflow_tests folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS")
-  list(TRANSFORM arg_LINKS REPLACE "^spoolflow/" "spoolflow_")
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  spoolflow_link_names(arg_LINKS)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   if(NOT sources)
     return()
   endif()

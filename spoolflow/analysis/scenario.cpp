@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "spoolflow/rig/settings_file.hpp"
+#include "spoolflow/rig/bench/settings_file.hpp"
 
 namespace spoolflow::analysis {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spoolflow/analysis/monte_carlo.hpp"
-#include "spoolflow/rig/parameter.hpp"
+#include "spoolflow/rig/numerics/parameter.hpp"
 #include "spoolflow/validation/input_uncertainties.hpp"
 
 namespace spoolflow::analysis {

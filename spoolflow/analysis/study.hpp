@@ -10,7 +10,7 @@
 #include "spoolflow/analysis/sobol_indices.hpp"
 #include "spoolflow/analysis/valve_factors.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/validation/estimator.hpp"
 
 namespace spoolflow::analysis {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "spoolflow/analysis/scenario.hpp"
-#include "spoolflow/rig/valve_under_test.hpp"
+#include "spoolflow/rig/bench/valve_under_test.hpp"
 
 namespace spoolflow::analysis {
 

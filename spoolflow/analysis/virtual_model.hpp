@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::analysis {
 

@@ -11,8 +11,8 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
-#include "spoolflow/rig/recording_file.hpp"
-#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/rig/bench/recording_file.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::apps {
 namespace {

@@ -15,7 +15,7 @@
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
-#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::apps {
 namespace {

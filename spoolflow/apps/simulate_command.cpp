@@ -9,8 +9,8 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
-#include "spoolflow/rig/recording_file.hpp"
-#include "spoolflow/rig/scenario.hpp"
+#include "spoolflow/rig/bench/recording_file.hpp"
+#include "spoolflow/rig/bench/scenario.hpp"
 
 namespace spoolflow::apps {
 void simulate(const SimulateArguments& arguments) {

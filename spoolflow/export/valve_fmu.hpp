@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "spoolflow/export/fmu_content.hpp"
-#include "spoolflow/rig/valve_under_test.hpp"
+#include "spoolflow/rig/bench/valve_under_test.hpp"
 
 namespace spoolflow::exports {
 

@@ -28,6 +28,9 @@ constexpr const char* page = R"(# Architecture
 | `sensor` | the core | freestanding std | - | heap, any library |
 | `recording` | files | units | fmt, POSIX | sensor |
 | `rig` | the virtual rig | recording, units | fmt | sensor, model |
+| `fits/lines` | straight fits | units | - | - |
+| `fits/curves` | other fits | fits/lines, units | - | - |
+| `tables` | what fits found | fits | - | - |
 | `apps` | the command | all | fmt, CLI11 | - |
 )";
 
@@ -94,13 +97,48 @@ TEST_F(FakeTree, FindsAFolderOutsideTheTable) {
   EXPECT_THAT(includes(), ElementsAre(HasSubstr("the folder extras is not in the table")));
 }
 
+TEST_F(FakeTree, KnowsTheRoomsOfAFolder) {
+  write("spoolflow/fits/lines/line.hpp", "#pragma once\n");
+  write("spoolflow/fits/curves/curve.cpp", "#include \"spoolflow/fits/lines/line.hpp\"\n");
+  write("spoolflow/tables/table.cpp", "#include \"spoolflow/fits/lines/line.hpp\"\n");
+  EXPECT_THAT(includes(), IsEmpty());
+  write("spoolflow/fits/curves/curve.hpp", "#pragma once\n");
+  write("spoolflow/fits/lines/line.cpp", "#include \"spoolflow/fits/curves/curve.hpp\"\n");
+  EXPECT_THAT(includes(), ElementsAre("spoolflow/fits/lines/line.cpp:1: fits/lines must not include fits/curves "
+                                      "(spoolflow/fits/curves/curve.hpp)"));
+}
+
+TEST_F(FakeTree, FindsARoomOutsideTheTableAndAFileOutsideTheRooms) {
+  write("spoolflow/fits/planes/plane.hpp", "#pragma once\n");
+  write("spoolflow/fits/all.hpp", "#pragma once\n");
+  EXPECT_THAT(includes(), ElementsAre(HasSubstr("the folder fits is not in the table"),
+                                      HasSubstr("the folder fits/planes is not in the table")));
+}
+
+TEST_F(FakeTree, TakesAFolderInsideOneWithoutRoomsForItsPart) {
+  write("spoolflow/rig/pumps/pump.cpp", "#include \"spoolflow/sensor/table.hpp\"\n");
+  EXPECT_THAT(includes(), ElementsAre(HasSubstr("rig must not include sensor")));
+}
+
+constexpr const char* linked_well =
+    "spoolflow_sensor:\nspoolflow_recording: spoolflow_units fmt::fmt\nspoolflow_apps: spoolflow_rig\n"
+    "spoolflow_fits_lines: spoolflow_units\nspoolflow_tables: spoolflow_fits_curves\n";
+
 TEST_F(FakeTree, FindsForbiddenLinks) {
-  write("links",
-        "spoolflow_rig: spoolflow_settings spoolflow_units fmt::fmt spoolflow_sensor\nspoolflow_units: CLI11::CLI11\n");
+  write("links", std::string(linked_well) +
+                     "spoolflow_rig: spoolflow_settings spoolflow_units fmt::fmt spoolflow_sensor spoolflow_pumps\n"
+                     "spoolflow_fits_curves: spoolflow_fits_lines spoolflow_tables\nspoolflow_units: CLI11::CLI11\n");
   EXPECT_THAT(link_violations(table(), root / "links"),
-              ElementsAre("the target of rig must not link sensor", "the target of units must not link CLI11"));
-  write("none", "");
-  EXPECT_THROW((void)link_violations(table(), root / "none"), std::runtime_error);
+              ElementsAre("the target of rig must not link sensor",
+                          "rig links spoolflow_pumps, which is no folder of the table",
+                          "the target of fits/curves must not link tables", "the target of units must not link CLI11"));
+}
+
+TEST_F(FakeTree, FindsAFolderWithoutATargetAndATargetWithoutAFolder) {
+  write("links", std::string(linked_well) + "spoolflow_rig:\nspoolflow_units:\nspoolflow_pumps:\n");
+  EXPECT_THAT(link_violations(table(), root / "links"),
+              ElementsAre("the target spoolflow_pumps has no folder in the table",
+                          "the folder fits/curves has no target of its own"));
 }
 
 TEST_F(FakeTree, FindsAFileThatHasGrownTooLong) {
@@ -139,6 +177,8 @@ TEST_F(FakeTree, RefusesATableThatContradictsItself) {
   write("ARCHITECTURE.md", head + "| `units` | x | std | - | - |\n| `rig` | x | units | - | units |\n");
   EXPECT_THROW((void)table(), std::runtime_error);
   write("ARCHITECTURE.md", head + "| `rig` | x | unitz | - | - |\n");
+  EXPECT_THROW((void)table(), std::runtime_error);
+  write("ARCHITECTURE.md", head + "| `rig` | x | units | - | - |\n| `units` | x | rig | - | - |\n");
   EXPECT_THROW((void)table(), std::runtime_error);
   write("ARCHITECTURE.md", "no table\n");
   EXPECT_THROW((void)table(), std::runtime_error);

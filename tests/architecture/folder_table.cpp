@@ -1,10 +1,12 @@
 #include "tests/architecture/folder_table.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace spoolflow::architecture {
 namespace {
@@ -43,18 +45,66 @@ FolderRule read_rule(const std::string& may_include, const std::string& librarie
   return rule;
 }
 
-void check(const FolderTable& table) {
-  for (const auto& [folder, rule] : table) {
-    for (const std::string& other : rule.folders) {
-      if (!table.contains(other))
-        throw std::runtime_error(fmt::format("{} may include {}, which is no folder", folder, other));
-      if (rule.never.contains(other))
-        throw std::runtime_error(fmt::format("{} both may and must not include {}", folder, other));
+/// The rows that a name in a cell means: itself, and the rooms below it.
+std::vector<std::string> rows_meant(const FolderTable& table, const std::string& name) {
+  std::vector<std::string> rows;
+  for (const auto& [row, rule] : table) {
+    if (row == name || row.starts_with(name + "/")) rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Follows what may be included from the last of `way`, and throws where that leads back to a row on the way.
+void follow(const FolderTable& table, std::vector<std::string>& way) {
+  const std::string row = way.back();
+  for (const std::string& name : table.at(row).folders) {
+    for (const std::string& next : rows_meant(table, name)) {
+      const bool round = std::find(way.begin(), way.end(), next) != way.end();
+      way.push_back(next);
+      if (round) throw std::runtime_error(fmt::format("round in a circle: {}", fmt::join(way, " -> ")));
+      follow(table, way);
+      way.pop_back();
     }
   }
 }
 
+void check(const FolderTable& table) {
+  for (const auto& [folder, rule] : table) {
+    for (const std::string& other : rule.folders) {
+      if (rows_meant(table, other).empty())
+        throw std::runtime_error(fmt::format("{} may include {}, which is no folder", folder, other));
+      if (rule.never.contains(other))
+        throw std::runtime_error(fmt::format("{} both may and must not include {}", folder, other));
+    }
+    std::vector<std::string> way{folder};
+    follow(table, way);
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> with_those_above(std::string folder) {
+  std::vector<std::string> folders{folder};
+  for (std::size_t end = folder.rfind('/'); end != std::string::npos; end = folder.rfind('/')) {
+    folder.resize(end);
+    folders.push_back(folder);
+  }
+  return folders;
+}
+
+std::string row_of(const FolderTable& table, const std::string& folder) {
+  for (const std::string& row : with_those_above(folder)) {
+    if (row != folder && rows_meant(table, row).size() > 1) return {};
+    if (table.contains(row)) return row;
+  }
+  return {};
+}
+
+bool allows(const FolderRule& rule, const std::string& other) {
+  const std::vector<std::string> names = with_those_above(other);
+  return rule.all_folders ||
+         std::any_of(names.begin(), names.end(), [&](const std::string& name) { return rule.folders.contains(name); });
+}
 
 FolderTable read_folder_table(const std::filesystem::path& architecture_page) {
   std::ifstream page(architecture_page);

@@ -1,23 +1,33 @@
 #pragma once
-/// The table of docs/ARCHITECTURE.md: what each folder of spoolflow/ may include.
+/// The table of docs/ARCHITECTURE.md: what each folder of spoolflow/, and each room of a divided folder, may include.
 #include <filesystem>
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace spoolflow::architecture {
 
 struct FolderRule {
-  std::set<std::string> folders;    ///< of spoolflow/, beside itself
+  std::set<std::string> folders;    ///< of spoolflow/, beside itself: "rig/plant", or "rig" for all its rooms
   std::set<std::string> libraries;  ///< names as in the table: "fmt", "CLI11", "POSIX"
   std::set<std::string> never;      ///< forbidden words of the last column
   bool all_folders = false;
   bool freestanding = false;  ///< of the standard library only what a bare-metal compiler has
 };
 
+/// By the folder's name below spoolflow/: "units", "rig/plant".
 using FolderTable = std::map<std::string, FolderRule>;
 
-/// Throws std::runtime_error where the table is missing, misshapen or contradicts itself.
+/// `folder` and the folders that it stands in, from the inside out: "rig/plant", "rig".
+[[nodiscard]] std::vector<std::string> with_those_above(std::string folder);
+/// The row by which the files of `folder` live: its own; its parent's only where that has no rooms of its own in the
+/// table. Empty: none.
+[[nodiscard]] std::string row_of(const FolderTable& table, const std::string& folder);
+/// Whether what lives by `rule` may use files of the row `other`.
+[[nodiscard]] bool allows(const FolderRule& rule, const std::string& other);
+
+/// Throws std::runtime_error where the table is missing, misshapen, contradicts itself or leads round in a circle.
 [[nodiscard]] FolderTable read_folder_table(const std::filesystem::path& architecture_page);
 
 }  // namespace spoolflow::architecture

@@ -38,18 +38,24 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> library_
     {"pthread.h", "POSIX"},
 }};
 
+/// Below spoolflow/: "rig/plant" of "spoolflow/rig/plant/coil.hpp".
+std::string folder_of(const fs::path& place) {
+  return place.parent_path().lexically_relative("spoolflow").generic_string();
+}
+
 class Checker {
  public:
   Checker(const FolderTable& table, std::vector<std::string>& violations) : table_(table), violations_(violations) {}
 
   void file(const fs::path& root, const fs::path& path) {
     place_ = fs::relative(path, root).generic_string();
-    const auto folder = (++fs::relative(path, root).begin())->string();
-    const auto rule = table_.find(folder);
-    if (rule == table_.end()) {
+    const std::string folder = folder_of(place_);
+    const std::string row = row_of(table_, folder);
+    if (row.empty()) {
       violations_.push_back(fmt::format("{}: the folder {} is not in the table", place_, folder));
       return;
     }
+    const FolderRule& rule = table_.at(row);
     static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
     std::ifstream in(path);
     line_ = 0;
@@ -58,9 +64,9 @@ class Checker {
       std::smatch match;
       if (!std::regex_search(text, match, include)) continue;
       if (match[1] == "\"") {
-        own_header(folder, rule->second, match[2], root);
+        own_header(row, rule, match[2], root);
       } else {
-        library_header(folder, rule->second, match[2]);
+        library_header(row, rule, match[2]);
       }
     }
   }
@@ -74,8 +80,8 @@ class Checker {
       violation(fmt::format("\"{}\" is no path from the project's root", header));
       return;
     }
-    const std::string other = (++path.begin())->string();
-    if (other == folder || rule.all_folders || rule.folders.contains(other)) return;
+    const std::string other = row_of(table_, folder_of(header));
+    if (other == folder || allows(rule, other)) return;
     violation(fmt::format("{} must not include {} ({})", folder, other, header));
   }
 

@@ -11,7 +11,7 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "spoolflow/rig/plant_memory.hpp"
+#include "spoolflow/rig/plant/plant_memory.hpp"
 
 namespace spoolflow::rig::reference {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/rig/smooth_plant.hpp"
+#include "tests/rig/plant/smooth_plant.hpp"
 
 namespace spoolflow::rig::reference {
 namespace {

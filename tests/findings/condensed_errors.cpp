@@ -8,8 +8,8 @@
 
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/recording/campaign.hpp"
-#include "spoolflow/rig/recording_file.hpp"
-#include "spoolflow/rig/virtual_campaign.hpp"
+#include "spoolflow/rig/bench/recording_file.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/phases.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/rig/valve_under_test.hpp"
+#include "spoolflow/rig/bench/valve_under_test.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::findings {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "spoolflow/rig/protocol.hpp"
-#include "spoolflow/rig/simulate.hpp"
+#include "spoolflow/rig/bench/protocol.hpp"
+#include "spoolflow/rig/bench/simulate.hpp"
 
 namespace spoolflow::findings {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/rig/protocol.hpp"
-#include "spoolflow/rig/simulate.hpp"
+#include "spoolflow/rig/bench/protocol.hpp"
+#include "spoolflow/rig/bench/simulate.hpp"
 
 namespace spoolflow::findings {
 namespace {

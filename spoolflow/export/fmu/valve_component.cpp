@@ -10,7 +10,7 @@
 #include "spoolflow/export/fmu/number_text.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
-#include "spoolflow/rig/winding_current.hpp"
+#include "spoolflow/rig/plant/winding_current.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::exports::fmu {

@@ -8,9 +8,9 @@
 
 #include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu/resource.hpp"
-#include "spoolflow/rig/electronics.hpp"
-#include "spoolflow/rig/instruments.hpp"
-#include "spoolflow/rig/valve_plant.hpp"
+#include "spoolflow/rig/electronics/electronics.hpp"
+#include "spoolflow/rig/instruments/instruments.hpp"
+#include "spoolflow/rig/plant/valve_plant.hpp"
 
 namespace spoolflow::exports::fmu {
 

@@ -1,0 +1,37 @@
+#include "spoolflow/rig/bench/axial_force_protocol.hpp"
+
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::rig {
+
+AxialForceProtocol spring_protocol() {
+  return {.pressure_differences_bar = {0}, .oil_temperature_C = 25};
+}
+
+BenchRun plan(const AxialForceProtocol& protocol, double stroke_m) {
+  using recording::Channel;
+  BenchRun run;
+  run.arrangement = Arrangement::axial_force_bench;
+  run.coil_feed = CoilFeed::none;
+  const double rate_m_per_s = stroke_m * protocol.rate_percent_per_s / 100;
+  for (const double level_bar : protocol.pressure_differences_bar) {
+    const double from_s = run.motion_m.duration_s();
+    run.motion_m.ramp_at(stroke_m, rate_m_per_s).hold(protocol.hold_s).ramp_at(0, rate_m_per_s).hold(protocol.hold_s);
+    run.pressure_difference_Pa.step_to(units::Pa_from_bar(level_bar)).hold(run.motion_m.duration_s() - from_s);
+  }
+  const double end_s = run.motion_m.duration_s();
+  run.oil_temperature_C = Course(protocol.oil_temperature_C);
+  run.oil_temperature_C.ramp_for(protocol.oil_temperature_C + protocol.temperature_rise_K, end_s);
+  run.sample_rate_Hz = {{end_s, protocol.sample_rate_Hz}};
+  run.channels = {Channel::time,
+                  Channel::pressure_difference_set,
+                  Channel::pressure_upstream,
+                  Channel::pressure_downstream,
+                  Channel::oil_temperature,
+                  Channel::position,
+                  Channel::axial_force,
+                  Channel::flow};
+  return run;
+}
+
+}  // namespace spoolflow::rig

@@ -1,0 +1,74 @@
+#include "spoolflow/rig/bench/manufacturing_spread.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace spoolflow::rig {
+namespace {
+
+/// Named draws: a figure added later leaves the others of the same seed as they were.
+class Draw {
+ public:
+  Draw(double amount, std::uint64_t seed) : amount_(amount), seed_(seed) {}
+  double deviate(std::string_view name, double standard_deviation) const {
+    Noise noise(seed_, std::string("spread of ").append(name));
+    return amount_ * standard_deviation * std::clamp(noise.normal(), -2.5, 2.5);
+  }
+  double factor(std::string_view name, double relative) const { return 1 + deviate(name, relative); }
+
+ private:
+  double amount_;
+  std::uint64_t seed_;
+};
+
+template <class Aggregate>
+void keep_inside_ranges(Aggregate& aggregate) {
+  for_each_parameter(aggregate, [](std::string_view, const Parameter& parameter, double& value) {
+    value = std::clamp(value, parameter.min, parameter.max);
+  });
+}
+
+}  // namespace
+
+void draw(const ManufacturingSpread& spread, std::uint64_t seed, PlantParameters& plant, Lvdt& lvdt) {
+  if (spread.amount == 0) {
+    return;
+  }
+  const Draw drawn(spread.amount, seed);
+  const double rate = drawn.factor("spring rate", spread.spring_rate);
+  for (Spring* spring : {&plant.spring_a, &plant.spring_b}) {
+    const bool is_a = spring == &plant.spring_a;
+    spring->rate_N_per_m *= rate;  // one batch of wire for the pair
+    spring->preload_N *= drawn.factor(is_a ? "preload a" : "preload b", spread.spring_preload);
+  }
+  plant.spool_friction.base_N *= drawn.factor("spool friction", spread.friction);
+  plant.flow_force.friction_per_pressure_N_per_Pa *= drawn.factor("pressure friction", spread.friction);
+  plant.flow_force.lateral_friction *= drawn.factor("lateral friction", spread.friction);
+  plant.spool.clearance_m *= drawn.factor("clearance", spread.clearance);
+  const double discharge = drawn.factor("discharge", spread.discharge);
+  const auto cut = [&](MeteringEdge& edge, std::string name) {
+    edge.notch_width_m *= drawn.factor(name + " width", spread.notch_width);
+    edge.overlap_m += drawn.deviate(name + " overlap", spread.overlap_m);
+    edge.discharge_coefficient *= discharge;
+  };
+  cut(plant.edge_PA, "edge PA");
+  cut(plant.edge_PB, "edge PB");
+  cut(plant.edge_AT, "edge AT");
+  cut(plant.edge_BT, "edge BT");
+  const auto wind = [&](Solenoid& solenoid, std::string name) {
+    solenoid.coil.resistance_20C_ohm *= drawn.factor(name + " resistance", spread.coil_resistance);
+    solenoid.circuit.radial_gap_m *= drawn.factor(name + " radial gap", spread.radial_gap);
+    solenoid.hysteresis.coercive_field_A_per_m *= drawn.factor(name + " coercive field", spread.coercive_field);
+    solenoid.iron.saturation_T *= drawn.factor(name + " saturation", spread.saturation);
+    solenoid.friction.base_N *= drawn.factor(name + " friction", spread.friction);
+  };
+  wind(plant.solenoid_a, "solenoid a");
+  wind(plant.solenoid_b, "solenoid b");
+  lvdt.gain_error += drawn.deviate("sensor gain", spread.sensor_gain);
+  lvdt.zero_offset_m += drawn.deviate("sensor zero", spread.sensor_zero_m);
+  lvdt.zero_drift_per_K *= drawn.factor("sensor drift", spread.sensor_drift);
+  keep_inside_ranges(plant);
+  keep_inside_ranges(lvdt);
+}
+
+}  // namespace spoolflow::rig

@@ -1,0 +1,32 @@
+#pragma once
+/// One simulated recording as a TOML file describes it.
+///
+///     protocol = "ramps"               # required; the protocols of protocol.hpp
+///     valve = "size_6"                 # a preset, or the path of a valve file beside this one
+///     seed = 3
+///     [run]                            # settings of the protocol
+///     pressure_differences_bar = [60]
+///     [plant.spool_friction]           # anything a valve file may hold
+///     base_N = 2.0
+#include <filesystem>
+
+#include "spoolflow/rig/bench/protocol.hpp"
+
+namespace spoolflow::rig {
+
+struct Scenario {
+  ValveUnderTest valve;  ///< before spread and wear
+  Protocol protocol;
+};
+
+/// Throws SettingsError with file, line, value, range and the nearest key.
+[[nodiscard]] Scenario read_scenario(const std::filesystem::path& file);
+
+/// Valve as built, and its run.
+struct PlannedScenario {
+  ValveUnderTest valve;
+  BenchRun run;
+};
+[[nodiscard]] PlannedScenario plan(const Scenario& scenario);
+
+}  // namespace spoolflow::rig

@@ -1,0 +1,112 @@
+#include "spoolflow/rig/bench/simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "spoolflow/rig/bench/coil_supply.hpp"
+#include "spoolflow/rig/bench/instrument_panel.hpp"
+
+namespace spoolflow::rig {
+namespace {
+
+/// How often the slow instruments follow and the oil's temperature is set, between samples.
+constexpr std::int64_t ticks_per_slow_update = 10;
+
+/// Surroundings over the period that begins at `time_s`.
+void surround(PlantInput& input, const BenchRun& run, double time_s) {
+  input.held_pressure_difference_Pa = run.pressure_difference_Pa.at(time_s);
+  input.supply_pressure_Pa = run.supply_pressure_Pa.at(time_s);
+  if (run.arrangement != Arrangement::valve) {
+    const double to_m = run.motion_m.at(time_s + electronics_period_s);
+    const double speed_m_per_s = (to_m - run.motion_m.at(time_s)) / electronics_period_s;
+    input.motion = PrescribedMotion{.position_m = to_m, .velocity_m_per_s = speed_m_per_s};
+  }
+}
+
+PlantInput surroundings_at_start(const BenchRun& run) {
+  PlantInput input;
+  surround(input, run, 0);
+  input.oil_temperature_C = run.oil_temperature_C.at(0);
+  if (input.motion) {
+    input.motion = PrescribedMotion{.position_m = run.motion_m.at(0)};
+  }
+  return input;
+}
+
+/// Ticks of the electronics between samples at that rate.
+std::int64_t sample_ticks(double rate_Hz) {
+  const double ticks = 1 / (rate_Hz * electronics_period_s);
+  if (std::abs(ticks - std::round(ticks)) > 1e-6 || ticks < 0.5) {
+    throw SettingsError(
+        fmt::format("sample_rate_Hz = {} does not divide the electronics' {} Hz; choose 10000, 5000, "
+                    "2000, 1000, 500, 200 or 100",
+                    rate_Hz, 1 / electronics_period_s));
+  }
+  return std::llround(ticks);
+}
+
+}  // namespace
+
+Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed,
+                    const SimulationOptions& options) {
+  PlantParameters plant = valve.plant;
+  plant.arrangement = run.arrangement;
+  Instruments instruments = valve.instruments;
+  instruments.lvdt.fault_rate_per_s += run.position_faults_per_s;
+
+  PlantInput input = surroundings_at_start(run);
+  PlantState state = plant_at_rest(plant, input);
+  PlantOutput truth = observe(plant, state, input);
+  InstrumentPanel panel(instruments, seed, truth, input.oil_temperature_C);
+  CoilSupply coil_supply(valve, run, seed);
+  SpanReader<double> sample_rate(run.sample_rate_Hz);
+  SpanReader<double> test(run.test);
+
+  Simulation out;
+  const std::int64_t end = std::llround(run.duration_s() / electronics_period_s);
+  const std::int64_t ticks_per_report = std::max<std::int64_t>(1, end / 200);
+  std::int64_t next_sample = 0;
+  std::int64_t observed = 0;
+  for (std::int64_t tick = 0; tick < end; ++tick) {
+    const double time_s = static_cast<double>(tick) * electronics_period_s;
+    const bool samples = tick == next_sample;
+    if (samples || tick % ticks_per_slow_update == 0) {
+      truth = observe(plant, state, input);
+      panel.follow_plant(truth, input.oil_temperature_C, static_cast<double>(tick - observed) * electronics_period_s);
+      observed = tick;
+      input.oil_temperature_C = run.oil_temperature_C.at(time_s);
+    }
+    surround(input, run, time_s);
+    if (samples) {
+      panel.store(out.recording, run.channels,
+                  {.time_s = time_s,
+                   .position = run.position_set.at(time_s),
+                   .current_A = run.current_A.at(time_s),
+                   .pressure_difference_Pa = input.held_pressure_difference_Pa,
+                   .test = test.at(time_s, 0)});
+      if (options.with_truth) {
+        truth.time_s = time_s;
+        out.truth.add(truth);
+      }
+      next_sample = tick + sample_ticks(sample_rate.at(time_s, 1000));
+    }
+    if (options.progress && tick % ticks_per_report == 0) {
+      options.progress(static_cast<double>(tick) / static_cast<double>(end));
+    }
+    const SolenoidVoltages voltages = coil_supply.next(time_s, panel.lvdt, state);
+    input.voltage_a_V = voltages.a_V;
+    input.voltage_b_V = voltages.b_V;
+    step(plant, state, input, electronics_period_s);
+    panel.lvdt.follow(state.position_m, input.oil_temperature_C, electronics_period_s);
+    // The recorder shows the driven solenoid; a is negative, as its direction.
+    panel.follow_coil(
+        winding_current_A(plant.solenoid_b, state.solenoid_b) - winding_current_A(plant.solenoid_a, state.solenoid_a),
+        voltages.b_V - voltages.a_V);
+  }
+  return out;
+}
+
+}  // namespace spoolflow::rig

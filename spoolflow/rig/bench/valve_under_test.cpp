@@ -1,0 +1,78 @@
+#include "spoolflow/rig/bench/valve_under_test.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "spoolflow/rig/bench/valve_preset_files.hpp"
+
+namespace spoolflow::rig {
+namespace {
+
+std::string preset_name(const EmbeddedFile& file) {
+  return std::filesystem::path(file.name).stem().string();
+}
+
+/// Everything that a valve file may hold, `preset` included.
+void overlay(const SettingsSource& source, const Settings& beside, ValveUnderTest& valve) {
+  Settings settings = beside;
+  settings.add_choice("preset", valve_presets(), [](std::size_t) {});
+  add_valve_settings(settings, valve);
+  apply(source, settings);
+}
+
+}  // namespace
+
+const std::vector<std::string>& valve_presets() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const EmbeddedFile& file : valve_preset_files()) {
+      all.push_back(preset_name(file));
+    }
+    return all;
+  }();
+  return names;
+}
+
+ValveUnderTest valve_preset(std::string_view name, const Settings& beside) {
+  for (const EmbeddedFile& file : valve_preset_files()) {
+    if (preset_name(file) == name) {
+      ValveUnderTest valve;
+      overlay({.text = std::string(file.bytes), .name = fmt::format("preset {}", name)}, beside, valve);
+      return valve;
+    }
+  }
+  throw SettingsError(
+      fmt::format("valve \"{}\" is no preset; choose one of {}, or give the path of a valve file that "
+                  "ends in .toml",
+                  name, fmt::join(valve_presets(), ", ")));
+}
+
+ValveUnderTest read_valve(const std::filesystem::path& file, const Settings& beside) {
+  const SettingsSource source = read_settings_source(file);
+  std::string preset = "size_6";
+  apply_known(source, Settings().add_choice("preset", valve_presets(),
+                                            [&](std::size_t index) { preset = valve_presets()[index]; }));
+  ValveUnderTest valve = valve_preset(preset, beside);
+  overlay(source, beside, valve);
+  return valve;
+}
+
+void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
+  settings.add_text("name", valve.name).add_text("fluid", valve.fluid).add_seed("seed", valve.seed);
+  settings.add("rating", valve.rating).add("plant", valve.plant).add("electronics", valve.electronics);
+  settings.add("bench_amplifier", valve.bench_amplifier).add("instruments", valve.instruments);
+  settings.add("wear", valve.wear).add("spread", valve.spread);
+  settings.add_choice("plant.load.kind", {"held_difference", "orifice", "cylinder"},
+                      [&load = valve.plant.load](std::size_t kind) { load.kind = static_cast<LoadKind>(kind); });
+  settings.add_flag("plant.load.ideal_hold", valve.plant.load.ideal_hold);
+}
+
+ValveUnderTest as_built(ValveUnderTest valve) {
+  draw(valve.spread, valve.seed, valve.plant, valve.instruments.lvdt);
+  valve.plant = worn(valve.plant, valve.wear);
+  check_ranges(valve.plant);
+  check_ranges(valve.instruments);
+  return valve;
+}
+
+}  // namespace spoolflow::rig

@@ -1,0 +1,86 @@
+#pragma once
+/// The valve's on-board electronics: position control, dither, and a current-controlled output stage for each of the
+/// two solenoids, all at one period.
+#include <cmath>
+
+#include "spoolflow/rig/electronics/current_control.hpp"
+#include "spoolflow/rig/electronics/position_control.hpp"
+#include "spoolflow/rig/numerics/elementary_functions.hpp"
+#include "spoolflow/rig/numerics/noise.hpp"
+#include "spoolflow/rig/numerics/parameter.hpp"
+
+namespace spoolflow::rig {
+
+inline constexpr double electronics_period_s = 1e-4;  ///< 10 kHz
+
+/// Sine on the set current that keeps spool and armature from sticking.
+struct Dither {
+  double amplitude_A = 0.0;
+  double frequency_Hz = 160.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit(Parameter{"amplitude_A", "A", 0, 1, "0: none; 5 to 15 % of the rated current"}, self.amplitude_A);
+    visit(Parameter{"frequency_Hz", "Hz", 20, 500, "amplifiers offer 60 to 200 Hz"}, self.frequency_Hz);
+  }
+};
+
+/// The dither's share of the set current [A].
+inline double dither_A(const Dither& dither, double time_s) {
+  return dither.amplitude_A * sine_of_turns(dither.frequency_Hz * time_s);
+}
+
+struct Electronics {
+  PositionControl position;
+  CurrentControl current;
+  Dither dither;
+  double current_noise_A = 2.0e-3;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("position", self.position);
+    visit("current", self.current);
+    visit("dither", self.dither);
+    visit(Parameter{"current_noise_A", "A", 0, 0.1, "of the stage's own current sensing, one conversion"},
+          self.current_noise_A);
+  }
+};
+
+struct ElectronicsState {
+  PositionControlState position;
+  CurrentControlState current_a;
+  CurrentControlState current_b;
+  double time_s = 0;
+};
+
+struct ElectronicsInput {
+  double position_set_m = 0;
+  double position_signal_m = 0;
+  double current_a_A = 0;
+  double current_b_A = 0;
+};
+
+struct SolenoidVoltages {
+  double a_V = 0;
+  double b_V = 0;
+};
+
+/// One period. Each solenoid's current signal carries the stage's own noise.
+inline SolenoidVoltages step(const Electronics& electronics, ElectronicsState& state, const ElectronicsInput& input,
+                             Noise& noise) {
+  double set_A =
+      step(electronics.position, state.position, input.position_set_m, input.position_signal_m, electronics_period_s);
+  state.time_s += electronics_period_s;
+  if (state.position.on) {
+    const double direction = input.position_set_m > 0 ? 1 : -1;
+    set_A += direction * dither_A(electronics.dither, state.time_s);
+  }
+  const auto drive = [&](CurrentControlState& stage, double stage_set_A, double current_A) {
+    const double signal_A = current_A + electronics.current_noise_A * noise.normal();
+    return step(electronics.current, stage, stage_set_A, signal_A, electronics_period_s);
+  };
+  return {.a_V = drive(state.current_a, -set_A, input.current_a_A),
+          .b_V = drive(state.current_b, set_A, input.current_b_A)};
+}
+
+}  // namespace spoolflow::rig

@@ -1,0 +1,71 @@
+#pragma once
+/// Force of the oil on the spool, one metering edge; closing > 0. Paper, equation (2), for each active edge:
+///
+///     F = rho Q^2 cos(e1)/(A1 sin e1) - rho Q^2 cos(e2)/(A2 sin e2) - rho l dQ/dt
+///
+/// with A1 sin(e1) = Cc A the jet's cross-section behind the metering area. The jet angle e1 follows von Mises' slot
+/// between opening and clearance (jet_angle.hpp); the clearance that counts is widened by edge radius and boundary
+/// layer, d = gain sqrt(nu o/u), so cold oil bends the jet towards the axis and closes harder. The lateral part rho Q u
+/// sin(e1) presses the spool to its bore by the share that the notches do not balance. Leakage carries no momentum
+/// here.
+#include <cmath>
+
+#include "spoolflow/rig/hydraulics/jet_angle.hpp"
+#include "spoolflow/rig/hydraulics/metering_edge.hpp"
+#include "spoolflow/rig/numerics/parameter.hpp"
+
+namespace spoolflow::rig {
+
+struct FlowForce {
+  double jet_contraction = 0.75;
+  double boundary_layer_gain = 8.0;
+  double lateral_friction = 0.035;
+  double friction_per_pressure_N_per_Pa = 1.7e-7;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit(Parameter{"jet_contraction", "1", 0.5, 1, "jet over metering area; sharp edges 0.61 to 0.8"},
+          self.jet_contraction);
+    visit(Parameter{"boundary_layer_gain", "1", 0, 20,
+                    "Blasius 1.7 for one wall, two walls and the start of the jet more"},
+          self.boundary_layer_gain);
+    visit(Parameter{"lateral_friction", "1", 0, 0.2,
+                    "unbalanced share of the lateral jet force times friction coefficient"},
+          self.lateral_friction);
+    visit(
+        Parameter{
+            "friction_per_pressure_N_per_Pa", "N/Pa", 0, 2e-6,
+            "spool friction from radial pressure, linear in the pressure difference (Lu and Tiainen): 1 N at 60 bar"},
+        self.friction_per_pressure_N_per_Pa);
+  }
+};
+
+/// Transient force [N] -rho l dQ/dt, closing > 0. The oil in the chamber cannot be pushed harder than by the pressure
+/// difference on its cross-section, dp A_chamber, into which the force runs (hundreds of newtons at size 6).
+inline double transient_force_N(const EdgeConstants& constants, double density_kg_per_m3, double damping_length_m,
+                                double flow_rate_m3_per_s2, double pressure_difference_Pa) {
+  const double force = -density_kg_per_m3 * damping_length_m * flow_rate_m3_per_s2;
+  const double limit = std::abs(pressure_difference_Pa) * constants.chamber_area_m2 + 1.0;
+  return force * limit / std::sqrt(limit * limit + force * force);
+}
+
+struct EdgeForce {
+  double steady_N;   ///< closing > 0, whichever way the oil flows
+  double lateral_N;  ///< magnitude
+  JetDirection jet;
+};
+
+inline EdgeForce edge_force(const FlowForce& law, const EdgeConstants& constants, const EdgeFlow& edge,
+                            double viscosity_m2_per_s) {
+  if (edge.velocity_m_per_s == 0.0) return {0.0, 0.0, {1.0, 0.0}};
+  const double speed = std::abs(edge.velocity_m_per_s) + 1e-3;  // the boundary layer stays finite at no flow
+  const double boundary_layer = law.boundary_layer_gain * std::sqrt(viscosity_m2_per_s * edge.opening_m / speed);
+  const JetDirection jet = jet_direction(edge.opening_m, constants.clearance_m + boundary_layer);
+  const double momentum = 2.0 * constants.turbulent * edge.area_m2 * edge.velocity_m_per_s * edge.velocity_m_per_s;
+  const double jet_momentum = momentum / law.jet_contraction;
+  return {.steady_N = jet_momentum * jet.cosine - momentum * edge.area_m2 * constants.outlet_per_m2,
+          .lateral_N = jet_momentum * jet.sine,
+          .jet = jet};
+}
+
+}  // namespace spoolflow::rig

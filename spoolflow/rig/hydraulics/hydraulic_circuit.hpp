@@ -1,0 +1,225 @@
+#pragma once
+/// Pressures and flows round the valve's four edges, for each kind of load, and the Jacobian their integrator needs.
+///
+///     C_P dp_P/dt = G (p_set - p_P) + Q_i - Q_PA - Q_PB                                  (supply.hpp)
+///     C_A dp_A/dt = Q_PA - Q_AT + Q_L + A_A v_c,   C_B dp_B/dt = Q_PB - Q_BT - Q_L - A_B v_c
+///     m dv_c/dt   = p_B A_B - p_A A_A - d v_c - F_cushion - F_ext,   Q_L from B to A: orifice or piston leakage
+///     C = V/K_eff(p)
+///
+/// With the held difference, A, B and T all drain to the back pressure. Below the cavitation pressure a volume stays
+/// there.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "spoolflow/rig/hydraulics/flow_force.hpp"
+#include "spoolflow/rig/hydraulics/load.hpp"
+#include "spoolflow/rig/hydraulics/metering_edge.hpp"
+#include "spoolflow/rig/hydraulics/oil.hpp"
+#include "spoolflow/rig/hydraulics/supply.hpp"
+
+namespace spoolflow::rig {
+
+/// Differential states, in this order.
+enum HydraulicIndex { state_p_P, state_p_A, state_p_B, state_Q_i, state_x_c, state_v_c, hydraulic_states };
+using HydraulicVector = std::span<const double, hydraulic_states>;
+using HydraulicRate = std::span<double, hydraulic_states>;
+
+enum EdgeIndex { edge_PA, edge_PB, edge_AT, edge_BT };
+/// +1: opens with x > 0.
+inline constexpr std::array<double, 4> edge_side{-1.0, 1.0, 1.0, -1.0};
+
+/// What surrounds the valve during one step.
+struct HydraulicBoundary {
+  double source_pressure_Pa;  ///< set value with the ripple
+  double tank_pressure_Pa;
+  double load_force_N;
+};
+
+/// A wave of period and amplitude 1 out of parabolas, sign and zeros of the sine, within 6 % of it, with a steady
+/// slope.
+inline double parabolic_wave(double periods) {
+  const double phase = periods - std::nearbyint(periods);
+  return 16.0 * phase * (0.5 - std::abs(phase));
+}
+
+inline HydraulicBoundary hydraulic_boundary(const Supply& supply, const Load& load, double supply_pressure_Pa,
+                                            double held_difference_Pa, double load_force_N, double time_s) {
+  const bool held = load.kind == LoadKind::held_difference;
+  return {.source_pressure_Pa = (held ? supply.back_pressure_Pa + held_difference_Pa : supply_pressure_Pa) +
+                                supply.ripple_Pa * parabolic_wave(supply.ripple_Hz * time_s),
+          .tank_pressure_Pa = held ? supply.back_pressure_Pa : supply.tank_pressure_Pa,
+          .load_force_N = load_force_N};
+}
+
+struct LoadFlow {
+  double flow_m3_per_s;  ///< from B to A
+  double conductance_m3_per_s_Pa;
+};
+
+/// Fixed orifice: turbulent, laminar below 0.1 bar; or leakage past the piston.
+inline LoadFlow load_flow(const Load& load, double density_kg_per_m3, double pressure_difference_Pa) {
+  if (load.kind == LoadKind::cylinder) {
+    return {load.cylinder_leakage_m3_per_s_Pa * pressure_difference_Pa, load.cylinder_leakage_m3_per_s_Pa};
+  }
+  constexpr double laminar_Pa = 1e4;
+  constexpr double discharge = 0.7;
+  const double gain = discharge * load.orifice_area_m2 * std::sqrt(2.0 / density_kg_per_m3);
+  const double square = pressure_difference_Pa * pressure_difference_Pa + laminar_Pa * laminar_Pa;
+  const double root = std::sqrt(std::sqrt(square));
+  return {gain * pressure_difference_Pa / root,
+          gain / root * (1.0 - 0.5 * pressure_difference_Pa * pressure_difference_Pa / square)};
+}
+
+struct Cushion {
+  double force_N;
+  double stiffness_N_per_m;
+  double damping_N_s_per_m;
+};
+
+/// End cushions of the cylinder, against moving further out of its stroke.
+inline Cushion cushion_force(const Load& load, double position_m, double velocity_m_per_s) {
+  constexpr double stiffness_N_per_m = 5e7;
+  constexpr double damping_s_per_m = 2.0;
+  const double depth = std::abs(position_m) - 0.5 * load.cylinder_stroke_m;
+  if (depth <= 0.0) return {0.0, 0.0, 0.0};
+  const double side = position_m > 0.0 ? 1.0 : -1.0;
+  const double push = stiffness_N_per_m * depth * std::max(0.0, 1.0 + damping_s_per_m * side * velocity_m_per_s);
+  return {side * push, stiffness_N_per_m, stiffness_N_per_m * depth * damping_s_per_m};
+}
+
+/// Left uninitialised where it is made: hydraulic_rates fills every member.
+struct HydraulicRates {
+  std::array<EdgeFlow, 4> edges;
+  std::array<double, 4> difference_Pa;
+  std::array<double, 4> difference_rate_Pa_per_s;
+  LoadFlow load;
+  Cushion cushion;
+  double elastance_P, elastance_A, elastance_B;  ///< 1/C [Pa/m3]
+};
+
+inline void hydraulic_rates(const std::array<const MeteringEdge*, 4>& edges,
+                            const std::array<EdgeConstants, 4>& constants, const Supply& supply, const Load& load,
+                            const Oil& oil, const OilState& oil_state, double density_kg_per_m3,
+                            const HydraulicBoundary& boundary, HydraulicVector states, double position_m,
+                            HydraulicRates& out, HydraulicRate rate) {
+  const double p_P = states[state_p_P], p_A = states[state_p_A], p_B = states[state_p_B];
+  const double x_c = states[state_x_c], v_c = states[state_v_c];
+  const double p_T = boundary.tank_pressure_Pa;
+  out.difference_Pa = {p_P - p_A, p_P - p_B, p_A - p_T, p_B - p_T};
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.edges[i] = edge_flow(*edges[i], constants[i], edge_side[i] * position_m, out.difference_Pa[i]);
+  }
+  const double error = boundary.source_pressure_Pa - p_P;
+  const double G = supply.source_conductance_m3_per_s_Pa;
+  out.elastance_P = 1.0 / (supply.line_volume_m3 * compressibility_per_Pa(oil, oil_state, p_P));
+  std::fill(rate.begin(), rate.end(), 0.0);
+  rate[state_p_P] = out.elastance_P * (G * error + states[state_Q_i] - out.edges[edge_PA].flow_m3_per_s -
+                                       out.edges[edge_PB].flow_m3_per_s);
+  out.load = {0.0, 0.0};
+  out.cushion = {0.0, 0.0, 0.0};
+  out.elastance_A = out.elastance_B = 0.0;
+  if (load.kind == LoadKind::held_difference) {
+    rate[state_Q_i] = G / supply.hold_integral_time_s * error;
+    if (load.ideal_hold) rate[state_p_P] = rate[state_Q_i] = 0.0;
+  } else {
+    out.load = load_flow(load, density_kg_per_m3, p_B - p_A);
+    const bool cylinder = load.kind == LoadKind::cylinder;
+    const double half = 0.5 * load.cylinder_stroke_m;
+    const double swept_A = cylinder ? load.piston_area_A_m2 * std::max(0.0, half - x_c) : 0.0;
+    const double swept_B = cylinder ? load.piston_area_B_m2 * std::max(0.0, half + x_c) : 0.0;
+    out.elastance_A = 1.0 / ((load.port_volume_m3 + swept_A) * compressibility_per_Pa(oil, oil_state, p_A));
+    out.elastance_B = 1.0 / ((load.port_volume_m3 + swept_B) * compressibility_per_Pa(oil, oil_state, p_B));
+    double into_A = out.edges[edge_PA].flow_m3_per_s - out.edges[edge_AT].flow_m3_per_s + out.load.flow_m3_per_s;
+    double into_B = out.edges[edge_PB].flow_m3_per_s - out.edges[edge_BT].flow_m3_per_s - out.load.flow_m3_per_s;
+    if (cylinder) {
+      into_A += load.piston_area_A_m2 * v_c;
+      into_B -= load.piston_area_B_m2 * v_c;
+      out.cushion = cushion_force(load, x_c, v_c);
+      rate[state_x_c] = v_c;
+      rate[state_v_c] = (p_B * load.piston_area_B_m2 - p_A * load.piston_area_A_m2 -
+                         load.cylinder_drag_N_s_per_m * v_c - out.cushion.force_N - boundary.load_force_N) /
+                        load.cylinder_mass_kg;
+    }
+    rate[state_p_A] = out.elastance_A * into_A;
+    rate[state_p_B] = out.elastance_B * into_B;
+  }
+  out.difference_rate_Pa_per_s = {rate[state_p_P] - rate[state_p_A], rate[state_p_P] - rate[state_p_B], rate[state_p_A],
+                                  rate[state_p_B]};
+}
+
+/// Solves (1 - w J) k = r; the source's integrator enters explicitly (it is slow by its range).
+class HydraulicSolver {
+ public:
+  HydraulicSolver() = default;
+  HydraulicSolver(const Supply& supply, const Load& load, const HydraulicRates& point, double weight_s)
+      : kind_(load.kind), weight_s_(weight_s) {
+    const double g_PA = point.edges[edge_PA].conductance_m3_per_s_Pa;
+    const double g_PB = point.edges[edge_PB].conductance_m3_per_s_Pa;
+    const double wP = weight_s * point.elastance_P;
+    const double diagonal = 1.0 + wP * (supply.source_conductance_m3_per_s_Pa + g_PA + g_PB);
+    if (kind_ == LoadKind::held_difference) {
+      pivot_[0] = 1.0 / diagonal;
+      return;
+    }
+    const double wA = weight_s * point.elastance_A;
+    const double wB = weight_s * point.elastance_B;
+    const double g_L = point.load.conductance_m3_per_s_Pa;
+    const double g_A = g_PA + point.edges[edge_AT].conductance_m3_per_s_Pa + g_L;
+    const double g_B = g_PB + point.edges[edge_BT].conductance_m3_per_s_Pa + g_L;
+    m_ = {{{diagonal, -wP * g_PA, -wP * g_PB, 0.0},
+           {-wA * g_PA, 1.0 + wA * g_A, -wA * g_L, 0.0},
+           {-wB * g_PB, -wB * g_L, 1.0 + wB * g_B, 0.0},
+           {0.0, 0.0, 0.0, 1.0}}};
+    if (kind_ == LoadKind::cylinder) {
+      const double w_m = weight_s / load.cylinder_mass_kg;
+      m_[1][3] = -wA * load.piston_area_A_m2;
+      m_[2][3] = wB * load.piston_area_B_m2;
+      m_[3][1] = w_m * load.piston_area_A_m2;
+      m_[3][2] = -w_m * load.piston_area_B_m2;
+      position_ = w_m * point.cushion.stiffness_N_per_m;
+      m_[3][3] = 1.0 + w_m * (load.cylinder_drag_N_s_per_m + point.cushion.damping_N_s_per_m) + weight_s * position_;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {  // no pivoting: pressures are an M-matrix, the cylinder couples skew to them
+      pivot_[k] = 1.0 / m_[k][k];
+      for (std::size_t i = k + 1; i < 4; ++i) {
+        m_[i][k] *= pivot_[k];
+        for (std::size_t j = k + 1; j < 4; ++j) m_[i][j] -= m_[i][k] * m_[k][j];
+      }
+    }
+  }
+
+  void operator()(HydraulicVector right, HydraulicRate k) const {
+    if (kind_ == LoadKind::held_difference) {
+      std::fill(k.begin(), k.end(), 0.0);
+      k[state_p_P] = right[state_p_P] * pivot_[0];
+      k[state_Q_i] = right[state_Q_i];
+      return;
+    }
+    std::array<double, 4> r{right[state_p_P], right[state_p_A], right[state_p_B],
+                            right[state_v_c] - position_ * right[state_x_c]};
+    for (std::size_t i = 1; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) r[i] -= m_[i][j] * r[j];
+    }
+    for (std::size_t i = 4; i-- > 0;) {
+      for (std::size_t j = i + 1; j < 4; ++j) r[i] -= m_[i][j] * r[j];
+      r[i] *= pivot_[i];
+    }
+    k[state_p_P] = r[0];
+    k[state_p_A] = r[1];
+    k[state_p_B] = r[2];
+    k[state_Q_i] = right[state_Q_i];
+    k[state_x_c] = right[state_x_c] + weight_s_ * r[3];
+    k[state_v_c] = r[3];
+  }
+
+ private:
+  LoadKind kind_ = LoadKind::held_difference;
+  double weight_s_ = 0.0;
+  double position_ = 0.0;
+  std::array<std::array<double, 4>, 4> m_{};
+  std::array<double, 4> pivot_{};
+};
+
+}  // namespace spoolflow::rig

@@ -1,0 +1,42 @@
+#pragma once
+/// What feeds port P and what port T drains to.
+///
+/// Pressure supply (loads orifice and cylinder): C_P dp_P/dt = G (p_set + ripple - p_P) - Q_PA - Q_PB.
+/// Held difference (load held_difference): the bench's controller moves p_P so that the difference over the edge that
+/// the spool opens (P to B for x >= 0, P to A below) follows its set value with a natural frequency and a source
+/// stiffness,
+///
+///     C_P dp_P/dt = G (p_set - p_P) + Q_i - Q_PA - Q_PB,   dQ_i/dt = G/T (p_set - p_P)
+///
+/// or follows at once when `ideal` is asked for. Ripple is a parabolic wave at the pump's piston frequency.
+#include "spoolflow/rig/numerics/parameter.hpp"
+
+namespace spoolflow::rig {
+
+struct Supply {
+  double line_volume_m3 = 2.0e-4;
+  double source_conductance_m3_per_s_Pa = 2.0e-9;
+  double hold_integral_time_s = 0.02;
+  double ripple_Pa = 0.4e5;
+  double ripple_Hz = 225.0;
+  double tank_pressure_Pa = 1.0e5;
+  double back_pressure_Pa = 4.0e5;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit(Parameter{"line_volume_m3", "m3", 1e-5, 2e-2, "hose and block between source and valve"},
+          self.line_volume_m3);
+    visit(Parameter{"source_conductance_m3_per_s_Pa", "m3/(s Pa)", 1e-11, 1e-7,
+                    "flow per control error; 2e-9 falls by 6 bar at 80 L/min"},
+          self.source_conductance_m3_per_s_Pa);
+    visit(Parameter{"hold_integral_time_s", "s", 1e-3, 10, "of the bench's pressure controller"},
+          self.hold_integral_time_s);
+    visit(Parameter{"ripple_Pa", "Pa", 0, 20e5, "amplitude; pumps 0.5 to 3 % of pressure"}, self.ripple_Pa);
+    visit(Parameter{"ripple_Hz", "Hz", 1, 2000, "9 pistons at 1500 rev/min"}, self.ripple_Hz);
+    visit(Parameter{"tank_pressure_Pa", "Pa", 0, 50e5, "gauge; return filter and line"}, self.tank_pressure_Pa);
+    visit(Parameter{"back_pressure_Pa", "Pa", 0, 100e5, "gauge, behind the measured edge on the bench (flow meter)"},
+          self.back_pressure_Pa);
+  }
+};
+
+}  // namespace spoolflow::rig

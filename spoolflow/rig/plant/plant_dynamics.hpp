@@ -1,0 +1,164 @@
+#pragma once
+/// Right-hand side of the whole plant: from states and input to all forces, flows and rates at one instant.
+///
+/// Differential states are {x, v}, three of each solenoid, six of the hydraulics. The memories (iron hysteresis,
+/// friction elements, contact ages) are functions of flux and displacement since the step's start; temperatures move
+/// once a step.
+#include "spoolflow/rig/hydraulics/hydraulic_circuit.hpp"
+#include "spoolflow/rig/plant/end_stop.hpp"
+#include "spoolflow/rig/plant/solenoid_dynamics.hpp"
+#include "spoolflow/rig/plant/valve_plant.hpp"
+
+namespace spoolflow::rig {
+
+/// What does not change within one call of `step`.
+struct PlantConstants {
+  bool solenoid_a, solenoid_b, hydraulics;  ///< present in the arrangement
+  bool magnetic_a, magnetic_b;              ///< solenoid under voltage or magnetised; else its rates are zero
+  double armatures;                         ///< number of armatures on the body
+  double mass_kg;
+  double spool_drag_N_s_per_m;
+  double armature_drag_N_s_per_m;  ///< all armatures
+  FrictionConstants spool_friction, armature_a_friction, armature_b_friction;
+  double density_kg_per_m3;
+  double viscosity_m2_per_s;
+  OilState oil;
+  SolenoidConstants solenoid_a_constants;
+  SolenoidConstants solenoid_b_constants;
+  std::array<const MeteringEdge*, 4> edges;
+  std::array<EdgeConstants, 4> edge_constants;
+};
+
+/// `state.oil` is at the input's oil temperature.
+PlantConstants plant_constants(const PlantParameters& parameters, const PlantState& state, const PlantInput& input);
+
+/// The differential states, as the integrator sees them, in this order.
+enum PlantIndex {
+  state_x = 0,
+  state_v = 1,
+  state_solenoid_a = 2,
+  state_solenoid_b = state_solenoid_a + solenoid_states,
+  state_hydraulics = state_solenoid_b + solenoid_states,
+  plant_states = state_hydraulics + hydraulic_states
+};
+using PlantVector = std::array<double, plant_states>;
+
+template <std::size_t offset, std::size_t count, class Vector>
+auto block(Vector& u) {
+  return std::span(u).template subspan<offset, count>();
+}
+template <class Vector>
+auto solenoid_a_of(Vector& u) {
+  return block<state_solenoid_a, solenoid_states>(u);
+}
+template <class Vector>
+auto solenoid_b_of(Vector& u) {
+  return block<state_solenoid_b, solenoid_states>(u);
+}
+template <class Vector>
+auto hydraulics_of(Vector& u) {
+  return block<state_hydraulics, hydraulic_states>(u);
+}
+
+struct ContactAges {
+  double spool, armature_a, armature_b;
+};
+
+inline PlantVector differential_states(const PlantState& s) {
+  return {s.position_m,
+          s.velocity_m_per_s,
+          s.solenoid_a.flux_linkage_Wb,
+          s.solenoid_a.flux_Wb,
+          s.solenoid_a.skin_current_A,
+          s.solenoid_b.flux_linkage_Wb,
+          s.solenoid_b.flux_Wb,
+          s.solenoid_b.skin_current_A,
+          s.pressure_P_Pa,
+          s.pressure_A_Pa,
+          s.pressure_B_Pa,
+          s.hold_flow_m3_per_s,
+          s.cylinder_position_m,
+          s.cylinder_velocity_m_per_s};
+}
+
+/// What acts at one instant; forces towards -x but for the magnetic ones.
+struct PlantRates {
+  SolenoidRates solenoid_a{}, solenoid_b{};
+  HydraulicRates hydraulics;
+  std::array<EdgeForce, 4> edge_forces;
+  std::array<double, 4> transient_N;  ///< of each edge
+  double spool_breakaway_N, armature_a_breakaway_N, armature_b_breakaway_N;
+  FrictionForce spool_friction{}, armature_a_friction{}, armature_b_friction{};
+  SpringForce spring{};
+  EndStopForce end_stop;
+  double flow_force_N = 0.0;
+  double drag_N;
+  PlantVector rate{};  ///< of the free body
+};
+
+/// `start` holds the memories and the states they count from; `time_s` is for the ripple. Fills what the arrangement
+/// has of `out` and leaves the rest as it is.
+inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const PlantState& start,
+                        const PlantInput& input, const PlantVector& u, const ContactAges& ages, double time_s,
+                        PlantRates& out) {
+  const double x = u[state_x];
+  const double v = u[state_v];
+  const double displacement = x - start.position_m;
+  double force = 0.0;  // towards +x
+  if (c.solenoid_a) {
+    if (c.magnetic_a)
+      out.solenoid_a = solenoid_rates(c.solenoid_a_constants, start.solenoid_a, solenoid_a_of(u), -x, input.voltage_a_V,
+                                      solenoid_a_of(out.rate));
+    out.armature_a_breakaway_N =
+        breakaway_N(c.armature_a_friction, p.solenoid_a.side_friction_coefficient * out.solenoid_a.side_force_N,
+                    ages.armature_a, v);
+    out.armature_a_friction =
+        friction_force(c.armature_a_friction, start.solenoid_a.friction, displacement, v, out.armature_a_breakaway_N);
+    force -= out.solenoid_a.magnetic_force_N + out.armature_a_friction.force_N;
+  }
+  if (c.solenoid_b) {
+    if (c.magnetic_b)
+      out.solenoid_b = solenoid_rates(c.solenoid_b_constants, start.solenoid_b, solenoid_b_of(u), x, input.voltage_b_V,
+                                      solenoid_b_of(out.rate));
+    out.armature_b_breakaway_N =
+        breakaway_N(c.armature_b_friction, p.solenoid_b.side_friction_coefficient * out.solenoid_b.side_force_N,
+                    ages.armature_b, v);
+    out.armature_b_friction =
+        friction_force(c.armature_b_friction, start.solenoid_b.friction, displacement, v, out.armature_b_breakaway_N);
+    force += out.solenoid_b.magnetic_force_N - out.armature_b_friction.force_N;
+  }
+  if (c.hydraulics) {
+    const HydraulicBoundary boundary = hydraulic_boundary(
+        p.supply, p.load, input.supply_pressure_Pa, input.held_pressure_difference_Pa, input.load_force_N, time_s);
+    hydraulic_rates(c.edges, c.edge_constants, p.supply, p.load, p.oil, c.oil, c.density_kg_per_m3, boundary,
+                    hydraulics_of(u), x, out.hydraulics, hydraulics_of(out.rate));
+    double pressure_sum = 0.0;
+    double lateral = 0.0;
+    double flow_force = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const EdgeFlow& edge = out.hydraulics.edges[i];
+      out.edge_forces[i] = edge_force(p.flow_force, c.edge_constants[i], edge, c.viscosity_m2_per_s);
+      const double flow_rate = edge.flow_gain_m2_per_s * edge_side[i] * v +
+                               edge.conductance_m3_per_s_Pa * out.hydraulics.difference_rate_Pa_per_s[i];
+      out.transient_N[i] =
+          edge_side[i] * transient_force_N(c.edge_constants[i], c.density_kg_per_m3, c.edges[i]->damping_length_m,
+                                           flow_rate, out.hydraulics.difference_Pa[i]);
+      flow_force += edge_side[i] * out.edge_forces[i].steady_N + out.transient_N[i];
+      pressure_sum += std::abs(out.hydraulics.difference_Pa[i]);
+      lateral += out.edge_forces[i].lateral_N;
+    }
+    out.flow_force_N = flow_force;
+    const double load =
+        0.5 * p.flow_force.friction_per_pressure_N_per_Pa * pressure_sum + p.flow_force.lateral_friction * lateral;
+    out.spool_breakaway_N = breakaway_N(c.spool_friction, load, ages.spool, v);
+    out.spool_friction = friction_force(c.spool_friction, start.spool_friction, displacement, v, out.spool_breakaway_N);
+    out.spring = centring_force(p.spring_a, p.spring_b, p.spool.washer_play_m, x);
+    force -= flow_force + out.spool_friction.force_N + out.spring.force_N;
+  }
+  out.end_stop = end_stop_force(p.spool, x, v);
+  out.drag_N = (c.spool_drag_N_s_per_m + c.armature_drag_N_s_per_m) * v;
+  out.rate[state_x] = v;
+  out.rate[state_v] = (force - out.drag_N - out.end_stop.force_N) / c.mass_kg;
+}
+
+}  // namespace spoolflow::rig

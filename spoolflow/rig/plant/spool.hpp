@@ -1,0 +1,49 @@
+#pragma once
+/// Moving parts: one spool with two armatures and push rods, which the springs keep together as one body.
+///
+///     (m_hydr + n m_act) dv/dt = F_mag - F_fric,act - F_spr - F_ff - F_fric,hydr - F_drag - F_stop
+///
+/// x > 0 opens P to B (and A to T) and is what solenoid b pulls to. Drag is laminar shear in the clearance plus oil
+/// displaced through the armatures' bores, both proportional to the dynamic viscosity.
+#include "spoolflow/rig/numerics/parameter.hpp"
+
+namespace spoolflow::rig {
+
+struct Spool {
+  double spool_mass_kg = 0.060;
+  double armature_mass_kg = 0.055;
+  double stroke_m = 2.4e-3;
+  double end_stop_m = 2.5e-3;
+  double end_stop_stiffness_N_per_m = 2.0e7;
+  double end_stop_damping_s_per_m = 1.5;
+  double washer_play_m = 15.0e-6;
+  double diameter_m = 12.0e-3;
+  double land_length_m = 28.0e-3;
+  double clearance_m = 5.0e-6;
+  double armature_drag_m = 250.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit(Parameter{"spool_mass_kg", "kg", 0.02, 1, "steel spool of 12 mm, 70 mm long"}, self.spool_mass_kg);
+    visit(Parameter{"armature_mass_kg", "kg", 0.01, 0.5, "each; armature of 18 mm, 30 mm long, with push rod"},
+          self.armature_mass_kg);
+    visit(Parameter{"stroke_m", "m", 5e-4, 4e-3, "position at 100 % of set value; size 6: 2 to 3 mm"}, self.stroke_m);
+    visit(Parameter{"end_stop_m", "m", 5e-4, 4.3e-3, "where the push rod meets the pole; beyond the stroke"},
+          self.end_stop_m);
+    visit(Parameter{"end_stop_stiffness_N_per_m", "N/m", 3e6, 2e8, "steel on an anti-stick disc: 1e7 to 1e8"},
+          self.end_stop_stiffness_N_per_m);
+    visit(Parameter{"end_stop_damping_s_per_m", "s/m", 0, 10, "Hunt-Crossley factor; 1.5 rebounds at about half speed"},
+          self.end_stop_damping_s_per_m);
+    visit(Parameter{"washer_play_m", "m", 1e-6, 1e-4,
+                    "axial play of the springs' washers, over which the centring force changes over"},
+          self.washer_play_m);
+    visit(Parameter{"diameter_m", "m", 4e-3, 4e-2, "size 6: 10 to 12 mm; size 10: 16 to 20 mm"}, self.diameter_m);
+    visit(Parameter{"land_length_m", "m", 5e-3, 0.2, "sum of the sealing lands"}, self.land_length_m);
+    visit(Parameter{"clearance_m", "m", 1e-6, 3e-5, "radial; selectively fitted spools 3 to 8 micrometres"},
+          self.clearance_m);
+    visit(Parameter{"armature_drag_m", "m", 0, 5000, "each; drag over dynamic viscosity: 10 N s/m at 40 C"},
+          self.armature_drag_m);
+  }
+};
+
+}  // namespace spoolflow::rig

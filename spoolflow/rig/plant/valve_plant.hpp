@@ -1,0 +1,199 @@
+#pragma once
+/// The plant of the virtual test rig: a 4/3 valve with two solenoids, its oil, supply and load; or parts of it on a
+/// bench.
+///
+/// Signs (as the project's physics): x > 0 opens P to B and A to T and is pulled by solenoid b; solenoid a pulls to x <
+/// 0. Magnetic force > 0 pulls to +x; spring, flow and friction forces are counted as resisting, > 0 towards -x, so
+///
+///     m dv/dt = F_mag - F_fric,act - F_spr - F_ff - F_fric,hydr - F_drag - F_stop
+///
+/// and for x > 0 spring and steady flow force close (+), friction has the sign of v. Pressures are gauge. Edge flows
+/// are positive in the direction of the edge's name (P to B, A to T).
+///
+///     PlantParameters parameters;                // a size-6 valve on a bench that holds the pressure difference
+///     check_ranges(parameters);                  // throws std::invalid_argument, naming value and range
+///     PlantState state = plant_at_rest(parameters, input);
+///     step(parameters, state, input, 1e-4);      // one electronics period; input held over it
+///     PlantOutput truth = observe(parameters, state, input);
+#include <optional>
+
+#include "spoolflow/rig/hydraulics/flow_force.hpp"
+#include "spoolflow/rig/hydraulics/load.hpp"
+#include "spoolflow/rig/hydraulics/metering_edge.hpp"
+#include "spoolflow/rig/hydraulics/oil.hpp"
+#include "spoolflow/rig/hydraulics/supply.hpp"
+#include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/plant/solenoid.hpp"
+#include "spoolflow/rig/plant/spool.hpp"
+#include "spoolflow/rig/plant/spring.hpp"
+
+namespace spoolflow::rig {
+
+/// What stands on the bench.
+enum class Arrangement {
+  valve,             ///< the whole valve
+  solenoid_bench,    ///< solenoid b alone, its armature moved by a carriage against a load cell
+  axial_force_bench  ///< valve without solenoids, its spool moved by an external drive through a load cell
+};
+
+/// Internal steps (plant_integrator.hpp): halved until the estimated error of each is within the tolerance.
+struct Integration {
+  double longest_step_s = 1e-4;
+  double shortest_step_s = 1.5e-6;
+  double tolerance = 5e-5;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit(Parameter{"longest_step_s", "s", 1e-7, 2e-4, "one electronics period"}, self.longest_step_s);
+    visit(Parameter{"shortest_step_s", "s", 1e-8, 1e-4, "taken whatever its error: contacts are stepped over by it"},
+          self.shortest_step_s);
+    visit(Parameter{"tolerance", "1", 1e-9, 1e-2, "error of one step over full scale of stroke, flux, 100 bar"},
+          self.tolerance);
+  }
+};
+
+struct PlantParameters {
+  Arrangement arrangement = Arrangement::valve;
+  Solenoid solenoid_a;
+  Solenoid solenoid_b;
+  Spool spool;
+  Spring spring_a;  ///< compressed for x < 0
+  Spring spring_b;  ///< compressed for x > 0
+  Friction spool_friction;
+  MeteringEdge edge_PA;
+  MeteringEdge edge_PB;
+  MeteringEdge edge_AT;
+  MeteringEdge edge_BT;
+  FlowForce flow_force;
+  Oil oil;
+  Supply supply;
+  Load load;
+  Integration integration;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("solenoid_a", self.solenoid_a);
+    visit("solenoid_b", self.solenoid_b);
+    visit("spool", self.spool);
+    visit("spring_a", self.spring_a);
+    visit("spring_b", self.spring_b);
+    visit("spool_friction", self.spool_friction);
+    visit("edge_PA", self.edge_PA);
+    visit("edge_PB", self.edge_PB);
+    visit("edge_AT", self.edge_AT);
+    visit("edge_BT", self.edge_BT);
+    visit("flow_force", self.flow_force);
+    visit("oil", self.oil);
+    visit("supply", self.supply);
+    visit("load", self.load);
+    visit("integration", self.integration);
+  }
+};
+
+/// Where an external drive has spool or armature at the end of a step, and how fast; on the way there the position
+/// follows the cubic through both ends' positions and velocities. The acceleration is for the load cell's inertia only.
+struct PrescribedMotion {
+  double position_m = 0.0;
+  double velocity_m_per_s = 0.0;
+  double acceleration_m_per_s2 = 0.0;
+};
+
+/// What the surroundings do during one step.
+struct PlantInput {
+  double voltage_a_V = 0.0;  ///< over the winding's terminals, mean over the step
+  double voltage_b_V = 0.0;
+  double supply_pressure_Pa = 100e5;         ///< set value, gauge; loads orifice and cylinder
+  double held_pressure_difference_Pa = 0.0;  ///< set value; load held_difference
+  double load_force_N = 0.0;                 ///< on the cylinder, > 0 against moving out
+  double oil_temperature_C = 50.0;           ///< at the supply
+  double ambient_temperature_C = 25.0;
+  std::optional<PrescribedMotion> motion;  ///< absent: spool moves freely
+};
+
+struct PlantState {
+  double time_s = 0.0;
+  double position_m = 0.0;
+  double velocity_m_per_s = 0.0;
+  SolenoidState solenoid_a;
+  SolenoidState solenoid_b;
+  FrictionState spool_friction;
+  OilState oil;  ///< at the last oil temperature
+  double pressure_P_Pa = 0.0;
+  double pressure_A_Pa = 0.0;
+  double pressure_B_Pa = 0.0;
+  double hold_flow_m3_per_s = 0.0;  ///< integrator of the bench's pressure controller
+  double cylinder_position_m = 0.0;
+  double cylinder_velocity_m_per_s = 0.0;
+};
+
+/// Ground truth of one solenoid.
+struct SolenoidOutput {
+  double current_A = 0.0;
+  double flux_linkage_Wb = 0.0;
+  double flux_Wb = 0.0;
+  double eddy_current_A = 0.0;    ///< one-turn equivalent, opposing
+  double magnetic_force_N = 0.0;  ///< towards its own pole, >= 0
+  double side_force_N = 0.0;
+  double friction_force_N = 0.0;  ///< sign of v in its own pull direction reversed to the spool's x
+  double resistance_ohm = 0.0;
+  double winding_temperature_C = 0.0;
+  double housing_temperature_C = 0.0;
+};
+
+/// Ground truth of one metering edge.
+struct EdgeOutput {
+  double flow_m3_per_s = 0.0;     ///< through the notches and the clearance, in the direction of its name
+  double leakage_m3_per_s = 0.0;  ///< the clearance's part
+  double pressure_difference_Pa = 0.0;
+  double area_m2 = 0.0;
+  double jet_angle_rad = 0.0;
+  double steady_force_N = 0.0;     ///< towards -x
+  double transient_force_N = 0.0;  ///< towards -x
+  double lateral_force_N = 0.0;
+};
+
+/// Everything true at one instant.
+struct PlantOutput {
+  double time_s = 0.0;
+  double position_m = 0.0;
+  double velocity_m_per_s = 0.0;
+  double acceleration_m_per_s2 = 0.0;
+  SolenoidOutput solenoid_a;
+  SolenoidOutput solenoid_b;
+  double magnetic_force_N = 0.0;           ///< net, towards +x
+  double armature_friction_force_N = 0.0;  ///< both armatures
+  double spring_force_N = 0.0;
+  double flow_force_N = 0.0;  ///< steady and transient, all edges
+  double spool_friction_force_N = 0.0;
+  double drag_force_N = 0.0;
+  double end_stop_force_N = 0.0;
+  double axial_force_N = 0.0;      ///< F_ax between armatures and spool, paper equation (1), towards +x
+  double load_cell_force_N = 0.0;  ///< what the bench's load cell reads: the armature's push, or the force needed to
+                                   ///< hold the spool, both > 0 towards +x; 0 for the whole valve
+  EdgeOutput edge_PA;
+  EdgeOutput edge_PB;
+  EdgeOutput edge_AT;
+  EdgeOutput edge_BT;
+  double pressure_P_Pa = 0.0;
+  double pressure_A_Pa = 0.0;
+  double pressure_B_Pa = 0.0;
+  double pressure_T_Pa = 0.0;
+  double pressure_difference_Pa = 0.0;  ///< over the edge the spool opens: P to B for x >= 0, P to A below
+  double flow_m3_per_s = 0.0;           ///< through that edge
+  double oil_density_kg_per_m3 = 0.0;
+  double oil_viscosity_m2_per_s = 0.0;
+  double cylinder_position_m = 0.0;
+  double cylinder_velocity_m_per_s = 0.0;
+};
+
+/// The plant at rest at spool centre (or the prescribed position), unmagnetised, contacts relaxed, in thermal and
+/// hydraulic equilibrium with its surroundings and no current.
+PlantState plant_at_rest(const PlantParameters& parameters, const PlantInput& input);
+
+/// Advances the plant by dt_s with the input held; internally in steps as Integration allows.
+void step(const PlantParameters& parameters, PlantState& state, const PlantInput& input, double dt_s);
+
+/// Ground truth at the state's instant.
+PlantOutput observe(const PlantParameters& parameters, const PlantState& state, const PlantInput& input);
+
+}  // namespace spoolflow::rig

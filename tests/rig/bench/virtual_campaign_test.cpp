@@ -1,0 +1,115 @@
+/// A campaign's files are laid out as those of a real bench.
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
+
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/rig/bench/recording_file.hpp"
+
+namespace spoolflow::rig {
+namespace {
+
+std::vector<CampaignItem> default_items() {
+  return campaign_items(valve_preset("size_6"), {});
+}
+
+std::string header_of(const CampaignItem& item) {
+  BenchRun run = plan(item.settings, item.valve, item.seed);
+  run.sample_rate_Hz = {{0.01, 1000}};
+  std::ostringstream text;
+  write_recording(text, simulate(item.valve, run, item.seed).recording, run);
+  return text.str().substr(0, text.str().find('\n'));
+}
+
+TEST(VirtualCampaign, ColumnsAreThoseOfTheReferenceRecordings) {
+  const std::string axial =
+      "time_s,pressure_difference_set_bar,pressure_upstream_bar,pressure_downstream_bar,oil_temperature_C,position_mm,"
+      "axial_force_N,flow_L_min";
+  const std::string operation =
+      "time_s,position_set_percent,position_mm,current_A,voltage_V,oil_temperature_C,pressure_difference_bar,"
+      "flow_reference_L_min";
+  const std::map<std::string, std::string> expected{
+      {"spring", axial},
+      {"axial_force_map", axial},
+      {"solenoid_force_map", "time_s,current_set_A,current_A,voltage_V,position_mm,force_N"},
+      {"solenoid_dynamic", "time_s,test,current_A,voltage_V,position_mm,force_N"},
+      {"operation", operation},
+      {"", operation}};
+  for (const CampaignItem& item : default_items()) EXPECT_EQ(header_of(item), expected.at(item.protocol)) << item.file;
+}
+
+TEST(VirtualCampaign, HoldsTheBenchTestsOneOperatingRunAndTheValidationRuns) {
+  std::vector<std::string> listed, validation;
+  for (const CampaignItem& item : default_items()) (item.protocol.empty() ? validation : listed).push_back(item.file);
+  EXPECT_THAT(listed,
+              testing::ElementsAre("spring.csv", "solenoid_map.csv", "solenoid_dynamic.csv", "axial_force_map_30.csv",
+                                   "axial_force_map_50.csv", "axial_force_map_70.csv", "ramp_60bar.csv"));
+  EXPECT_THAT(validation,
+              testing::ElementsAre("ramps_30_to_70bar.csv", "duty_cycle_1.csv", "temperature_sweep.csv",
+                                   "pressure_steps.csv", "sine_sweep.csv", "dither.csv", "fast_motion.csv"));
+  const std::string text = campaign_text(valve_preset("size_6"), default_items());
+  for (const std::string& file : listed) EXPECT_THAT(text, testing::HasSubstr("file = \"" + file + "\""));
+  for (const std::string& file : validation) EXPECT_THAT(text, testing::Not(testing::HasSubstr(file)));
+  EXPECT_THAT(text, testing::HasSubstr("protocol = \"operation\"\nfile = \"ramp_60bar.csv\""));
+}
+
+/// Two short recordings with different noise.
+std::vector<CampaignItem> short_items() {
+  CampaignItem item{.file = "steps.csv",
+                    .protocol = "",
+                    .settings = StepsProtocol{.conditions = {}, .positions_percent = {60}, .hold_s = 0.2},
+                    .valve = valve_preset("size_6"),
+                    .seed = 1};
+  std::vector<CampaignItem> items{item, item};
+  items.back().file = "again.csv";
+  items.back().seed = 2;
+  return items;
+}
+
+TEST(VirtualCampaign, DoesNotDependOnTheNumberOfWorkers) {
+  const std::vector<CampaignItem> items = short_items();
+  const auto recordings = [&](unsigned workers) {
+    std::map<std::string, std::string> files;
+    std::mutex mutex;
+    run_campaign(items, {.store =
+                             [&](const CampaignItem& item, const BenchRun& run, const Simulation& simulation) {
+                               std::ostringstream text;
+                               write_recording(text, simulation.recording, run);
+                               const std::lock_guard lock(mutex);
+                               files[item.file] = text.str();
+                             },
+                         .workers = workers});
+    return files;
+  };
+  const auto one = recordings(1);
+  EXPECT_EQ(recordings(2), one);
+  EXPECT_NE(one.at("steps.csv"), one.at("again.csv"));
+}
+
+TEST(VirtualCampaign, TellsHowFarItIsWithoutRunningBackwards) {
+  double last = 0;
+  int calls = 0;
+  run_campaign(short_items(), {.store = [](const auto&, const auto&, const auto&) {},
+                               .progress =
+                                   [&](double share) {
+                                     EXPECT_GE(share, last);
+                                     EXPECT_LE(share, 1.0 + 1e-9);
+                                     last = share;
+                                     ++calls;
+                                   }});
+  EXPECT_GT(calls, 100);
+  EXPECT_GT(last, 0.98);
+}
+
+TEST(VirtualCampaign, StopsAtTheFirstFailure) {
+  EXPECT_THROW(run_campaign(short_items(), {.store = [](const auto&, const auto&,
+                                                        const auto&) { throw std::runtime_error("disk full"); }}),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace spoolflow::rig
