@@ -12,9 +12,9 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"
-#include "spoolflow/report/analysis_json.hpp"
-#include "spoolflow/report/analysis_report.hpp"
-#include "spoolflow/report/analysis_verdict.hpp"
+#include "spoolflow/report/analysis/analysis_report.hpp"
+#include "spoolflow/report/analysis/analysis_verdict.hpp"
+#include "spoolflow/report/json/analysis_json.hpp"
 #include "spoolflow/validation/estimation.hpp"
 
 namespace spoolflow::apps {

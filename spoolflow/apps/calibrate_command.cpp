@@ -12,7 +12,7 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/recording/campaign.hpp"
-#include "spoolflow/report/validation_report.hpp"
+#include "spoolflow/report/validation/validation_report.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {

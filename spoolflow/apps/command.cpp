@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "spoolflow/report/reader_units.hpp"
+#include "spoolflow/report/page/reader_units.hpp"
 
 namespace spoolflow::apps {
 namespace {

@@ -7,10 +7,10 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
-#include "spoolflow/report/metrics_json.hpp"
-#include "spoolflow/report/requirements_table.hpp"
-#include "spoolflow/report/validation_report.hpp"
-#include "spoolflow/report/verdict.hpp"
+#include "spoolflow/report/json/metrics_json.hpp"
+#include "spoolflow/report/validation/requirements_table.hpp"
+#include "spoolflow/report/validation/validation_report.hpp"
+#include "spoolflow/report/validation/verdict.hpp"
 
 namespace spoolflow::apps {
 namespace {

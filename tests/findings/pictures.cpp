@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/page_style.hpp"
-#include "spoolflow/report/svg_figure.hpp"
+#include "spoolflow/report/figures/svg_figure.hpp"
+#include "spoolflow/report/page/page_style.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/trace.hpp"
 

@@ -1,0 +1,151 @@
+#include "spoolflow/report/analysis/analysis_report.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/analysis/analysis_verdict.hpp"
+#include "spoolflow/report/analysis/budget_tables.hpp"
+#include "spoolflow/report/analysis/operating_map_figure.hpp"
+#include "spoolflow/report/analysis/run_budget_section.hpp"
+#include "spoolflow/report/analysis/study_figure.hpp"
+#include "spoolflow/report/calibration/model_sections.hpp"
+#include "spoolflow/report/page/html_page.hpp"
+#include "spoolflow/report/text/html_text.hpp"
+#include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/report/text/sensor_name.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using analysis::Analysis;
+using analysis::PointResult;
+using validation::Estimator;
+
+const char* const legend_of_kinds =
+    "<div class=\"heat\"><span><svg viewBox=\"0 0 16 12\" aria-hidden=\"true\"><rect width=\"16\" height=\"12\" "
+    "style=\"fill:var(--observer)\"/></svg>part of the sensor's model</span><span><svg viewBox=\"0 0 16 12\" "
+    "aria-hidden=\"true\"><rect width=\"16\" height=\"12\" style=\"fill:var(--condensed)\"/></svg>instrument or "
+    "oil</span></div>";
+
+std::vector<Estimator> estimators_of(const Analysis& analysis) {
+  std::vector<Estimator> out;
+  for (const PointResult& point : analysis.points) {
+    if (out.empty() || out.back() != point.estimator) out.push_back(point.estimator);
+  }
+  return out;
+}
+
+/// The reachable point nearest to the middle of an estimator's list; null where there is none.
+const PointResult* middle_point(const Analysis& analysis, Estimator estimator) {
+  std::vector<const PointResult*> reachable;
+  for (const PointResult& point : analysis.points) {
+    if (point.estimator == estimator && point.reachable) reachable.push_back(&point);
+  }
+  return reachable.empty() ? nullptr : reachable[reachable.size() / 2];
+}
+
+std::string place_of(const PointResult& result) {
+  return fmt::format("{} mm, {} bar, {} \u00b0C, {}", fixed(units::mm_from_m(result.point.position_m), 2),
+                     fixed(units::bar_from_Pa(result.point.pressure_difference_Pa), 0),
+                     fixed(units::degC_from_K(result.point.oil_temperature_K), 0),
+                     result.point.opening ? "opening" : "closing");
+}
+
+void show_verdict(HtmlPage& page, const AnalysisVerdict& verdict) {
+  page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(verdict.sentence)));
+  for (const std::string& remark : verdict.remarks) page.html(fmt::format("<li>{}</li>", html_text(remark)));
+  page.html("</ul>\n");
+}
+
+void show_budget(HtmlPage& page, const model::Model& model, const Analysis& analysis) {
+  page.section("Uncertainty budget");
+  page.paragraph(
+      "After JCGM 100 (GUM). Every error is put in where it arises and goes through the sensor's own code. "
+      "Sensitivities "
+      "of the condensed sensor by automatic differentiation, of the observer, which branches on motion, by central "
+      "differences over plus and minus one standard uncertainty.");
+  std::vector<CaptionedChart> shares;
+  for (const Estimator estimator : estimators_of(analysis)) {
+    shares.push_back({share_chart(analysis::mean_shares(analysis.points, estimator), estimator),
+                      fmt::format("The {}: what makes the variance of its flow rate, mean over the working points.",
+                                  sensor_name(estimator))});
+  }
+  page.html(legend_of_kinds);
+  page.html(pair_of(shares));
+  for (const Estimator estimator : estimators_of(analysis)) {
+    const PointResult* const point = middle_point(analysis, estimator);
+    if (point == nullptr) continue;
+    page.subsection(fmt::format("The {} at {}", sensor_name(estimator), place_of(*point)));
+    page.html(figure_of(page.units().of(contribution_chart(*point)),
+                        fmt::format("Contributions to the standard uncertainty of {} L/min at a flow rate of {} L/min; "
+                                    "those below a hundredth of the largest are in the table only.",
+                                    three_digits(units::L_per_min_from_m3_per_s(point->budget.combined_m3_per_s)),
+                                    fixed(units::L_per_min_from_m3_per_s(point->flow_m3_per_s), 1)),
+                        legend_of_kinds));
+    page.table(budget_table(point->budget, page.units()));
+    if (!point->stated.by_budget) {
+      page.note(
+          fmt::format("The trials do not validate this expanded uncertainty: the 95 % interval to state is theirs, "
+                      "{} to {} L/min.",
+                      fixed(units::L_per_min_from_m3_per_s(point->stated.lower), 2),
+                      fixed(units::L_per_min_from_m3_per_s(point->stated.upper), 2)));
+    }
+    for (const validation::Correlation& c : point->budget.correlations) {
+      page.note(fmt::format("Correlated: {} with {}, r = {}: {}.", validation::about(c.one).title,
+                            validation::about(c.other).title, fixed(c.coefficient, 2), c.source));
+    }
+  }
+  page.section("All working points, and the check by Monte Carlo");
+  page.paragraph(fmt::format(
+      "After JCGM 101: all errors drawn from their distributions, {} trials a point through the same code. "
+      "The budget is "
+      "validated where both ends of its 95 % interval lie within half a unit of digit {} of the standard "
+      "uncertainty of those of the trials (clause 8). Where they do not, the interval stated is that of the "
+      "trials, as much probability below it as above: friction of unknown direction is two-valued, and no "
+      "multiple of a standard deviation describes that.",
+      analysis.points.empty() ? 0 : analysis.points.front().check.figures.trials,
+      fixed(analysis.scenario.monte_carlo.digits, 0)));
+  page.table(points_table(analysis.points, model.valve.rated_flow_m3_per_s));
+}
+
+void show_maps(HtmlPage& page, const model::Model& model, const Analysis& analysis) {
+  page.section("Over the operating map");
+  page.paragraph("The budget again in every cell, while the spool passes it.");
+  for (const analysis::OperatingMap& map : analysis.maps) {
+    page.html(operating_map_figures(map, model.valve.rated_flow_m3_per_s, page.units()));
+  }
+}
+
+void show_study(HtmlPage& page, const analysis::Study& study) {
+  page.section("From one valve to the next");
+  page.paragraph(fmt::format(
+      "Global sensitivity (Sobol indices) on the virtual test rig, simulated: {} runs of {} s, a random duty cycle of "
+      "{} "
+      "with other springs, friction, edges, solenoids, oils and instruments in each. The sensor runs with {}, so that "
+      "the "
+      "figures say what a sensor loses that was calibrated on one valve and works in another.",
+      study.runs, three_digits(study.run_s), study.valve,
+      study.given_model ? "the given model" : "the model that calibration makes of the nominal virtual valve"));
+  page.html(legend_of_kinds);
+  for (const std::size_t output : {std::size_t{2}, std::size_t{0}}) page.html(study_figure(study, output));
+}
+
+}  // namespace
+
+void write_analysis_report(std::ostream& out, const model::Model& model, const Analysis& analysis,
+                           const ReaderUnits& units) {
+  HtmlPage page("spoolflow analysis report", "Uncertainty of the flow rate of " + model.valve.name, origin_of(model),
+                units);
+  show_verdict(page, analysis_verdict(model, analysis));
+  show_budget(page, model, analysis);
+  show_maps(page, model, analysis);
+  if (analysis.run) show_run_budget(page, *analysis.run, model.valve.rated_flow_m3_per_s);
+  if (analysis.study) show_study(page, *analysis.study);
+  show_inputs(page, model, {});
+  out << page.str();
+}
+
+}  // namespace spoolflow::report

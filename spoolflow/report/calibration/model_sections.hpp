@@ -1,0 +1,22 @@
+#pragma once
+/// The parts of a page that show a model and what it was made from.
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/report/page/html_page.hpp"
+#include "spoolflow/validation/run_result.hpp"
+
+namespace spoolflow::report {
+
+/// When and by what the model was made; the line below a page's title.
+[[nodiscard]] std::string origin_of(const model::Model& model);
+/// Valve and oil; what was calibrated beside what the runs used.
+void show_valve(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
+/// How well the maps hold on the samples they were made from.
+void show_residuals(HtmlPage& page, const model::Model& model);
+/// Input files with their checksums.
+void show_inputs(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
+/// The measured maps and what averaging removed (paper Figs 5 and 8).
+void show_maps(HtmlPage& page, const model::Model& model);
+/// Where a newton of force error costs much flow, and why.
+void show_blindness(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
+
+}  // namespace spoolflow::report

@@ -1,0 +1,137 @@
+#include "spoolflow/report/calibration/residual_figures.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/fit_residual.hpp"
+#include "spoolflow/report/figures/scaled.hpp"
+#include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using model::MapResidual;
+using model::SolenoidTrace;
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < a.size(); ++k) out.push_back(a[k] - b[k]);
+  return out;
+}
+
+/// How far the force lies from the averaged map, over current: measured, and what the model makes of it.
+CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
+  constexpr std::size_t most_parts = 6;
+  const std::span<const SolenoidTrace> parts(traces.data(), std::min(most_parts, traces.size()));
+  Figure figure{.description = "Magnetic force less the averaged map over coil current, measured and modelled",
+                .x_title = "Coil current [A]"};
+  calibration::FitResidual map_N, model_N;
+  for (const SolenoidTrace& part : parts) {
+    const std::vector<double> measured_N = difference(part.measured_N, part.map_N);
+    const std::vector<double> modelled_N = difference(part.model_N, part.map_N);
+    const bool first = &part == &parts.front();
+    Panel panel{.title = part.test == 0 ? "Force less the averaged map [N]"
+                                        : fmt::format("Part {}: force less the averaged map [N]", part.test),
+                .height_px = 170};
+    panel.marks.push_back({.shape = Shape::dots,
+                           .tone = "condensed",
+                           .name = first ? "measured" : "",
+                           .width_px = 4.5,
+                           .x = part.current_A,
+                           .y = measured_N});
+    panel.marks.push_back({.shape = Shape::dots,
+                           .tone = "observer",
+                           .name = first ? "model with hysteresis and eddy currents" : "",
+                           .width_px = 2.2,
+                           .x = part.current_A,
+                           .y = modelled_N});
+    figure.panels.push_back(std::move(panel));
+    for (std::size_t k = 0; k < measured_N.size(); ++k) {
+      map_N.add(measured_N[k]);
+      model_N.add(measured_N[k] - modelled_N[k]);
+    }
+  }
+  return {
+      std::move(figure),
+      fmt::format("The solenoid at {} mm, armature held: how far the magnetic force lies from the averaged map. The "
+                  "map alone leaves {} N (RMS), the model with hysteresis and eddy currents {} N.",
+                  fixed(units::mm_from_m(parts.front().position_m), 2), three_digits(map_N.rms()),
+                  three_digits(model_N.rms()))};
+}
+
+/// Mean deviations of one family of strokes as lines, RMS in the caption.
+Panel residual_panel(std::string title, const std::vector<const MapResidual*>& family,
+                     const std::function<std::string(const MapResidual&)>& name, bool named) {
+  Panel panel{.title = std::move(title), .height_px = 200};
+  for (std::size_t k = 0; k < family.size(); ++k) {
+    panel.marks.push_back({.ramp = ramp(k, family.size()),
+                           .name = named ? name(*family[k]) : "",
+                           .width_px = 1.2,
+                           .x = scaled(family[k]->position_m, units::millimetre_per_metre),
+                           .y = family[k]->mean_N});
+  }
+  return panel;
+}
+
+double rms_of(const std::vector<MapResidual>& residuals) {
+  calibration::FitResidual all_N;
+  for (const MapResidual& each : residuals)
+    for (const double rms_N : each.rms_N) all_N.add(rms_N);
+  return all_N.rms();
+}
+
+CaptionedFigure magnetic_residual_figure(const std::vector<MapResidual>& residuals) {
+  std::vector<const MapResidual*> family;
+  for (const MapResidual& each : residuals) family.push_back(&each);
+  Figure figure{.description = "What the magnetic force map leaves of the strokes, over position",
+                .x_title = "Position [mm]"};
+  figure.panels.push_back(residual_panel(
+      "Magnetic force less model [N]", family, [](const MapResidual& each) { return fixed(each.held, 2) + " A"; },
+      true));
+  return {
+      std::move(figure),
+      fmt::format("What magnetic force, hysteresis and armature friction leave of the force map's strokes, averaged "
+                  "at each position; single samples deviate by {} N (RMS).",
+                  three_digits(rms_of(residuals)))};
+}
+
+CaptionedFigure axial_residual_figure(const std::vector<MapResidual>& residuals) {
+  std::map<double, std::vector<const MapResidual*>> by_temperature;
+  for (const MapResidual& each : residuals) by_temperature[each.oil_temperature_K].push_back(&each);
+  Figure figure{.description = "What spring, flow force and friction leave of the axial-force strokes, over position",
+                .x_title = "Position [mm]"};
+  for (const auto& [temperature_K, family] : by_temperature) {
+    const std::string warm = temperature_K > 0 ? fixed(units::degC_from_K(temperature_K), 0) + " \u00b0C: " : "";
+    figure.panels.push_back(residual_panel(
+        warm + "axial force less model [N]", family,
+        [](const MapResidual& each) { return three_digits(units::bar_from_Pa(each.held)) + " bar"; },
+        figure.panels.empty()));
+  }
+  return {
+      std::move(figure),
+      fmt::format("What spring, flow force and friction leave of the axial-force strokes, averaged at each position; "
+                  "single samples deviate by {} N (RMS).",
+                  three_digits(rms_of(residuals)))};
+}
+
+}  // namespace
+
+void show_model_against_bench(HtmlPage& page, const model::Model& model) {
+  const model::Evidence& evidence = model.evidence;
+  std::vector<CaptionedFigure> residuals;
+  if (!evidence.axial_force_residuals.empty())
+    residuals.push_back(axial_residual_figure(evidence.axial_force_residuals));
+  if (!evidence.magnetic_force_residuals.empty())
+    residuals.push_back(magnetic_residual_figure(evidence.magnetic_force_residuals));
+  if (residuals.empty() && evidence.solenoid.empty()) return;
+  page.section("The model against the bench");
+  if (!evidence.solenoid.empty()) page.figure(loops_figure(evidence.solenoid));
+  if (!residuals.empty()) page.pair(residuals);
+}
+
+}  // namespace spoolflow::report

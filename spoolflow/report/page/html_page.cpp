@@ -1,0 +1,91 @@
+#include "spoolflow/report/page/html_page.hpp"
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/figures/svg_figure.hpp"
+#include "spoolflow/report/page/page_style.hpp"
+#include "spoolflow/report/text/html_text.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+constexpr Layout wide{1064, 1};
+constexpr Layout narrow{360, 0.85};
+constexpr Layout half{510, 1};
+
+/// The browser itself refuses whatever a page would fetch.
+constexpr const char* nothing_from_outside =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+std::string legend(const CaptionedFigure& figure) {
+  return figure.legend.empty() ? legend_of(figure.figure) : figure.legend;
+}
+
+}  // namespace
+
+HtmlPage::HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units)
+    : kind_(std::move(kind)), title_(std::move(title)), origin_(std::move(origin)), units_(units) {}
+
+void HtmlPage::section(std::string_view heading) {
+  ++sections_;
+  body_ += fmt::format("<h2 id=\"s{}\">{}</h2>\n", sections_, html_text(heading));
+  contents_ += fmt::format("<a href=\"#s{}\">{}</a>", sections_, html_text(heading));
+}
+
+void HtmlPage::subsection(std::string_view heading) {
+  body_ += fmt::format("<h3>{}</h3>\n", html_text(heading));
+}
+
+void HtmlPage::paragraph(std::string_view text) {
+  body_ += fmt::format("<p>{}</p>\n", html_text(text));
+}
+
+void HtmlPage::note(std::string_view text) {
+  body_ += fmt::format("<p class=\"soft\">{}</p>\n", html_text(text));
+}
+
+std::string HtmlPage::caption(const std::string& text) {
+  return fmt::format("<figcaption><b>Figure {}.</b> {}</figcaption>", figures_, html_text(text));
+}
+
+std::string HtmlPage::drawings(const CaptionedFigure& figure, const Layout& layout) const {
+  const Figure drawn = units_.of(figure.figure);
+  return fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>", legend(figure),
+                     svg_of(drawn, layout, fmt::format("f{}w", figures_)),
+                     svg_of(drawn, narrow, fmt::format("f{}n", figures_)));
+}
+
+void HtmlPage::figure(const CaptionedFigure& figure) {
+  ++figures_;
+  const std::string drawing = drawings(figure, wide);
+  if (figure.live.empty()) {
+    body_ += "<figure>" + drawing + caption(figure.caption) + "</figure>\n";
+    return;
+  }
+  body_ += "<figure class=\"run-plots\"><div class=\"static\">" + drawing + "</div>" + caption(figure.caption) +
+           "<script type=\"application/json\">" + figure.live + "</script></figure>\n";
+}
+
+void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
+  body_ += "<div class=\"pair\">";
+  for (const CaptionedFigure& figure : figures) {
+    ++figures_;
+    body_ += "<figure>" + drawings(figure, half) + caption(figure.caption) + "</figure>\n";
+  }
+  body_ += "</div>\n";
+}
+
+std::string HtmlPage::str() const {
+  return fmt::format(
+             "<!doctype html>\n<html lang=\"en\"{6}><head><meta charset=\"utf-8\">"
+             "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
+             "<meta http-equiv=\"Content-Security-Policy\" content=\"{0}\">"
+             "<title>{1}: {2}</title><style>{3}</style></head>\n<body><main>\n"
+             "<header><p class=\"kicker\">{1}</p><h1>{2}</h1><p class=\"kicker\">{4}</p>\n"
+             "<nav aria-label=\"Contents\">{5}</nav></header>\n",
+             nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_,
+             units_.attributes()) +
+         units_.markup(body_) + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
+}
+
+}  // namespace spoolflow::report

@@ -1,0 +1,202 @@
+#include "spoolflow/report/validation/envelope_figures.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/figures/scaled.hpp"
+#include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+/// A range on both axes, in the figure's units.
+struct Box {
+  double x_lowest, x_highest, y_lowest, y_highest;
+
+  [[nodiscard]] bool holds(double x, double y) const {
+    return x >= x_lowest && x <= x_highest && y >= y_lowest && y <= y_highest;
+  }
+};
+
+/// Points that were used, in the figure's units.
+struct Used {
+  std::vector<double> x, y;
+};
+
+Mark shade(double x_from, double x_to, double y_from, double y_to, const char* name = "") {
+  return {Shape::area, "fault", {}, name, "", 0, {x_from, x_to}, {y_from, y_from}, {y_to, y_to}};
+}
+
+Mark dots(Used points, const char* tone, const char* name) {
+  return {Shape::dots, tone, {}, name, "", 2.6, std::move(points.x), std::move(points.y), {}};
+}
+
+/// Points within and beyond a box, and what lies around it as far as the axes reach.
+struct Sides {
+  Used inside, outside;
+  Box axes;
+};
+
+Sides sides_of(const Used& used, const Box& calibrated) {
+  Sides out{{}, {}, calibrated};
+  for (std::size_t k = 0; k < used.x.size(); ++k) {
+    Used& side = calibrated.holds(used.x[k], used.y[k]) ? out.inside : out.outside;
+    side.x.push_back(used.x[k]);
+    side.y.push_back(used.y[k]);
+    out.axes.x_lowest = std::min(out.axes.x_lowest, used.x[k]);
+    out.axes.x_highest = std::max(out.axes.x_highest, used.x[k]);
+    out.axes.y_lowest = std::min(out.axes.y_lowest, used.y[k]);
+    out.axes.y_highest = std::max(out.axes.y_highest, used.y[k]);
+  }
+  const double x_margin = 0.04 * (out.axes.x_highest - out.axes.x_lowest);
+  const double y_margin = 0.06 * (out.axes.y_highest - out.axes.y_lowest);
+  out.axes = {out.axes.x_lowest - x_margin, out.axes.x_highest + x_margin, out.axes.y_lowest - y_margin,
+              out.axes.y_highest + y_margin};
+  return out;
+}
+
+/// What an envelope is called.
+struct Names {
+  std::string description, title, caption;
+};
+
+CaptionedFigure with_points(const Names& names, Panel panel, Sides sides) {
+  panel.lowest = sides.axes.y_lowest;
+  panel.highest = sides.axes.y_highest;
+  panel.marks.push_back(dots(std::move(sides.inside), "ink", "used by the runs"));
+  if (!sides.outside.x.empty()) panel.marks.push_back(dots(std::move(sides.outside), "fault", "used, extrapolated"));
+  return {{.description = names.description,
+           .x_title = "Position [mm]",
+           .x_lowest = sides.axes.x_lowest,
+           .x_highest = sides.axes.x_highest,
+           .panels = {std::move(panel)}},
+          names.caption,
+          {},
+          {}};
+}
+
+CaptionedFigure box_figure(const Names& names, const Used& used, const Box& calibrated) {
+  Sides sides = sides_of(used, calibrated);
+  const Box& axes = sides.axes;
+  Panel panel{.title = names.title, .height_px = 220};
+  panel.marks = {shade(axes.x_lowest, calibrated.x_lowest, axes.y_lowest, axes.y_highest, "not calibrated"),
+                 shade(calibrated.x_highest, axes.x_highest, axes.y_lowest, axes.y_highest),
+                 shade(calibrated.x_lowest, calibrated.x_highest, axes.y_lowest, calibrated.y_lowest),
+                 shade(calibrated.x_lowest, calibrated.x_highest, calibrated.y_highest, axes.y_highest)};
+  return with_points(names, std::move(panel), std::move(sides));
+}
+
+/// A column of all runs' points.
+template <class Point>
+Used used_by(const std::vector<validation::RunResult>& runs, std::vector<Point> validation::RunResult::*points,
+             double Point::*other, double factor) {
+  Used out;
+  for (const validation::RunResult& run : runs) {
+    for (const Point& point : run.*points) {
+      out.x.push_back(units::mm_from_m(point.position_m));
+      out.y.push_back(point.*other * factor);
+    }
+  }
+  return out;
+}
+
+/// Flow over position: calibrated between no flow and the flow at the highest pressure difference of the bench.
+CaptionedFigure flow_figure(const model::Model& model, const Used& used) {
+  const auto& loops = model.evidence.axial_force;
+  const model::AxialForceLoop& highest = *std::max_element(loops.begin(), loops.end(), [](auto& a, auto& b) {
+    return a.pressure_difference_set_Pa < b.pressure_difference_set_Pa;
+  });
+  Mark above{Shape::area, "fault", {}, "above the highest calibrated pressure difference", "", 0, {}, {}, {}};
+  above.x = scaled(highest.position_m, units::millimetre_per_metre);
+  above.y = scaled(highest.flow_m3_per_s, units::litre_per_minute_per_m3_per_s);
+  const double most = above.y.empty() ? 0 : *std::max_element(above.y.begin(), above.y.end());
+  Sides sides = sides_of(used, {above.x.front(), above.x.back(), 0, most});
+  sides.inside = used;
+  sides.outside = {};
+  above.y_upper.assign(above.y.size(), sides.axes.y_highest);
+  Panel panel{.title = "Flow rate [L/min]", .height_px = 220};
+  panel.marks.push_back(std::move(above));
+  return with_points({"Flow rate over position: calibrated and used", "",
+                      fmt::format("Flow rates over position; shaded: above the bench's flow at {} bar.",
+                                  fixed(units::bar_from_Pa(highest.pressure_difference_set_Pa), 0))},
+                     std::move(panel), std::move(sides));
+}
+
+std::optional<Span> calibrated_temperatures_C(const model::Model& model) {
+  const auto C = [](double K) { return K - units::kelvin_at_0_degC; };
+  if (model.observer) {
+    return Span{C(model.observer->oil_temperature_K.lower), C(model.observer->oil_temperature_K.upper), 1};
+  }
+  if (model.condensed.oil_temperature_K) {
+    return Span{C(*model.condensed.oil_temperature_K), C(*model.condensed.oil_temperature_K), 1};
+  }
+  return std::nullopt;
+}
+
+std::optional<CaptionedFigure> temperature_figure(const model::Model& model,
+                                                  const std::vector<validation::RunResult>& runs) {
+  constexpr double near_K = 0.5;  // of noise, that no extrapolation is
+  Panel panel{.title = "Oil temperatures", .height_px = 0};
+  const std::optional<Span> calibrated = calibrated_temperatures_C(model);
+  if (calibrated) panel.rows.push_back({"calibrated", "soft", {*calibrated}});
+  const std::size_t before = panel.rows.size();
+  for (const validation::RunResult& run : runs) {
+    if (!run.oil_temperature_K) continue;
+    const Span used{run.oil_temperature_K->lowest - units::kelvin_at_0_degC,
+                    run.oil_temperature_K->highest - units::kelvin_at_0_degC, 1};
+    const bool outside = calibrated && (used.from < calibrated->from - near_K || used.to > calibrated->to + near_K);
+    panel.rows.push_back({outside ? run.name + ", extrapolated" : run.name, outside ? "fault" : "observer", {used}});
+  }
+  if (panel.rows.size() == before) return std::nullopt;
+  return CaptionedFigure{{.description = "Oil temperatures, calibrated and used",
+                          .x_title = "Oil temperature [\u00b0C]",
+                          .panels = {std::move(panel)}},
+                         "Oil temperatures of the calibration and of the runs.",
+                         {},
+                         {}};
+}
+
+}  // namespace
+
+std::vector<CaptionedFigure> envelope_figures(const model::Model& model,
+                                              const std::vector<validation::RunResult>& runs) {
+  using Run = validation::RunResult;
+  std::vector<CaptionedFigure> out;
+  const model::Condensed& map = model.condensed;
+  const double lowest_mm = units::mm_from_m(map.position_m.lower);
+  const double highest_mm = units::mm_from_m(map.position_m.upper);
+  const Used pressures = used_by(runs, &Run::operating_points, &validation::OperatingPoint::pressure_difference_Pa,
+                                 1 / units::pascal_per_bar);
+  if (!pressures.x.empty()) {
+    out.push_back(box_figure({"Pressure difference over position: calibrated and used", "Pressure difference [bar]",
+                              "Working points against the flow-force map's range; shaded: extrapolation."},
+                             pressures,
+                             {lowest_mm, highest_mm, units::bar_from_Pa(map.pressure_difference_Pa.lower),
+                              units::bar_from_Pa(map.pressure_difference_Pa.upper)}));
+  }
+  const Used flows =
+      used_by(runs, &Run::flow_points, &validation::FlowPoint::flow_m3_per_s, units::litre_per_minute_per_m3_per_s);
+  if (!flows.x.empty() && !model.evidence.axial_force.empty() &&
+      !model.evidence.axial_force.front().position_m.empty()) {
+    out.push_back(flow_figure(model, flows));
+  }
+  const Used currents = used_by(runs, &Run::solenoid_points, &validation::SolenoidPoint::current_A, 1);
+  if (!currents.x.empty()) {
+    out.push_back(box_figure({"Coil current over position: calibrated and used", "Coil current [A]",
+                              "Working points against the magnetic-force map's range; shaded: extrapolation."},
+                             currents, {lowest_mm, highest_mm, map.current_A.lower, map.current_A.upper}));
+  }
+  if (auto temperatures = temperature_figure(model, runs)) out.push_back(std::move(*temperatures));
+  return out;
+}
+
+void show_envelope(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs) {
+  const std::vector<CaptionedFigure> figures = envelope_figures(model, runs);
+  if (figures.empty()) return;
+  page.section("Calibrated and used");
+  page.pair(figures);
+}
+
+}  // namespace spoolflow::report

@@ -1,0 +1,97 @@
+#include "spoolflow/report/validation/requirements_table.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/text/html_text.hpp"
+#include "spoolflow/report/text/number_text.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using validation::JudgedLimit;
+
+std::string figure_text(const JudgedLimit& judged) {
+  const std::string estimator(validation::name(judged.estimator));
+  switch (judged.limit.figure) {
+    case validation::Figure::p95:
+      return fmt::format("95th percentile of the {}'s error", estimator);
+    case validation::Figure::rms:
+      return fmt::format("RMS of the {}'s error", estimator);
+    case validation::Figure::largest:
+      return fmt::format("largest error of the {}", estimator);
+    case validation::Figure::bias:
+      return fmt::format("size of the {}'s mean error", estimator);
+    case validation::Figure::band_mean_width:
+      return fmt::format("mean width of the {}'s 95 % band", estimator);
+    case validation::Figure::band_coverage:
+      return fmt::format("share of the samples inside the {}'s 95 % band", estimator);
+    case validation::Figure::p95_of_reading:
+      return fmt::format("95th percentile of the {}'s error, of reading", estimator);
+    case validation::Figure::fault_share:
+      break;
+  }
+  return fmt::format("share of the samples at which the {} told a fault", estimator);
+}
+
+const char* when_text(validation::When when) {
+  switch (when) {
+    case validation::When::moving:
+      return ", moving";
+    case validation::When::rest:
+      return ", at rest";
+    case validation::When::reversal:
+      return ", around reversal";
+    case validation::When::always:
+      break;
+  }
+  return "";
+}
+
+std::string bounds_text(const validation::Limit& limit) {
+  const std::string unit(name_of(validation::limit_unit_names, limit.unit));
+  if (limit.at_least && limit.at_most) return fmt::format("{:g} to {:g} {}", *limit.at_least, *limit.at_most, unit);
+  if (limit.at_least) return fmt::format("at least {:g} {}", *limit.at_least, unit);
+  return fmt::format("at most {:g} {}", *limit.at_most, unit);
+}
+
+}  // namespace
+
+std::string requirements_sentence(const validation::Validation& validation) {
+  const auto all = validation.limits.size();
+  const auto met = static_cast<std::size_t>(
+      std::count_if(validation.limits.begin(), validation.limits.end(), [](auto& each) { return each.met; }));
+  if (met == all) {
+    return all == 1 ? fmt::format("The limit of {} is met.", validation.requirements_file)
+                    : fmt::format("All {} limits of {} are met.", all, validation.requirements_file);
+  }
+  return fmt::format("{} of {} limits of {} {} not met.", all - met, all, validation.requirements_file,
+                     all - met == 1 ? "is" : "are");
+}
+
+std::string limit_text(const JudgedLimit& judged) {
+  return figure_text(judged) + when_text(judged.limit.when) + ": " + bounds_text(judged.limit);
+}
+
+std::string value_text(const JudgedLimit& judged) {
+  if (!judged.value) return "nothing: no reference flow, or no such samples";
+  return fixed(*judged.value, 2) + " " + std::string(name_of(validation::limit_unit_names, judged.limit.unit));
+}
+
+void show_requirements(HtmlPage& page, const validation::Validation& validation) {
+  if (validation.limits.empty()) return;
+  const bool all = std::all_of(validation.limits.begin(), validation.limits.end(), [](auto& each) { return each.met; });
+  page.html(fmt::format("<p class=\"requirements\"><b class=\"badge {}\">{}</b> {}</p>\n", all ? "pass" : "fail",
+                        all ? "pass" : "fail", html_text(requirements_sentence(validation))));
+  HtmlTable table({{"", Set::text}, {"What was asked", Set::sentence}, {"Run", Set::text}, {"limit"}, {"figure"}});
+  for (const JudgedLimit& judged : validation.limits) {
+    table.row({fmt::format("<b class=\"badge {}\">{}</b>", judged.met ? "pass" : "fail",
+                           judged.met ? "pass" : (judged.value ? "fail" : "not judged")),
+               html_text(figure_text(judged) + when_text(judged.limit.when)), html_text(judged.run),
+               html_text(bounds_text(judged.limit)), judged.value ? html_text(value_text(judged)) : "\u2013"});
+  }
+  page.table(table);
+}
+
+}  // namespace spoolflow::report

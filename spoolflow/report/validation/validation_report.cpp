@@ -1,0 +1,150 @@
+#include "spoolflow/report/validation/validation_report.hpp"
+
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "spoolflow/report/analysis/budget_section.hpp"
+#include "spoolflow/report/calibration/fits_section.hpp"
+#include "spoolflow/report/calibration/model_sections.hpp"
+#include "spoolflow/report/calibration/residual_figures.hpp"
+#include "spoolflow/report/text/html_text.hpp"
+#include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/report/text/sensor_name.hpp"
+#include "spoolflow/report/validation/direction_figures.hpp"
+#include "spoolflow/report/validation/dynamics_figures.hpp"
+#include "spoolflow/report/validation/envelope_figures.hpp"
+#include "spoolflow/report/validation/requirements_table.hpp"
+#include "spoolflow/report/validation/results_table.hpp"
+#include "spoolflow/report/validation/run_figures.hpp"
+#include "spoolflow/report/validation/verdict.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+void show_verdict(HtmlPage& page, const Verdict& verdict) {
+  page.html("<p class=\"verdict\">" + html_text(verdict.sentence) + "</p>\n");
+  if (verdict.limits.empty()) return;
+  page.html("<ul class=\"limits\">");
+  for (const std::string& limit : verdict.limits) page.html("<li>" + html_text(limit) + "</li>");
+  page.html("</ul>\n");
+}
+
+void tile(HtmlPage& page, const std::string& value, const std::string& meaning) {
+  page.html(fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>", html_text(value), html_text(meaning)));
+}
+
+void show_tiles(HtmlPage& page, const validation::Validation& validation, double percent) {
+  const validation::PooledResult& leading = validation.pooled.back();
+  if (!leading.metrics) return;
+  page.html("<div class=\"tiles\">");
+  for (std::size_t e = validation.pooled.size(); e-- > 0;) {
+    const validation::PooledResult& pooled = validation.pooled[e];
+    tile(page, fixed(pooled.metrics->all.error.p95 * percent, 1) + " % FS",
+         fmt::format("95 % of the {}'s errors below, all runs", sensor_name(pooled.estimator)));
+  }
+  tile(page, fixed(leading.metrics->all.error.largest * percent, 0) + " % FS",
+       fmt::format("largest error of the {}", sensor_name(leading.estimator)));
+  tile(page, fixed(100 * leading.metrics->all.band_coverage, 1) + " %",
+       fmt::format("of the samples inside its 95 % band, {} % FS wide on average",
+                   fixed(leading.metrics->all.band_mean_width_m3_per_s * percent, 1)));
+  page.html("</div>\n");
+}
+
+std::string run_facts(const validation::RunResult& run) {
+  const double rate_Hz = run.duration_s > 0 ? static_cast<double>(run.samples - 1) / run.duration_s : 0;
+  std::string out = fmt::format("{} samples over {} s", run.samples, fixed(run.duration_s, 1));
+  if (rate_Hz > 0) out += fmt::format(" ({} Hz)", three_digits(rate_Hz));
+  if (run.missing_values > 0) out += fmt::format("; {} values missing", run.missing_values);
+  if (run.duplicate_times > 0) out += fmt::format("; {} repeated time stamps", run.duplicate_times);
+  if (!run.has_reference) out += "; no reference flow: estimation only";
+  if (run.phases_from_measured_position) {
+    out += "; the commanded position was not recorded: motion and rest are told from the measured one";
+  }
+  if (run.calibrated_with) out += "; also an input of the calibration";
+  return out + ".";
+}
+
+void show_run(HtmlPage& page, const validation::RunResult& run, double full_scale_m3_per_s) {
+  page.section("Run " + run.name);
+  page.note(run_facts(run));
+  if (run.samples == 0) return;
+  page.figure(run_figure(run, full_scale_m3_per_s));
+  std::vector<CaptionedFigure> details;
+  if (run.results.back().worst) details.push_back(worst_moment_figure(run, full_scale_m3_per_s));
+  details.push_back(force_figure(run));
+  page.pair(details);
+  const std::vector<CaptionedFigure> dynamics = dynamics_figures(run);
+  if (!dynamics.empty()) page.pair(dynamics);
+}
+
+void show_definitions(HtmlPage& page, const validation::Validation& validation, double full_scale_m3_per_s) {
+  page.subsection("How the figures are made");
+  page.paragraph(fmt::format(
+      "Error: estimate less reference, sample by sample. Full scale (FS): {} L/min. \u201c95 % of errors below\u201d: "
+      "the "
+      "95th percentile of the errors' magnitudes. Of reading: error over reference, where the reference is above a "
+      "tenth of full scale.",
+      three_digits(units::L_per_min_from_m3_per_s(full_scale_m3_per_s))));
+  page.paragraph(
+      "Moving: commanded faster than 1 % of the stroke a second. At rest: not moving, and more than 1 % open. Around "
+      "reversal: within 2 s of a change of direction, or of a start or stop above half of the stroke.");
+  page.paragraph(fmt::format("The reference meter is taken to lag by {} ms (first order). The estimate was {}.",
+                             fixed(1e3 * validation.reference_lag_s, 0),
+                             validation.reference_lag_applied
+                                 ? "lagged likewise before it was compared"
+                                 : "compared as it is, so that in fast changes the meter's lag counts as error "
+                                   "(--apply-reference-lag takes it out)"));
+}
+
+}  // namespace
+
+void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
+                             const std::vector<ComparedValidation>& others, const ReaderUnits& units) {
+  const double full_scale = model.valve.rated_flow_m3_per_s;
+  HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin_of(model), units);
+  show_verdict(page, verdict(model, validation));
+  show_tiles(page, validation, 100 / full_scale);
+  show_requirements(page, validation);
+  page.table(results_table(validation, full_scale));
+  show_valve(page, model, validation.runs);
+  show_envelope(page, model, validation.runs);
+  show_maps(page, model);
+  for (const validation::RunResult& run : validation.runs) show_run(page, run, full_scale);
+  const std::vector<CaptionedFigure> profiles = profile_figures(validation, full_scale);
+  if (!profiles.empty()) {
+    page.section("Where the errors are");
+    page.pair(profiles);
+    page.pair(direction_and_distribution_figures(validation, full_scale));
+    page.table(direction_table(validation, full_scale));
+  }
+  show_comparison(page, model, validation, others);
+  show_blindness(page, model, validation.runs);
+  budget_section(page, model);
+  page.section("What the sensor said of itself");
+  page.table(status_table(validation));
+  page.section("All figures");
+  const HtmlTable figures = all_figures_table(validation, full_scale);
+  if (!figures.empty()) page.table(figures);
+  show_definitions(page, validation, full_scale);
+  show_residuals(page, model);
+  show_inputs(page, model, validation.runs);
+  out << page.str();
+}
+
+void write_calibration_report(std::ostream& out, const model::Model& model, const ReaderUnits& units) {
+  HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model), units);
+  show_verdict(page, calibration_verdict(model));
+  show_valve(page, model, {});
+  show_residuals(page, model);
+  show_maps(page, model);
+  show_temperatures(page, model);
+  show_model_against_bench(page, model);
+  show_fits(page, model);
+  show_blindness(page, model, {});
+  show_inputs(page, model, {});
+  out << page.str();
+}
+
+}  // namespace spoolflow::report

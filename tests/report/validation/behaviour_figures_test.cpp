@@ -1,0 +1,109 @@
+/// Figures of what the estimate does: envelope, directions, steps, frequencies.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/report/figures/svg_figure.hpp"
+#include "spoolflow/report/validation/direction_figures.hpp"
+#include "spoolflow/report/validation/dynamics_figures.hpp"
+#include "spoolflow/report/validation/envelope_figures.hpp"
+#include "tests/report/markup.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+model::Model calibrated() {
+  model::Model model{};
+  model.valve = {"valve", 80 / 60000.0, 2.4e-3, "b"};
+  model.condensed.position_m = {0, 2.4e-3};
+  model.condensed.current_A = {0, 2.6};
+  model.condensed.pressure_difference_Pa = {5e5, 70e5};
+  model.condensed.oil_temperature_K = 323.15;
+  model.evidence.axial_force = {{70e5, {0, 1.2e-3, 2.4e-3}, {}, {}, {0, 5e-4, 1.3e-3}, {}}};
+  return model;
+}
+
+const Mark* named(const CaptionedFigure& figure, const std::string& name) {
+  for (const Mark& mark : figure.figure.panels.front().marks) {
+    if (mark.name == name) return &mark;
+  }
+  return nullptr;
+}
+
+TEST(EnvelopeFigures, TellExtrapolatedPointsFromCalibratedOnes) {
+  validation::RunResult run;
+  run.operating_points = {{1e-3, 60e5}, {1e-3, 80e5}, {2.5e-3, 20e5}};
+  run.solenoid_points = {{1e-3, 1.0}};
+  run.flow_points = {{1e-3, 2e-4}};
+  run.oil_temperature_K = validation::Extent{320, 340};
+  const std::vector<CaptionedFigure> figures = envelope_figures(calibrated(), {run});
+  ASSERT_EQ(figures.size(), 4U);
+  const Mark* outside = named(figures[0], "used, extrapolated");
+  ASSERT_NE(outside, nullptr);
+  EXPECT_EQ(outside->y.size(), 2U);
+  EXPECT_NEAR(outside->y.front(), 80, 1e-9);
+  EXPECT_EQ(named(figures[0], "used by the runs")->x.size(), 1U);
+  EXPECT_GT(figures[0].figure.panels.front().highest, 80);
+  EXPECT_EQ(named(figures[2], "used, extrapolated"), nullptr);
+  ASSERT_EQ(figures[3].figure.panels.front().rows.size(), 2U);
+  EXPECT_THAT(figures[3].figure.panels.front().rows[1].label, HasSubstr("extrapolated"));
+  for (const CaptionedFigure& figure : figures) EXPECT_EQ(unbalanced_markup(svg_of(figure.figure, {}, "f")), "");
+}
+
+TEST(EnvelopeFigures, OfRunsThatRecordedLittleAreLeftOut) {
+  EXPECT_TRUE(envelope_figures(calibrated(), {}).empty());
+  EXPECT_TRUE(envelope_figures(calibrated(), {validation::RunResult{}}).empty());
+}
+
+TEST(DirectionFigures, NameTheHysteresisAndWhereItIs) {
+  const double full_scale = 1e-3;
+  validation::Validation validation;
+  validation::PooledResult& pooled = validation.pooled.emplace_back();
+  pooled.estimator = validation::Estimator::observer;
+  pooled.direction = validation::DirectionProfile({2.4e-3, full_scale});
+  validation::ErrorProfile profile(1, full_scale);
+  for (int k = 0; k < 2400; ++k) {
+    pooled.direction->add(validation::Direction::opening, 1e-6 * k, 0.02 * full_scale);
+    pooled.direction->add(validation::Direction::closing, 1e-6 * k, k > 2300 ? -0.03 * full_scale : 0.0);
+    profile.add(0.5, 0.02 * full_scale);
+  }
+  pooled.profiles = {profile};
+  const std::vector<CaptionedFigure> figures = direction_and_distribution_figures(validation, full_scale);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_THAT(figures[0].caption, HasSubstr("observer: at most 5.0 % FS, at 2.35 mm"));
+  EXPECT_NEAR(named(figures[0], "observer, opening")->y.front(), 2, 1e-9);
+  EXPECT_NEAR(named(figures[1], "observer")->y.back(), 100, 1e-9);
+  EXPECT_THAT(direction_table(validation, full_scale).str(), HasSubstr("closes"));
+  EXPECT_THAT(direction_table(validation, full_scale).str(), Not(HasSubstr("rests")));
+}
+
+TEST(DynamicsFigures, GiveDelayRiseAndCorner) {
+  validation::RunResult run;
+  EXPECT_TRUE(dynamics_figures(run).empty());
+  run.step_response = validation::StepResponse{3,
+                                               0.044,
+                                               {-0.1, 0, 0.1},
+                                               {0, 0.5, 1},
+                                               {{validation::Estimator::observer, 2, -0.012, 0.06, 0.05, {0, 0.6F, 1}},
+                                                {validation::Estimator::condensed, 0, NAN, NAN, NAN, {}}}};
+  validation::EstimatorResult& result = run.results.emplace_back();
+  result.estimator = validation::Estimator::observer;
+  result.frequency_response = validation::FrequencyResponse{{{0.5, 1, -0.1, 1}, {5, 0.6, -1, 0.9}}, 3.21};
+  const std::vector<CaptionedFigure> figures = dynamics_figures(run);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_THAT(figures[0].caption, HasSubstr("observer: 12 ms before the meter, 60 ms from 10 to 90 %, 5 % overshoot"));
+  EXPECT_THAT(figures[0].caption, HasSubstr("The condensed sensor follows none"));
+  EXPECT_THAT(figures[1].caption, HasSubstr("3 dB at 3.21 Hz"));
+  const std::string drawing = svg_of(figures[1].figure, {}, "f");
+  EXPECT_THAT(drawing, HasSubstr(">0.5<"));
+  EXPECT_THAT(drawing, HasSubstr(">5<"));
+  EXPECT_THAT(drawing, Not(HasSubstr(">100<")));
+  EXPECT_EQ(unbalanced_markup(drawing), "");
+}
+
+}  // namespace
+}  // namespace spoolflow::report

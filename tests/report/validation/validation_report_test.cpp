@@ -1,0 +1,174 @@
+#include "spoolflow/report/validation/validation_report.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "spoolflow/report/json/metrics_json.hpp"
+#include "spoolflow/report/validation/verdict.hpp"
+#include "tests/report/markup.hpp"
+
+namespace spoolflow::report {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double full_scale = 80 / 60000.0;
+
+model::Model small_model() {
+  model::Model model{};
+  model.valve = {"valve <A> & friends", full_scale, 2.4e-3, "b"};
+  model.fluid = {"HLP46", 874.0, 4.6e-5, std::nullopt};
+  model.provenance = {
+      "spoolflow 0.1.0", "2026-01-02T03:04:05Z", {{"spring", "spring.csv", std::string(64, 'a'), 4200}}};
+  model.condensed.current_A = {0, 2.6};
+  model.condensed.position_m = {0, 2.4e-3};
+  model.condensed.pressure_difference_Pa = {5e5, 70e5};
+  model.condensed.oil_temperature_K = 323.15;
+  model.condensed.residuals = {
+      {"magnetic force", "N", 0.07, 0.3}, {"axial force", "N", 0.08, 0.3}, {"flow rate", "m3/s", 1e-6, 4e-6}};
+  model.evidence.magnetic_force = {{0.2, {0, 1e-3, 2e-3}, {1, 2, 2}, {3, 4, 4}},
+                                   {0.4, {0, 1e-3, 2e-3}, {5, 6, 6}, {7, 8, 8}}};
+  model.evidence.axial_force = {
+      {5e5, {0, 1e-3, 2e-3}, {12, 14, 16}, {8, 9, 10}, {0, 1e-4, 2e-4}, {5e5, 5e5, 5e5}},
+      {70e5, {0, 1e-3, 2e-3}, {15, 30, 50}, {9, 22, 40}, {0, 8e-4, 12e-4}, {70e5, 70e5, 70e5}}};
+  model.evidence.sensitivity = {{0, 1e-3, 2e-3}, {5e5, 70e5}, {1e-3, 1e-3, 4e-5, 1e-5, 3e-5, 1e-5}};
+  model.evidence.uniqueness = {1e-4, 2e-4, {}};
+  return model;
+}
+
+/// A run of `samples` that reads 1 L/min too much while moving and `at_rest_L_min` too much at rest.
+validation::Validation one_run(int samples, double at_rest_L_min, bool reference = true) {
+  validation::Validation out;
+  out.reference_lag_s = 0.03;
+  validation::RunResult& run = out.runs.emplace_back();
+  run.name = "run_1";
+  run.file = "run_1.csv";
+  run.sha256 = std::string(64, 'b');
+  run.samples = static_cast<std::uint64_t>(samples);
+  run.duration_s = samples > 1 ? 1e-3 * (samples - 1) : 0;
+  run.has_reference = reference;
+  validation::EstimatorResult& result = run.results.emplace_back();
+  result.estimator = validation::Estimator::condensed;
+  validation::ComparedSamples compared(full_scale);
+  std::vector<validation::ErrorProfile> profiles(4, validation::ErrorProfile(1, full_scale));
+  for (int k = 0; k < samples; ++k) {
+    const bool rest = k % 2 == 0;
+    const double error = (rest ? at_rest_L_min : 1) / 60000;
+    compared.add({5e-4 + error, 4e-4, 6e-4, 5e-4, !rest, rest, false});
+    run.reference_line_m3_per_s.time_s.push_back(1e-3 * k);
+    run.reference_line_m3_per_s.value.push_back(5e-4F);
+    for (auto& profile : profiles) profile.add(k % 5, error);
+  }
+  result.flow_m3_per_s = run.reference_line_m3_per_s;
+  run.position_line_m = run.reference_line_m3_per_s;
+  result.status = {{"closed", "No flow.", false, 0.25, {{0, 0.1, 1}}}};
+  validation::PooledResult& pooled = out.pooled.emplace_back();
+  pooled.estimator = result.estimator;
+  pooled.profiles = profiles;
+  if (!reference) return out;
+  result.profiles = profiles;
+  result.metrics = compared.metrics();
+  pooled.metrics = result.metrics;
+  result.error_m3_per_s = run.reference_line_m3_per_s;
+  result.worst = validation::WorstMoment{};
+  result.worst->flow_m3_per_s.resize(1);
+  return out;
+}
+
+std::string page_of(const validation::Validation& validation) {
+  std::ostringstream out;
+  write_validation_report(out, small_model(), validation);
+  return out.str();
+}
+
+TEST(ValidationReport, IsOneWellFormedPageThatNeedsNoNetwork) {
+  const std::string page = page_of(one_run(1000, 5));
+  EXPECT_EQ(unbalanced_markup(page), "");
+  for (const char* outside : {"http:", "https:", "src=", "@import", "url(//", "<link"}) {
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
+  }
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(page, HasSubstr("valve &lt;A&gt; &amp; friends"));
+  EXPECT_THAT(without_scripts(page), Not(HasSubstr("nan")));
+}
+
+TEST(ValidationReport, NamesWhereItsFiguresComeFrom) {
+  const std::string page = page_of(one_run(1000, 5));
+  EXPECT_THAT(page, HasSubstr(std::string(64, 'a')));
+  EXPECT_THAT(page, HasSubstr(std::string(64, 'b')));
+  EXPECT_THAT(page, HasSubstr("2026-01-02"));
+}
+
+TEST(ValidationReport, OfOneSampleOfNoReferenceAndOfNothingIsStillAPage) {
+  EXPECT_EQ(unbalanced_markup(page_of(one_run(1, 5))), "");
+  EXPECT_EQ(unbalanced_markup(page_of(one_run(0, 5, false))), "");
+  const std::string page = page_of(one_run(1000, 5, false));
+  EXPECT_EQ(unbalanced_markup(page), "");
+  EXPECT_THAT(page, HasSubstr("no reference flow"));
+  EXPECT_THAT(without_scripts(page), Not(HasSubstr("nan")));
+}
+
+TEST(Verdict, GivesTheFigureAndNamesRestWhereRestLimitsIt) {
+  const Verdict said = verdict(small_model(), one_run(1000, 5));
+  EXPECT_THAT(said.sentence, HasSubstr("within 6.2 % of full scale (5.0 L/min)"));
+  ASSERT_FALSE(said.limits.empty());
+  EXPECT_THAT(said.limits.front(), HasSubstr("At rest"));
+  EXPECT_THAT(said.limits, Contains(HasSubstr("95 % band holds 100.0 %")));
+}
+
+TEST(Verdict, DoesNotBlameRestWhereItIsNoWorse) {
+  const Verdict said = verdict(small_model(), one_run(1000, 1));
+  for (const std::string& limit : said.limits) EXPECT_THAT(limit, Not(HasSubstr("At rest")));
+}
+
+TEST(Verdict, WithoutReferenceSaysThatTheErrorCannotBeTold) {
+  EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence, HasSubstr("cannot be told"));
+}
+
+TEST(CalibrationReport, IsOneWellFormedPage) {
+  std::ostringstream out;
+  write_calibration_report(out, small_model());
+  EXPECT_EQ(unbalanced_markup(out.str()), "");
+  EXPECT_THAT(out.str(), HasSubstr("the paper's Fig. 5"));
+  EXPECT_THAT(out.str(), HasSubstr("the paper's Fig. 8"));
+  EXPECT_THAT(out.str(), Not(HasSubstr("The model against the bench")));
+  model::Model measured = small_model();
+  measured.evidence.solenoid = {{1, 1.2e-3, {0, 1, 2}, {0, 11, 20}, {0, 10.5, 20}, {0, 10, 20}}};
+  measured.evidence.axial_force_residuals = {{60e5, 323.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}},
+                                             {60e5, 343.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}}};
+  std::ostringstream with;
+  write_calibration_report(with, measured);
+  EXPECT_EQ(unbalanced_markup(with.str()), "");
+  EXPECT_THAT(with.str(),
+              HasSubstr("The map alone leaves 0.577 N (RMS), the model with hysteresis and eddy currents 0.289 N"));
+  EXPECT_THAT(with.str(), HasSubstr("70 \u00b0C: axial force less model [N]"));
+  model::Model bare = small_model();
+  bare.evidence = {};
+  bare.condensed.residuals.clear();
+  std::ostringstream empty;
+  write_calibration_report(empty, bare);
+  EXPECT_EQ(unbalanced_markup(empty.str()), "");
+}
+
+TEST(MetricsJson, HoldsTheFiguresUnderTheirDocumentedKeys) {
+  std::ostringstream out;
+  write_metrics(out, small_model(), one_run(1000, 5));
+  const auto json = nlohmann::json::parse(out.str());
+  EXPECT_EQ(json.at("version"), 1);
+  const auto& estimator = json.at("runs").at(0).at("estimators").at(0);
+  EXPECT_EQ(estimator.at("estimator"), "condensed");
+  EXPECT_NEAR(estimator.at("error").at("rest").at("p95").at("L_min"), 5, 1e-4);
+  EXPECT_NEAR(estimator.at("error").at("rest").at("p95").at("percent_FS"), 6.25, 1e-4);
+  EXPECT_EQ(estimator.at("error").at("reversal").at("samples"), 0);
+  EXPECT_NEAR(json.at("all_runs").at(0).at("error").at("all").at("band_coverage"), 1.0, 1e-12);
+  EXPECT_EQ(json.at("all_runs").at(0).at("error_over").at("flow_L_min").size(), 5U);
+  EXPECT_DOUBLE_EQ(json.at("runs").at(0).at("estimators").at(0).at("status_share").at("closed"), 0.25);
+}
+
+}  // namespace
+}  // namespace spoolflow::report
