@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/calibration/calibration_error.hpp"
 #include "spoolflow/calibration/condensed.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/recording/reader.hpp"
 

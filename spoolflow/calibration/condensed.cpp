@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/axial_force.hpp"
-#include "spoolflow/calibration/flow_rate.hpp"
-#include "spoolflow/calibration/magnetic_force.hpp"
-#include "spoolflow/calibration/sensitivity.hpp"
-#include "spoolflow/calibration/spring.hpp"
-#include "spoolflow/calibration/uniqueness.hpp"
+#include "spoolflow/calibration/fits/axial_force.hpp"
+#include "spoolflow/calibration/fits/flow_rate.hpp"
+#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/sensitivity.hpp"
+#include "spoolflow/calibration/fits/spring.hpp"
+#include "spoolflow/calibration/fits/uniqueness.hpp"
 
 namespace spoolflow::calibration {
 namespace {

@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/calibration/actuator.hpp"
-#include "spoolflow/calibration/band.hpp"
-#include "spoolflow/calibration/magnetic_force.hpp"
-#include "spoolflow/calibration/map_residuals.hpp"
-#include "spoolflow/calibration/metering_edge.hpp"
-#include "spoolflow/calibration/operation.hpp"
-#include "spoolflow/calibration/position_sensor.hpp"
-#include "spoolflow/calibration/spring.hpp"
+#include "spoolflow/calibration/fits/actuator.hpp"
+#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/map_residuals.hpp"
+#include "spoolflow/calibration/fits/metering_edge.hpp"
+#include "spoolflow/calibration/fits/position_sensor.hpp"
+#include "spoolflow/calibration/fits/spring.hpp"
+#include "spoolflow/calibration/operation/band.hpp"
+#include "spoolflow/calibration/operation/operation.hpp"
 
 namespace spoolflow::calibration {
 namespace {

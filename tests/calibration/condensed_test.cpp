@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/calibration/axial_force.hpp"
-#include "spoolflow/calibration/calibration_error.hpp"
-#include "spoolflow/calibration/flow_rate.hpp"
-#include "spoolflow/calibration/magnetic_force.hpp"
-#include "spoolflow/calibration/spring.hpp"
-#include "spoolflow/calibration/uniqueness.hpp"
+#include "spoolflow/calibration/fits/axial_force.hpp"
+#include "spoolflow/calibration/fits/flow_rate.hpp"
+#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/spring.hpp"
+#include "spoolflow/calibration/fits/uniqueness.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "synthetic_bench.hpp"
 
 namespace spoolflow::calibration {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "public_data.hpp"
-#include "spoolflow/calibration/axial_force.hpp"
+#include "spoolflow/calibration/fits/axial_force.hpp"
 
 namespace spoolflow::calibration {
 namespace {

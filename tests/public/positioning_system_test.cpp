@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "public_data.hpp"
-#include "spoolflow/calibration/sliding_friction.hpp"
+#include "spoolflow/calibration/fits/sliding_friction.hpp"
 
 namespace spoolflow::calibration {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "public_data.hpp"
-#include "spoolflow/calibration/hysteresis_loops.hpp"
+#include "spoolflow/calibration/fits/hysteresis_loops.hpp"
 
 namespace spoolflow::calibration {
 namespace {

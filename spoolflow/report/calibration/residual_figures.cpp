@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/calibration/fit_residual.hpp"
+#include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/report/figures/scaled.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/units/conversion.hpp"

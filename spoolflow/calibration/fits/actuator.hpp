@@ -1,0 +1,35 @@
+#pragma once
+/// The solenoid's whole calibration: flux linkage, hysteresis, eddy currents, armature friction, uncertainty.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/calibration/fits/armature_friction.hpp"
+#include "spoolflow/calibration/fits/flux_linkage.hpp"
+#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/solenoid_dynamics.hpp"
+#include "spoolflow/sensor/actuator.hpp"
+
+namespace spoolflow::calibration {
+
+struct ActuatorFit {
+  sensor::ActuatorParameters<double> actuator;
+  FluxLinkageFit flux_linkage;
+  std::optional<SolenoidDynamicsFit> dynamics;  ///< only with a recording of `solenoid_dynamic`
+  std::optional<LoopWidths> loop_widths;        ///< only without
+  model::Fit friction;                          ///< what is known of the armature's friction
+  std::vector<model::MapResidual> profiles;     ///< of the force map's strokes, over position
+  FitResidual strokes_N;                        ///< of the force map's strokes about map and friction
+};
+
+struct ActuatorRecordings {
+  const recording::Recording& force_map;          ///< protocol `solenoid_force_map`
+  const recording::Recording* dynamic = nullptr;  ///< protocol `solenoid_dynamic`, if there is one
+};
+
+/// Without `solenoid_dynamic` the widths of the force map's loops tell the size of hysteresis, its shape is a stated
+/// default, eddy currents are left out, and the uncertainty is wider.
+[[nodiscard]] ActuatorFit fit_actuator(const ActuatorRecordings& recordings, const MagneticForceFit& map,
+                                       double stroke_m);
+
+}  // namespace spoolflow::calibration

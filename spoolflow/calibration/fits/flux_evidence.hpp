@@ -1,0 +1,25 @@
+#pragma once
+/// What a solenoid's bench recordings tell of the magnetising current before hysteresis and eddy currents are known.
+#include <vector>
+
+#include "spoolflow/calibration/fits/solenoid_samples.hpp"
+#include "spoolflow/sensor/magnetic_force.hpp"
+
+namespace spoolflow::calibration {
+
+/// Samples with the magnetising current [A] at each sample's instant; NaN where it is not known.
+struct FluxEvidence {
+  const SolenoidSamples* samples;
+  std::vector<double> magnetising_current_A;
+};
+
+/// While the armature is held, the load cell tells the magnetising current at any speed: the averaged force map
+/// inverted at that position. Not known where the force is too small to tell.
+[[nodiscard]] FluxEvidence evidence_from_force(const SolenoidSamples& samples,
+                                               const sensor::MagneticForce<double>& magnetic_force);
+
+/// While everything moves slowly, the coil current is the magnetising current but for the static hysteresis, which
+/// strokes both ways average out.
+[[nodiscard]] FluxEvidence evidence_from_current(const SolenoidSamples& samples);
+
+}  // namespace spoolflow::calibration

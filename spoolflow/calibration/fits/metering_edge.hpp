@@ -1,0 +1,25 @@
+#pragma once
+/// Flow force, spool friction and flow over position, pressure difference and oil temperature, for the full sensor.
+#include <vector>
+
+#include "spoolflow/calibration/fits/axial_force.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/sensor/metering_edge.hpp"
+#include "spoolflow/sensor/spring.hpp"
+
+namespace spoolflow::calibration {
+
+struct MeteringEdgeFit {
+  sensor::MeteringEdge<double> edge;
+  double lowest_temperature_K;
+  double highest_temperature_K;
+  std::vector<model::Fit> known;  ///< each map at three quarters of the stroke, as a law of pressure and temperature
+};
+
+/// One fit an oil temperature, any order, positions free of drift. With one temperature the maps do not depend on it;
+/// between temperatures they are interpolated linearly. Levels are interpolated onto equally spaced pressure
+/// differences from zero, where there is neither flow nor flow force and friction is that of the spring recording.
+[[nodiscard]] MeteringEdgeFit fit_metering_edge(std::vector<AxialForceFit> fits, const sensor::Spring<double>& spring,
+                                                const std::vector<double>& unloaded_friction_N);
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,20 @@
+#include "spoolflow/calibration/numerics/definite_matrix.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace spoolflow::calibration {
+
+std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix) {
+  constexpr double flat = 1e-12;
+  if (matrix.size() == 0) return matrix;
+  if (!(matrix.diagonal().minCoeff() > 0)) return std::nullopt;
+  const Eigen::VectorXd scale = matrix.diagonal().unaryExpr([](double d) { return 1 / std::sqrt(d); });
+  const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * matrix * scale.asDiagonal());
+  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > flat)) return std::nullopt;
+  const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
+}  // namespace spoolflow::calibration

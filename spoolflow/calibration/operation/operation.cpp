@@ -1,0 +1,69 @@
+#include "spoolflow/calibration/operation/operation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "spoolflow/calibration/operation/band.hpp"
+#include "spoolflow/calibration/operation/operation_score.hpp"
+#include "spoolflow/calibration/operation/operation_uncertainty.hpp"
+
+namespace spoolflow::calibration {
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
+                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
+                           const std::function<void(double)>& progress) {
+  const std::vector<Dial> all = operation_dials(parameters);
+  scale_band(parameters, 0.7);  // as wide as most valves need, for the search
+  // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
+  const sensor::PressureParameters<double> given_supply = parameters.pressure;
+  constexpr double lively = 0.3;
+  parameters.pressure.least_liveliness = parameters.pressure.first_liveliness = lively;
+  std::vector<double> prior;
+  for (const Dial& dial : all) prior.push_back(*dial.value);
+  // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
+  constexpr double pull = 0.1;
+  const auto cost = [&] {
+    double distance2 = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) distance2 += std::pow(std::log(*all[k].value / prior[k]), 2);
+    return operation_score(parameters, recordings, full_scale_m3_per_s) * (1 + pull * distance2);
+  };
+
+  OperationFit out{};
+  out.score_before = operation_score(parameters, recordings, full_scale_m3_per_s);
+  double best = cost();
+  constexpr int rounds = 20;
+  constexpr double first_step = 1.35;  // as a factor
+  std::vector<double> step(all.size(), first_step);
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      progress((round + static_cast<double>(k) / static_cast<double>(all.size())) / rounds);
+      const double before = *all[k].value;
+      bool better = false;
+      for (const double factor : {step[k], 1 / step[k]}) {
+        *all[k].value = std::clamp(before * factor, all[k].lowest, all[k].highest);
+        const double tried = cost();
+        better = tried < best;
+        if (better) {
+          best = tried;
+          break;
+        }
+        *all[k].value = before;
+      }
+      step[k] = better ? std::min(2.0, 1 + 1.3 * (step[k] - 1)) : 1 + 0.6 * (step[k] - 1);
+    }
+  }
+
+  out.score = operation_score(parameters, recordings, full_scale_m3_per_s);
+  out.known = known_of_operation(parameters, recordings, full_scale_m3_per_s, pull * out.score);
+  parameters.pressure = given_supply;
+  out.force_error_ratio = force_error_ratio(parameters, recordings);
+  scale_band(parameters, out.force_error_ratio);
+  const OperationOutcome outcome =
+      together(replay_stretches(parameters, recordings, std::numeric_limits<double>::infinity()));
+  out.flow_m3_per_s = outcome.error;
+  out.samples = outcome.error.samples;
+  out.band_coverage = static_cast<double>(outcome.inside) / static_cast<double>(std::max<std::size_t>(1, out.samples));
+  return out;
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,33 @@
+#pragma once
+/// What no bench test shows, from recordings of the valve at work with a reference flow: how friction in operation
+/// compares with that on the bench, its growth at rest, the contacts' stiffness, the backlash of the position sensor,
+/// and how wide the band must be. These recordings are then no independent test any more.
+#include <functional>
+#include <vector>
+
+#include "spoolflow/calibration/numerics/fit_residual.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+
+/// How well the observer does on the operating recordings.
+struct OperationFit {
+  double score_before;  ///< see operation_score; both with the supply and the band's scale of the search
+  double score;
+  model::Fit known;           ///< of the parameters that were searched, see operation_uncertainty.hpp
+  FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
+  double force_error_ratio;   ///< see band.hpp; the band is scaled by it
+  double band_coverage;       ///< share of the samples with the reference inside the band
+  std::size_t samples;        ///< that were used: see replay.hpp
+};
+
+/// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
+/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference;
+/// `progress` is told the share done.
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
+                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
+                           const std::function<void(double)>& progress);
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,73 @@
+#include "spoolflow/calibration/operation/operation_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "spoolflow/calibration/operation/replay.hpp"
+
+namespace spoolflow::calibration {
+
+std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters) {
+  sensor::FrictionParameters<double>& friction = parameters.friction;
+  return {
+      {"operation_friction_ratio", &friction.operation_ratio, 0.5, 2.5},
+      {"friction_ageing_ratio", &friction.ageing_ratio, 1.01, 12},
+      {"friction_ageing_s", &friction.ageing_s, 0.1, 20},
+      {"contact_stiffness_N_per_m", &friction.contact_stiffness_N_per_m, 5e5, 5e7},
+      {"friction_tolerance_N", &friction.tolerance_N, 0.3, 2.5},
+      {"breakaway_share", &friction.breakaway_share, 0.05, 0.4},
+      {"band_friction_share", &parameters.band.friction_share, 0.01, 0.2},
+      {"position_backlash_m", &parameters.position_sensor.backlash_m, 5e-8, 4e-6},
+  };
+}
+
+double OperationOutcome::score(double full_scale_m3_per_s) const {
+  if (error.samples == 0) return std::numeric_limits<double>::infinity();
+  return (interval_score / static_cast<double>(error.samples) + weight_of_error * error.rms()) / full_scale_m3_per_s;
+}
+
+std::vector<OperationOutcome> replay_stretches(const sensor::ObserverParameters<double>& parameters,
+                                               const std::vector<const recording::Recording*>& recordings,
+                                               double stretch_s) {
+  constexpr double outside_weight = 2 / 0.05;  // of a 95 % interval
+  std::vector<OperationOutcome> stretches;
+  double ends_s = 0;
+  double before_s = std::numeric_limits<double>::infinity();
+  replay(parameters, recordings, [&](const ReplayedSample& sample) {
+    if (sample.time_s < before_s || sample.time_s >= ends_s) {
+      stretches.emplace_back();
+      ends_s = sample.time_s + stretch_s;
+    }
+    before_s = sample.time_s;
+    OperationOutcome& outcome = stretches.back();
+    const sensor::Estimate<double>& estimate = sample.state.last;
+    const double reference_m3_per_s = sample.reference_m3_per_s;
+    const double outside = std::max(
+        {0.0, estimate.flow_lower_m3_per_s - reference_m3_per_s, reference_m3_per_s - estimate.flow_upper_m3_per_s});
+    outcome.interval_score += estimate.flow_upper_m3_per_s - estimate.flow_lower_m3_per_s + outside_weight * outside;
+    outcome.error.add(estimate.flow_m3_per_s - reference_m3_per_s);
+    if (outside == 0) ++outcome.inside;
+  });
+  return stretches;
+}
+
+OperationOutcome together(const std::vector<OperationOutcome>& stretches) {
+  OperationOutcome out;
+  for (const OperationOutcome& each : stretches) {
+    out.interval_score += each.interval_score;
+    out.inside += each.inside;
+    out.error.sum_of_squares += each.error.sum_of_squares;
+    out.error.largest = std::max(out.error.largest, each.error.largest);
+    out.error.samples += each.error.samples;
+  }
+  return out;
+}
+
+double operation_score(const sensor::ObserverParameters<double>& parameters,
+                       const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s) {
+  constexpr double all_s = std::numeric_limits<double>::infinity();
+  return together(replay_stretches(parameters, recordings, all_s)).score(full_scale_m3_per_s);
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,48 @@
+#pragma once
+/// How well the observer does on operating recordings, and what of it may be turned to do better.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/calibration/numerics/fit_residual.hpp"
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+
+/// A parameter that operation shows, with the range that is searched.
+struct Dial {
+  const char* name;  ///< with its SI unit as suffix
+  double* value;
+  double lowest, highest;
+};
+
+[[nodiscard]] std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters);
+
+/// What the observer answered beside the reference, summed up.
+struct OperationOutcome {
+  double interval_score = 0;  ///< sum [m3/s]
+  FitResidual error;
+  std::size_t inside = 0;
+
+  /// See operation_score.
+  [[nodiscard]] double score(double full_scale_m3_per_s) const;
+};
+
+/// Weight of the RMS error beside the interval score.
+inline constexpr double weight_of_error = 4;
+
+/// In stretches of `stretch_s`, each recording's beginning anew.
+[[nodiscard]] std::vector<OperationOutcome> replay_stretches(const sensor::ObserverParameters<double>& parameters,
+                                                             const std::vector<const recording::Recording*>& recordings,
+                                                             double stretch_s);
+[[nodiscard]] OperationOutcome together(const std::vector<OperationOutcome>& stretches);
+
+/// Mean interval score of the 95 % band (Winkler 1972; Gneiting and Raftery 2007, eq. 43: its width, and 40 times
+/// what the reference lies outside) plus four times the RMS error, as a share of full scale. Small where the estimate
+/// is close and the band as narrow as it may be. Infinite where there is nothing to compare.
+[[nodiscard]] double operation_score(const sensor::ObserverParameters<double>& parameters,
+                                     const std::vector<const recording::Recording*>& recordings,
+                                     double full_scale_m3_per_s);
+
+}  // namespace spoolflow::calibration
