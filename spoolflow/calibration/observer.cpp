@@ -35,8 +35,8 @@ constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 /// Of the supply, which may be any: the same for every valve.
 constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 1e5,
                                                     .resting_drift_Pa_per_sqrt_s = 1e6,
-                                                    .least_liveliness = 0.01,
-                                                    .first_liveliness = 0.05,
+                                                    .least_process_noise = 0.01,
+                                                    .first_process_noise = 0.05,
                                                     .yielding_s = 0.03,
                                                     .force_correlation_s = 2e-3,
                                                     .ratio_deviation = 0.03,

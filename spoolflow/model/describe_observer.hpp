@@ -63,8 +63,8 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
 
   visitor.number("sliding_drift_Pa_per_sqrt_s", parameters.pressure.sliding_drift_Pa_per_sqrt_s, 0.0, 1e9);
   visitor.number("resting_drift_Pa_per_sqrt_s", parameters.pressure.resting_drift_Pa_per_sqrt_s, 0.0, 1e9);
-  visitor.number("least_liveliness", parameters.pressure.least_liveliness, 1e-6, 1.0);
-  visitor.number("first_liveliness", parameters.pressure.first_liveliness, 1e-6, 1.0);
+  visitor.number("least_liveliness", parameters.pressure.least_process_noise, 1e-6, 1.0);
+  visitor.number("first_liveliness", parameters.pressure.first_process_noise, 1e-6, 1.0);
   visitor.number("force_correlation_s", parameters.pressure.force_correlation_s, 1e-6, 10.0);
   visitor.number("friction_ratio_deviation", parameters.pressure.ratio_deviation, 1e-3, 2.0);
   visitor.number("friction_ratio_memory_s", parameters.pressure.ratio_memory_s, 1e-3, 1e6);

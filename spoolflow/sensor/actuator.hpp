@@ -30,30 +30,33 @@ struct ActuatorState {
   CoilResistanceState<T> coil_resistance{};
   T lowest_flux_Wb{};  ///< since the first sample
   T highest_flux_Wb{};
-  Truth<T> started{};
 };
 
 /// What the solenoid answers.
 template <class T>
 struct ActuatorEstimate {
-  T magnetic_force_N{};            ///< opening > 0, without armature friction
-  T uncertainty_N{};               ///< one standard deviation of the magnetic force
-  T friction_half_width_N{};       ///< armature friction while it slides, >= 0; its sign is that of the velocity
-  T force_per_current_N_per_A{};   ///< what an error of the current means for the force
-  T force_per_position_N_per_m{};  ///< what an error of the position means for the force
-  T flux_linkage_Wb{};
-  Truth<T> inside_map{};  ///< current and position lie within what was calibrated
+  T magnetic_force_N{};           ///< opening > 0, without armature friction
+  T uncertainty_N{};              ///< one standard deviation of the magnetic force
+  T friction_half_width_N{};      ///< armature friction while it slides, >= 0; its sign is that of the velocity
+  T force_per_current_N_per_A{};  ///< what an error of the current means for the force
+  Mask<T> inside_map{};           ///< current and position lie within what was calibrated
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
 static_assert(std::is_trivially_copyable_v<ActuatorState<float>>);
 
+/// Keeps the flux linkage's range since the first sample.
+template <class T>
+constexpr void widen_flux_range(ActuatorState<T>& state, Mask<T> begins) {
+  const T flux_Wb = state.coil.hysteresis.flux;
+  state.lowest_flux_Wb = select(begins, flux_Wb, smaller(state.lowest_flux_Wb, flux_Wb));
+  state.highest_flux_Wb = select(begins, flux_Wb, larger(state.highest_flux_Wb, flux_Wb));
+}
+
 /// What the unknown history before the first sample may still mean for the current [A], one standard deviation: a swing
 /// of twice the largest threshold wipes it out.
 template <class T>
-constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, ActuatorState<T>& state) {
-  state.lowest_flux_Wb = smaller(state.lowest_flux_Wb, state.coil.hysteresis.flux);
-  state.highest_flux_Wb = larger(state.highest_flux_Wb, state.coil.hysteresis.flux);
+constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const ActuatorState<T>& state) {
   const T left = T(1) - (state.highest_flux_Wb - state.lowest_flux_Wb) * actuator.per_wiping_flux;
   return larger(left, T(0)) * actuator.coercive_current_A;
 }
@@ -66,18 +69,16 @@ constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<
                     {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
 }
 
-/// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
-/// must be finite; a voltage that is NaN is one that is not measured. Any time step from 50 us to 5 ms.
+/// One sample; `begins` at the first. `position_m` is the position to be believed: faults and drift are removed before.
+/// Current and position must be finite; the voltage is not read. Any time step from 50 us to 5 ms.
 template <class T>
 [[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
-                                                          ActuatorState<T>& state, const Sample<T>& sample) {
+                                                          ActuatorState<T>& state, const Sample<T>& sample,
+                                                          Mask<T> begins) {
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
-  const Truth<T> begins = !state.started;
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
-  state.started = Truth<T>(true);
-  state.lowest_flux_Wb = select(begins, state.coil.hysteresis.flux, state.lowest_flux_Wb);
-  state.highest_flux_Wb = select(begins, state.coil.hysteresis.flux, state.highest_flux_Wb);
+  widen_flux_range(state, begins);
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
@@ -85,13 +86,8 @@ template <class T>
   const T eddy_A = actuator.eddy_uncertainty * (sample.current_A - state.coil.static_current_A);
   const T current_variance_A2 =
       squared(actuator.current_uncertainty_A) + squared(eddy_A) + squared(unknown_memory_A(actuator, state));
-  return {force.value,
-          sqrt(squared(actuator.force_uncertainty_N) + squared(force.row_slope) * current_variance_A2),
-          actuator.friction_N.at(current, position).value,
-          force.row_slope,
-          force.column_slope,
-          state.coil.hysteresis.flux,
-          force.inside};
+  return {force.value, sqrt(squared(actuator.force_uncertainty_N) + squared(force.row_slope) * current_variance_A2),
+          actuator.friction_N.at(current, position).value, force.row_slope, force.inside};
 }
 
 }  // namespace spoolflow::sensor

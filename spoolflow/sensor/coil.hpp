@@ -8,7 +8,12 @@
 
 namespace spoolflow::sensor {
 
+/// Steps towards the magnetising current in each sample; what they leave is taken up by the next.
 inline constexpr int newton_steps = 2;
+/// A step of time [s] is taken for no shorter: the flux rate divides by it.
+inline constexpr double shortest_step_s = 1e-6;
+/// The time [s] in which the coil is taken to have been brought to its first current: no eddy currents are left.
+inline constexpr double slow_magnetisation_s = 1e6;
 
 template <class T>
 struct Coil {
@@ -61,7 +66,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
                                                     const Cell<T>& position, const CoilGuess<T>& guess) {
   const auto& flux_map = coil.flux_linkage.map;
-  const T per_step = T(1) / larger(step.time_step_s, T(1e-6));
+  const T per_step = T(1) / larger(step.time_step_s, T(shortest_step_s));
   const T weight = end_weight(state.time_constant_s * per_step);
   const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
   T current_A = guess.current_A;
@@ -99,7 +104,7 @@ constexpr void demagnetise(CoilState<T>& state) {
 /// to have been demagnetised and then brought to this current slowly. Costs no more than any other step.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
-                                                     const Cell<T>& position, Truth<T> begins) {
+                                                     const Cell<T>& position, Mask<T> begins) {
   const auto& flux_map = coil.flux_linkage.map;
   const T last_A = select(begins, step.current_A, state.magnetising_current_A);
   CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
@@ -111,7 +116,7 @@ template <class T>
     guess.flux.value = select(begins, guess.flux.value, predicted_Wb);
   }
   in_valves(begins, state, [&] { demagnetise(state); });
-  step.time_step_s = select(begins, T(1e6), step.time_step_s);
+  step.time_step_s = select(begins, T(slow_magnetisation_s), step.time_step_s);
   solve_current(coil, state, step, position, guess);
   state.flux_rate_V = select(begins, T(0), state.flux_rate_V);
 }

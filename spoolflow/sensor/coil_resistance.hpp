@@ -5,6 +5,17 @@
 
 namespace spoolflow::sensor {
 
+/// Share of the flux rate that its model may be wrong by: fast changes drive currents in the iron that one stage of
+/// eddy currents tells poorly.
+inline constexpr double flux_rate_error_share = 1.0 / 3;
+/// Variance density of the voltage that is always assumed [V2 s]: the filter divides by it.
+inline constexpr double least_voltage_variance_V2s = 1e-12;
+/// Resistance over the calibrated one that copper can have, at -60 and at 220 degC where it was calibrated at 40.
+inline constexpr double coldest_resistance_ratio = 0.6;
+inline constexpr double warmest_resistance_ratio = 1.7;
+/// How well the resistance must be known, as a share of it, before it is called implausible.
+inline constexpr double known_resistance_share = 0.1;
+
 /// Coil resistance [Ohm], followed while the valve works: the coil warms, copper by 0.39 % per kelvin. It does not
 /// enter the force, which comes from the current (docs/accuracy.md, ablation); it tells of faults of the coil.
 template <class T>
@@ -20,7 +31,7 @@ template <class T>
 struct CoilResistanceState {
   T resistance_Ohm{};
   T variance_Ohm2{};
-  Truth<T> implausible{};  ///< known to better than a tenth, and not what copper can have between -60 and 220 degC
+  Mask<T> implausible{};  ///< known well, and not what copper can have
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
@@ -40,23 +51,21 @@ template <class T>
 constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state,
                                  const CoilEquation<T>& sample) {
   in_valves(is_number(sample.voltage_V) && coil.resistance_Ohm > T(0) && sample.time_step_s > T(0), state, [&] {
-    const Truth<T> begins = state.variance_Ohm2 == T(0);
+    const Mask<T> begins = state.variance_Ohm2 == T(0);
     state.resistance_Ohm = select(begins, coil.resistance_Ohm, state.resistance_Ohm);
     state.variance_Ohm2 = select(begins, squared(coil.uncertainty_Ohm), state.variance_Ohm2);
     state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * sample.time_step_s;
     const T misfit_V = sample.voltage_V - sample.flux_rate_V - state.resistance_Ohm * sample.current_A;
     const T covariance = state.variance_Ohm2 * sample.current_A;
-    // Where the flux changes fast, most of the voltage drives it, and its model may be a third wrong.
-    const T noise2 =
-        squared(coil.voltage_noise_V_root_s) + squared(T(1.0 / 3) * sample.flux_rate_V) * sample.time_step_s + T(1e-12);
+    const T noise2 = squared(coil.voltage_noise_V_root_s) +
+                     squared(T(flux_rate_error_share) * sample.flux_rate_V) * sample.time_step_s +
+                     T(least_voltage_variance_V2s);
     const T gain = covariance * sample.time_step_s / (covariance * sample.current_A * sample.time_step_s + noise2);
     state.resistance_Ohm += gain * misfit_V;
     state.variance_Ohm2 -= gain * covariance;
-    const T coldest = T(0.6);  // resistance over the calibrated one
-    const T warmest = T(1.7);
-    state.implausible =
-        state.variance_Ohm2 < squared(T(0.1) * coil.resistance_Ohm) &&
-        (state.resistance_Ohm < coldest * coil.resistance_Ohm || state.resistance_Ohm > warmest * coil.resistance_Ohm);
+    state.implausible = state.variance_Ohm2 < squared(T(known_resistance_share) * coil.resistance_Ohm) &&
+                        (state.resistance_Ohm < T(coldest_resistance_ratio) * coil.resistance_Ohm ||
+                         state.resistance_Ohm > T(warmest_resistance_ratio) * coil.resistance_Ohm);
   });
 }
 

@@ -59,7 +59,7 @@ constexpr Status why_held(const Sample<T>& sample) {
 
 /// The root of the flow force in cells; `cells2`, its square, is taken to the end of the axis where it lies beyond.
 template <class T>
-constexpr Place<T> find_root(const Truth<T>& closed, T& cells2, typename ScalarTypes<T>::StatusWord& status) {
+constexpr Place<T> find_root(const Mask<T>& closed, T& cells2, typename ScalarTypes<T>::StatusWord& status) {
   constexpr int cells = CondensedLayout::root_cells;
   constexpr Status beyond = Status::outside_flow_force_map;
   if constexpr (one_valve<T>) {
@@ -99,7 +99,7 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
 
   // Flow rate: at a fixed opening nearly linear in the root of the flow force (paper (2)).
   T cells2 = flow_force_N / line(scale, scale_rise);
-  const Truth<T> closed = lies_below(x, valve.closed_below_cells);
+  const Mask<T> closed = lies_below(x, valve.closed_below_cells);
   mark(point.status, closed, Status::closed);
   const Place<T> root = detail::find_root(closed, cells2, point.status);
   const auto by_root = onward(here, root.index * Layout::flow_cell);

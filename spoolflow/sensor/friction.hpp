@@ -29,7 +29,6 @@ struct FrictionState {
   T held_N{};      ///< friction as it was some milliseconds ago
   T earlier_N{};   ///< and some before
   T held_s{};
-  Truth<T> started{};
 };
 
 /// Friction lies between these; > 0 hinders opening.
@@ -41,8 +40,18 @@ struct FrictionInterval {
   T rested_s;     ///< how long it had rested before
 };
 
-/// Of the position that the gauge of pre-sliding reads.
+/// Of the position that the gauge of pre-sliding reads [s].
 inline constexpr double gauge_smoothing_s = 0.03;
+/// Standard deviations of the smoothed position's noise that the gauge takes for no motion.
+inline constexpr double gauge_slack_deviations = 2;
+/// What is left of the contact's stiffness at the limit of sticking, as a share of it.
+inline constexpr double least_stiffness_share = 0.1;
+/// Standard deviations of the gauge by which friction at rest may exceed the sticking limit.
+inline constexpr double sticking_limit_deviations = 2;
+/// The time at rest divides [s].
+inline constexpr double least_rest_s = 1e-9;
+/// A break-away shows in the position so much later [s]: the friction before it is what counts.
+inline constexpr double breakaway_delay_s = 0.004;
 
 /// What bounds friction at this sample.
 template <class T>
@@ -68,7 +77,7 @@ constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& frictio
 template <class T>
 [[gnu::always_inline]] constexpr T gauge_slack_m(const PositionSensor<T>& sensor, T time_step_s) {
   const T smoothing_s = T(gauge_smoothing_s);
-  return T(2) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
+  return T(gauge_slack_deviations) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
 }
 
 /// How far to either side of what the pre-sliding displacement tells friction may lie.
@@ -78,6 +87,71 @@ template <class T>
   return friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
 }
 
+/// To be called before the first sample, with its position: how long the spool has been at rest is not known.
+template <class T>
+constexpr void begin(const FrictionParameters<T>& friction, FrictionState<T>& state, T position_m) {
+  state.smooth_m = state.followed_m = position_m;
+  state.rest_s = friction.ageing_s;
+}
+
+namespace detail {
+
+/// What friction is told by while the spool rests.
+template <class T>
+struct Contact {
+  T apparent_N;  ///< friction that the believed pressure difference leaves
+  T sticking_N;  ///< the most that the contacts hold
+  T holds_N;     ///< the same, by what the gauge may be wrong more
+  T slack_m;     ///< what noise may fake
+  T reach_N;     ///< how far friction may lie from the gauge
+};
+
+/// At rest: friction changes with the pre-sliding displacement. Dahl: stiffness fades towards the limit.
+template <class T>
+[[gnu::always_inline]] constexpr void follow_displacement(const FrictionParameters<T>& friction,
+                                                          FrictionState<T>& state, const Contact<T>& contact,
+                                                          T position_m, T time_step_s) {
+  state.rest_s += time_step_s;
+  const T share =
+      larger(time_step_s / larger(state.rest_s, T(least_rest_s)), time_step_s / (T(gauge_smoothing_s) + time_step_s));
+  state.smooth_m += smaller(share, T(1)) * (position_m - state.smooth_m);
+  const T before_m = state.followed_m;
+  state.followed_m = limited(state.followed_m, state.smooth_m - contact.slack_m, state.smooth_m + contact.slack_m);
+  const T moved_m = state.followed_m - before_m;
+  const T sign = select(moved_m < T(0), T(-1), T(1));
+  const T reserve = limited(T(1) - sign * contact.apparent_N / contact.holds_N, T(least_stiffness_share), T(1));
+  state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
+  // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
+  const T most_N = larger(contact.sticking_N - contact.reach_N, T(0));
+  state.gauge_N = limited(state.gauge_N, -most_N, most_N);
+}
+
+/// In motion: friction is that of sliding, or in a slip what the forces leave; from there the next rest begins.
+template <class T>
+[[gnu::always_inline]] constexpr void follow_motion(FrictionState<T>& state, const Contact<T>& contact, T sliding_N,
+                                                    const PositionPoint<T>& position) {
+  const T direction = select(position.travel_m > T(0), T(1), T(-1));
+  const Mask<T> sliding = !is(position.motion, Motion::transient);
+  const T friction_N =
+      select(sliding, direction * sliding_N, limited(contact.apparent_N, -contact.holds_N, contact.holds_N));
+  state.gauge_N = select(sliding, friction_N - direction * contact.reach_N, friction_N);
+  state.smooth_m = position.position_m;
+  state.followed_m = position.position_m - direction * contact.slack_m;
+  state.rest_s = T(0);
+}
+
+/// Keeps what friction was `breakaway_delay_s` ago and before.
+template <class T>
+[[gnu::always_inline]] constexpr void hold(FrictionState<T>& state, T apparent_N, T time_step_s) {
+  state.held_s += time_step_s;
+  const Mask<T> delayed = state.held_s > T(breakaway_delay_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
+  state.held_s = select(delayed, T(0), state.held_s);
+  state.earlier_N = select(delayed, state.held_N, state.earlier_N);
+  state.held_N = select(delayed, apparent_N, state.held_N);
+}
+
+}  // namespace detail
+
 /// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
 /// while the spool slips it is all there is. Returns where friction may lie at rest.
 template <class T>
@@ -86,50 +160,22 @@ template <class T>
                                                           const PositionSensor<T>& sensor,
                                                           const PositionPoint<T>& position, T apparent_N,
                                                           T time_step_s) {
-  in_valves(!state.started, state, [&] {
-    state.started = Truth<T>(true);
-    state.smooth_m = state.followed_m = position.position_m;
-    state.rest_s = friction.ageing_s;
-  });
-  const T smoothing_s = T(gauge_smoothing_s);
-  const T delay_s = T(0.004);
   const T slack_m = gauge_slack_m(sensor, time_step_s);
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
-  const T holds_N = bounds.sticking_N + T(2) * friction.tolerance_N;
-  T breakaway_N{};
+  const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;
+  const detail::Contact<T> contact{apparent_N, bounds.sticking_N, holds_N, slack_m, reach_N};
   const T rested_s = state.rest_s;
-  const Truth<T> rests = is(position.motion, Motion::rest);
-  in_valves(rests, state, [&] {
-    state.rest_s += time_step_s;
-    const T share = larger(time_step_s / larger(state.rest_s, T(1e-9)), time_step_s / (smoothing_s + time_step_s));
-    state.smooth_m += smaller(share, T(1)) * (position.position_m - state.smooth_m);
-    const T before_m = state.followed_m;
-    state.followed_m = limited(state.followed_m, state.smooth_m - slack_m, state.smooth_m + slack_m);
-    const T moved_m = state.followed_m - before_m;
-    const T sign = select(moved_m < T(0), T(-1), T(1));
-    // Dahl: stiffness fades towards the limit.
-    const T reserve = limited(T(1) - sign * apparent_N / holds_N, T(0.1), T(1));
-    state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
-    // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
-    const T most_N = larger(bounds.sticking_N - reach_N, T(0));
-    state.gauge_N = limited(state.gauge_N, -most_N, most_N);
-  });
+  const Mask<T> rests = is(position.motion, Motion::rest);
+  T breakaway_N{};
+  in_valves(rests, state,
+            [&] { detail::follow_displacement(friction, state, contact, position.position_m, time_step_s); });
   in_valves(!rests, state, [&] {
     const T direction = select(position.travel_m > T(0), T(1), T(-1));
     breakaway_N = select(!rests && rested_s > T(0),
                          direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
-    const Truth<T> sliding = !is(position.motion, Motion::transient);
-    const T friction_N = select(sliding, direction * bounds.sliding_N, limited(apparent_N, -holds_N, holds_N));
-    state.gauge_N = select(sliding, friction_N - direction * reach_N, friction_N);
-    state.smooth_m = position.position_m;
-    state.followed_m = position.position_m - direction * slack_m;
-    state.rest_s = T(0);
+    detail::follow_motion(state, contact, bounds.sliding_N, position);
   });
-  state.held_s += time_step_s;
-  const Truth<T> delayed = state.held_s > delay_s - T(0.5) * time_step_s;  // no matter how the sum rounds
-  state.held_s = select(delayed, T(0), state.held_s);
-  state.earlier_N = select(delayed, state.held_N, state.earlier_N);
-  state.held_N = select(delayed, apparent_N, state.held_N);
+  detail::hold(state, apparent_N, time_step_s);
   return {limited(state.gauge_N - reach_N, -holds_N, holds_N), limited(state.gauge_N + reach_N, -holds_N, holds_N),
           breakaway_N, rested_s};
 }

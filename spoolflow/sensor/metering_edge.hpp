@@ -9,16 +9,20 @@ inline constexpr int edge_temperatures = 3;
 inline constexpr int edge_pressures = 9;
 inline constexpr int edge_positions = 49;
 
+/// No less is taken for the slope of the flow force over the pressure difference [N/Pa]: it divides forces. 1e-8 N/Pa
+/// is 0.06 N at 60 bar, far below what friction leaves to be seen.
+inline constexpr double least_force_per_pressure_N_Pa = 1e-8;
+
 /// What the metering edge does at one opening, pressure difference and oil temperature.
 template <class T>
 struct EdgePoint {
   T flow_force_N;                  ///< steady, closing > 0
-  T flow_force_per_pressure_N_Pa;  ///< its slope over the pressure difference, >= 0
+  T flow_force_per_pressure_N_Pa;  ///< its slope over the pressure difference, at least `least_force_per_pressure_N_Pa`
   T friction_N;                    ///< half width of the spool's friction, >= 0
   T friction_per_pressure_N_Pa;    ///< its slope over the pressure difference
   T conductance;                   ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
-  Truth<T> inside;                 ///< position and pressure difference lie within what was measured
-  Truth<T> temperature_inside;
+  Mask<T> inside;                  ///< position and pressure difference lie within what was measured
+  Mask<T> temperature_inside;
 };
 
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
@@ -46,12 +50,8 @@ struct MeteringEdge {
     const T per_Pa = pressure_difference_Pa.per_spacing;
     const VolumePoint<T> force = flow_force_N.at(layer, row, column, per_Pa);
     const VolumePoint<T> friction = friction_N.at(layer, row, column, per_Pa);
-    return {force.value,
-            larger(force.row_slope, T(0)),
-            friction.value,
-            friction.row_slope,
-            conductance.at(layer, row, column, per_Pa).value,
-            row.inside && column.inside,
+    return {force.value,        larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value,
+            friction.row_slope, conductance.at(layer, row, column, per_Pa).value,          row.inside && column.inside,
             layer.inside};
   }
 };

@@ -5,9 +5,36 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "spoolflow/sensor/sample.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
+
+/// Length of the blocks over which the position is averaged [s]: 20 samples at 10 kHz, 2 at 1 kHz, one at 500 Hz.
+inline constexpr double block_length_s = 2e-3;
+/// Sliding is told from windows of so many blocks, three in a row: short ones at the pace of a duty cycle ...
+inline constexpr int short_window_blocks = 2;
+/// ... which must travel further than so many standard deviations of the noise, ...
+inline constexpr double short_window_deviations = 3;
+/// ... or long ones, of means over four blocks, for a spool that creeps.
+inline constexpr int long_window_blocks = 8;
+inline constexpr double long_window_deviations = 1.5;
+/// Windows travel evenly where the longest is no more than so many times the shortest, and a threshold more.
+inline constexpr double even_travel_ratio = 2;
+/// A slip is faster than this [m/s] ...
+inline constexpr double slip_speed_m_per_s = 0.5e-3;
+/// ... and moves by more than so many standard deviations of the noise; ...
+inline constexpr double slip_deviations = 5;
+/// ... friction and inertia are in motion for so long [s] after it.
+inline constexpr double slip_settling_s = 0.03;
+/// A change of the signal is credible up to so many standard deviations of the noise and this much more [m], besides
+/// what the hardest acceleration allows.
+inline constexpr double credible_jump_deviations = 20;
+inline constexpr double credible_jump_m = 20e-6;
+/// A jump that lasts longer than this [s] is believed.
+inline constexpr double longest_position_fault_s = 0.25;
+/// The size of a travel that tells a direction and nothing else [m].
+inline constexpr double direction_only_m = 1e-6;
 
 /// The valve's position sensor.
 template <class T>
@@ -77,7 +104,7 @@ template <class T>
 struct PositionPoint {
   T position_m;  ///< free of drift and faults
   MotionOf<T> motion;
-  Truth<T> fault;
+  Mask<T> fault;
   T travel_m;  ///< sign of the velocity of what `motion` tells
 };
 
@@ -99,7 +126,7 @@ constexpr MotionOf<T> even_travel(const PositionState<T>& state, const std::arra
   const T newest_m = now - before;
   const T size_m = magnitude(newest_m);
   const MotionOf<T> rest = MotionOf<T>(Motion::rest);
-  Truth<T> even = !(size_m < threshold_m);
+  Mask<T> even = !(size_m < threshold_m);
   if (!any(even)) return rest;
   const T direction = select(newest_m > T(0), T(1), T(-1));
   const T earlier = block(state, ring, 2 * apart);
@@ -110,12 +137,13 @@ constexpr MotionOf<T> even_travel(const PositionState<T>& state, const std::arra
   even = even && oldest_m > T(0) && !(oldest_m < threshold_m);
   if (!any(even)) return rest;
   const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
-  even = even && !(larger(larger(size_m, middle_m), oldest_m) > T(2) * least_m + threshold_m);
+  even = even && !(larger(larger(size_m, middle_m), oldest_m) > T(even_travel_ratio) * least_m + threshold_m);
   return select(even, select(newest_m > T(0), MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
 }
 
+/// Puts the mean of the samples since the last block into the ring.
 template <class T>
-[[gnu::always_inline]] constexpr void close_block(const PositionSensor<T>& sensor, PositionState<T>& state) {
+[[gnu::always_inline]] constexpr void close_block(PositionState<T>& state) {
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
   put_in_ring(state.block_m, state.newest, state.sum_m * state.per_block_samples);
@@ -126,68 +154,108 @@ template <class T>
   state.blocks = select(state.blocks < position_blocks, state.blocks + 1, Index<T>(position_blocks));
   state.sum_m = state.sum_s = T(0);
   state.samples = Index<T>(0);
-  const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);  // of the difference of two blocks
+}
 
+/// Opening or closing where the blocks travel evenly, else rest. `noise_m` is that of the difference of two blocks.
+template <class T>
+[[gnu::always_inline]] constexpr MotionOf<T> even_motion(const PositionState<T>& state, T noise_m) {
   using Motions = MotionOf<T>;
   Motions motion = Motions(Motion::rest);
-  const Truth<T> near = state.blocks > 6;
-  if (any(near)) motion = select(near, even_travel(state, state.block_m, 2, T(3) * noise_m), motion);
-  const Truth<T> far = is(motion, Motion::rest) && state.blocks > 27;
-  if (any(far)) motion = select(far, even_travel(state, state.four_blocks_m, 8, T(1.5) * noise_m), motion);
-  const Truth<T> even = !is(motion, Motion::rest);
-  const Truth<T> uneven = !even && state.blocks > 2;
+  const Mask<T> near = state.blocks > 3 * short_window_blocks;
+  if (any(near)) {
+    motion = select(near, even_travel(state, state.block_m, short_window_blocks, T(short_window_deviations) * noise_m),
+                    motion);
+  }
+  const Mask<T> far = is(motion, Motion::rest) && state.blocks > 3 * long_window_blocks + 3;
+  if (any(far)) {
+    motion = select(
+        far, even_travel(state, state.four_blocks_m, long_window_blocks, T(long_window_deviations) * noise_m), motion);
+  }
+  return motion;
+}
+
+/// What the spool does, after each block.
+template <class T>
+[[gnu::always_inline]] constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
+  const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);
+  const MotionOf<T> motion = even_motion(state, noise_m);
+  const Mask<T> even = !is(motion, Motion::rest);
+  const Mask<T> uneven = !even && state.blocks > short_window_blocks;
   if (any(uneven)) {
-    const T signed_travel_m = block(state, state.block_m, 0) - block(state, state.block_m, 2);
-    // A slip: faster than 0.5 mm/s and beyond five times the noise.
-    const Truth<T> slips =
-        uneven && magnitude(signed_travel_m) > larger(T(0.5e-3) * T(2) * state.block_s, T(5) * noise_m);
-    state.unsettled_s = select(slips, T(0.03), state.unsettled_s);
+    const T signed_travel_m = block(state, state.block_m, 0) - block(state, state.block_m, short_window_blocks);
+    const T slow_m = T(slip_speed_m_per_s) * T(short_window_blocks) * state.block_s;
+    const Mask<T> slips = uneven && magnitude(signed_travel_m) > larger(slow_m, T(slip_deviations) * noise_m);
+    state.unsettled_s = select(slips, T(slip_settling_s), state.unsettled_s);
     state.travel_m = select(slips, signed_travel_m, state.travel_m);
   }
-  state.travel_m = select(even, select(is(motion, Motion::opening), T(1e-6), T(-1e-6)), state.travel_m);
+  const T direction_m = select(is(motion, Motion::opening), T(direction_only_m), T(-direction_only_m));
+  state.travel_m = select(even, direction_m, state.travel_m);
   state.unsettled_s = select(even, T(0), larger(state.unsettled_s - state.block_s, T(0)));
-  const Truth<T> unsettled = state.unsettled_s > T(0.5) * state.block_s;
+  const Mask<T> unsettled = state.unsettled_s > T(0.5) * state.block_s;
+  using Motions = MotionOf<T>;
   state.motion = select(even, motion, select(unsettled, Motions(Motion::transient), Motions(Motion::rest)));
+}
+
+/// The position without acquisition faults: a change beyond what the hardest acceleration allows is taken out of the
+/// signal until the signal jumps back, or for `longest_position_fault_s`, after which the signal is believed.
+template <class T>
+[[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
+                                                  T time_step_s, T position_m) {
+  const T corrected_m = position_m - state.offset_m;
+  const T innovation_m = corrected_m - state.last_m - state.step_m;
+  const T credible_m = T(credible_jump_deviations) * sensor.noise_m + T(credible_jump_m) +
+                       sensor.hardest_acceleration_m_per_s2 * time_step_s * time_step_s;
+  T believed_m = corrected_m;
+  const Mask<T> jumps = magnitude(innovation_m) > credible_m;
+  if (any(jumps)) {
+    const T offset_m = state.offset_m + innovation_m;
+    state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
+    state.fault_s = select(jumps, T(0), state.fault_s);
+    believed_m = select(jumps, position_m - state.offset_m, believed_m);
+  }
+  const Mask<T> faulty = state.offset_m != T(0);
+  if (any(faulty)) {
+    state.fault_s = select(faulty, state.fault_s + time_step_s, state.fault_s);
+    const Mask<T> believes = faulty && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s;
+    state.offset_m = select(believes, T(0), state.offset_m);
+    believed_m = select(believes, position_m, believed_m);
+  }
+  state.step_m = limited(believed_m - state.last_m, -credible_m, credible_m);
+  state.last_m = believed_m;
+  return believed_m;
 }
 
 }  // namespace detail
 
-/// One sample. A change beyond what the hardest acceleration allows is a fault: its jump is taken out of the signal
-/// until the signal jumps back, or for a quarter of a second, after which the signal is believed.
+/// The signal [m] without what the oil temperature [K] does to its zero.
 template <class T>
-[[gnu::always_inline]] constexpr PositionPoint<T> step(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                       T time_step_s, T position_m, T oil_temperature_K) {
-  const T drift_free_m = position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
-  state.last_m = select(state.blocks == 0 && state.samples == 0, drift_free_m, state.last_m);
-  const T corrected_m = drift_free_m - state.offset_m;
-  const T surprise_m = corrected_m - state.last_m - state.step_m;
-  const T credible_m =
-      T(20) * sensor.noise_m + T(20e-6) + sensor.hardest_acceleration_m_per_s2 * time_step_s * time_step_s;
-  T believed_m = corrected_m;
-  const Truth<T> jumps = magnitude(surprise_m) > credible_m;
-  if (any(jumps)) {
-    const T offset_m = state.offset_m + surprise_m;
-    state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
-    state.fault_s = select(jumps, T(0), state.fault_s);
-    believed_m = select(jumps, drift_free_m - state.offset_m, believed_m);
-  }
-  const Truth<T> faulty = state.offset_m != T(0);
-  if (any(faulty)) {
-    state.fault_s = select(faulty, state.fault_s + time_step_s, state.fault_s);
-    const Truth<T> believes = faulty && state.fault_s > T(0.25) + T(0.5) * time_step_s;
-    state.offset_m = select(believes, T(0), state.offset_m);
-    believed_m = select(believes, drift_free_m, believed_m);
-  }
-  state.step_m = limited(believed_m - state.last_m, -credible_m, credible_m);
-  state.last_m = believed_m;
-  state.sum_m += believed_m;
+constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_temperature_K) {
+  return position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
+}
+
+/// To be called before the first sample, with its drift-free position.
+template <class T>
+constexpr void begin(PositionState<T>& state, T position_m) {
+  state.last_m = position_m;
+}
+
+/// One sample.
+template <class T>
+[[gnu::always_inline]] constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
+                                                        const Sample<T>& sample, T oil_temperature_K) {
+  const T time_step_s = sample.time_step_s;
+  const T position_m =
+      detail::without_faults(sensor, state, time_step_s, drift_free_m(sensor, sample.position_m, oil_temperature_K));
+  state.sum_m += position_m;
   state.sum_s += time_step_s;
   state.samples = state.samples + 1;
-  const T block_s = T(2e-3);
   in_valves(
-      state.sum_s > block_s - T(0.5) * time_step_s,
-      state, [&]() __attribute__((always_inline)) { detail::close_block(sensor, state); });
-  return {believed_m, state.motion, state.offset_m != T(0), state.travel_m};
+      state.sum_s > T(block_length_s) - T(0.5) * time_step_s,  // no matter how the sum rounds
+      state, [&]() __attribute__((always_inline)) {
+        detail::close_block(state);
+        detail::tell_motion(sensor, state);
+      });
+  return {position_m, state.motion, state.offset_m != T(0), state.travel_m};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

@@ -2,7 +2,7 @@
 /// The hidden state: the pressure difference over the metering edge. Position is measured, so a flow change that the
 /// spool causes costs no lag; only a pressure change must be found through the forces. Friction in operation over that
 /// on the bench is found with it: a wrong ratio shows as a pressure difference that jumps whenever the spool turns
-/// round.
+/// round. Kalman filter with two states; what a force balance tells them stands in pressure_update.hpp.
 #include <cmath>
 #include <type_traits>
 
@@ -10,13 +10,42 @@
 
 namespace spoolflow::sensor {
 
+/// Belief before the first sample, and its standard deviation, as shares of the highest pressure difference.
+inline constexpr double first_pressure_share = 0.5;
+inline constexpr double first_deviation_share = 0.3;
+/// The standard deviation grows by drift up to this share of the highest pressure difference: more says no more.
+inline constexpr double most_deviation_share = 0.4;
+/// Normalised innovations squared are averaged over so much sliding [s].
+inline constexpr double innovation_averaging_s = 5;
+/// Their average where the band is as wide as its parts tell. Less than 1, since most of what they tell is common to
+/// many samples and taken up by the pressure difference.
+inline constexpr double usual_innovation_squared = 0.3;
+/// The band becomes narrower or wider than its parts tell by no more than these factors.
+inline constexpr double least_band_factor = 0.35;
+inline constexpr double most_band_factor = 2.5;
+/// Innovations beyond so many standard deviations open the variance: the pressure has changed, ...
+inline constexpr double innovation_gate = 3;
+/// ... at this pace [s].
+inline constexpr double gate_opening_s = 0.05;
+/// Friction in operation over that on the bench lies between these; dither may all but free the spool.
+inline constexpr double least_friction_ratio = 0.05;
+inline constexpr double most_friction_ratio = 2.5;
+/// The pressure difference counts as seen where it is known to this share of what the forces' noise makes of it.
+inline constexpr double seen_deviation_share = 0.5;
+/// How fast the process noise follows what an observed change shows, where it is more than thought, and where less.
+inline constexpr double process_noise_rise = 0.8;
+inline constexpr double process_noise_fall = 0.2;
+/// The variance of unobserved changes falls no lower [Pa2]: it would fade into denormal numbers, which some cores are
+/// slow with.
+inline constexpr double least_unobserved_variance_Pa2 = 1;
+
 /// How the pressure difference and the friction ratio are believed to move.
 template <class T>
 struct PressureParameters {
   T sliding_drift_Pa_per_sqrt_s{};  ///< random walk while the spool slides and every newton tells
-  T resting_drift_Pa_per_sqrt_s{};  ///< random walk while nobody sees it, where the supply is at its liveliest
-  T least_liveliness{};             ///< share of that drift where the supply has proved steady, (0, 1]
-  T first_liveliness{};             ///< the same, of a supply of which nothing is known yet
+  T resting_drift_Pa_per_sqrt_s{};  ///< random walk while nobody sees it, of the most restless supply
+  T least_process_noise{};          ///< share of that drift where the supply has proved steady, (0, 1]
+  T first_process_noise{};          ///< share of that drift's variance, of a supply of which nothing is known yet
   T yielding_s{};                   ///< how fast it gives way to a force that friction at rest cannot explain
   T force_correlation_s{};  ///< for how long errors of the forces stay alike: samples within are no new evidence
   T ratio_deviation{};      ///< standard deviation of the friction ratio at any time
@@ -29,30 +58,43 @@ struct PressureState {
   T variance_Pa2{};
   T friction_ratio{};  ///< friction in operation over the bench's
   T ratio_variance{};
-  T covariance_Pa{};  ///< of pressure difference and friction ratio
-  T liveliness{};     ///< variance of unseen changes over that of the resting drift
-  T settled_Pa{};     ///< when last seen
-  T unseen_Pa2{};     ///< variance that has built up since, at full liveliness
-  T doubt_Pa2{};      ///< what of it no force has told of yet
-  T innovation{};     ///< squared over its expected variance, averaged over the last seconds of sliding
+  T covariance_Pa{};            ///< of pressure difference and friction ratio
+  T process_noise{};            ///< variance of unobserved changes over that of the resting drift
+  T observed_Pa{};              ///< when last seen
+  T drift_variance_Pa2{};       ///< of the resting drift since
+  T unobserved_variance_Pa2{};  ///< what of it no force has told of yet
+  T innovation_squared{};       ///< normalised, averaged over the last seconds of sliding
 };
 
-/// The averaged innovation of a sensor whose band is as wide as its parts tell. Less than 1, since most of what they
-/// tell is common to many samples and taken up by the pressure difference.
-inline constexpr double usual_innovation = 0.3;
+static_assert(std::is_trivially_copyable_v<PressureState<float>>);
 
-/// A force balance as a measurement of the pressure difference.
+/// What the force balance leaves unexplained, as a measurement of the pressure difference.
 template <class T>
-struct ForceSurprise {
-  T force_N;         ///< what the believed pressure difference leaves unexplained, > 0 asks for more flow force
+struct ForceInnovation {
+  T force_N;         ///< > 0 asks for more flow force
   T slope_N_per_Pa;  ///< of the force that is explained over pressure difference
   T ratio_slope_N;   ///< of the same over the friction ratio
   T noise_N;         ///< one standard deviation
 };
 
+/// To be called before the first sample. `calibrated_ratio` is the friction ratio to begin with, `unseen_factor` that
+/// of unobserved_change_Pa.
+template <class T>
+constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& state, T highest_Pa, T calibrated_ratio,
+                     T unseen_factor) {
+  state.pressure_difference_Pa = T(first_pressure_share) * highest_Pa;
+  state.variance_Pa2 = squared(T(first_deviation_share) * highest_Pa);
+  state.process_noise = pressure.first_process_noise;
+  state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unseen_factor * pressure.first_process_noise);
+  state.friction_ratio = calibrated_ratio;
+  state.ratio_variance = squared(pressure.ratio_deviation);
+  state.innovation_squared = T(usual_innovation_squared);
+}
+
+/// Prediction while the spool slides.
 template <class T>
 constexpr void drift(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s, T highest_Pa) {
-  state.variance_Pa2 += select(state.variance_Pa2 < squared(T(0.4) * highest_Pa),
+  state.variance_Pa2 += select(state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa),
                                squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s, T(0));
 }
 
@@ -66,130 +108,129 @@ constexpr void forget_ratio(const PressureParameters<T>& pressure, PressureState
   state.ratio_variance += T(2) * share * (squared(pressure.ratio_deviation) - state.ratio_variance);
 }
 
-/// The same while nothing tells: as lively as the supply has shown itself.
+/// Prediction while nothing tells: as restless as the supply has shown itself.
 template <class T>
 constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s,
                             T highest_Pa) {
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
-  state.unseen_Pa2 += variance_Pa2;
-  state.doubt_Pa2 += variance_Pa2;
-  state.variance_Pa2 +=
-      select(state.variance_Pa2 < squared(T(0.4) * highest_Pa), state.liveliness * variance_Pa2, T(0));
+  state.drift_variance_Pa2 += variance_Pa2;
+  state.unobserved_variance_Pa2 += variance_Pa2;
+  state.variance_Pa2 += select(state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa),
+                               state.process_noise * variance_Pa2, T(0));
 }
 
 /// Behind a closed valve the supply may do what it likes, however steady it has been.
 template <class T>
 constexpr void expect_change(const PressureParameters<T>& pressure, PressureState<T>& state) {
-  state.liveliness = larger(state.liveliness, pressure.first_liveliness);
+  state.process_noise = larger(state.process_noise, pressure.first_process_noise);
 }
 
-/// One standard deviation of what the pressure difference may have done unseen [Pa]. In proportion to the liveliness,
-/// not to its root: a lively supply leaps, and leaps are more often large than those of a random walk.
+/// One standard deviation of what the pressure difference may have done unseen [Pa]. In proportion to the process
+/// noise, not to its root: a restless supply leaps, and leaps are more often large than those of a random walk.
 template <class T>
-constexpr T unseen_change_Pa(const PressureState<T>& state, T unseen_factor) {
-  return unseen_factor * state.liveliness * sqrt(state.doubt_Pa2);
+constexpr T unobserved_change_Pa(const PressureState<T>& state, T unseen_factor) {
+  return unseen_factor * state.process_noise * sqrt(state.unobserved_variance_Pa2);
 }
 
-/// The pressure difference is seen again: what it did meanwhile, beyond what the forces' errors make of it, tells how
-/// lively the supply is.
+/// The pressure difference is seen again: what it did meanwhile, beyond what the forces' errors make of it, tells the
+/// process noise.
 template <class T>
-constexpr void learn_liveliness(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
-  in_valves(state.unseen_Pa2 > squared(noise_Pa), state, [&] {
-    const T change2 = squared(state.pressure_difference_Pa - state.settled_Pa);
-    const T shown = smaller((change2 - T(0.25) * squared(noise_Pa)) / state.unseen_Pa2, T(1));
-    const T pace = select(shown > state.liveliness, T(0.8), T(0.2));
-    state.liveliness =
-        limited(state.liveliness + pace * (shown - state.liveliness), squared(pressure.least_liveliness), T(1));
-    state.unseen_Pa2 = T(0);
+constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
+  in_valves(state.drift_variance_Pa2 > squared(noise_Pa), state, [&] {
+    const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
+    const T shown = smaller(
+        (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
+        T(1));
+    const T pace = select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
+    state.process_noise = limited(state.process_noise + pace * (shown - state.process_noise),
+                                  squared(pressure.least_process_noise), T(1));
+    state.drift_variance_Pa2 = T(0);
   });
-  state.settled_Pa = select(state.unseen_Pa2 == T(0), state.pressure_difference_Pa, state.settled_Pa);
+  state.observed_Pa = select(state.drift_variance_Pa2 == T(0), state.pressure_difference_Pa, state.observed_Pa);
 }
 
-/// What a surprise says of the pressure difference, in the sense of Kalman.
+/// Kalman's terms of one innovation.
 template <class T>
-struct Correction {
-  T force_N;          ///< of the surprise
-  T gain_Pa_per_N;    ///< on the pressure difference
-  T covariance_N_Pa;  ///< of surprise and pressure difference
-  T covariance_N;     ///< of surprise and friction ratio
-  T variance_N2;      ///< of the surprise
-  T unseen_share;     ///< of what was believed before, left after it
+struct KalmanUpdate {
+  T innovation_N;
+  T gain_Pa_per_N;       ///< on the pressure difference
+  T covariance_N_Pa;     ///< of innovation and pressure difference
+  T ratio_covariance_N;  ///< of innovation and friction ratio
+  T innovation_variance_N2;
+  T remaining_share;  ///< of what was believed before, left after it
 };
 
-/// A surprise beyond three standard deviations opens the variance at the pace of `time_step_s`: the pressure has
-/// changed.
+/// Weighs an innovation against what is believed. Where its test ratio exceeds 1 the variance is opened at the pace of
+/// `time_step_s`.
 template <class T>
-constexpr Correction<T> correction(PressureState<T>& state, const ForceSurprise<T>& surprise, T noise_N2,
-                                   T time_step_s) {
-  const T slope = surprise.slope_N_per_Pa;
-  T with_pressure = state.variance_Pa2 * slope + state.covariance_Pa * surprise.ratio_slope_N;
-  const T with_ratio = state.covariance_Pa * slope + state.ratio_variance * surprise.ratio_slope_N;
-  T believed2 = slope * with_pressure + surprise.ratio_slope_N * with_ratio;
-  const T excess2 = squared(surprise.force_N) * T(1.0 / 9) - believed2 - squared(surprise.noise_N);
-  const T opening_s = T(0.05);
-  const Truth<T> exceeds = excess2 > T(0);
+constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T>& innovation, T noise_N2,
+                                T time_step_s) {
+  const T slope = innovation.slope_N_per_Pa;
+  T with_pressure = state.variance_Pa2 * slope + state.covariance_Pa * innovation.ratio_slope_N;
+  const T with_ratio = state.covariance_Pa * slope + state.ratio_variance * innovation.ratio_slope_N;
+  T believed2 = slope * with_pressure + innovation.ratio_slope_N * with_ratio;
+  const T excess2 = squared(innovation.force_N) * T(1 / (innovation_gate * innovation_gate)) - believed2 -
+                    squared(innovation.noise_N);
+  const Mask<T> exceeds = excess2 > T(0);
   if (any(exceeds)) {
-    const T opened2 = select(exceeds, excess2 * smaller(time_step_s / opening_s, T(1)), T(0));
+    const T opened2 = select(exceeds, excess2 * smaller(time_step_s / T(gate_opening_s), T(1)), T(0));
     state.variance_Pa2 += opened2 / squared(slope);
     with_pressure += opened2 / slope;
     believed2 += opened2;
   }
   const T variance2 = believed2 + noise_N2;
   const T gain_Pa_per_N = with_pressure / variance2;
-  return {surprise.force_N, gain_Pa_per_N, with_pressure, with_ratio, variance2, T(1) - gain_Pa_per_N * slope};
+  return {innovation.force_N, gain_Pa_per_N, with_pressure, with_ratio, variance2, T(1) - gain_Pa_per_N * slope};
 }
 
 template <class T>
-constexpr void correct_pressure(PressureState<T>& state, const Correction<T>& told) {
-  state.pressure_difference_Pa += told.gain_Pa_per_N * told.force_N;
-  state.variance_Pa2 -= told.gain_Pa_per_N * told.covariance_N_Pa;
-  state.covariance_Pa -= told.gain_Pa_per_N * told.covariance_N;
-  // Not below a pascal: while the spool slides on it would fade into denormal numbers, which some cores are slow with.
-  state.doubt_Pa2 = larger(state.doubt_Pa2 * squared(told.unseen_share), T(1));
+constexpr void correct_pressure(PressureState<T>& state, const KalmanUpdate<T>& update) {
+  state.pressure_difference_Pa += update.gain_Pa_per_N * update.innovation_N;
+  state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
+  state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
+  state.unobserved_variance_Pa2 =
+      larger(state.unobserved_variance_Pa2 * squared(update.remaining_share), T(least_unobserved_variance_Pa2));
+}
+
+template <class T>
+constexpr void correct_ratio(PressureState<T>& state, const KalmanUpdate<T>& update) {
+  const T gain_1_per_N = update.ratio_covariance_N / update.innovation_variance_N2;
+  state.friction_ratio = limited(state.friction_ratio + gain_1_per_N * update.innovation_N, T(least_friction_ratio),
+                                 T(most_friction_ratio));
+  state.ratio_variance -= gain_1_per_N * update.ratio_covariance_N;
 }
 
 /// While the spool slides: Kalman update of pressure difference and friction ratio, no matter how often it is sampled.
 template <class T>
 constexpr void update_sliding(const PressureParameters<T>& pressure, PressureState<T>& state,
-                              const ForceSurprise<T>& surprise, T time_step_s) {
-  const T noise_N2 = squared(surprise.noise_N) * (pressure.force_correlation_s / time_step_s);
-  const T averaging_s = T(5);
-  const T expected_N2 = squared(surprise.slope_N_per_Pa) * state.variance_Pa2 + squared(surprise.noise_N);
-  state.innovation +=
-      (squared(surprise.force_N) / expected_N2 - state.innovation) * smaller(time_step_s / averaging_s, T(1));
-  const Correction<T> told = correction(state, surprise, noise_N2, time_step_s);
-  const T ratio_gain_1_per_N = told.covariance_N / told.variance_N2;
-  const T least = T(0.05);  // dither may all but free the spool
-  const T most = T(2.5);
-  state.friction_ratio = limited(state.friction_ratio + ratio_gain_1_per_N * told.force_N, least, most);
-  state.ratio_variance -= ratio_gain_1_per_N * told.covariance_N;
-  correct_pressure(state, told);
+                              const ForceInnovation<T>& innovation, T time_step_s) {
+  const T noise_N2 = squared(innovation.noise_N) * (pressure.force_correlation_s / time_step_s);
+  const T expected_N2 = squared(innovation.slope_N_per_Pa) * state.variance_Pa2 + squared(innovation.noise_N);
+  state.innovation_squared += (squared(innovation.force_N) / expected_N2 - state.innovation_squared) *
+                              smaller(time_step_s / T(innovation_averaging_s), T(1));
+  const KalmanUpdate<T> update = weigh(state, innovation, noise_N2, time_step_s);
+  correct_ratio(state, update);
+  correct_pressure(state, update);
 }
 
 /// At a break-away: of the pressure difference alone, since stiction says little of sliding friction.
 template <class T>
-constexpr void update_breakaway(PressureState<T>& state, const ForceSurprise<T>& surprise) {
-  correct_pressure(state, correction(state, surprise, squared(surprise.noise_N), T(0)));
+constexpr void update_breakaway(PressureState<T>& state, const ForceInnovation<T>& innovation) {
+  correct_pressure(state, weigh(state, innovation, squared(innovation.noise_N), T(0)));
 }
 
-/// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a
-/// supply that leaps, narrower where every sample confirms the one before.
+/// Whether the pressure difference, at a given friction ratio, is known better than `noise_N` makes of it.
 template <class T>
-constexpr T band_factor(const PressureState<T>& state) {
-  return limited(sqrt(sqrt(state.innovation * (T(1) / T(usual_innovation)))), T(0.35), T(2.5));
-}
-
-/// Whether the pressure difference, at a given friction ratio, is known to better than half of `noise_N`.
-template <class T>
-constexpr Truth<T> settled(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
+constexpr Mask<T> observed(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
   const T variance2 = state.variance_Pa2 * state.ratio_variance - squared(state.covariance_Pa);
-  return squared(slope_N_per_Pa) * variance2 < T(0.25) * squared(noise_N) * state.ratio_variance;
+  return squared(slope_N_per_Pa) * variance2 <
+         T(seen_deviation_share * seen_deviation_share) * squared(noise_N) * state.ratio_variance;
 }
 
 /// Moves the pressure difference by its share in what brings the force back into what friction at rest can explain;
 /// returns the force left to the other explanation, friction.
 template <class T>
-constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state, const ForceSurprise<T>& beyond,
+constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state, const ForceInnovation<T>& beyond,
                   T time_step_s) {
   const T believed2 = squared(beyond.slope_N_per_Pa) * state.variance_Pa2;
   const T share = believed2 / (believed2 + squared(beyond.noise_N));
@@ -197,7 +238,5 @@ constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state
   state.pressure_difference_Pa += share * force_N / beyond.slope_N_per_Pa;
   return (T(1) - share) * force_N;
 }
-
-static_assert(std::is_trivially_copyable_v<PressureState<float>>);
 
 }  // namespace spoolflow::sensor

@@ -18,12 +18,12 @@ template <class T>
 struct ScalarTypes {
   template <int Count>
   using Numbers = std::array<T, Count>;
-  using Truth = bool;
+  using Mask = bool;
   using Index = int;
   using StatusWord = Status;
 };
 template <class T>
-using Truth = typename ScalarTypes<T>::Truth;
+using Mask = typename ScalarTypes<T>::Mask;
 template <class T, int Count>
 using Numbers = typename ScalarTypes<T>::template Numbers<Count>;
 template <class T>
@@ -31,7 +31,7 @@ using Index = typename ScalarTypes<T>::Index;
 
 /// Whether a comparison has one answer, on which the program may branch.
 template <class T>
-inline constexpr bool one_valve = std::same_as<Truth<T>, bool>;
+inline constexpr bool one_valve = std::same_as<Mask<T>, bool>;
 
 /// `condition ? yes : no`, the one place where data decides; a SIMD pack blends instead.
 template <std::floating_point T>
@@ -84,7 +84,7 @@ constexpr bool within(float value, float highest) {
 
 /// Whether value < limit, where neither is below zero; NaN lies below nothing.
 template <class T>
-constexpr Truth<T> lies_below(T value, T limit) {
+constexpr Mask<T> lies_below(T value, T limit) {
   return value < limit;
 }
 /// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
@@ -94,7 +94,7 @@ constexpr bool lies_below(float value, float limit) {
 
 /// Whether value > limit, where neither is above zero; NaN lies above nothing.
 template <class T>
-constexpr Truth<T> lies_above(T value, T limit) {
+constexpr Mask<T> lies_above(T value, T limit) {
   return value > limit;
 }
 constexpr bool lies_above(float value, float limit) {
@@ -146,7 +146,7 @@ constexpr T squared(T value) {
 
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
-constexpr Truth<T> is_number(T value) {
+constexpr Mask<T> is_number(T value) {
   return value > T(-(1 << 30)) && value < T(1 << 30);
 }
 /// The same by the bits without their sign.

@@ -19,7 +19,6 @@ enum class Status : std::uint32_t {
   // faults
   position_fault = 1U << 16,  ///< the position signal moved as no spool can: the last credible position is used
   sample_missing = 1U << 17,  ///< an input is missing: the last answer is held
-  not_calibrated = 1U << 18,  ///< the model lacks what this estimator needs
   time_fault = 1U << 19,      ///< the time does not advance: where it runs backwards the last answer is held
   coil_fault = 1U << 20,      ///< voltage and current give a resistance that no sound coil has
 };
@@ -49,7 +48,7 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit, in the order in which they are listed.
-inline constexpr std::array<StatusName, 11> status_names{{
+inline constexpr std::array<StatusName, 10> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
@@ -58,7 +57,6 @@ inline constexpr std::array<StatusName, 11> status_names{{
     {Status::current_saturated, "current_saturated"},
     {Status::position_fault, "position_fault"},
     {Status::sample_missing, "sample_missing"},
-    {Status::not_calibrated, "not_calibrated"},
     {Status::time_fault, "time_fault"},
     {Status::coil_fault, "coil_fault"},
 }};

@@ -24,7 +24,7 @@ template <class T>
 struct Cell {
   Index<T> index;
   T share;
-  Truth<T> inside;
+  Mask<T> inside;
 };
 
 /// The grid points from one on, to be taken by their distance from it.
@@ -132,7 +132,7 @@ constexpr Place<T> blended_place(T cells) {
 }
 /// Whether such a point lies on the axis but for noise.
 template <int Cells, class T>
-constexpr Truth<T> is_near(T cells) {
+constexpr Mask<T> is_near(T cells) {
   return cells < T(Cells + noise_cells) && cells > T(-noise_cells);
 }
 
@@ -141,7 +141,7 @@ template <class T>
 struct CurvePoint {
   T value;
   T slope;
-  Truth<T> inside;
+  Mask<T> inside;
 };
 
 /// y(x), linear between grid points.
@@ -167,7 +167,7 @@ struct MapPoint {
   T value;
   T row_slope;
   T column_slope;
-  Truth<T> inside;
+  Mask<T> inside;
 };
 
 /// z(row, column), bilinear in each cell.

@@ -130,7 +130,7 @@ std::optional<std::vector<model::TimedSample>> course_to(const model::Model& mod
     sensor::ActuatorState<double> after{};
     for (int pass = 0; pass < 30; ++pass) {
       after = state;
-      const auto answer = sensor::step(valve.actuator, after, {sample_s, current_A, NAN, x, NAN});
+      const auto answer = sensor::step(valve.actuator, after, {sample_s, current_A, NAN, x, NAN}, k == 0);
       const double missing_N = needed_N + direction * ratio * answer.friction_half_width_N - answer.magnetic_force_N;
       if (std::abs(missing_N) < 1e-6) break;
       const double change_A = missing_N / std::max(answer.force_per_current_N_per_A, 5.0);

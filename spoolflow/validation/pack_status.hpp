@@ -17,19 +17,19 @@ struct PackStatus {
 
 /// Which valves have any bit.
 template <class Register, int Count>
-PackTruth<Register, Count> is_any(const PackStatus<Register, Count>& status) {
+PackMask<Register, Count> is_any(const PackStatus<Register, Count>& status) {
   return each_comparison<Register, Count>([&](std::size_t r) { return status.words.lanes[r] != 0; });
 }
 
 template <class Register, int Count>
-PackStatus<Register, Count> when(const PackTruth<Register, Count>& condition, sensor::Status bit) {
+PackStatus<Register, Count> when(const PackMask<Register, Count>& condition, sensor::Status bit) {
   using Index = PackIndex<Register, Count>;
   return {each_register<Index>(
       [&](std::size_t r) { return condition.lanes[r] & typename Index::Integers(static_cast<std::int32_t>(bit)); })};
 }
 
 template <class Register, int Count>
-void mark(PackStatus<Register, Count>& status, const PackTruth<Register, Count>& condition, sensor::Status bit) {
+void mark(PackStatus<Register, Count>& status, const PackMask<Register, Count>& condition, sensor::Status bit) {
   status = status | when(condition, bit);
 }
 

@@ -162,7 +162,7 @@ template <class Register, int Count>
 struct spoolflow::sensor::ScalarTypes<spoolflow::validation::ValvePack<Register, Count>> {
   template <int Size>
   using Numbers = spoolflow::validation::PackTable<Register, Count>;
-  using Truth = spoolflow::validation::PackTruth<Register, Count>;
+  using Mask = spoolflow::validation::PackMask<Register, Count>;
   using Index = spoolflow::validation::PackIndex<Register, Count>;
   using StatusWord = spoolflow::validation::PackStatus<Register, Count>;
 };

@@ -69,11 +69,11 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
   const sensor::Estimate<double>& answer = state.last;
   const double believed_Pa = std::max(0.0, answer.pressure_difference_Pa);
   const auto edge = valve.edge.at(state.oil_temperature_K, believed_Pa, position_m);
-  const double slope_N_per_Pa = std::max(edge.flow_force_per_pressure_N_Pa, 1e-8);
+  const double slope_N_per_Pa = edge.flow_force_per_pressure_N_Pa;
   const double share = valve.band.coverage_factor * deviation_per_half_width(Distribution::normal);
   PressureBelief::Parts parts{
       .deviation_Pa = share * sensor::band_factor(state.pressure) *
-                      sensor::unseen_change_Pa(state.pressure, valve.band.unseen_factor),
+                      sensor::unobserved_change_Pa(state.pressure, valve.band.unseen_factor),
       .below_Pa = unbounded,
       .above_Pa = unbounded,
       .pressure_difference_Pa = believed_Pa,
@@ -81,7 +81,8 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
       .conductance = std::max(0.0, edge.conductance),
   };
   if (!sensor::has(answer.status, sensor::Status::spool_at_rest)) {
-    const double noise_Pa_sqrt_s = state.force_noise_N / slope_N_per_Pa * std::sqrt(valve.pressure.force_correlation_s);
+    const double noise_Pa_sqrt_s =
+        sensor::pressure_deviation_Pa(edge, state.force_noise_N) * std::sqrt(valve.pressure.force_correlation_s);
     parts.deviation_Pa = std::sqrt(parts.deviation_Pa * parts.deviation_Pa +
                                    0.5 * valve.pressure.sliding_drift_Pa_per_sqrt_s * noise_Pa_sqrt_s);
   } else if (!sensor::has(answer.status, sensor::Status::closed)) {
@@ -91,7 +92,8 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
     // The belief's error is (friction - apparent)/slope, friction within the reach of the gauge.
     parts.above_Pa = (state.friction.gauge_N + reach_N - apparent_N) / slope_N_per_Pa;
     parts.below_Pa = (apparent_N - state.friction.gauge_N + reach_N) / slope_N_per_Pa;
-    parts.bounds_Pa = valve.band.tolerance_N * (1 + valve.band.creep_per_s * state.friction.rest_s) / slope_N_per_Pa;
+    parts.bounds_Pa =
+        sensor::pressure_deviation_Pa(edge, sensor::bounds_deviation_N(valve.band, state.friction.rest_s));
   }
   return PressureBelief(parts);
 }

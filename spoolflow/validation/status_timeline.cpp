@@ -54,8 +54,6 @@ const char* meaning(sensor::Status bit) {
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:
       return "An input was missing; the last answer was held.";
-    case Status::not_calibrated:
-      return "The model lacks what this estimator needs; calibrate again with the recordings for it.";
     case Status::time_fault:
       return "The time did not advance; where it ran backwards, the last answer was held. Look at the time stamps.";
     case Status::coil_fault:

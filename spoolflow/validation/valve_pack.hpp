@@ -37,37 +37,37 @@ template <class Pack, class Of>
 
 /// The answers of a comparison: all bits of a valve's number where it holds, none where it does not.
 template <class Register, int Count>
-struct PackTruth {
+struct PackMask {
   using Integers = typename Lanes<Register, Count>::Integers;
   std::array<Integers, Count> lanes{};
 
-  PackTruth() = default;
-  explicit PackTruth(const std::array<Integers, Count>& all) : lanes(all) {}
-  explicit PackTruth(bool value) { lanes.fill(Integers(value ? -1 : 0)); }
+  PackMask() = default;
+  explicit PackMask(const std::array<Integers, Count>& all) : lanes(all) {}
+  explicit PackMask(bool value) { lanes.fill(Integers(value ? -1 : 0)); }
 
-  friend PackTruth operator!(const PackTruth& a) {
-    return each_register<PackTruth>([&](std::size_t r) { return ~a.lanes[r]; });
+  friend PackMask operator!(const PackMask& a) {
+    return each_register<PackMask>([&](std::size_t r) { return ~a.lanes[r]; });
   }
-  friend PackTruth operator&&(const PackTruth& a, const PackTruth& b) {
-    return each_register<PackTruth>([&](std::size_t r) { return a.lanes[r] & b.lanes[r]; });
+  friend PackMask operator&&(const PackMask& a, const PackMask& b) {
+    return each_register<PackMask>([&](std::size_t r) { return a.lanes[r] & b.lanes[r]; });
   }
-  friend PackTruth operator||(const PackTruth& a, const PackTruth& b) {
-    return each_register<PackTruth>([&](std::size_t r) { return a.lanes[r] | b.lanes[r]; });
+  friend PackMask operator||(const PackMask& a, const PackMask& b) {
+    return each_register<PackMask>([&](std::size_t r) { return a.lanes[r] | b.lanes[r]; });
   }
 };
 
 /// `compare(register)` for each register.
 template <class Register, int Count, class Compare>
-[[gnu::always_inline]] inline PackTruth<Register, Count> each_comparison(const Compare& compare) {
+[[gnu::always_inline]] inline PackMask<Register, Count> each_comparison(const Compare& compare) {
   using Integers = typename Lanes<Register, Count>::Integers;
-  return each_register<PackTruth<Register, Count>>([&](std::size_t r) { return std::bit_cast<Integers>(compare(r)); });
+  return each_register<PackMask<Register, Count>>([&](std::size_t r) { return std::bit_cast<Integers>(compare(r)); });
 }
 
 /// Whether it holds for one valve at least.
 template <class Register, int Count>
-bool any(const PackTruth<Register, Count>& truth) {
-  auto joined = truth.lanes[0];
-  for (std::size_t r = 1; r < Count; ++r) joined |= truth.lanes[r];
+bool any(const PackMask<Register, Count>& mask) {
+  auto joined = mask.lanes[0];
+  for (std::size_t r = 1; r < Count; ++r) joined |= mask.lanes[r];
   return any_of(std::bit_cast<typename Register::mask_type>(joined));
 }
 
@@ -75,7 +75,7 @@ bool any(const PackTruth<Register, Count>& truth) {
 template <class Register, int Count>
 struct PackIndex {
   using Integers = typename Lanes<Register, Count>::Integers;
-  using Truth = PackTruth<Register, Count>;
+  using Mask = PackMask<Register, Count>;
   std::array<Integers, Count> lanes{};
 
   PackIndex() = default;
@@ -88,17 +88,17 @@ struct PackIndex {
   friend PackIndex operator&(const PackIndex& a, int b) {
     return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] & Integers(b); });
   }
-  friend Truth operator==(const PackIndex& a, int b) {
+  friend Mask operator==(const PackIndex& a, int b) {
     return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] == Integers(b); });
   }
-  friend Truth operator>(const PackIndex& a, int b) {
+  friend Mask operator>(const PackIndex& a, int b) {
     return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] > Integers(b); });
   }
-  friend Truth operator<(const PackIndex& a, int b) {
+  friend Mask operator<(const PackIndex& a, int b) {
     return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] < Integers(b); });
   }
-  friend Truth is(const PackIndex& motion, sensor::Motion which) { return motion == static_cast<int>(which); }
-  friend PackIndex select(const Truth& condition, const PackIndex& yes, const PackIndex& no) {
+  friend Mask is(const PackIndex& motion, sensor::Motion which) { return motion == static_cast<int>(which); }
+  friend PackIndex select(const Mask& condition, const PackIndex& yes, const PackIndex& no) {
     return each_register<PackIndex>(
         [&](std::size_t r) { return (yes.lanes[r] & condition.lanes[r]) | (no.lanes[r] & ~condition.lanes[r]); });
   }
@@ -113,7 +113,7 @@ struct PackIndex {
 template <class Register, int Count>
 struct ValvePack {
   using Lanes = validation::Lanes<Register, Count>;
-  using Truth = PackTruth<Register, Count>;
+  using Mask = PackMask<Register, Count>;
   using Index = PackIndex<Register, Count>;
   std::array<Register, Count> lanes{};
 
@@ -152,18 +152,18 @@ struct ValvePack {
   }
   ValvePack& operator+=(const ValvePack& b) { return *this = *this + b; }
   ValvePack& operator-=(const ValvePack& b) { return *this = *this - b; }
-  friend Truth operator==(const ValvePack& a, const ValvePack& b) {
+  friend Mask operator==(const ValvePack& a, const ValvePack& b) {
     return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] == b.lanes[r]; });
   }
-  friend Truth operator!=(const ValvePack& a, const ValvePack& b) { return !(a == b); }
-  friend Truth operator<(const ValvePack& a, const ValvePack& b) {
+  friend Mask operator!=(const ValvePack& a, const ValvePack& b) { return !(a == b); }
+  friend Mask operator<(const ValvePack& a, const ValvePack& b) {
     return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] < b.lanes[r]; });
   }
-  friend Truth operator<=(const ValvePack& a, const ValvePack& b) {
+  friend Mask operator<=(const ValvePack& a, const ValvePack& b) {
     return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] <= b.lanes[r]; });
   }
-  friend Truth operator>(const ValvePack& a, const ValvePack& b) { return b < a; }
-  friend Truth operator>=(const ValvePack& a, const ValvePack& b) { return b <= a; }
+  friend Mask operator>(const ValvePack& a, const ValvePack& b) { return b < a; }
+  friend Mask operator>=(const ValvePack& a, const ValvePack& b) { return b <= a; }
 
  private:
   static constexpr simd::element_aligned_tag unaligned{};
@@ -185,7 +185,7 @@ template <class Register, class Integers>
 }
 
 template <class Register, int Count>
-ValvePack<Register, Count> select(const PackTruth<Register, Count>& condition, const ValvePack<Register, Count>& yes,
+ValvePack<Register, Count> select(const PackMask<Register, Count>& condition, const ValvePack<Register, Count>& yes,
                                   const ValvePack<Register, Count>& no) {
   return each_register<ValvePack<Register, Count>>(
       [&](std::size_t r) { return blended(condition.lanes[r], yes.lanes[r], no.lanes[r]); });
@@ -236,7 +236,7 @@ ValvePack<Register, Count> magnitude(const ValvePack<Register, Count>& a) {
 }
 
 template <class Register, int Count>
-PackTruth<Register, Count> is_number(const ValvePack<Register, Count>& a) {
+PackMask<Register, Count> is_number(const ValvePack<Register, Count>& a) {
   return magnitude(a) < ValvePack<Register, Count>(0x1p30F);
 }
 
@@ -250,7 +250,7 @@ PackIndex<Register, Count> table_index(const ValvePack<Register, Count>& value) 
 /// Of `kept`, what belongs to the valves of `condition`, in place of what `out` has. Both are made of packs and nothing
 /// else, a number of 32 bits a valve each.
 template <class Register, int Count, class Packs>
-void keep(const PackTruth<Register, Count>& condition, const Packs& kept, Packs& out) {
+void keep(const PackMask<Register, Count>& condition, const Packs& kept, Packs& out) {
   static_assert(sizeof(Packs) % sizeof(condition) == 0 && std::is_trivially_copyable_v<Packs>);
   for (std::size_t k = 0; k < sizeof(Packs) / sizeof(Register); ++k) {
     Register old, now;
@@ -262,7 +262,7 @@ void keep(const PackTruth<Register, Count>& condition, const Packs& kept, Packs&
 }
 
 template <class Register, int Count, class State, class Body>
-[[gnu::always_inline]] inline void in_valves(const PackTruth<Register, Count>& condition, State& state,
+[[gnu::always_inline]] inline void in_valves(const PackMask<Register, Count>& condition, State& state,
                                              const Body& body) {
   if (!any(condition)) return;
   const State before = state;

@@ -1,17 +1,17 @@
 /// The hidden states, fed with forces whose origin is known.
-#include "spoolflow/sensor/pressure_difference.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "spoolflow/sensor/band.hpp"
 
 namespace spoolflow::sensor {
 namespace {
 
 constexpr PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
                                             .resting_drift_Pa_per_sqrt_s = 1e6,
-                                            .least_liveliness = 0.03,
-                                            .first_liveliness = 0.1,
+                                            .least_process_noise = 0.03,
+                                            .first_process_noise = 0.1,
                                             .yielding_s = 0.03,
                                             .force_correlation_s = 2e-3,
                                             .ratio_deviation = 0.05,
@@ -26,8 +26,8 @@ PressureState<double> begin(double pressure_Pa) {
   state.variance_Pa2 = std::pow(10e5, 2);
   state.friction_ratio = 1;
   state.ratio_variance = std::pow(supply.ratio_deviation, 2);
-  state.liveliness = supply.first_liveliness;
-  state.innovation = usual_innovation;
+  state.process_noise = supply.first_process_noise;
+  state.innovation_squared = usual_innovation_squared;
   return state;
 }
 
@@ -37,9 +37,9 @@ void slide(PressureState<double>& state, double true_Pa, double true_ratio, doub
   for (int k = 0; k * dt_s < duration_s; ++k) {
     drift(supply, state, dt_s, highest_Pa);
     forget_ratio(supply, state, 1.0, dt_s);
-    const double surprise_N = slope_N_per_Pa * (true_Pa - state.pressure_difference_Pa) +
-                              direction * friction_N * (true_ratio - state.friction_ratio);
-    update_sliding(supply, state, {surprise_N, slope_N_per_Pa, direction * friction_N, 0.7}, dt_s);
+    const double innovation_N = slope_N_per_Pa * (true_Pa - state.pressure_difference_Pa) +
+                                direction * friction_N * (true_ratio - state.friction_ratio);
+    update_sliding(supply, state, {innovation_N, slope_N_per_Pa, direction * friction_N, 0.7}, dt_s);
   }
 }
 
@@ -66,9 +66,9 @@ PressureState<double> swung(double amplitude_N) {
   PressureState<double> state = begin(60e5);
   for (int k = 0; k < 10000; ++k) {
     drift(supply, state, 1e-3, highest_Pa);
-    const double surprise_N =
+    const double innovation_N =
         slope_N_per_Pa * (60e5 - state.pressure_difference_Pa) + amplitude_N * std::sin(0.126 * k);
-    update_sliding(supply, state, {surprise_N, slope_N_per_Pa, friction_N, 0.7}, 1e-3);
+    update_sliding(supply, state, {innovation_N, slope_N_per_Pa, friction_N, 0.7}, 1e-3);
   }
   return state;
 }
@@ -117,48 +117,48 @@ TEST(PressureDifference, ForgetsAFrictionRatioThatSlidingNoLongerConfirms) {
   EXPECT_NEAR(state.ratio_variance, std::pow(supply.ratio_deviation, 2), 1e-6);
 }
 
-TEST(Band, ABreakawayTakesDoubtAboutUnseenChangesAway) {
+TEST(Band, ABreakawayTakesTheVarianceOfUnseenChangesAway) {
   PressureState<double> state = begin(60e5);
   for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
-  const double before_Pa = unseen_change_Pa(state, 4.0);
+  const double before_Pa = unobserved_change_Pa(state, 4.0);
   update_breakaway(state, {0.0, slope_N_per_Pa, friction_N, 0.7});
-  EXPECT_LT(unseen_change_Pa(state, 4.0), 0.5 * before_Pa);
+  EXPECT_LT(unobserved_change_Pa(state, 4.0), 0.5 * before_Pa);
 }
 
 TEST(Band, TakesUnseenChangesForLargeWhereTheSupplyHasProvedLively) {
   PressureState<double> state = begin(60e5);
   for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
-  state.liveliness = 0.01;
-  const double steady_Pa = unseen_change_Pa(state, 4.0);
-  state.liveliness = 0.5;
-  EXPECT_NEAR(unseen_change_Pa(state, 4.0), 50 * steady_Pa, 1e-6 * steady_Pa);
+  state.process_noise = 0.01;
+  const double steady_Pa = unobserved_change_Pa(state, 4.0);
+  state.process_noise = 0.5;
+  EXPECT_NEAR(unobserved_change_Pa(state, 4.0), 50 * steady_Pa, 1e-6 * steady_Pa);
 }
 
 TEST(PressureDifference, IsNotTakenForLivelyByWhatTheForcesErrorsMakeOfIt) {
   PressureState<double> state = begin(60e5);
   const double noise_Pa = 1e5;
-  state.settled_Pa = 60e5 - 0.4 * noise_Pa;
-  state.unseen_Pa2 = 1.1 * noise_Pa * noise_Pa;
-  learn_liveliness(supply, state, noise_Pa);
-  EXPECT_LT(state.liveliness, supply.first_liveliness);
-  state.settled_Pa = state.pressure_difference_Pa - 20 * noise_Pa;
-  state.unseen_Pa2 = 400 * noise_Pa * noise_Pa;
-  learn_liveliness(supply, state, noise_Pa);
-  EXPECT_GT(state.liveliness, 0.5);
+  state.observed_Pa = 60e5 - 0.4 * noise_Pa;
+  state.drift_variance_Pa2 = 1.1 * noise_Pa * noise_Pa;
+  learn_process_noise(supply, state, noise_Pa);
+  EXPECT_LT(state.process_noise, supply.first_process_noise);
+  state.observed_Pa = state.pressure_difference_Pa - 20 * noise_Pa;
+  state.drift_variance_Pa2 = 400 * noise_Pa * noise_Pa;
+  learn_process_noise(supply, state, noise_Pa);
+  EXPECT_GT(state.process_noise, 0.5);
 }
 
 TEST(PressureDifference, MayDoWhatItLikesBehindAClosedValve) {
   PressureState<double> state = begin(60e5);
-  state.liveliness = 1e-4;
+  state.process_noise = 1e-4;
   expect_change(supply, state);
-  EXPECT_DOUBLE_EQ(state.liveliness, supply.first_liveliness);
+  EXPECT_DOUBLE_EQ(state.process_noise, supply.first_process_noise);
 }
 
 TEST(PressureDifference, GrowsUncertainAtRestAsFastAsTheSupplyHasProvedLively) {
   PressureState<double> steady = begin(60e5);
   PressureState<double> lively = steady;
-  steady.liveliness = 0.001;
-  lively.liveliness = 1;
+  steady.process_noise = 0.001;
+  lively.process_noise = 1;
   for (int k = 0; k < 500; ++k) {
     drift_unseen(supply, steady, 1e-3, highest_Pa);
     drift_unseen(supply, lively, 1e-3, highest_Pa);

@@ -13,8 +13,7 @@ void fit_uncertainty(sensor::ActuatorParameters<double>& actuator, const Solenoi
   NormalEquations equations{Eigen::MatrixXd::Zero(3, 3), Eigen::VectorXd::Zero(3)};
   sensor::ActuatorState<double> state;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (samples.restarts[k] != 0) state = {};
-    const auto estimate = sensor::step(actuator, state, samples.samples[k]);
+    const auto estimate = sensor::step(actuator, state, samples.samples[k], samples.restarts[k] != 0);
     const double slope = estimate.force_per_current_N_per_A;
     const double eddy_A = samples.samples[k].current_A - state.coil.static_current_A;
     const double deviation_N = estimate.magnetic_force_N - samples.force_N[k];

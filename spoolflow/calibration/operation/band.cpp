@@ -17,8 +17,7 @@ double force_error_ratio(const sensor::ObserverParameters<double>& parameters,
     const double pressure_Pa = std::max(1e5, state.pressure.pressure_difference_Pa);
     const sensor::EdgePoint<double> edge = parameters.edge.at(state.oil_temperature_K, pressure_Pa, position_m);
     const double flow_per_pressure = edge.conductance / (2 * std::sqrt(pressure_Pa));
-    const double deviation_m3_per_s =
-        flow_per_pressure * state.force_noise_N / std::max(edge.flow_force_per_pressure_N_Pa, 1e-8);
+    const double deviation_m3_per_s = flow_per_pressure * state.force_noise_N / edge.flow_force_per_pressure_N_Pa;
     const double error = (reference_m3_per_s - state.metered_m3_per_s) /
                          std::hypot(deviation_m3_per_s, 2 * parameters.band.flow_residual_m3_per_s);
     sum += error * error;

@@ -16,8 +16,8 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   scale_band(parameters, 0.7);  // as wide as most valves need, for the search
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
   const sensor::PressureParameters<double> given_supply = parameters.pressure;
-  constexpr double lively = 0.3;
-  parameters.pressure.least_liveliness = parameters.pressure.first_liveliness = lively;
+  constexpr double restless = 0.3;
+  parameters.pressure.least_process_noise = parameters.pressure.first_process_noise = restless;
   std::vector<double> prior;
   for (const Dial& dial : all) prior.push_back(*dial.value);
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.

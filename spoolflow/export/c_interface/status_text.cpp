@@ -21,7 +21,6 @@ static_assert(same(SPOOLFLOW_STATUS_OUTSIDE_TEMPERATURE, Status::outside_tempera
 static_assert(same(SPOOLFLOW_STATUS_CURRENT_SATURATED, Status::current_saturated));
 static_assert(same(SPOOLFLOW_STATUS_POSITION_FAULT, Status::position_fault));
 static_assert(same(SPOOLFLOW_STATUS_SAMPLE_MISSING, Status::sample_missing));
-static_assert(same(SPOOLFLOW_STATUS_NOT_CALIBRATED, Status::not_calibrated));
 static_assert(same(SPOOLFLOW_STATUS_TIME_FAULT, Status::time_fault));
 static_assert(same(SPOOLFLOW_STATUS_COIL_FAULT, Status::coil_fault));
 static_assert(SPOOLFLOW_STATUS_FAULTS == spoolflow::sensor::fault_bits);

@@ -1,0 +1,62 @@
+#pragma once
+/// Parameters and state of the observer (observer.hpp), whose stages each read a part of them.
+#include <type_traits>
+
+#include "spoolflow/sensor/actuator.hpp"
+#include "spoolflow/sensor/friction.hpp"
+#include "spoolflow/sensor/metering_edge.hpp"
+#include "spoolflow/sensor/position_track.hpp"
+#include "spoolflow/sensor/pressure_difference.hpp"
+#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/spring.hpp"
+
+namespace spoolflow::sensor {
+
+/// How sure the observer may be, beyond what its parts tell; see band.hpp.
+template <class T>
+struct BandParameters {
+  T friction_share{};    ///< standard deviation of sliding friction about its map, as a share of it
+  T force_residual_N{};  ///< standard deviation of all maps together
+  T flow_residual_m3_per_s{};
+  T coverage_factor{};  ///< standard deviations in the 95 % band
+  T force_share{};      ///< how much of the force errors that the parts tell the band counts while the spool slides
+  T rest_share{};       ///< the same at rest
+  T tolerance_N{};    ///< standard deviation of where the band's ends at rest lie, told by the pre-sliding displacement
+  T creep_per_s{};    ///< growth of that tolerance with the time at rest, as a share of it
+  T unseen_factor{};  ///< standard deviation of unobserved changes of pressure over the resting drift's, at its most
+  T reference_lag_s{};  ///< of the flow meter that the band is held against: it still reads what has been
+};
+
+/// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
+template <class T>
+struct ObserverParameters {
+  ActuatorParameters<T> actuator;
+  Spring<T> spring;
+  MeteringEdge<T> edge;
+  PositionSensor<T> position_sensor;
+  FrictionParameters<T> friction;
+  PressureParameters<T> pressure;
+  BandParameters<T> band;
+  T closed_below_m{};
+  T largest_current_A{};
+};
+
+template <class T>
+struct ObserverState {
+  ActuatorState<T> actuator;
+  PositionState<T> position;
+  FrictionState<T> friction;
+  PressureState<T> pressure;
+  T oil_temperature_K{};  ///< smoothed
+  T flow_m3_per_s{};      ///< as answered
+  T metered_m3_per_s{};   ///< as a flow meter with its lag would read it
+  T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
+  Mask<T> started{};      ///< a sample came in
+  Estimate<T> last{};
+};
+
+static_assert(std::is_trivially_copyable_v<ObserverParameters<float>>);
+static_assert(std::is_trivially_copyable_v<ObserverState<float>>);
+static_assert(sizeof(ObserverState<float>) < 2048);
+
+}  // namespace spoolflow::sensor

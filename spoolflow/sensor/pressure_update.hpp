@@ -1,0 +1,86 @@
+#pragma once
+/// What a force balance tells of the pressure difference. While the spool slides every newton tells; at a break-away
+/// friction stands at its limit; at rest only what friction cannot explain tells, else nothing does.
+#include "spoolflow/sensor/force_balance.hpp"
+
+namespace spoolflow::sensor {
+
+/// Friction grows with pressure against the flow force when the spool closes: what is left of the slope of both
+/// together is taken for no less than this share of the flow force's.
+inline constexpr double least_slope_share = 0.3;
+/// A spool breaks away only after so long a rest [s]: shorter ones are part of a motion.
+inline constexpr double shortest_rest_s = 0.03;
+
+/// Where friction lies: `slope` of the flow force over the pressure difference, friction's taken with it.
+template <class T>
+constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_slope_N_per_Pa) {
+  return larger(slope_N_per_Pa + friction_slope_N_per_Pa, T(least_slope_share) * slope_N_per_Pa);
+}
+
+/// The innovation while the spool slides.
+template <class T>
+constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance, T friction_slope_N_per_Pa) {
+  return {balance.apparent_friction_N - balance.friction_N,
+          whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa, balance.direction * friction_slope_N_per_Pa),
+          balance.direction * (balance.edge.friction_N + balance.actuator.friction_half_width_N), balance.noise_N};
+}
+
+/// The innovation when the spool breaks away: friction before it was all that the contacts could hold after that rest.
+template <class T>
+constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction, const ForceBalance<T>& balance,
+                                                  T friction_slope_N_per_Pa) {
+  const T aged = ageing(friction, balance.resting.rested_s);
+  const T expected_N = balance.direction * (aged * balance.spool_friction_N + balance.armature_friction_N);
+  return {balance.resting.breakaway_N - expected_N,
+          whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,
+                               balance.direction * aged * friction_slope_N_per_Pa),
+          balance.direction * (aged * balance.edge.friction_N + balance.actuator.friction_half_width_N),
+          sqrt(squared(balance.noise_N) + squared(friction.breakaway_share * expected_N))};
+}
+
+/// Prediction over one sample: the supply may have moved.
+template <class T>
+[[gnu::always_inline]] constexpr void predict(const ObserverParameters<T>& valve, PressureState<T>& pressure,
+                                              const ForceBalance<T>& balance, T time_step_s, T highest_Pa) {
+  in_valves(balance.closed, pressure, [&] { expect_change(valve.pressure, pressure); });
+  in_valves(balance.sliding, pressure, [&] {
+    drift(valve.pressure, pressure, time_step_s, highest_Pa);
+    forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, time_step_s);
+  });
+  in_valves(!balance.sliding, pressure, [&] { drift_unseen(valve.pressure, pressure, time_step_s, highest_Pa); });
+}
+
+/// Prediction, then what the forces tell: the spool slides, breaks away, rests and yields, or nothing is seen.
+template <class T>
+[[gnu::always_inline]] constexpr void believe(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                              const ForceBalance<T>& balance, const PositionPoint<T>& position,
+                                              T time_step_s) {
+  PressureState<T>& pressure = state.pressure;
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T slope = balance.edge.flow_force_per_pressure_N_Pa;
+  const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
+  predict(valve, pressure, balance, time_step_s, highest_Pa);
+
+  in_valves(!balance.closed && balance.sliding, pressure, [&] {
+    in_valves(time_step_s > T(0), pressure, [&] {
+      update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s);
+    });
+    in_valves(observed(pressure, slope, balance.noise_N), pressure,
+              [&] { learn_process_noise(valve.pressure, pressure, balance.noise_N / slope); });
+  });
+  const Mask<T> breaks = !balance.closed && !balance.sliding && balance.resting.breakaway_N != T(0) &&
+                         balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
+  in_valves(breaks, pressure,
+            [&] { update_breakaway(pressure, breakaway_innovation(valve.friction, balance, friction_slope)); });
+  const T beyond_N = balance.apparent_friction_N - balance.friction_N;
+  const Mask<T> yields =
+      !balance.closed && !balance.sliding && !breaks && is(position.motion, Motion::rest) && beyond_N != T(0);
+  in_valves(yields, pressure, [&] {
+    const T left_N = yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s);
+    const Mask<T> holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
+    state.friction.gauge_N += select(yields && holds, left_N, T(0));
+  });
+  pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
+}
+
+}  // namespace spoolflow::sensor

@@ -1,0 +1,197 @@
+/// The observer of a valve in closed form against the truth: error and coverage in each thing that a spool does, at
+/// every sampling rate.
+#include "spoolflow/sensor/observer.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/sensor/valve_course.hpp"
+
+namespace spoolflow::sensor {
+namespace {
+
+constexpr ClosedFormValve valve;
+
+/// The observer over a run; what `meddle` does to a sample is what its electronics get wrong.
+template <class Each, class Meddle>
+void observe(const std::vector<ValveSample>& run, const Meddle& meddle, const Each& each) {
+  const ObserverParameters<double> parameters = closed_form_observer<double>(valve);
+  ObserverState<double> state{};
+  double time_s = 0;
+  for (const ValveSample& sample : run) {
+    Sample<double> measured = sample.measured;
+    time_s += measured.time_step_s;
+    meddle(time_s, measured);
+    const Estimate<double>& answer = step(parameters, state, measured);
+    each(time_s, sample, answer, state);
+  }
+}
+
+struct Between {
+  double from_s, to_s;
+};
+
+Judgement judge(const std::vector<ValveSample>& run, Between times) {
+  Judgement out;
+  observe(
+      run, [](double, Sample<double>&) {},
+      [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
+        if (time_s > times.from_s && time_s < times.to_s)
+          out.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+      });
+  return out;
+}
+
+class Observer : public testing::TestWithParam<double> {
+ protected:
+  [[nodiscard]] static double step_s() { return GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(SampledEvery, Observer, testing::Values(50e-6, 200e-6, 1e-3, 5e-3),
+                         [](const auto& rate) { return std::to_string(static_cast<int>(1e6 * rate.param)) + "us"; });
+
+/// Slides from 0.4 mm to 2.2 mm in two seconds: the first half second finds the pressure.
+Course opening(double pressure_Pa = 60e5) {
+  return Course({.position_m = 0.4e-3, .pressure_difference_Pa = pressure_Pa}).rest(0.1, 1).slide(2.2e-3, 2);
+}
+
+TEST_P(Observer, KnowsTheFlowToHalfAPercentWhileTheSpoolSlides) {
+  for (const double pressure_Pa : {20e5, 60e5, 85e5}) {
+    Course course = opening(pressure_Pa).rest(0.2, -1).slide(0.6e-3, 1.8);
+    const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+    for (const Between& slides : {Between{0.8, 2.1}, Between{2.45, 4.0}}) {
+      const Judgement sliding = judge(run, slides);
+      EXPECT_LT(sliding.largest, 0.01) << pressure_Pa;
+      EXPECT_LT(sliding.rms(), 0.005) << pressure_Pa;
+      EXPECT_GT(sliding.coverage(), 0.95) << pressure_Pa;
+      EXPECT_LT(sliding.mean_width(), 0.06) << pressure_Pa;
+    }
+  }
+}
+
+TEST_P(Observer, FollowsAPressureThatChangesWhileTheSpoolSlides) {
+  Course course = opening().slide(1.5e-3, 0.5).slide(0.6e-3, 0.6, 40e5).slide(1.8e-3, 1.2);
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const Judgement settled = judge(run, {3.6, course.end_s()});
+  EXPECT_LT(settled.largest, 0.01);
+  EXPECT_GT(settled.coverage(), 0.95);
+}
+
+TEST_P(Observer, HoldsTheFlowAtRestAndItsBandHoldsWhatTheSupplyDidUnseen) {
+  // Friction takes up what 4 bar more of pressure ask for: 60 to 64 bar is 1.8 N, of the 7 N between its limits.
+  Course course = opening().rest(0.3, 0.8).rest(0.4, 0.4, 64e5).rest(0.5, 0.4);
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const Judgement before = judge(run, {2.2, 2.4});
+  EXPECT_LT(before.largest, 0.025);  // the end of sliding is taken for sliding for some milliseconds
+  const Judgement resting = judge(run, {2.2, course.end_s()});
+  EXPECT_GT(resting.coverage(), 0.95);
+  EXPECT_LT(resting.largest, 0.05);
+  EXPECT_LT(resting.mean_width(), 0.25);  // friction's limits allow 0.3
+}
+
+TEST_P(Observer, FindsThePressureAgainWhenTheSpoolBreaksAway) {
+  Course course = opening().rest(0.4, 0.2).rest(0.6, 0.2, 70e5).rest(0.4, 1.15).slide(2.35e-3, 0.4);
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const Judgement resting = judge(run, {3.0, 3.1});
+  const Judgement sliding = judge(run, {3.7, course.end_s()});
+  EXPECT_LT(sliding.largest, 0.02);
+  EXPECT_LT(sliding.rms(), 0.5 * resting.rms() + 0.003);
+  EXPECT_GT(sliding.coverage(), 0.95);
+}
+
+TEST_P(Observer, HoldsTheFlowThroughStickAndSlip) {
+  Course course = opening().slide(0.8e-3, 1.2);
+  for (int k = 0; k < 12; ++k) course.rest(0.15, 1.1).slip(course.last().position_m + 0.06e-3, 6e-3);
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const Judgement slipping = judge(run, {3.6, course.end_s()});
+  EXPECT_LT(slipping.rms(), 0.02);
+  EXPECT_GT(slipping.coverage(), 0.93);
+}
+
+TEST_P(Observer, TakesAJumpOfThePositionSignalForAFaultAndGoesOn) {
+  const Course course = opening();
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  Judgement faulty;
+  int told = 0, jumped = 0;
+  observe(
+      run,
+      [](double time_s, Sample<double>& measured) {
+        if (time_s > 1.2 && time_s < 1.23) measured.position_m += 0.3e-3;
+      },
+      [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
+        if (time_s > 0.8) faulty.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+        const bool jumps = time_s > 1.2 && time_s < 1.23;
+        jumped += jumps ? 1 : 0;
+        told += jumps && has(answer.status, Status::position_fault) ? 1 : 0;
+      });
+  // At 5 ms the hardest acceleration allows 2.3 mm a sample: nothing can be told from motion.
+  if (step_s() < 2e-3) {
+    EXPECT_EQ(told, jumped);
+    EXPECT_LT(faulty.largest, 0.012);
+  }
+  EXPECT_GT(faulty.coverage(), 0.95);
+}
+
+TEST_P(Observer, NeedsNeitherVoltageNorOilTemperature) {
+  const Course course = opening();
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  Judgement without;
+  observe(
+      run, [](double, Sample<double>& measured) { measured.voltage_V = measured.oil_temperature_K = NAN; },
+      [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
+        if (time_s > 0.8) without.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+      });
+  EXPECT_LT(without.largest, 0.05);  // the map's middle temperature stands for the oil's: 2 % of conductance a layer
+}
+
+TEST_P(Observer, FindsFrictionThatDiffersFromTheBench) {
+  Course course = opening();
+  for (int k = 0; k < 12; ++k) course.rest(0.1, -1).slide(0.8e-3, 0.7).rest(0.1, 1).slide(2.0e-3, 0.7);
+  const auto run = ClosedFormRun(valve, course, {.friction_ratio = 0.9}).sampled(course.end_s(), step_s());
+  double ratio = 0;
+  Judgement last;
+  observe(
+      run, [](double, Sample<double>&) {},
+      [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto& state) {
+        ratio = state.pressure.friction_ratio;
+        if (time_s > course.end_s() - 0.6) last.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+      });
+  EXPECT_NEAR(ratio, 0.9, step_s() > 2e-3 ? 0.07 : 0.04);  // a quarter of the blocks in which motion is told
+  EXPECT_LT(last.largest, 0.012);
+}
+
+TEST(Observer, TellsAShortedCoilByItsResistance) {
+  const Course course = opening();
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), 1e-3);
+  Status last{};
+  observe(
+      run, [](double, Sample<double>& measured) { measured.voltage_V *= 0.4; },
+      [&](double, const ValveSample&, const Estimate<double>& answer, const auto&) { last = answer.status; });
+  EXPECT_TRUE(has(last, Status::coil_fault));
+}
+
+TEST(Observer, HoldsItsAnswerWhereCurrentOrPositionIsMissingOrTimeRunsBackwards) {
+  const Course course = opening();
+  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), 1e-3);
+  double before = 0;
+  observe(
+      run,
+      [](double time_s, Sample<double>& measured) {
+        if (time_s > 1.0 && time_s < 1.01) measured.current_A = NAN;
+        if (time_s > 1.1 && time_s < 1.11) measured.position_m = INFINITY;
+        if (time_s > 1.2 && time_s < 1.21) measured.time_step_s = -1e-3;
+      },
+      [&](double time_s, const ValveSample&, const Estimate<double>& answer, const auto&) {
+        const bool missing = (time_s > 1.0 && time_s < 1.01) || (time_s > 1.1 && time_s < 1.11);
+        const bool backwards = time_s > 1.2 && time_s < 1.21;
+        EXPECT_EQ(has(answer.status, Status::sample_missing), missing) << time_s;
+        EXPECT_EQ(has(answer.status, Status::time_fault), backwards) << time_s;
+        if (missing || backwards) {
+          EXPECT_EQ(answer.flow_m3_per_s, before);
+        }
+        before = answer.flow_m3_per_s;
+      });
+}
+
+}  // namespace
+}  // namespace spoolflow::sensor
