@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::analysis {
 

@@ -17,9 +17,9 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
-#include "spoolflow/recording/csv_writer.hpp"
-#include "spoolflow/recording/file_format.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/csv_writer.hpp"
+#include "spoolflow/recording/files/file_format.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/estimation.hpp"
 

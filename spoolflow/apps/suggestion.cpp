@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/nearest_name.hpp"
+#include "spoolflow/recording/channels/nearest_name.hpp"
 
 namespace spoolflow::apps {
 

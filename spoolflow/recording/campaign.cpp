@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/allowed_names.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/toml_input.hpp"
 #include "spoolflow/units/conversion.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/allowed_names.hpp"
-#include "spoolflow/recording/channel_unit.hpp"
-#include "spoolflow/recording/header_name.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
+#include "spoolflow/recording/channels/channel_unit.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
 
 namespace spoolflow::recording {
 namespace {

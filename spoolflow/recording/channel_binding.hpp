@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "spoolflow/recording/sample_table.hpp"
 
 namespace spoolflow::recording {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
 
 namespace spoolflow::recording {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "spoolflow/recording/header_name.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
 
 namespace spoolflow::recording {

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/allowed_names.hpp"
-#include "spoolflow/recording/channel_unit.hpp"
-#include "spoolflow/recording/header_name.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
+#include "spoolflow/recording/channels/channel_unit.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {

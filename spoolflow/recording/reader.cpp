@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channel_binding.hpp"
-#include "spoolflow/recording/header_name.hpp"
-#include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/files/open_table.hpp"
 #include "spoolflow/recording/plausibility.hpp"
-#include "spoolflow/recording/recording_error.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "spoolflow/recording/channel.hpp"
 #include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::recording {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
 
 namespace spoolflow::recording {
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/allowed_names.hpp"
-#include "spoolflow/recording/input_bytes.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
 
 namespace spoolflow::recording {
 

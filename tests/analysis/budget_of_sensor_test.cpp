@@ -6,7 +6,7 @@
 
 #include "spoolflow/analysis/point_analysis.hpp"
 #include "spoolflow/analysis/run_analysis.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::analysis {
 namespace {

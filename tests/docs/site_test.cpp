@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/model/describe_condensed.hpp"
-#include "spoolflow/recording/channel.hpp"
-#include "spoolflow/recording/channel_unit.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/sensor/status.hpp"
 #include "tests/docs/markdown.hpp"
 

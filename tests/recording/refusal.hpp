@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::validation {

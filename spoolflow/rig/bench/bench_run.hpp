@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/rig/bench/course.hpp"
 #include "spoolflow/rig/electronics/electronics.hpp"
 #include "spoolflow/rig/plant/valve_plant.hpp"

@@ -3,7 +3,7 @@
 #include <ostream>
 #include <string_view>
 
-#include "spoolflow/recording/csv_writer.hpp"
+#include "spoolflow/recording/files/csv_writer.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "spoolflow/recording/nearest_name.hpp"
+#include "spoolflow/recording/channels/nearest_name.hpp"
 
 namespace spoolflow::rig {
 namespace {

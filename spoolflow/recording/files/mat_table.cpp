@@ -1,4 +1,4 @@
-#include "spoolflow/recording/mat_table.hpp"
+#include "spoolflow/recording/files/mat_table.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <matio.h>
 
-#include "spoolflow/recording/hdf5_handle.hpp"
-#include "spoolflow/recording/mat_elements.hpp"
-#include "spoolflow/recording/matrix_names.hpp"
-#include "spoolflow/recording/recording_error.hpp"
-#include "spoolflow/recording/vector_table.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/hdf5_handle.hpp"
+#include "spoolflow/recording/files/mat_elements.hpp"
+#include "spoolflow/recording/files/matrix_names.hpp"
+#include "spoolflow/recording/files/vector_table.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -1,10 +1,10 @@
-#include "spoolflow/recording/file_format.hpp"
+#include "spoolflow/recording/files/file_format.hpp"
 
 #include <array>
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/csv_table.hpp"
+#include "spoolflow/recording/files/csv_table.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/csv_scan.hpp"
-#include "spoolflow/recording/decimal_number.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/csv_scan.hpp"
+#include "spoolflow/recording/files/decimal_number.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/header_name.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/hdf5_table.hpp"
+#include "spoolflow/recording/files/hdf5_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/hdf5_handle.hpp"
-#include "spoolflow/recording/matrix_names.hpp"
-#include "spoolflow/recording/recording_error.hpp"
-#include "spoolflow/recording/vector_table.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/hdf5_handle.hpp"
+#include "spoolflow/recording/files/matrix_names.hpp"
+#include "spoolflow/recording/files/vector_table.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/input_bytes.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
 
 #include <cerrno>
 #include <fcntl.h>
@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -1,11 +1,11 @@
-#include "spoolflow/recording/vector_table.hpp"
+#include "spoolflow/recording/files/vector_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
 

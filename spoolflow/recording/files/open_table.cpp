@@ -1,11 +1,11 @@
-#include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/files/open_table.hpp"
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/hdf5_table.hpp"
-#include "spoolflow/recording/input_bytes.hpp"
-#include "spoolflow/recording/mat_table.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/hdf5_table.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
+#include "spoolflow/recording/files/mat_table.hpp"
 
 namespace spoolflow::recording {
 

@@ -1,13 +1,13 @@
-#include "spoolflow/recording/csv_dialect.hpp"
+#include "spoolflow/recording/files/csv_dialect.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/decimal_number.hpp"
-#include "spoolflow/recording/header_name.hpp"
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/decimal_number.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/recording/sample_table.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
 

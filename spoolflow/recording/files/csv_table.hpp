@@ -2,9 +2,9 @@
 /// A CSV file as a table of numbers, read in large blocks; columns that were not chosen are stepped over unread.
 #include <memory>
 
-#include "spoolflow/recording/csv_dialect.hpp"
-#include "spoolflow/recording/input_bytes.hpp"
-#include "spoolflow/recording/sample_table.hpp"
+#include "spoolflow/recording/files/csv_dialect.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
 

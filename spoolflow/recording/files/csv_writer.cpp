@@ -1,4 +1,4 @@
-#include "spoolflow/recording/csv_writer.hpp"
+#include "spoolflow/recording/files/csv_writer.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/mat_elements.hpp"
+#include "spoolflow/recording/files/mat_elements.hpp"
 
 #include <array>
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/recording_error.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "spoolflow/recording/channel.hpp"
-#include "spoolflow/recording/sample_table.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
 

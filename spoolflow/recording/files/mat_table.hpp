@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "spoolflow/recording/sample_table.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
 

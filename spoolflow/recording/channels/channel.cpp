@@ -1,4 +1,4 @@
-#include "spoolflow/recording/channel.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
 
 namespace spoolflow::recording {
 namespace {

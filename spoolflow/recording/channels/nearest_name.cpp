@@ -1,4 +1,4 @@
-#include "spoolflow/recording/nearest_name.hpp"
+#include "spoolflow/recording/channels/nearest_name.hpp"
 
 #include <algorithm>
 #include <vector>

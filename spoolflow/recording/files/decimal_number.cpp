@@ -1,4 +1,4 @@
-#include "spoolflow/recording/decimal_number.hpp"
+#include "spoolflow/recording/files/decimal_number.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/matrix_names.hpp"
+#include "spoolflow/recording/files/matrix_names.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-#include "spoolflow/recording/allowed_names.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/nearest_name.hpp"
+#include "spoolflow/recording/channels/nearest_name.hpp"
 
 namespace spoolflow::recording {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/recording/sample_table.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
 

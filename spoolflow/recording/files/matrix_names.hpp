@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/recording/vector_table.hpp"
+#include "spoolflow/recording/files/vector_table.hpp"
 
 namespace spoolflow::recording {
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "spoolflow/recording/csv_table.hpp"
-#include "spoolflow/recording/file_format.hpp"
-#include "spoolflow/recording/sample_table.hpp"
+#include "spoolflow/recording/files/csv_table.hpp"
+#include "spoolflow/recording/files/file_format.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
 
