@@ -25,7 +25,7 @@ constexpr T bounds_deviation_N(const BandParameters<T>& band, T rest_s) {
 
 /// One standard deviation of the pressure difference that a force error makes [Pa].
 template <class T>
-constexpr T pressure_deviation_Pa(const EdgePoint<T>& edge, T force_N) {
+[[gnu::always_inline]] constexpr T pressure_deviation_Pa(const EdgePoint<T>& edge, T force_N) {
   return force_N / edge.flow_force_per_pressure_N_Pa;
 }
 

@@ -26,8 +26,8 @@ struct ForceBalance {
 
 /// One standard deviation of all forces together [N], as the parts tell it.
 template <class T>
-constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
-                          const FrictionBounds<T>& bounds) {
+[[gnu::always_inline]] constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
+                                                 const FrictionBounds<T>& bounds) {
   return sqrt(squared(band.force_residual_N) + squared(actuator.uncertainty_N) +
               squared(band.friction_share * bounds.sliding_N));
 }

@@ -219,6 +219,8 @@ template <class T>
     const Mask<T> believes = faulty && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s;
     state.offset_m = select(believes, T(0), state.offset_m);
     believed_m = select(believes, position_m, believed_m);
+    state.last_m =
+        select(believes, position_m, state.last_m);  // the spool did not move: the next step starts from here
   }
   state.step_m = limited(believed_m - state.last_m, -credible_m, credible_m);
   state.last_m = believed_m;

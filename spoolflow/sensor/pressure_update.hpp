@@ -13,13 +13,14 @@ inline constexpr double shortest_rest_s = 0.03;
 
 /// Where friction lies: `slope` of the flow force over the pressure difference, friction's taken with it.
 template <class T>
-constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_slope_N_per_Pa) {
+[[gnu::always_inline]] constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_slope_N_per_Pa) {
   return larger(slope_N_per_Pa + friction_slope_N_per_Pa, T(least_slope_share) * slope_N_per_Pa);
 }
 
 /// The innovation while the spool slides.
 template <class T>
-constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance, T friction_slope_N_per_Pa) {
+[[gnu::always_inline]] constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance,
+                                                                       T friction_slope_N_per_Pa) {
   return {balance.apparent_friction_N - balance.friction_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa, balance.direction * friction_slope_N_per_Pa),
           balance.direction * (balance.edge.friction_N + balance.actuator.friction_half_width_N), balance.noise_N};
@@ -27,8 +28,9 @@ constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance, 
 
 /// The innovation when the spool breaks away: friction before it was all that the contacts could hold after that rest.
 template <class T>
-constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction, const ForceBalance<T>& balance,
-                                                  T friction_slope_N_per_Pa) {
+[[gnu::always_inline]] constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction,
+                                                                         const ForceBalance<T>& balance,
+                                                                         T friction_slope_N_per_Pa) {
   const T aged = ageing(friction, balance.resting.rested_s);
   const T expected_N = balance.direction * (aged * balance.spool_friction_N + balance.armature_friction_N);
   return {balance.resting.breakaway_N - expected_N,

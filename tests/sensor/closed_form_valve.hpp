@@ -54,6 +54,8 @@ struct ClosedFormValve {
   [[nodiscard]] double full_scale_m3_per_s() const { return flow_m3_per_s(stroke_m, 70e5, 313); }
 };
 
+inline constexpr ClosedFormValve closed_form;
+
 namespace detail {
 
 template <class T>

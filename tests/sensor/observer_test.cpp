@@ -11,12 +11,10 @@
 namespace spoolflow::sensor {
 namespace {
 
-constexpr ClosedFormValve valve;
-
 /// The observer over a run; what `meddle` does to a sample is what its electronics get wrong.
 template <class Each, class Meddle>
 void observe(const std::vector<ValveSample>& run, const Meddle& meddle, const Each& each) {
-  const ObserverParameters<double> parameters = closed_form_observer<double>(valve);
+  const ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
   ObserverState<double> state{};
   double time_s = 0;
   for (const ValveSample& sample : run) {
@@ -38,7 +36,7 @@ Judgement judge(const std::vector<ValveSample>& run, Between times) {
       run, [](double, Sample<double>&) {},
       [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
         if (time_s > times.from_s && time_s < times.to_s)
-          out.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+          out.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
       });
   return out;
 }
@@ -58,7 +56,7 @@ Course opening(double pressure_Pa = 60e5) {
 TEST_P(Observer, KnowsTheFlowToHalfAPercentWhileTheSpoolSlides) {
   for (const double pressure_Pa : {20e5, 60e5, 85e5}) {
     Course course = opening(pressure_Pa).rest(0.2, -1).slide(0.6e-3, 1.8);
-    const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+    const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
     for (const Between& slides : {Between{0.8, 2.1}, Between{2.45, 4.0}}) {
       const Judgement sliding = judge(run, slides);
       EXPECT_LT(sliding.largest, 0.01) << pressure_Pa;
@@ -71,7 +69,7 @@ TEST_P(Observer, KnowsTheFlowToHalfAPercentWhileTheSpoolSlides) {
 
 TEST_P(Observer, FollowsAPressureThatChangesWhileTheSpoolSlides) {
   Course course = opening().slide(1.5e-3, 0.5).slide(0.6e-3, 0.6, 40e5).slide(1.8e-3, 1.2);
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   const Judgement settled = judge(run, {3.6, course.end_s()});
   EXPECT_LT(settled.largest, 0.01);
   EXPECT_GT(settled.coverage(), 0.95);
@@ -80,7 +78,7 @@ TEST_P(Observer, FollowsAPressureThatChangesWhileTheSpoolSlides) {
 TEST_P(Observer, HoldsTheFlowAtRestAndItsBandHoldsWhatTheSupplyDidUnseen) {
   // Friction takes up what 4 bar more of pressure ask for: 60 to 64 bar is 1.8 N, of the 7 N between its limits.
   Course course = opening().rest(0.3, 0.8).rest(0.4, 0.4, 64e5).rest(0.5, 0.4);
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   const Judgement before = judge(run, {2.2, 2.4});
   EXPECT_LT(before.largest, 0.025);  // the end of sliding is taken for sliding for some milliseconds
   const Judgement resting = judge(run, {2.2, course.end_s()});
@@ -91,7 +89,7 @@ TEST_P(Observer, HoldsTheFlowAtRestAndItsBandHoldsWhatTheSupplyDidUnseen) {
 
 TEST_P(Observer, FindsThePressureAgainWhenTheSpoolBreaksAway) {
   Course course = opening().rest(0.4, 0.2).rest(0.6, 0.2, 70e5).rest(0.4, 1.15).slide(2.35e-3, 0.4);
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   const Judgement resting = judge(run, {3.0, 3.1});
   const Judgement sliding = judge(run, {3.7, course.end_s()});
   EXPECT_LT(sliding.largest, 0.02);
@@ -102,7 +100,7 @@ TEST_P(Observer, FindsThePressureAgainWhenTheSpoolBreaksAway) {
 TEST_P(Observer, HoldsTheFlowThroughStickAndSlip) {
   Course course = opening().slide(0.8e-3, 1.2);
   for (int k = 0; k < 12; ++k) course.rest(0.15, 1.1).slip(course.last().position_m + 0.06e-3, 6e-3);
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   const Judgement slipping = judge(run, {3.6, course.end_s()});
   EXPECT_LT(slipping.rms(), 0.02);
   EXPECT_GT(slipping.coverage(), 0.93);
@@ -110,7 +108,7 @@ TEST_P(Observer, HoldsTheFlowThroughStickAndSlip) {
 
 TEST_P(Observer, TakesAJumpOfThePositionSignalForAFaultAndGoesOn) {
   const Course course = opening();
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   Judgement faulty;
   int told = 0, jumped = 0;
   observe(
@@ -119,7 +117,7 @@ TEST_P(Observer, TakesAJumpOfThePositionSignalForAFaultAndGoesOn) {
         if (time_s > 1.2 && time_s < 1.23) measured.position_m += 0.3e-3;
       },
       [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
-        if (time_s > 0.8) faulty.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+        if (time_s > 0.8) faulty.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
         const bool jumps = time_s > 1.2 && time_s < 1.23;
         jumped += jumps ? 1 : 0;
         told += jumps && has(answer.status, Status::position_fault) ? 1 : 0;
@@ -134,12 +132,12 @@ TEST_P(Observer, TakesAJumpOfThePositionSignalForAFaultAndGoesOn) {
 
 TEST_P(Observer, NeedsNeitherVoltageNorOilTemperature) {
   const Course course = opening();
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   Judgement without;
   observe(
       run, [](double, Sample<double>& measured) { measured.voltage_V = measured.oil_temperature_K = NAN; },
       [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto&) {
-        if (time_s > 0.8) without.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+        if (time_s > 0.8) without.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
       });
   EXPECT_LT(without.largest, 0.05);  // the map's middle temperature stands for the oil's: 2 % of conductance a layer
 }
@@ -147,14 +145,14 @@ TEST_P(Observer, NeedsNeitherVoltageNorOilTemperature) {
 TEST_P(Observer, FindsFrictionThatDiffersFromTheBench) {
   Course course = opening();
   for (int k = 0; k < 12; ++k) course.rest(0.1, -1).slide(0.8e-3, 0.7).rest(0.1, 1).slide(2.0e-3, 0.7);
-  const auto run = ClosedFormRun(valve, course, {.friction_ratio = 0.9}).sampled(course.end_s(), step_s());
+  const auto run = ClosedFormRun(closed_form, course, {.friction_ratio = 0.9}).sampled(course.end_s(), step_s());
   double ratio = 0;
   Judgement last;
   observe(
       run, [](double, Sample<double>&) {},
       [&](double time_s, const ValveSample& sample, const Estimate<double>& answer, const auto& state) {
         ratio = state.pressure.friction_ratio;
-        if (time_s > course.end_s() - 0.6) last.add(answer, sample.flow_m3_per_s, valve.full_scale_m3_per_s());
+        if (time_s > course.end_s() - 0.6) last.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
       });
   EXPECT_NEAR(ratio, 0.9, step_s() > 2e-3 ? 0.07 : 0.04);  // a quarter of the blocks in which motion is told
   EXPECT_LT(last.largest, 0.012);
@@ -162,7 +160,7 @@ TEST_P(Observer, FindsFrictionThatDiffersFromTheBench) {
 
 TEST(Observer, TellsAShortedCoilByItsResistance) {
   const Course course = opening();
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), 1e-3);
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), 1e-3);
   Status last{};
   observe(
       run, [](double, Sample<double>& measured) { measured.voltage_V *= 0.4; },
@@ -172,7 +170,7 @@ TEST(Observer, TellsAShortedCoilByItsResistance) {
 
 TEST(Observer, HoldsItsAnswerWhereCurrentOrPositionIsMissingOrTimeRunsBackwards) {
   const Course course = opening();
-  const auto run = ClosedFormRun(valve, course).sampled(course.end_s(), 1e-3);
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), 1e-3);
   double before = 0;
   observe(
       run,

@@ -1,0 +1,83 @@
+/// The band over many valves whose calibration is wrong by just what it says: 95 % is a promise.
+#include "spoolflow/sensor/band.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "spoolflow/sensor/observer.hpp"
+#include "tests/sensor/valve_course.hpp"
+
+namespace spoolflow::sensor {
+namespace {
+
+/// How often the band holds the flow, over valves whose forces were calibrated with an error of `error_N`, one standard
+/// deviation, between `from_s` and the end.
+Judgement many_valves(const Course& course, double error_N, double from_s) {
+  std::mt19937 generator(23);
+  std::normal_distribution<double> normal;
+  const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), 2e-3);
+  Judgement out;
+  for (int k = 0; k < 200; ++k) {
+    ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
+    parameters.band.force_residual_N = error_N;
+    parameters.band.force_share = parameters.band.rest_share = 1;  // all that the forces are said to be wrong by
+    const double offset_N = error_N * normal(generator);
+    for (double& force_N : parameters.spring.curve.values) force_N += offset_N;
+    ObserverState<double> state{};
+    double time_s = 0;
+    for (const ValveSample& now : run) {
+      time_s += 2e-3;
+      const Estimate<double>& answer = step(parameters, state, now.measured);
+      if (time_s > from_s) out.add(answer, now.flow_m3_per_s, closed_form.full_scale_m3_per_s());
+    }
+  }
+  return out;
+}
+
+TEST(Band, HoldsWhatItPromisesWhereForcesAreWrongByWhatTheyAreSaidToBe) {
+  Course sliding({.position_m = 0.4e-3});
+  sliding.rest(0.1, 1).slide(2.0e-3, 1).rest(0.2, -1).slide(0.8e-3, 0.8).rest(0.2, 1).slide(2.0e-3, 0.8);
+  Course resting({.position_m = 0.4e-3});
+  resting.rest(0.1, 1).slide(1.6e-3, 1).rest(1.5, 0.5);
+  for (const double error_N : {0.5, 1.5}) {
+    const Judgement slides = many_valves(sliding, error_N, 0.6);
+    EXPECT_GT(slides.coverage(), 0.93) << error_N;
+    EXPECT_LT(slides.mean_width(), 8 * slides.rms()) << error_N;
+    const Judgement rests = many_valves(resting, error_N, 1.2);
+    EXPECT_GT(rests.coverage(), 0.93) << error_N;
+    EXPECT_LT(rests.mean_width(), 0.2 + 5 * rests.rms()) << error_N;  // and what pre-sliding leaves open
+  }
+}
+
+TEST(Band, IsAsWideAsTheForcesAreWrong) {
+  Course sliding({.position_m = 0.4e-3});
+  sliding.rest(0.1, 1).slide(2.0e-3, 1.5);
+  const double narrow = many_valves(sliding, 0.5, 0.8).mean_width();
+  const double wide = many_valves(sliding, 2.0, 0.8).mean_width();
+  EXPECT_GT(wide, 1.8 * narrow);
+  EXPECT_LT(wide, 4 * narrow);
+}
+
+TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
+  // Of the pressure nothing is known but that friction lies within 1 N to one and 3 N to the other side.
+  const ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
+  PressureState<double> pressure{};
+  pressure.process_noise = 1;
+  pressure.unobserved_variance_Pa2 = squared(60e5);
+  pressure.innovation_squared = usual_innovation_squared;
+  ForceBalance<double> balance{};
+  balance.edge = parameters.edge.at(313.0, 50e5, 1.2e-3);
+  balance.apparent_friction_N = 0.5;
+  balance.resting = {-2.5, 1.5, 0, 0};
+  const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
+  const double uncertain_N = 2 * 0.4 * (1 + 3.0);  // two deviations of the bounds, grown in 3 s
+  const PressureBand<double> band = pressure_band(parameters.band, pressure, balance, 3.0);
+  EXPECT_NEAR(band.below_Pa, (1 + uncertain_N) / slope, 1);
+  EXPECT_NEAR(band.above_Pa, (3 + uncertain_N) / slope, 1);
+  balance.sliding = true;
+  EXPECT_GT(pressure_band(parameters.band, pressure, balance, 3.0).below_Pa, 60e5);
+}
+
+}  // namespace
+}  // namespace spoolflow::sensor

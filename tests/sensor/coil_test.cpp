@@ -1,0 +1,72 @@
+/// From coil current to magnetising current, on a coil whose flux is known.
+#include "spoolflow/sensor/coil.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/sensor/closed_form_valve.hpp"
+
+namespace spoolflow::sensor {
+namespace {
+
+/// Largest errors against the truth after the first `settle_s`.
+struct CoilErrors {
+  double magnetising_A = 0, flux_Wb = 0, rate_V = 0;
+};
+
+/// The coil of a valve whose spool stays and whose pressure makes the current swing.
+CoilErrors errors(double frequency_Hz, double sample_step_s, double settle_s = 0) {
+  const auto run =
+      ClosedFormRun(closed_form,
+                    [&](double time_s) {
+                      const double swing = std::sin(2 * std::numbers::pi * frequency_Hz * time_s);
+                      return ValveInstant{.position_m = 1.2e-3, .pressure_difference_Pa = 45e5 + 30e5 * swing};
+                    },
+                    {.position_noise_m = 0, .current_noise_A = 0})
+          .sampled(std::max(4 / frequency_Hz, settle_s + 1 / frequency_Hz), sample_step_s);
+  const ActuatorParameters<double> actuator = closed_form_actuator<double>(closed_form);
+  CoilState<double> state{};
+  CoilErrors out;
+  double time_s = 0;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const Cell<double> position =
+        locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, run[k].truth.position_m);
+    follow_current(actuator.coil, state, {sample_step_s, run[k].measured.current_A}, position, k == 0);
+    time_s += sample_step_s;
+    if (time_s < settle_s) continue;
+    out.magnetising_A = std::max(out.magnetising_A, std::abs(state.magnetising_current_A - run[k].magnetising_A));
+    out.flux_Wb = std::max(out.flux_Wb, std::abs(state.hysteresis.flux - run[k].flux_Wb));
+  }
+  return out;
+}
+
+TEST(Coil, TakesHysteresisAndEddyCurrentsOffASlowCurrent) {
+  for (const double step_s : {50e-6, 200e-6, 1e-3, 5e-3}) {
+    const CoilErrors slow = errors(1, step_s, 1.1);
+    // The current swings by 1.3 A, hysteresis and eddy currents by 0.1 A.
+    EXPECT_LT(slow.magnetising_A, 5e-3) << step_s;
+    EXPECT_LT(slow.flux_Wb, 1e-3) << step_s;
+  }
+}
+
+TEST(Coil, FollowsAFluxThatEddyCurrentsHoldBack) {
+  // 100 Hz, as dither: eddy currents of up to 0.3 A, ten samples a period at 1 kHz.
+  EXPECT_LT(errors(100, 50e-6, 0.05).magnetising_A, 0.01);
+  EXPECT_LT(errors(100, 1e-3, 0.05).magnetising_A, 0.05);
+}
+
+TEST(Coil, KnowsNothingOfItsHistoryAtFirst) {
+  // Demagnetised and brought slowly to its first current: where the truth began likewise nothing is wrong, and what a
+  // reversal before the start would have left is within the coercive current.
+  EXPECT_LT(errors(1, 1e-3).magnetising_A, 0.04);
+}
+
+TEST(EndWeight, IsTheTrapezoidalRulesForSlowFluxAndImplicitEulersForFast) {
+  EXPECT_NEAR(end_weight(100.0), 0.5, 1e-3);
+  EXPECT_DOUBLE_EQ(end_weight(0.0), 1);
+  for (const double a : {0.1, 0.3, 1.0, 3.0}) EXPECT_NEAR(end_weight(a), 1 / (1 - std::exp(-1 / a)) - a, 0.04) << a;
+}
+
+}  // namespace
+}  // namespace spoolflow::sensor

@@ -1,0 +1,126 @@
+/// What the spool does, told from a signal with noise, drift and faults, at every sampling rate.
+#include "spoolflow/sensor/position_track.hpp"
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace spoolflow::sensor {
+namespace {
+
+constexpr PositionSensor<double> signal_of_lvdt{.noise_m = 0.4e-6,
+                                                .backlash_m = 0.5e-6,
+                                                .drift_m_per_K = 2e-7,
+                                                .drift_free_K = 313,
+                                                .hardest_acceleration_m_per_s2 = 90};
+
+class PositionTrack : public testing::TestWithParam<double> {
+ protected:
+  using Course = std::function<double(double time_s)>;
+  using Each = std::function<void(double time_s, const PositionPoint<double>& point)>;
+
+  /// The track over the signal of a course; `fault_m` adds to the signal.
+  void follow(double duration_s, const Course& course, const Each& each, const Course& fault_m = nullptr) const {
+    std::mt19937 generator(3);
+    std::normal_distribution<double> noise_m(0, signal_of_lvdt.noise_m);
+    PositionState<double> state{};
+    begin(state, course(0));
+    for (int k = 0; k * step_s() < duration_s; ++k) {
+      const double time_s = k * step_s();
+      Sample<double> sample{};
+      sample.time_step_s = step_s();
+      sample.position_m = course(time_s) + noise_m(generator) + (fault_m ? fault_m(time_s) : 0);
+      each(time_s, track(signal_of_lvdt, state, sample, 313.0));
+    }
+  }
+  [[nodiscard]] static double step_s() { return GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(SampledEvery, PositionTrack, testing::Values(50e-6, 200e-6, 1e-3, 5e-3),
+                         [](const auto& rate) { return std::to_string(static_cast<int>(1e6 * rate.param)) + "us"; });
+
+TEST_P(PositionTrack, TellsRestFromNoise) {
+  int moving = 0, samples = 0;
+  follow(
+      5, [](double) { return 1e-3; },
+      [&](double, const PositionPoint<double>& point) {
+        moving += point.motion == Motion::rest ? 0 : 1;
+        ++samples;
+      });
+  EXPECT_LT(moving, 0.01 * samples);
+}
+
+TEST_P(PositionTrack, TellsWhichWayTheSpoolSlidesWithinAFewBlocks) {
+  // 0.12 mm/s is 5 %/s, the paper's stroke; 10 mm/s is a fast duty cycle.
+  for (const double speed_m_per_s : {0.12e-3, 1e-3, 10e-3}) {
+    const double turn_s = 1.5e-3 / speed_m_per_s;
+    const auto course = [&](double time_s) { return speed_m_per_s * (time_s < turn_s ? time_s : 2 * turn_s - time_s); };
+    const double blocks = speed_m_per_s < 0.5e-3 ? 32 : 9;  // the long windows, or the short
+    const double tells_s = blocks * std::max(step_s(), block_length_s);
+    int wrong = 0, opening = 0, closing = 0, samples = 0;
+    follow(2 * turn_s, course, [&](double time_s, const PositionPoint<double>& point) {
+      const double since_s = time_s < turn_s ? time_s : time_s - turn_s;
+      if (since_s < tells_s) return;
+      ++samples;
+      opening += point.motion == Motion::opening ? 1 : 0;
+      closing += point.motion == Motion::closing ? 1 : 0;
+      wrong += point.motion == (time_s < turn_s ? Motion::closing : Motion::opening) ? 1 : 0;
+    });
+    EXPECT_EQ(wrong, 0) << speed_m_per_s;
+    EXPECT_GT(opening + closing, 0.95 * samples) << speed_m_per_s;
+  }
+}
+
+TEST_P(PositionTrack, TellsASlipWithItsDirectionAndLetsItSettle) {
+  int transients = 0;
+  double direction = 0;
+  follow(
+      1.0, [](double time_s) { return 1e-3 - (time_s < 0.5 ? 0 : std::min((time_s - 0.5) / 5e-3, 1.0) * 50e-6); },
+      [&](double time_s, const PositionPoint<double>& point) {
+        if (point.motion == Motion::transient) {
+          ++transients;
+          direction = point.travel_m;
+        }
+        if (time_s < 0.5 || time_s > 0.58) {
+          EXPECT_EQ(point.motion, Motion::rest) << time_s;
+        }
+      });
+  EXPECT_GT(transients * step_s(), 0.015);
+  EXPECT_LT(direction, 0);
+}
+
+TEST_P(PositionTrack, TakesAFaultOutOfTheSignalUntilItIsOver) {
+  if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
+  follow(
+      1, [](double time_s) { return 0.5e-3 + 1e-3 * time_s; },
+      [&](double time_s, const PositionPoint<double>& point) {
+        EXPECT_NEAR(point.position_m, 0.5e-3 + 1e-3 * time_s, 25e-6) << time_s;
+        EXPECT_EQ(point.fault, time_s >= 0.4 && time_s < 0.45) << time_s;
+      },
+      [this](double time_s) { return time_s >= 0.4 && time_s < 0.45 - 1e-9 ? 0.24e-3 + step_s() : 0; });
+}
+
+TEST_P(PositionTrack, BelievesAJumpThatLasts) {
+  if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
+  follow(
+      1, [](double) { return 1e-3; },
+      [&](double time_s, const PositionPoint<double>& point) {
+        if (time_s < 0.4 || time_s > 0.4 + longest_position_fault_s + 2 * step_s()) {
+          EXPECT_FALSE(point.fault) << time_s;
+        }
+        if (time_s > 0.7) {
+          EXPECT_NEAR(point.position_m, 1.4e-3, 6e-6);
+        }
+      },
+      [](double time_s) { return time_s >= 0.4 ? 0.4e-3 : 0; });
+}
+
+TEST(PositionTrack, TakesTheDriftOfItsZeroOff) {
+  EXPECT_NEAR(drift_free_m(signal_of_lvdt, 1e-3 + 30 * 2e-7, 343.0), 1e-3, 1e-12);
+  EXPECT_NEAR(drift_free_m(signal_of_lvdt, 1e-3, 313.0), 1e-3, 1e-12);
+}
+
+}  // namespace
+}  // namespace spoolflow::sensor
