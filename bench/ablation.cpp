@@ -14,8 +14,8 @@
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/sensor/observer.hpp"
-#include "spoolflow/validation/estimation.hpp"
 #include "spoolflow/validation/metrics.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace {
 

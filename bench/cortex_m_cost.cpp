@@ -10,9 +10,9 @@ namespace {
 
 using namespace spoolflow;
 
-void print(const cortex_m::Core& core, validation::Estimator estimator, const cortex_m::Replay& replay) {
+void print(const cortex_m::Core& core, estimation::Estimator estimator, const cortex_m::Replay& replay) {
   fmt::print("{}, {}: {} samples, largest difference to double precision on the host {:.4f} % of the rated flow\n",
-             core.name, validation::name(estimator), replay.points, replay.largest_error_percent);
+             core.name, estimation::name(estimator), replay.points, replay.largest_error_percent);
   fmt::print("  {:<20}{:>9}{:>9}{:>9}\n", "instructions a step", "steps", "median", "largest");
   const auto line = [](const cortex_m::StepCost& cost) {
     fmt::print("  {:<20}{:>9}{:>9}{:>9}\n", cost.way, cost.steps, cost.median, cost.largest);
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   try {
     const model::Model model = model::read_model(argv[1]);
     for (const cortex_m::Core& core : cortex_m::cores) {
-      for (const auto estimator : {validation::Estimator::observer, validation::Estimator::condensed}) {
+      for (const auto estimator : {estimation::Estimator::observer, estimation::Estimator::condensed}) {
         print(core, estimator, cortex_m::replay(model, estimator, argv[2], core));
       }
     }

@@ -12,7 +12,7 @@
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::bench {
 namespace {

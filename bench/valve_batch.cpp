@@ -12,7 +12,7 @@
 #include "spoolflow/export/number_groups.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace {
 

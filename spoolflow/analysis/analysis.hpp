@@ -25,10 +25,10 @@ struct Analysis {
 };
 
 /// The estimator that the advice is about: the observer where the model has one.
-[[nodiscard]] validation::Estimator leading_estimator(const Analysis& analysis);
+[[nodiscard]] estimation::Estimator leading_estimator(const Analysis& analysis);
 
 /// The largest first.
 [[nodiscard]] std::vector<GroupShare> mean_shares(const std::vector<PointResult>& points,
-                                                  validation::Estimator estimator);
+                                                  estimation::Estimator estimator);
 
 }  // namespace spoolflow::analysis

@@ -6,9 +6,9 @@
 namespace spoolflow::analysis {
 namespace {
 
-using validation::InputErrors;
-using validation::InputQuantity;
-using validation::SeededNumbers;
+using uncertainty::InputErrors;
+using uncertainty::InputQuantity;
+using uncertainty::SeededNumbers;
 
 /// Whether blocks agree well enough among each other that their mean is right to the tolerance (JCGM 101, 7.9.4).
 bool stable(const std::vector<TrialFigures>& blocks, int digits) {
@@ -30,15 +30,15 @@ bool stable(const std::vector<TrialFigures>& blocks, int digits) {
 
 }  // namespace
 
-InputErrors<double> drawn_errors(const validation::Budget& budget, SeededNumbers& numbers) {
+InputErrors<double> drawn_errors(const uncertainty::Budget& budget, SeededNumbers& numbers) {
   InputErrors<double> error;
-  for (const validation::BudgetLine& line : budget.lines) {
-    error[line.input.quantity] = validation::quantile(line.input.distribution, numbers.uniform());
+  for (const uncertainty::BudgetLine& line : budget.lines) {
+    error[line.input.quantity] = uncertainty::quantile(line.input.distribution, numbers.uniform());
   }
-  for (const validation::Correlation& c : budget.correlations) {
+  for (const uncertainty::Correlation& c : budget.correlations) {
     error[c.other] = c.coefficient * error[c.one] + std::sqrt(1 - c.coefficient * c.coefficient) * error[c.other];
   }
-  for (const validation::BudgetLine& line : budget.lines) {
+  for (const uncertainty::BudgetLine& line : budget.lines) {
     error[line.input.quantity] *= line.input.standard_uncertainty;
   }
   return error;
@@ -77,7 +77,7 @@ TrialFigures figures_of(std::vector<double>& outputs) {
   return out;
 }
 
-StatedInterval stated_interval(const validation::Budget& budget, double undisturbed, const MonteCarlo& check) {
+StatedInterval stated_interval(const uncertainty::Budget& budget, double undisturbed, const MonteCarlo& check) {
   if (!check.comparison.validated) return {check.figures.lower, check.figures.upper, false};
   return {undisturbed - budget.expanded_m3_per_s, undisturbed + budget.expanded_m3_per_s, true};
 }
@@ -87,7 +87,7 @@ double numerical_tolerance(double standard_uncertainty, int digits) {
   return 0.5 * std::pow(10.0, std::floor(std::log10(standard_uncertainty)) - (digits - 1));
 }
 
-Comparison compared(const validation::Budget& budget, double undisturbed, const TrialFigures& figures, int digits) {
+Comparison compared(const uncertainty::Budget& budget, double undisturbed, const TrialFigures& figures, int digits) {
   // In L/min, the unit in which the uncertainty is stated: significant digits depend on it no more than on any other.
   Comparison out;
   out.deviation_ratio =
@@ -100,15 +100,15 @@ Comparison compared(const validation::Budget& budget, double undisturbed, const 
   return out;
 }
 
-MonteCarlo monte_carlo(const validation::PointFunction& function, const validation::Budget& budget,
+MonteCarlo monte_carlo(const uncertainty::PointFunction& function, const uncertainty::Budget& budget,
                        const MonteCarloSettings& settings, std::uint64_t seed) {
-  const bool remembers = function.estimator() == validation::Estimator::observer;
+  const bool remembers = function.estimator() == estimation::Estimator::observer;
   std::vector<double> outputs;
   std::vector<TrialFigures> blocks;
   const auto trial = [&](std::size_t number) {
     SeededNumbers numbers(seed, "trial of the budget", number);
     InputErrors<double> error = drawn_errors(budget, numbers);
-    for (const validation::BudgetLine& line : budget.lines) {
+    for (const uncertainty::BudgetLine& line : budget.lines) {
       if (remembers && is_noise(line.input.quantity)) error[line.input.quantity] = line.input.standard_uncertainty;
     }
     return function(error, numbers);

@@ -2,7 +2,7 @@
 /// Propagation of distributions (JCGM 101:2008) through the sensor's own code, beside the budget.
 #include <cstdint>
 
-#include "spoolflow/validation/point_function.hpp"
+#include "spoolflow/uncertainty/point_function.hpp"
 
 namespace spoolflow::analysis {
 
@@ -42,12 +42,12 @@ struct StatedInterval {
 };
 
 /// The budget's where the trials validate it, else theirs (JCGM 101, 8.2). `undisturbed` as in `compared`.
-[[nodiscard]] StatedInterval stated_interval(const validation::Budget& budget, double undisturbed,
+[[nodiscard]] StatedInterval stated_interval(const uncertainty::Budget& budget, double undisturbed,
                                              const MonteCarlo& check);
 
 /// Errors of all inputs, drawn from their distributions with their correlations.
-[[nodiscard]] validation::InputErrors<double> drawn_errors(const validation::Budget& budget,
-                                                           validation::SeededNumbers& numbers);
+[[nodiscard]] uncertainty::InputErrors<double> drawn_errors(const uncertainty::Budget& budget,
+                                                            uncertainty::SeededNumbers& numbers);
 
 /// Figures of a set of outputs; sorts it.
 [[nodiscard]] TrialFigures figures_of(std::vector<double>& outputs);
@@ -56,10 +56,10 @@ struct StatedInterval {
 [[nodiscard]] double numerical_tolerance(double standard_uncertainty, int digits);
 
 /// `undisturbed`: the flow rate with no errors, about which the budget's interval lies.
-[[nodiscard]] Comparison compared(const validation::Budget& budget, double undisturbed, const TrialFigures& figures,
+[[nodiscard]] Comparison compared(const uncertainty::Budget& budget, double undisturbed, const TrialFigures& figures,
                                   int digits);
 
-[[nodiscard]] MonteCarlo monte_carlo(const validation::PointFunction& function, const validation::Budget& budget,
+[[nodiscard]] MonteCarlo monte_carlo(const uncertainty::PointFunction& function, const uncertainty::Budget& budget,
                                      const MonteCarloSettings& settings, std::uint64_t seed);
 
 }  // namespace spoolflow::analysis

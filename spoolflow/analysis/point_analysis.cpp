@@ -12,9 +12,9 @@
 namespace spoolflow::analysis {
 namespace {
 
-using validation::Estimator;
-using validation::PointFunction;
-using validation::WorkingPoint;
+using estimation::Estimator;
+using uncertainty::PointFunction;
+using uncertainty::WorkingPoint;
 
 /// Counts finished pieces of work and tells the share, one thread at a time.
 class Counted {
@@ -33,13 +33,13 @@ class Counted {
 };
 
 PointResult at_point(const model::Model& model, Estimator estimator, const WorkingPoint& point,
-                     const validation::Inputs& inputs, const Scenario& scenario, std::uint64_t number) {
+                     const uncertainty::Inputs& inputs, const Scenario& scenario, std::uint64_t number) {
   PointResult out;
   out.estimator = estimator;
   out.point = point;
   const auto function = PointFunction::at(model, estimator, point);
   if (!function) return out;
-  validation::SeededNumbers none(0, "");
+  uncertainty::SeededNumbers none(0, "");
   out.reachable = true;
   out.current_A = function->current_A();
   out.position_reading_m = function->position_reading_m();
@@ -51,7 +51,7 @@ PointResult at_point(const model::Model& model, Estimator estimator, const Worki
                            .adaptive = trials.adaptive,
                            .most_trials = static_cast<std::size_t>(trials.most_trials),
                            .digits = static_cast<int>(trials.digits)},
-                          validation::mixed_bits(scenario.seed) + number);
+                          uncertainty::mixed_bits(scenario.seed) + number);
   out.stated = stated_interval(out.budget, out.flow_m3_per_s, out.check);
   return out;
 }
@@ -63,22 +63,22 @@ std::vector<double> spread_evenly(double from, double to, double count) {
 }
 
 MapCell cell_at(const model::Model& model, Estimator estimator, const WorkingPoint& point,
-                const validation::Inputs& inputs) {
+                const uncertainty::Inputs& inputs) {
   MapCell out;
   const auto function = PointFunction::at(model, estimator, point);
   if (!function) return out;
   constexpr int noise_runs = 12;  // for a picture
-  const validation::Budget budget = function->budget(inputs, noise_runs);
+  const uncertainty::Budget budget = function->budget(inputs, noise_runs);
   const auto largest = std::max_element(budget.lines.begin(), budget.lines.end(),
                                         [](const auto& a, const auto& b) { return a.share < b.share; });
-  validation::SeededNumbers none(0, "");
+  uncertainty::SeededNumbers none(0, "");
   return {true, (*function)({}, none), budget.expanded_m3_per_s, largest->input.quantity, largest->share};
 }
 
 }  // namespace
 
 std::vector<WorkingPoint> working_points(const model::Model& model, const PointSettings& settings) {
-  const double temperature_K = std::isnan(settings.oil_temperature_C) ? validation::map_temperature_K(model)
+  const double temperature_K = std::isnan(settings.oil_temperature_C) ? uncertainty::map_temperature_K(model)
                                                                       : units::K_from_degC(settings.oil_temperature_C);
   std::vector<double> pressures_Pa;
   for (const double bar : settings.pressure_differences_bar) pressures_Pa.push_back(units::Pa_from_bar(bar));
@@ -103,9 +103,9 @@ std::vector<PointResult> analyse_points(const model::Model& model, const Scenari
                                         const std::function<void(double)>& progress) {
   const std::vector<WorkingPoint> points = working_points(model, scenario.points);
   const auto figures = instrument_figures(scenario.instruments);
-  const std::vector<Estimator> estimators = validation::all_estimators(model);
-  std::vector<validation::Inputs> inputs;
-  for (const Estimator estimator : estimators) inputs.push_back(validation::inputs_of(model, estimator, figures));
+  const std::vector<Estimator> estimators = estimation::all_estimators(model);
+  std::vector<uncertainty::Inputs> inputs;
+  for (const Estimator estimator : estimators) inputs.push_back(uncertainty::inputs_of(model, estimator, figures));
   std::vector<PointResult> out(estimators.size() * points.size());
   Counted counted(out.size(), progress);
   in_parallel(out.size(), workers, [&](std::size_t k) {
@@ -121,7 +121,7 @@ std::vector<OperatingMap> operating_maps(const model::Model& model, const Scenar
   const auto figures = instrument_figures(scenario.instruments);
   const double temperature_K = working_points(model, scenario.points).front().oil_temperature_K;
   std::vector<OperatingMap> out;
-  for (const Estimator estimator : validation::all_estimators(model)) {
+  for (const Estimator estimator : estimation::all_estimators(model)) {
     OperatingMap map{
         estimator,
         spread_evenly(std::max(0.0, model.condensed.parameters.closed_below_m), model.valve.stroke_m,
@@ -135,7 +135,7 @@ std::vector<OperatingMap> operating_maps(const model::Model& model, const Scenar
   const std::size_t cells = out.front().cells.size();
   Counted counted(out.size() * cells, progress);
   for (OperatingMap& map : out) {
-    const validation::Inputs inputs = validation::inputs_of(model, map.estimator, figures);
+    const uncertainty::Inputs inputs = uncertainty::inputs_of(model, map.estimator, figures);
     const std::size_t columns = map.position_m.size();
     in_parallel(cells, workers, [&](std::size_t k) {
       map.cells[k] = cell_at(model, map.estimator,

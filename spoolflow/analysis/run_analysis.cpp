@@ -13,11 +13,11 @@
 namespace spoolflow::analysis {
 namespace {
 
-using validation::Estimator;
-using validation::InputErrors;
-using validation::InputQuantity;
-using validation::InputUncertainty;
-using validation::SeededNumbers;
+using estimation::Estimator;
+using uncertainty::InputErrors;
+using uncertainty::InputQuantity;
+using uncertainty::InputUncertainty;
+using uncertainty::SeededNumbers;
 
 constexpr int noise_runs = 16;
 /// Noise comes on top of what the recording holds already: half of it, counted double, lifts the sum to no more than
@@ -32,7 +32,7 @@ void know_oil_temperature(std::vector<InputUncertainty>& inputs, const model::Mo
   double squares = 0;
   double count = 0;
   for (const std::size_t k : run.instants) {
-    const double away_K = run.samples[k].oil_temperature_K - validation::map_temperature_K(model);
+    const double away_K = run.samples[k].oil_temperature_K - uncertainty::map_temperature_K(model);
     if (!std::isfinite(away_K)) continue;
     squares += away_K * away_K;
     count += 1;
@@ -41,7 +41,7 @@ void know_oil_temperature(std::vector<InputUncertainty>& inputs, const model::Mo
   for (InputUncertainty& input : inputs) {
     if (input.quantity != InputQuantity::oil_temperature) continue;
     input.standard_uncertainty = std::sqrt(squares / count);
-    input.distribution = validation::Distribution::normal;
+    input.distribution = uncertainty::Distribution::normal;
     input.source = "recording: root mean square of the oil about the map's temperature";
   }
 }
@@ -53,7 +53,7 @@ class RunBudget {
  public:
   RunBudget(const model::Model& model, Estimator estimator, const RunSamples& run, const Scenario& scenario)
       : function_(model, estimator, run),
-        inputs_(validation::inputs_of(model, estimator, instrument_figures(scenario.instruments))),
+        inputs_(uncertainty::inputs_of(model, estimator, instrument_figures(scenario.instruments))),
         scenario_(scenario),
         run_(run) {
     if (estimator == Estimator::condensed) know_oil_temperature(inputs_.uncertainties, model, run);
@@ -102,12 +102,12 @@ class RunBudget {
   [[nodiscard]] BandShares band_shares(const RunResult& result) const;
 
   RunFunction function_;
-  validation::Inputs inputs_;
+  uncertainty::Inputs inputs_;
   const Scenario& scenario_;
   const RunSamples& run_;
   std::size_t trials_;
-  validation::Budget budget_;  ///< the lines from which trials are drawn
-  std::vector<validation::PerQuantity<double>> slopes_;
+  uncertainty::Budget budget_;  ///< the lines from which trials are drawn
+  std::vector<uncertainty::PerQuantity<double>> slopes_;
   std::vector<Contributions> contributions_;
   std::vector<InputErrors<double>> drawn_;  ///< of the trials
   std::vector<BandedFlow> answers_;         ///< of the trials
@@ -125,7 +125,7 @@ Contributions RunBudget::contributions(const InputUncertainty& input) const {
   } else if (is_noise(input.quantity)) {
     error[input.quantity] = noise_share * u;
     for (int run = 0; run < noise_runs; ++run) {
-      SeededNumbers numbers(1, validation::about(input.quantity).name, static_cast<std::uint64_t>(run));
+      SeededNumbers numbers(1, uncertainty::about(input.quantity).name, static_cast<std::uint64_t>(run));
       const std::vector<double> noisy = function_(error, numbers).flow_m3_per_s;
       for (std::size_t k = 0; k < out.size(); ++k)
         out[k] += std::pow(noisy[k] - function_.undisturbed().flow_m3_per_s[k], 2) / noise_runs;
@@ -151,22 +151,22 @@ void RunBudget::try_out(std::size_t trial) {
 }
 
 void RunBudget::combine_instants(RunResult& out) {
-  std::vector<validation::BudgetLine> mean = budget_.lines;
+  std::vector<uncertainty::BudgetLine> mean = budget_.lines;
   std::vector<double> squares(mean.size());
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
-    std::vector<validation::BudgetLine> lines = budget_.lines;
+    std::vector<uncertainty::BudgetLine> lines = budget_.lines;
     for (std::size_t j = 0; j < lines.size(); ++j) {
       lines[j].contribution_m3_per_s = contributions_[j][k];
       lines[j].degrees_of_freedom = lines[j].input.degrees_of_freedom;
       squares[j] += lines[j].contribution_m3_per_s * lines[j].contribution_m3_per_s;
     }
-    const validation::Budget budget = validation::combine(std::move(lines), inputs_.correlations);
+    const uncertainty::Budget budget = uncertainty::combine(std::move(lines), inputs_.correlations);
     out.combined_m3_per_s.push_back(budget.combined_m3_per_s);
     for (std::size_t j = 0; j < mean.size(); ++j)
       mean[j].share += budget.lines[j].share * budget.combined_m3_per_s * budget.combined_m3_per_s;
   }
   double variance = 0;
-  for (const validation::BudgetLine& line : mean) variance += line.share;
+  for (const uncertainty::BudgetLine& line : mean) variance += line.share;
   double welch = 0;
   for (std::size_t j = 0; j < mean.size(); ++j) {
     const double share = variance > 0 ? mean[j].share / variance : 0;
@@ -174,7 +174,7 @@ void RunBudget::combine_instants(RunResult& out) {
     out.lines.push_back({mean[j].input, std::sqrt(squares[j] / n), share});
     if (std::isfinite(mean[j].input.degrees_of_freedom)) welch += share * share / mean[j].input.degrees_of_freedom;
   }
-  out.coverage_factor = validation::coverage_factor_95(welch > 0 ? std::max(1.0, 1 / welch) : INFINITY);
+  out.coverage_factor = uncertainty::coverage_factor_95(welch > 0 ? std::max(1.0, 1 / welch) : INFINITY);
 }
 
 void RunBudget::take_trials(RunResult& out) const {
@@ -203,13 +203,13 @@ std::vector<double> RunBudget::large_errors(std::size_t instant) const {
   };
   for (std::size_t j = 0; j < contributions_.size(); ++j) {
     const InputUncertainty& input = inputs_.uncertainties[j];
-    if (input.distribution == validation::Distribution::two_point) {
+    if (input.distribution == uncertainty::Distribution::two_point) {
       with_each({-contributions_[j][instant], contributions_[j][instant]});
     } else if (input.quantity == InputQuantity::pressure_belief) {
       constexpr int levels = 15;
       std::vector<double> errors;
       for (int k = 0; k < levels; ++k) {
-        const double normal = validation::normal_quantile((k + 0.5) / levels);
+        const double normal = uncertainty::normal_quantile((k + 0.5) / levels);
         errors.push_back(function_.beliefs()[instant].flow_error_m3_per_s(normal));
       }
       with_each(errors);
@@ -223,15 +223,15 @@ double RunBudget::share_within(std::size_t instant, double lower, double upper, 
   for (std::size_t j = 0; j < contributions_.size(); ++j) {
     const InputUncertainty& input = inputs_.uncertainties[j];
     const bool large =
-        input.distribution == validation::Distribution::two_point || input.quantity == InputQuantity::pressure_belief;
+        input.distribution == uncertainty::Distribution::two_point || input.quantity == InputQuantity::pressure_belief;
     if (large) squares += std::pow(contributions_[j][instant], 2);
   }
   const double others = std::sqrt(std::max(u * u - squares, 1e-24));
   const std::vector<double> large = large_errors(instant);
   double share = 0;
   for (const double error : large) {
-    share += (validation::normal_share_below((upper + error) / others) -
-              validation::normal_share_below((lower + error) / others)) /
+    share += (uncertainty::normal_share_below((upper + error) / others) -
+              uncertainty::normal_share_below((lower + error) / others)) /
              static_cast<double>(large.size());
   }
   return share;
@@ -280,7 +280,7 @@ BandShares RunBudget::band_shares(const RunResult& result) const {
     for (std::size_t trial = 0; trial < trials_; ++trial) {
       // What the recording made of the sensor is the truth to a trial, which has a band of its own.
       const double shown = lagged[k] + shared[trial] +
-                           meter * validation::quantile(validation::Distribution::rectangular, numbers.uniform());
+                           meter * uncertainty::quantile(uncertainty::Distribution::rectangular, numbers.uniform());
       const BandedFlow& answer = answers_[trial];
       inside += answer.lower_m3_per_s[k] <= shown && shown <= answer.upper_m3_per_s[k] ? 1 : 0;
     }
@@ -318,7 +318,7 @@ RunResult RunBudget::result() {
 RunAnalysis analyse_run(const model::Model& model, const RunSamples& run, const Scenario& scenario, unsigned workers,
                         const std::function<void(double)>& progress) {
   RunAnalysis out{run.name, run.samples.size(), {}};
-  const std::vector<Estimator> estimators = validation::all_estimators(model);
+  const std::vector<Estimator> estimators = estimation::all_estimators(model);
   for (const Estimator estimator : estimators) {
     RunBudget budget(model, estimator, run, scenario);
     budget.prepare();

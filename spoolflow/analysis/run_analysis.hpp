@@ -7,8 +7,8 @@
 
 #include "spoolflow/analysis/run_samples.hpp"
 #include "spoolflow/analysis/scenario.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/validation/estimator.hpp"
 
 namespace spoolflow::analysis {
 
@@ -24,14 +24,14 @@ struct BandShares {
 
 /// One input along the run.
 struct RunLine {
-  validation::InputUncertainty input;
+  uncertainty::InputUncertainty input;
   double rms_contribution_m3_per_s = 0;
   double share = 0;  ///< of the run's mean variance, correlations included
 };
 
 /// One estimator along a run; one entry an instant.
 struct RunResult {
-  validation::Estimator estimator{};
+  estimation::Estimator estimator{};
   std::size_t trials = 0;
   std::vector<double> time_s, flow_m3_per_s, lower_m3_per_s, upper_m3_per_s;
   std::vector<double> reference_m3_per_s;  ///< empty, or NaN where missing

@@ -8,12 +8,12 @@
 namespace spoolflow::analysis {
 namespace {
 
-using validation::Estimator;
-using validation::InputErrors;
-using validation::InputQuantity;
-using validation::SeededNumbers;
+using estimation::Estimator;
+using uncertainty::InputErrors;
+using uncertainty::InputQuantity;
+using uncertainty::SeededNumbers;
 
-sensor::Sample<double> as_sample(const model::TimedSample& given) {
+sensor::Sample<double> as_sample(const estimation::TimedSample& given) {
   return {0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K};
 }
 
@@ -50,15 +50,15 @@ RunFunction::RunFunction(const model::Model& model, Estimator estimator, const R
       estimator_(estimator),
       run_(run),
       temperature_per_viscosity_K_(
-          validation::temperature_per_viscosity_K(model.fluid, validation::map_temperature_K(model))) {
+          uncertainty::temperature_per_viscosity_K(model.fluid, uncertainty::map_temperature_K(model))) {
   run_undisturbed();
   if (estimator == Estimator::condensed) learn_surroundings();
 }
 
 void RunFunction::run_undisturbed() {
-  model::RunningSensor::Parameters parameters = &model_.condensed.parameters;
+  estimation::RunningSensor::Parameters parameters = &model_.condensed.parameters;
   if (estimator_ == Estimator::observer) parameters = &model_.observer->parameters;
-  model::RunningSensor sensor(parameters, model_.valve.rated_flow_m3_per_s);
+  estimation::RunningSensor sensor(parameters, model_.valve.rated_flow_m3_per_s);
   auto instant = run_.instants.begin();
   for (std::size_t k = 0; k < run_.samples.size(); ++k) {
     const sensor::Estimate<double> answer = sensor.step(run_.samples[k]);
@@ -69,16 +69,16 @@ void RunFunction::run_undisturbed() {
     pressure_Pa_.push_back(answer.pressure_difference_Pa);
     if (estimator_ != Estimator::observer) continue;
     const double step_s = k == 0 ? 0 : run_.samples[k].time_s - run_.samples[k - 1].time_s;
-    beliefs_.push_back(validation::pressure_belief(model_.observer->parameters, sensor.state().observer,
-                                                   run_.samples[k].position_m, step_s));
+    beliefs_.push_back(uncertainty::pressure_belief(model_.observer->parameters, sensor.state().observer,
+                                                    run_.samples[k].position_m, step_s));
   }
 }
 
 void RunFunction::learn_surroundings() {
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
-    const model::TimedSample& sample = run_.samples[run_.instants[k]];
-    surroundings_.push_back(validation::surroundings_at(
-        model_, {sample.position_m, pressure_Pa_[k], validation::map_temperature_K(model_)}, sample.current_A));
+    const estimation::TimedSample& sample = run_.samples[run_.instants[k]];
+    surroundings_.push_back(uncertainty::surroundings_at(
+        model_, {sample.position_m, pressure_Pa_[k], uncertainty::map_temperature_K(model_)}, sample.current_A));
   }
 }
 
@@ -91,7 +91,7 @@ std::vector<double> RunFunction::lagged_m3_per_s(double lag_s) const {
 
 std::vector<double> RunFunction::belief_m3_per_s() const {
   std::vector<double> out;
-  for (const validation::PressureBelief& belief : beliefs_) out.push_back(belief.flow_uncertainty_m3_per_s());
+  for (const uncertainty::PressureBelief& belief : beliefs_) out.push_back(belief.flow_uncertainty_m3_per_s());
   return out;
 }
 
@@ -100,43 +100,43 @@ BandedFlow RunFunction::operator()(const InputErrors<double>& error, SeededNumbe
 }
 
 BandedFlow RunFunction::condensed(const InputErrors<double>& error, SeededNumbers& noise) const {
-  const auto valve = validation::disturbed<double>(model_.condensed.parameters, error);
-  model::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);  // has no memory: the instants are enough
+  const auto valve = uncertainty::disturbed<double>(model_.condensed.parameters, error);
+  estimation::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);  // has no memory: the instants are enough
   Noisy noisy(error, noise);
   BandedFlow out;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
-    const model::TimedSample& given = run_.samples[run_.instants[k]];
+    const estimation::TimedSample& given = run_.samples[run_.instants[k]];
     const InputErrors<double>& now = noisy.next();
-    const sensor::Sample<double> read = validation::disturbed<double>(as_sample(given), surroundings_[k], now);
+    const sensor::Sample<double> read = uncertainty::disturbed<double>(as_sample(given), surroundings_[k], now);
     const auto answer =
         sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
-    out.add(answer, -validation::unseen_flow_m3_per_s(surroundings_[k], now));
+    out.add(answer, -uncertainty::unseen_flow_m3_per_s(surroundings_[k], now));
   }
   return out;
 }
 
 BandedFlow RunFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
-  const auto valve = validation::disturbed(model_.observer->parameters, error, temperature_per_viscosity_K_);
-  model::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);
+  const auto valve = uncertainty::disturbed(model_.observer->parameters, error, temperature_per_viscosity_K_);
+  estimation::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);
   Noisy noisy(error, noise);
   BandedFlow out;
   auto instant = run_.instants.begin();
   for (std::size_t k = 0; k < run_.samples.size(); ++k) {
-    const model::TimedSample& given = run_.samples[k];
-    const sensor::Sample<double> read = validation::disturbed<double>(as_sample(given), noisy.next());
+    const estimation::TimedSample& given = run_.samples[k];
+    const sensor::Sample<double> read = uncertainty::disturbed<double>(as_sample(given), noisy.next());
     const auto answer =
         sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
     if (instant == run_.instants.end() || *instant != k) continue;
     ++instant;
-    const validation::PressureBelief& belief = beliefs_[out.flow_m3_per_s.size()];
+    const uncertainty::PressureBelief& belief = beliefs_[out.flow_m3_per_s.size()];
     out.add(answer, error[InputQuantity::flow_map] + belief.flow_error_m3_per_s(error[InputQuantity::pressure_belief]));
   }
   return out;
 }
 
-std::vector<validation::PerQuantity<double>> RunFunction::slopes() const {
-  const validation::CondensedSlopes all(model_);
-  std::vector<validation::PerQuantity<double>> out;
+std::vector<uncertainty::PerQuantity<double>> RunFunction::slopes() const {
+  const uncertainty::CondensedSlopes all(model_);
+  std::vector<uncertainty::PerQuantity<double>> out;
   const auto& valve = model_.condensed.parameters;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
     sensor::Sample<double> sample = as_sample(run_.samples[run_.instants[k]]);

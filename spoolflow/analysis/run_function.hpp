@@ -2,12 +2,12 @@
 /// The measurement function along a run: from the errors of all inputs to the flow rate at every watched instant, by
 /// the sensor's own code.
 #include "spoolflow/analysis/run_samples.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/validation/condensed_slopes.hpp"
-#include "spoolflow/validation/estimator.hpp"
-#include "spoolflow/validation/operating_point.hpp"
-#include "spoolflow/validation/pressure_belief.hpp"
-#include "spoolflow/validation/seeded_numbers.hpp"
+#include "spoolflow/uncertainty/condensed_slopes.hpp"
+#include "spoolflow/uncertainty/operating_point.hpp"
+#include "spoolflow/uncertainty/pressure_belief.hpp"
+#include "spoolflow/uncertainty/seeded_numbers.hpp"
 
 namespace spoolflow::analysis {
 
@@ -21,14 +21,14 @@ struct BandedFlow {
 /// Keeps references to model and run.
 class RunFunction {
  public:
-  RunFunction(const model::Model& model, validation::Estimator estimator, const RunSamples& run);
+  RunFunction(const model::Model& model, estimation::Estimator estimator, const RunSamples& run);
 
   /// At the instants. The noises' entries are standard deviations, every sample has its own error; the pressure
   /// belief's is a standard normal number.
-  [[nodiscard]] BandedFlow operator()(const validation::InputErrors<double>& error,
-                                      validation::SeededNumbers& noise) const;
+  [[nodiscard]] BandedFlow operator()(const uncertainty::InputErrors<double>& error,
+                                      uncertainty::SeededNumbers& noise) const;
   /// Derivatives at the instants, condensed sensor only.
-  [[nodiscard]] std::vector<validation::PerQuantity<double>> slopes() const;
+  [[nodiscard]] std::vector<uncertainty::PerQuantity<double>> slopes() const;
 
   /// As the sensor answers, at the instants.
   [[nodiscard]] const BandedFlow& undisturbed() const { return undisturbed_; }
@@ -37,26 +37,26 @@ class RunFunction {
   /// What the observer leaves open of the flow rate by its belief of the pressure difference.
   [[nodiscard]] std::vector<double> belief_m3_per_s() const;
   /// Observer only, at the instants.
-  [[nodiscard]] const std::vector<validation::PressureBelief>& beliefs() const { return beliefs_; }
+  [[nodiscard]] const std::vector<uncertainty::PressureBelief>& beliefs() const { return beliefs_; }
 
-  [[nodiscard]] validation::Estimator estimator() const { return estimator_; }
+  [[nodiscard]] estimation::Estimator estimator() const { return estimator_; }
 
  private:
   void run_undisturbed();
   void learn_surroundings();
-  [[nodiscard]] BandedFlow condensed(const validation::InputErrors<double>& error,
-                                     validation::SeededNumbers& noise) const;
-  [[nodiscard]] BandedFlow observer(const validation::InputErrors<double>& error,
-                                    validation::SeededNumbers& noise) const;
+  [[nodiscard]] BandedFlow condensed(const uncertainty::InputErrors<double>& error,
+                                     uncertainty::SeededNumbers& noise) const;
+  [[nodiscard]] BandedFlow observer(const uncertainty::InputErrors<double>& error,
+                                    uncertainty::SeededNumbers& noise) const;
 
   const model::Model& model_;
-  validation::Estimator estimator_;
+  estimation::Estimator estimator_;
   const RunSamples& run_;
   std::vector<double> every_flow_m3_per_s_;  ///< of all samples
   BandedFlow undisturbed_;                   ///< at the instants, as all below
   std::vector<double> pressure_Pa_;
-  std::vector<validation::PressureBelief> beliefs_;     ///< observer
-  std::vector<validation::Surroundings> surroundings_;  ///< condensed
+  std::vector<uncertainty::PressureBelief> beliefs_;     ///< observer
+  std::vector<uncertainty::Surroundings> surroundings_;  ///< condensed
   double temperature_per_viscosity_K_;
 };
 

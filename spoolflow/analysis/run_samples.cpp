@@ -19,7 +19,7 @@ RunSamples run_samples(const recording::Recording& recording) {
   for (std::size_t k = 0; k < recording.size(); ++k) {
     out.samples.push_back({at(Channel::time, k), at(Channel::current, k), at(Channel::voltage, k),
                            at(Channel::position, k), at(Channel::oil_temperature, k)});
-    const model::TimedSample& sample = out.samples.back();
+    const estimation::TimedSample& sample = out.samples.back();
     if (std::isfinite(sample.current_A) && std::isfinite(sample.position_m)) complete.push_back(k);
   }
   if (complete.empty()) {

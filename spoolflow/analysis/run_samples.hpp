@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/model/running_sensor.hpp"
+#include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::analysis {
@@ -10,7 +10,7 @@ namespace spoolflow::analysis {
 /// A recording as the sensor meets it, and the instants at which the budget looks at it: evenly over the samples.
 struct RunSamples {
   std::string name;
-  std::vector<model::TimedSample> samples;
+  std::vector<estimation::TimedSample> samples;
   std::vector<double> reference_m3_per_s;  ///< empty where no flow was recorded; NaN: missing
   std::vector<std::size_t> instants;       ///< rising indices of complete samples
 };

@@ -63,8 +63,8 @@ void check(const Scenario& scenario, const std::string& name) {
 }
 
 /// A half width or deviation in SI; "scenario" where it is not the default.
-validation::InstrumentFigure figure(double value, double default_value, double per_SI,
-                                    const validation::InstrumentFigure& otherwise) {
+uncertainty::InstrumentFigure figure(double value, double default_value, double per_SI,
+                                     const uncertainty::InstrumentFigure& otherwise) {
   return {value / per_SI, value == default_value ? otherwise.source : "scenario"};
 }
 
@@ -108,10 +108,10 @@ std::string scenario_template() {
   return out + study;
 }
 
-validation::InstrumentFigures instrument_figures(const InstrumentSettings& s) {
+uncertainty::InstrumentFigures instrument_figures(const InstrumentSettings& s) {
   const InstrumentSettings d;
-  const validation::InstrumentFigures o;
-  validation::InstrumentFigures out;
+  const uncertainty::InstrumentFigures o;
+  uncertainty::InstrumentFigures out;
   if (!std::isnan(s.position_zero_um)) out.position_zero_m = {s.position_zero_um * 1e-6, "scenario"};
   out.position_gain = figure(s.position_gain_percent, d.position_gain_percent, 100, o.position_gain);
   if (!std::isnan(s.position_noise_um)) out.position_noise_m = {s.position_noise_um * 1e-6, "scenario"};

@@ -9,7 +9,7 @@
 
 #include "spoolflow/analysis/monte_carlo.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
-#include "spoolflow/validation/input_uncertainties.hpp"
+#include "spoolflow/uncertainty/input_uncertainties.hpp"
 
 namespace spoolflow::analysis {
 
@@ -213,6 +213,6 @@ struct Scenario {
 [[nodiscard]] std::string scenario_template();
 
 /// As the budget takes them, each with its source.
-[[nodiscard]] validation::InstrumentFigures instrument_figures(const InstrumentSettings& settings);
+[[nodiscard]] uncertainty::InstrumentFigures instrument_figures(const InstrumentSettings& settings);
 
 }  // namespace spoolflow::analysis

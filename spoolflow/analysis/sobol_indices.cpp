@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "spoolflow/validation/seeded_numbers.hpp"
+#include "spoolflow/uncertainty/seeded_numbers.hpp"
 
 namespace spoolflow::analysis {
 namespace {
@@ -87,7 +87,7 @@ SobolIndices sobol_indices(const SaltelliDesign& design, const std::vector<doubl
 
   std::vector<std::vector<double>> first(factors), total(factors);
   for (int resample = 0; resample < resamples; ++resample) {
-    validation::SeededNumbers numbers(seed, "bootstrap of Sobol indices", static_cast<std::uint64_t>(resample));
+    uncertainty::SeededNumbers numbers(seed, "bootstrap of Sobol indices", static_cast<std::uint64_t>(resample));
     std::vector<Row> drawn;
     for (std::size_t k = 0; k < rows.size(); ++k) drawn.push_back(rows[numbers.below(rows.size())]);
     const Moments moments = moments_of(drawn);

@@ -2,7 +2,7 @@
 
 #include <boost/random/sobol.hpp>
 
-#include "spoolflow/validation/seeded_numbers.hpp"
+#include "spoolflow/uncertainty/seeded_numbers.hpp"
 
 namespace spoolflow::analysis {
 namespace {
@@ -15,7 +15,7 @@ std::uint32_t scrambled(std::uint32_t x, std::uint64_t key) {
   for (int place = 0; place < digits; ++place) {
     const std::uint64_t before = place == 0 ? 0 : x >> (digits - place);
     const std::uint64_t level = (std::uint64_t{1} << (place + 24)) | before;  // one key for each prefix of each length
-    if ((validation::mixed_bits(key ^ validation::mixed_bits(level)) >> 63U) != 0)
+    if ((uncertainty::mixed_bits(key ^ uncertainty::mixed_bits(level)) >> 63U) != 0)
       flips |= std::uint32_t{1} << (digits - 1 - place);
   }
   return x ^ flips;
@@ -29,7 +29,7 @@ SobolPoints::SobolPoints(const Extent& extent, std::uint64_t seed) : dimensions_
   for (std::uint32_t point = 0; point < extent.points; ++point) {
     for (unsigned d = 0; d < extent.dimensions; ++d) {
       const std::uint32_t x = point == 0 ? 0 : engine();  // Boost leaves out the origin, which belongs to the sequence
-      const std::uint64_t key = validation::mixed_bits(seed + validation::mixed_bits(d + 1));
+      const std::uint64_t key = uncertainty::mixed_bits(seed + uncertainty::mixed_bits(d + 1));
       values_.push_back((static_cast<double>(scrambled(x, key)) + 0.5) * 0x1p-32);
     }
   }

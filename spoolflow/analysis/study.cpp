@@ -11,17 +11,17 @@
 #include "spoolflow/analysis/in_parallel.hpp"
 #include "spoolflow/analysis/study_state.hpp"
 #include "spoolflow/analysis/virtual_model.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/units/conversion.hpp"
-#include "spoolflow/validation/estimation.hpp"
 #include "spoolflow/validation/metrics.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::analysis {
 namespace {
 
-using recording::Channel;
-using validation::Estimator;
+using estimation::Estimator;
 
 /// The preset whose rated flow is nearest to the model's.
 std::string nearest_preset(const model::Model& model) {
@@ -73,23 +73,18 @@ RunErrors run_errors(const model::Model& model, const DrawnValve& drawn, const S
   const rig::Simulation run = rig::simulate(drawn.valve, duty_cycle(drawn.valve, drawn.oil_temperature_C, scenario),
                                             scenario.seed, {.with_truth = true});
   const std::vector<double>& flow_L_min = run.truth["flow_L_min"];
-  recording::SampleBlock block;
-  block.columns = run.recording.columns;
-  block.rows = run.recording.size();
-  const auto& time_s = block.columns[static_cast<std::size_t>(Channel::time)];
+  const estimation::Columns columns = validation::sensor_columns(run.recording);
   constexpr double finding_s = 0.5;  // until then nothing moves and nothing is known
   RunErrors out{};
   std::size_t k = 0;
   for (const Estimator estimator : {Estimator::condensed, Estimator::observer}) {
-    validation::Estimation sensor(model, estimator);
-    std::vector<sensor::Estimate<double>> estimates;
-    sensor.run(block, estimates);
+    estimation::RunningSensor sensor = estimation::running_sensor(model, estimator);
     std::vector<float> errors;
-    for (std::size_t s = 0; s < block.rows; ++s) {
-      if (time_s[s] < finding_s) continue;
-      const double error_m3_per_s = estimates[s].flow_m3_per_s - units::m3_per_s_from_L_per_min(flow_L_min[s]);
+    estimation::run(sensor, columns, [&](std::size_t s, const sensor::Estimate<double>& estimate) {
+      if (columns.time_s[s] < finding_s) return;
+      const double error_m3_per_s = estimate.flow_m3_per_s - units::m3_per_s_from_L_per_min(flow_L_min[s]);
       errors.push_back(static_cast<float>(error_m3_per_s / model.valve.rated_flow_m3_per_s));
-    }
+    });
     const validation::ErrorFigures figures = validation::error_figures(std::move(errors));
     out[k++] = figures.p95;
     out[k++] = figures.rms;

@@ -9,9 +9,9 @@
 #include "spoolflow/analysis/scenario.hpp"
 #include "spoolflow/analysis/sobol_indices.hpp"
 #include "spoolflow/analysis/valve_factors.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
-#include "spoolflow/validation/estimator.hpp"
 
 namespace spoolflow::analysis {
 
@@ -21,7 +21,7 @@ using RunErrors = std::array<double, study_outputs>;
 
 /// One of the outputs.
 struct StudyOutput {
-  validation::Estimator estimator;
+  estimation::Estimator estimator;
   bool p95;  ///< 95th percentile of the errors' magnitudes; else root mean square
 };
 [[nodiscard]] const std::array<StudyOutput, study_outputs>& study_output_list();

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/validation/seeded_numbers.hpp"
+#include "spoolflow/uncertainty/seeded_numbers.hpp"
 
 namespace spoolflow::analysis {
 namespace {
@@ -46,7 +46,7 @@ FinishedRuns finished_runs(const std::string& text, std::uint64_t fingerprint, s
 
 std::uint64_t fingerprint_of(const std::string& text) {
   std::uint64_t hash = 0;
-  for (const char letter : text) hash = validation::mixed_bits(hash ^ static_cast<unsigned char>(letter));
+  for (const char letter : text) hash = uncertainty::mixed_bits(hash ^ static_cast<unsigned char>(letter));
   return hash;
 }
 

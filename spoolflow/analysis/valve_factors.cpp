@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "spoolflow/validation/distribution.hpp"
+#include "spoolflow/uncertainty/distribution.hpp"
 
 namespace spoolflow::analysis {
 namespace {
@@ -14,7 +14,7 @@ class Numbers {
   double uniform(double from, double to) { return from + (to - from) * *next_++; }
   /// Normal, cut off at 2.5 standard deviations.
   double deviate(double standard_deviation) {
-    return standard_deviation * std::clamp(validation::normal_quantile(*next_++), -2.5, 2.5);
+    return standard_deviation * std::clamp(uncertainty::normal_quantile(*next_++), -2.5, 2.5);
   }
   double factor(double percent) { return 1 + 0.01 * deviate(percent); }
 

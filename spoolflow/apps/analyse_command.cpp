@@ -15,7 +15,7 @@
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/json/analysis_json.hpp"
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 namespace {

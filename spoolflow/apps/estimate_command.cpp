@@ -17,11 +17,13 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
 #include "spoolflow/recording/files/file_format.hpp"
 #include "spoolflow/units/conversion.hpp"
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -41,7 +43,7 @@ struct EstimatedBlock {
   std::optional<double> share;
 };
 
-void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, validation::StatusText& status_text) {
+void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, estimation::StatusText& status_text) {
   using units::litre_per_minute_per_m3_per_s;
   for (std::size_t k = 0; k < block.estimates.size(); ++k) {
     const sensor::Estimate<double>& estimate = block.estimates[k];
@@ -72,7 +74,7 @@ void tell(const recording::ReadNotes& notes, const std::string& file) {
 /// What all recordings of one command have in common.
 struct Task {
   model::Model model;
-  validation::Estimator estimator;
+  estimation::Estimator estimator;
   recording::ChannelMap channels;
   std::vector<std::filesystem::path> inputs;
   bool quiet;
@@ -80,9 +82,9 @@ struct Task {
 
 Task task_of(const EstimateArguments& arguments) {
   Task task{model::read_model(arguments.model), {}, {}, {arguments.model}, arguments.quiet};
-  task.estimator = validation::best_estimator(task.model);
-  if (arguments.estimator == "condensed") task.estimator = validation::Estimator::condensed;
-  if (arguments.estimator == "observer") task.estimator = validation::Estimator::observer;
+  task.estimator = estimation::best_estimator(task.model);
+  if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;
+  if (arguments.estimator == "observer") task.estimator = estimation::Estimator::observer;
   if (!arguments.channels.empty()) {
     task.channels = recording::read_channel_map(arguments.channels);
     task.inputs.emplace_back(arguments.channels);
@@ -95,7 +97,7 @@ Task task_of(const EstimateArguments& arguments) {
 recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target,
                                   bool beside) {
   const auto reader = recording::open_reader(recording, validation::sensor_channels(task.model, task.channels));
-  validation::Estimation estimation(task.model, task.estimator);
+  estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
   OutputFile output(target, task.inputs);
   recording::ReadNotes notes;
   {
@@ -115,14 +117,15 @@ recording::ReadNotes estimate_one(const Task& task, const std::string& recording
         [&](EstimatedBlock& block) {
           ReadBlock* const read = reading.next();
           if (read == nullptr) return false;
-          estimation.run(read->samples, block.estimates);
+          block.estimates.resize(read->samples.rows);
+          estimation::run(sensor, validation::sensor_columns(read->samples), block.estimates);
           std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
           block.notes = read->notes;
           block.share = read->share;
           return true;
         },
         beside);
-    validation::StatusText status_text;
+    estimation::StatusText status_text;
     while (const EstimatedBlock* block = estimating.next()) {
       write_rows(writer, *block, status_text);
       notes = block->notes;

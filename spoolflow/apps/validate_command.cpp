@@ -15,10 +15,10 @@
 namespace spoolflow::apps {
 namespace {
 
-std::vector<validation::Estimator> chosen(const std::string& name, const model::Model& model) {
-  if (name == "condensed") return {validation::Estimator::condensed};
-  if (name == "observer") return {validation::Estimator::observer};
-  return validation::all_estimators(model);
+std::vector<estimation::Estimator> chosen(const std::string& name, const model::Model& model) {
+  if (name == "condensed") return {estimation::Estimator::condensed};
+  if (name == "observer") return {estimation::Estimator::observer};
+  return estimation::all_estimators(model);
 }
 
 void print_figures(const model::Model& model, const validation::Validation& validation) {
@@ -36,11 +36,11 @@ void print_figures(const model::Model& model, const validation::Validation& vali
   for (const validation::RunResult& run : validation.runs) {
     for (const validation::EstimatorResult& result : run.results) {
       if (!result.metrics) {
-        fmt::print("{:<24} {:<10} no reference flow\n", run.name, validation::name(result.estimator));
+        fmt::print("{:<24} {:<10} no reference flow\n", run.name, estimation::name(result.estimator));
         continue;
       }
       const validation::GroupFigures& all = result.metrics->all;
-      fmt::print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, validation::name(result.estimator),
+      fmt::print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, estimation::name(result.estimator),
                  all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent,
                  100 * all.band_coverage);
     }

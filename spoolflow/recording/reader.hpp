@@ -24,6 +24,10 @@ struct ReadOptions {
 struct SampleBlock {
   std::array<std::vector<double>, channel_count> columns;
   std::size_t rows = 0;
+
+  [[nodiscard]] const std::vector<double>& column(Channel channel) const {
+    return columns[static_cast<std::size_t>(channel)];
+  }
 };
 
 /// What was met while reading and is told rather than swallowed.

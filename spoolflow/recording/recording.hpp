@@ -19,6 +19,10 @@ struct Recording {
   [[nodiscard]] bool has(Channel channel) const { return !columns[static_cast<std::size_t>(channel)].empty(); }
   /// The channel's samples in SI units. Throws RecordingError naming file and channel when absent.
   [[nodiscard]] std::span<const double> operator[](Channel channel) const;
+  /// Empty where the channel is absent.
+  [[nodiscard]] const std::vector<double>& column(Channel channel) const {
+    return columns[static_cast<std::size_t>(channel)];
+  }
   [[nodiscard]] std::vector<double>& column(Channel channel) { return columns[static_cast<std::size_t>(channel)]; }
   [[nodiscard]] std::size_t size() const { return columns[static_cast<std::size_t>(Channel::time)].size(); }
 };

@@ -60,7 +60,7 @@ double in_unit(double value, LimitUnit unit, double full_scale_m3_per_s) {
   return 100 * value;
 }
 
-const EstimatorResult& result_of(const RunResult& run, Estimator estimator) {
+const EstimatorResult& result_of(const RunResult& run, estimation::Estimator estimator) {
   for (const EstimatorResult& result : run.results) {
     if (result.estimator == estimator) return result;
   }
@@ -73,7 +73,7 @@ class Judge {
       : validation_(validation), full_scale_m3_per_s_(full_scale_m3_per_s) {}
 
   [[nodiscard]] JudgedLimit together(const Limit& limit) const {
-    const Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
+    const estimation::Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
     if (limit.figure == Figure::fault_share) return judged(limit, "all runs", estimator, fault_share(estimator));
     for (const PooledResult& pooled : validation_.pooled) {
       if (pooled.estimator != estimator || !pooled.metrics) continue;
@@ -82,7 +82,7 @@ class Judge {
     return judged(limit, "all runs", estimator, std::nullopt);
   }
   [[nodiscard]] JudgedLimit alone(const Limit& limit, const RunResult& run) const {
-    const Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
+    const estimation::Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
     const EstimatorResult& result = result_of(run, estimator);
     if (limit.figure == Figure::fault_share) {
       return judged(limit, run.name, estimator,
@@ -92,7 +92,7 @@ class Judge {
   }
 
  private:
-  [[nodiscard]] std::optional<double> fault_share(Estimator estimator) const {
+  [[nodiscard]] std::optional<double> fault_share(estimation::Estimator estimator) const {
     double samples = 0;
     double faulty = 0;
     for (const RunResult& run : validation_.runs) {
@@ -102,7 +102,7 @@ class Judge {
     if (samples == 0) return std::nullopt;
     return faulty / samples;
   }
-  [[nodiscard]] JudgedLimit judged(const Limit& limit, const std::string& run, Estimator estimator,
+  [[nodiscard]] JudgedLimit judged(const Limit& limit, const std::string& run, estimation::Estimator estimator,
                                    std::optional<double> value) const {
     if (value) value = in_unit(*value, limit.unit, full_scale_m3_per_s_);
     const bool met =

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/validation/estimator.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 
 namespace spoolflow::validation {
 
@@ -55,8 +55,8 @@ struct Limit {
   When when = When::always;
   Figure figure = Figure::p95;
   LimitUnit unit = LimitUnit::percent_FS;
-  std::optional<double> at_least = {}, at_most = {};  ///< in `unit`
-  std::optional<Estimator> estimator = {};            ///< else the leading one
+  std::optional<double> at_least = {}, at_most = {};    ///< in `unit`
+  std::optional<estimation::Estimator> estimator = {};  ///< else the leading one
 };
 
 struct Requirements {
@@ -69,7 +69,7 @@ struct Requirements {
 struct JudgedLimit {
   Limit limit;
   std::string run;  ///< "all runs", or a run's name
-  Estimator estimator;
+  estimation::Estimator estimator;
   std::optional<double> value;  ///< in the limit's unit
   bool met;
 };
@@ -80,7 +80,7 @@ struct JudgedLimit {
 /// Throws RecordingError where a limit names a run that is not among `recordings`, or an estimator that is not among
 /// `estimators`.
 void check_names(const Requirements& requirements, const std::vector<std::string>& runs,
-                 const std::vector<Estimator>& estimators);
+                 const std::vector<estimation::Estimator>& estimators);
 
 [[nodiscard]] std::vector<JudgedLimit> judge(const Requirements& requirements, const Validation& validation,
                                              double full_scale_m3_per_s);

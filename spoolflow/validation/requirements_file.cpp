@@ -13,8 +13,8 @@ namespace {
 using recording::RecordingError;
 using recording::TomlTable;
 
-constexpr std::array estimator_names{Named<Estimator>{Estimator::condensed, "condensed"},
-                                     Named<Estimator>{Estimator::observer, "observer"}};
+constexpr std::array estimator_names{Named<estimation::Estimator>{estimation::Estimator::condensed, "condensed"},
+                                     Named<estimation::Estimator>{estimation::Estimator::observer, "observer"}};
 
 /// The value of a key that holds one of some names.
 template <class Value, std::size_t count>
@@ -111,7 +111,7 @@ Requirements read_requirements(const std::filesystem::path& file) {
 }
 
 void check_names(const Requirements& requirements, const std::vector<std::string>& runs,
-                 const std::vector<Estimator>& estimators) {
+                 const std::vector<estimation::Estimator>& estimators) {
   for (const Limit& limit : requirements.limits) {
     std::vector<std::string> allowed{"all", "each"};
     allowed.insert(allowed.end(), runs.begin(), runs.end());

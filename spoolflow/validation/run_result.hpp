@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/validation/direction_profile.hpp"
 #include "spoolflow/validation/error_profile.hpp"
-#include "spoolflow/validation/estimator.hpp"
 #include "spoolflow/validation/frequency_response.hpp"
 #include "spoolflow/validation/metrics.hpp"
 #include "spoolflow/validation/run_trace.hpp"
@@ -38,7 +38,7 @@ struct WorstMoment {
 
 /// One estimator over a run; lines in SI.
 struct EstimatorResult {
-  Estimator estimator;
+  estimation::Estimator estimator;
   std::optional<Metrics> metrics;      ///< absent without reference flow
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`; empty without reference flow
   std::optional<DirectionProfile> direction;

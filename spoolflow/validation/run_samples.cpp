@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "spoolflow/validation/sensor_channels.hpp"
+
 namespace spoolflow::validation {
 namespace {
 
@@ -24,16 +26,13 @@ void append(Answers& to, const std::vector<sensor::Estimate<double>>& estimates)
 
 template <class Number>
 void append(std::vector<Number>& to, const recording::SampleBlock& block, Channel channel) {
-  for (const double value : block.columns[static_cast<std::size_t>(channel)]) to.push_back(static_cast<Number>(value));
+  for (const double value : block.column(channel)) to.push_back(static_cast<Number>(value));
 }
 
 void append_pressure_difference(std::vector<float>& to, const recording::SampleBlock& block) {
-  const auto column = [&](Channel channel) -> const std::vector<double>& {
-    return block.columns[static_cast<std::size_t>(channel)];
-  };
-  if (!column(Channel::pressure_difference).empty()) return append(to, block, Channel::pressure_difference);
-  const auto& upstream_Pa = column(Channel::pressure_upstream);
-  const auto& downstream_Pa = column(Channel::pressure_downstream);
+  if (!block.column(Channel::pressure_difference).empty()) return append(to, block, Channel::pressure_difference);
+  const auto& upstream_Pa = block.column(Channel::pressure_upstream);
+  const auto& downstream_Pa = block.column(Channel::pressure_downstream);
   if (upstream_Pa.empty() || downstream_Pa.empty()) return;
   for (std::size_t k = 0; k < block.rows; ++k) to.push_back(static_cast<float>(upstream_Pa[k] - downstream_Pa[k]));
 }
@@ -48,7 +47,7 @@ void lag(std::span<const double> time_s, std::vector<float>& values, double lag_
 }  // namespace
 
 RunSamples estimate_run(const model::Model& model, const std::filesystem::path& recording,
-                        const recording::ChannelMap& channels, const std::vector<Estimator>& estimators,
+                        const recording::ChannelMap& channels, const std::vector<estimation::Estimator>& estimators,
                         const std::function<void(double)>& progress) {
   recording::ReadOptions options = sensor_channels(model, channels);
   for (const Channel channel :
@@ -59,16 +58,17 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
   const auto reader = recording::open_reader(recording, options);
   const Channel reference = reader->has(Channel::flow_reference) ? Channel::flow_reference : Channel::flow;
   RunSamples run;
-  std::vector<Estimation> sensors;
-  for (const Estimator estimator : estimators) {
-    sensors.emplace_back(model, estimator);
+  std::vector<estimation::RunningSensor> sensors;
+  for (const estimation::Estimator estimator : estimators) {
+    sensors.push_back(estimation::running_sensor(model, estimator));
     run.answers.emplace_back().estimator = estimator;
   }
   recording::SampleBlock block;
   std::vector<sensor::Estimate<double>> estimates;
   while (reader->next(block)) {
+    estimates.resize(block.rows);
     for (std::size_t s = 0; s < sensors.size(); ++s) {
-      sensors[s].run(block, estimates);
+      estimation::run(sensors[s], sensor_columns(block), estimates);
       append(run.answers[s], estimates);
     }
     append(run.time_s, block, Channel::time);

@@ -5,13 +5,14 @@
 #include <functional>
 #include <vector>
 
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::validation {
 
 /// What one estimator answered; one entry a sample.
 struct Answers {
-  Estimator estimator;
+  estimation::Estimator estimator;
   std::vector<float> flow_m3_per_s, lower_m3_per_s, upper_m3_per_s;
   std::vector<float> pressure_difference_Pa;
   std::vector<float> magnetic_force_N, spring_force_N, flow_force_N, friction_force_N;
@@ -31,7 +32,8 @@ struct RunSamples {
 /// Runs the estimators over a recording. The reference is the channel flow_reference, else flow; the pressure
 /// difference is its own channel, else upstream less downstream. `progress` is told the share read.
 [[nodiscard]] RunSamples estimate_run(const model::Model& model, const std::filesystem::path& recording,
-                                      const recording::ChannelMap& channels, const std::vector<Estimator>& estimators,
+                                      const recording::ChannelMap& channels,
+                                      const std::vector<estimation::Estimator>& estimators,
                                       const std::function<void(double)>& progress);
 
 /// Lags flow and band by a first-order lag, as the reference meter lags the flow.

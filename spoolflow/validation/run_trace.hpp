@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "spoolflow/validation/estimator.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/validation/run_samples.hpp"
 
 namespace spoolflow::validation {
@@ -17,7 +17,7 @@ struct TracedChannel {
 
 /// What one estimator said; SI. Of the band, the edge that is farther out.
 struct TracedEstimator {
-  Estimator estimator;
+  estimation::Estimator estimator;
   TracedChannel flow_m3_per_s, error_m3_per_s, pressure_difference_Pa;
   std::vector<float> lower_m3_per_s, upper_m3_per_s;
   TracedChannel magnetic_force_N, spring_force_N, flow_force_N, friction_force_N;

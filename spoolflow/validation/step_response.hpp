@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "spoolflow/validation/estimator.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/validation/run_samples.hpp"
 
 namespace spoolflow::validation {
 
 /// One estimator's answer to a run's steps; medians over the steps that it followed by at least half.
 struct StepAnswer {
-  Estimator estimator;
+  estimation::Estimator estimator;
   std::size_t followed;
   double delay_s;             ///< at half of the step, against the reference meter; negative: earlier than the meter
   double rise_s;              ///< from 10 to 90 % of its own step

@@ -31,11 +31,6 @@ void name_run(RunResult& result, const model::Model& model, const std::filesyste
 
 }  // namespace
 
-std::vector<Estimator> all_estimators(const model::Model& model) {
-  if (!model.observer) return {Estimator::condensed};
-  return {Estimator::condensed, Estimator::observer};
-}
-
 Validation validate(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
                     const ValidationOptions& options, const std::function<void(double)>& progress) {
   if (options.requirements) {

@@ -12,7 +12,7 @@
 namespace spoolflow::validation {
 
 struct ValidationOptions {
-  std::vector<Estimator> estimators;  ///< the leading one last
+  std::vector<estimation::Estimator> estimators;  ///< the leading one last
   recording::ChannelMap channels;
   double reference_lag_s = 0.03;     ///< of the reference meter
   bool apply_reference_lag = false;  ///< lag the estimate likewise before comparing
@@ -23,7 +23,7 @@ struct ValidationOptions {
 
 /// One estimator over all runs with reference flow together.
 struct PooledResult {
-  Estimator estimator;
+  estimation::Estimator estimator;
   std::optional<Metrics> metrics;
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`
   std::optional<DirectionProfile> direction = {};
@@ -37,9 +37,6 @@ struct Validation {
   std::string requirements_file;    ///< empty: nothing was asked
   std::vector<JudgedLimit> limits;  ///< in the file's order
 };
-
-/// Both where the model has both.
-[[nodiscard]] std::vector<Estimator> all_estimators(const model::Model& model);
 
 /// `progress` is told the share of all recordings that was read. Memory grows with the longest recording (about 110
 /// bytes a sample), not with their number. Throws RecordingError and ModelError.

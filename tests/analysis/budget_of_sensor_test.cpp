@@ -11,11 +11,11 @@
 namespace spoolflow::analysis {
 namespace {
 
-using validation::Estimator;
-using validation::InputErrors;
-using validation::InputQuantity;
-using validation::PointFunction;
-using validation::SeededNumbers;
+using estimation::Estimator;
+using uncertainty::InputErrors;
+using uncertainty::InputQuantity;
+using uncertainty::PointFunction;
+using uncertainty::SeededNumbers;
 
 const model::Model& example() {
   static const model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
@@ -23,22 +23,22 @@ const model::Model& example() {
 }
 
 /// Near the middle of the stroke, between the grid points of every table.
-validation::WorkingPoint middle() {
-  return {0.513 * example().valve.stroke_m, 40e5, validation::map_temperature_K(example())};
+uncertainty::WorkingPoint middle() {
+  return {0.513 * example().valve.stroke_m, 40e5, uncertainty::map_temperature_K(example())};
 }
 
-const validation::BudgetLine& line(const validation::Budget& budget, InputQuantity quantity) {
-  for (const validation::BudgetLine& each : budget.lines) {
+const uncertainty::BudgetLine& line(const uncertainty::Budget& budget, InputQuantity quantity) {
+  for (const uncertainty::BudgetLine& each : budget.lines) {
     if (each.input.quantity == quantity) return each;
   }
-  throw std::out_of_range(std::string(validation::about(quantity).name));
+  throw std::out_of_range(std::string(uncertainty::about(quantity).name));
 }
 
 TEST(BudgetAtAPoint, DerivativesThroughTheTemplatesAreThoseOfSmallDifferences) {
   const PointFunction function = *PointFunction::at(example(), Estimator::condensed, middle());
-  const validation::Budget budget = function.budget(validation::inputs_of(example(), Estimator::condensed, {}));
+  const uncertainty::Budget budget = function.budget(uncertainty::inputs_of(example(), Estimator::condensed, {}));
   SeededNumbers none(0, "");
-  for (const validation::BudgetLine& each : budget.lines) {
+  for (const uncertainty::BudgetLine& each : budget.lines) {
     const double step = 1e-4 * each.input.standard_uncertainty;
     InputErrors<double> error;
     error[each.input.quantity] = step;
@@ -46,16 +46,16 @@ TEST(BudgetAtAPoint, DerivativesThroughTheTemplatesAreThoseOfSmallDifferences) {
     error[each.input.quantity] = -step;
     const double difference = (above - function(error, none)) / (2 * step);
     EXPECT_NEAR(each.sensitivity_m3_per_s, difference, 1e-3 * std::abs(difference) + 1e-14)
-        << validation::about(each.input.quantity).name;
+        << uncertainty::about(each.input.quantity).name;
   }
 }
 
 TEST(BudgetAtAPoint, ANewtonOfForceMapCountsWhatANewtonOfSpringTakesBack) {
   for (const Estimator estimator : {Estimator::condensed, Estimator::observer}) {
     const auto function = PointFunction::at(example(), estimator, middle());
-    const validation::Budget budget = function->budget(validation::inputs_of(example(), estimator, {}), 2);
+    const uncertainty::Budget budget = function->budget(uncertainty::inputs_of(example(), estimator, {}), 2);
     const double per_force = line(budget, InputQuantity::magnetic_force_map).sensitivity_m3_per_s;
-    EXPECT_GT(per_force, 0) << validation::name(estimator);
+    EXPECT_GT(per_force, 0) << estimation::name(estimator);
     EXPECT_NEAR(line(budget, InputQuantity::spring).sensitivity_m3_per_s, -per_force, 0.05 * per_force);
     EXPECT_NEAR(line(budget, InputQuantity::flow_force_map).sensitivity_m3_per_s, -per_force, 0.05 * per_force);
     EXPECT_EQ(line(budget, InputQuantity::voltage_offset).contribution_m3_per_s, 0)
@@ -67,7 +67,7 @@ TEST(BudgetAtAPoint, FrictionRulesTheCondensedSensorAndNotTheObserver) {
   const Scenario scenario;
   const auto share = [&](Estimator estimator) {
     const auto function = PointFunction::at(example(), estimator, middle());
-    return line(function->budget(validation::inputs_of(example(), estimator, {})), InputQuantity::friction).share;
+    return line(function->budget(uncertainty::inputs_of(example(), estimator, {})), InputQuantity::friction).share;
   };
   EXPECT_GT(share(Estimator::condensed), 0.6);
   EXPECT_LT(share(Estimator::observer), 0.6);
@@ -75,7 +75,7 @@ TEST(BudgetAtAPoint, FrictionRulesTheCondensedSensorAndNotTheObserver) {
 
 TEST(BudgetAtAPoint, AgreesWithMonteCarloThroughTheObserver) {
   const auto function = PointFunction::at(example(), Estimator::observer, middle());
-  const validation::Budget budget = function->budget(validation::inputs_of(example(), Estimator::observer, {}));
+  const uncertainty::Budget budget = function->budget(uncertainty::inputs_of(example(), Estimator::observer, {}));
   const MonteCarlo check = monte_carlo(*function, budget, {.trials = 1500}, 1);
   // 1500 trials know the deviation to 2 %; the observer is nearly linear here.
   EXPECT_NEAR(check.comparison.deviation_ratio, 1, 0.08);
@@ -84,7 +84,7 @@ TEST(BudgetAtAPoint, AgreesWithMonteCarloThroughTheObserver) {
 }
 
 TEST(BudgetAtAPoint, ThereIsNoneOutsideTheMaps) {
-  validation::WorkingPoint beyond = middle();
+  uncertainty::WorkingPoint beyond = middle();
   beyond.pressure_difference_Pa = 300e5;
   EXPECT_FALSE(PointFunction::at(example(), Estimator::condensed, beyond));
   EXPECT_FALSE(PointFunction::at(example(), Estimator::observer, beyond));
@@ -94,8 +94,8 @@ TEST(InputUncertainties, TheCampaignsInstrumentsGoBeforeDefaultsAndTheScenarioBe
   model::Model model = example();
   model.instruments.current_A = 4e-3;
   model.instruments.force_N = 0.5;
-  const auto input = [&](InputQuantity quantity, const validation::InstrumentFigures& figures) {
-    for (const auto& each : validation::inputs_of(model, Estimator::observer, figures).uncertainties) {
+  const auto input = [&](InputQuantity quantity, const uncertainty::InstrumentFigures& figures) {
+    for (const auto& each : uncertainty::inputs_of(model, Estimator::observer, figures).uncertainties) {
       if (each.quantity == quantity) return each;
     }
     throw std::out_of_range("no such input");
@@ -103,14 +103,14 @@ TEST(InputUncertainties, TheCampaignsInstrumentsGoBeforeDefaultsAndTheScenarioBe
   EXPECT_NEAR(input(InputQuantity::current_offset, {}).standard_uncertainty, 4e-3 / 1.96, 1e-6);
   EXPECT_EQ(input(InputQuantity::current_gain, {}).standard_uncertainty, 0);
   EXPECT_GT(input(InputQuantity::magnetic_force_map, {}).standard_uncertainty, 0.5 / 1.96);
-  validation::InstrumentFigures asked;
+  uncertainty::InstrumentFigures asked;
   asked.current_offset_A = {1e-2, "scenario"};
   EXPECT_NEAR(input(InputQuantity::current_offset, asked).standard_uncertainty, 1e-2 / std::sqrt(3.0), 1e-9);
 }
 
 TEST(MonteCarlo, AdaptiveTrialsEndWhenTheFiguresAreStable) {
   const auto function = PointFunction::at(example(), Estimator::condensed, middle());
-  const validation::Budget budget = function->budget(validation::inputs_of(example(), Estimator::condensed, {}));
+  const uncertainty::Budget budget = function->budget(uncertainty::inputs_of(example(), Estimator::condensed, {}));
   const MonteCarlo check =
       monte_carlo(*function, budget, {.trials = 300, .adaptive = true, .most_trials = 6000, .digits = 1}, 1);
   EXPECT_GE(check.figures.trials, 600U);
@@ -121,7 +121,7 @@ TEST(MonteCarlo, AdaptiveTrialsEndWhenTheFiguresAreStable) {
 TEST(MonteCarlo, StatesTheTrialsIntervalWhereFrictionIsTwoValuedAndTheBudgetsWhereItHolds) {
   const auto stated_at_middle = [](Estimator estimator, std::size_t trials) {
     const auto function = PointFunction::at(example(), estimator, middle());
-    const validation::Budget budget = function->budget(validation::inputs_of(example(), estimator, {}));
+    const uncertainty::Budget budget = function->budget(uncertainty::inputs_of(example(), estimator, {}));
     const MonteCarlo check = monte_carlo(*function, budget, {.trials = trials}, 1);
     SeededNumbers none(0, "");
     return std::pair(stated_interval(budget, (*function)({}, none), check), check.figures);
@@ -133,7 +133,7 @@ TEST(MonteCarlo, StatesTheTrialsIntervalWhereFrictionIsTwoValuedAndTheBudgetsWhe
   EXPECT_LE(trials.shortest_upper - trials.shortest_lower, trials.upper - trials.lower);
   MonteCarlo agreeing;
   agreeing.comparison.validated = true;
-  validation::Budget budget;
+  uncertainty::Budget budget;
   budget.expanded_m3_per_s = 2;
   const StatedInterval by_budget = stated_interval(budget, 10, agreeing);
   EXPECT_TRUE(by_budget.by_budget);
@@ -158,10 +158,10 @@ TEST(MonteCarlo, ToleranceIsHalfAUnitOfTheLastDigitThatCounts) {
 
 /// The course that leads to the middle point, as a recording would hold it.
 RunSamples course(bool with_reference) {
-  RunSamples run{"course", *validation::course_to(example(), middle()), {}, {}};
+  RunSamples run{"course", *uncertainty::course_to(example(), middle()), {}, {}};
   for (std::size_t k = 0; k < run.samples.size(); k += 3) run.instants.push_back(k);
   if (with_reference) {
-    model::RunningSensor sensor(&example().observer->parameters, example().valve.rated_flow_m3_per_s);
+    estimation::RunningSensor sensor(&example().observer->parameters, example().valve.rated_flow_m3_per_s);
     for (std::size_t k = 0; k < run.samples.size(); ++k) {
       const double flow = sensor.step(run.samples[k]).flow_m3_per_s;
       run.reference_m3_per_s.push_back(k + 20 < run.samples.size() ? NAN : flow);
@@ -180,7 +180,7 @@ Scenario few_trials() {
 TEST(BudgetAlongARun, EndsAsTheBudgetOfThePointWhereItEnds) {
   const RunAnalysis run = analyse_run(example(), course(false), few_trials(), 2, [](double) {});
   const auto function = PointFunction::at(example(), Estimator::observer, middle());
-  const validation::Budget budget = function->budget(validation::inputs_of(example(), Estimator::observer, {}));
+  const uncertainty::Budget budget = function->budget(uncertainty::inputs_of(example(), Estimator::observer, {}));
   ASSERT_EQ(run.results.size(), 2U);
   const RunResult& observer = run.results.back();
   // 16 noise runs instead of 48 tell the noise's part less well.

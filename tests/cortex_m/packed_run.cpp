@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::cortex_m {
 namespace {
@@ -77,14 +77,14 @@ void append(std::string& bytes, std::uint32_t word) {
 
 }  // namespace
 
-std::string packed_run(const model::Model& model, validation::Estimator estimator,
+std::string packed_run(const model::Model& model, estimation::Estimator estimator,
                        const std::filesystem::path& recording) {
   std::vector<Sample> samples = samples_of(model, recording);
   if (samples.size() > most_samples) samples.resize(most_samples);
   const std::size_t recorded = samples.size();
   append_disturbances(samples, model.valve.stroke_m);
   const std::vector<float> golden =
-      estimator == validation::Estimator::observer
+      estimator == estimation::Estimator::observer
           ? flows(model.observer.value().parameters, sensor::ObserverState<double>{}, samples)
           : flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, samples);
   std::string bytes;

@@ -17,7 +17,7 @@ namespace spoolflow::cortex_m {
 namespace {
 
 namespace fs = std::filesystem;
-using validation::Estimator;
+using estimation::Estimator;
 
 std::string content(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 
 namespace spoolflow::cortex_m {
 
@@ -42,7 +42,7 @@ struct Replay {
 };
 
 /// Throws std::runtime_error with what the tools said where one of them fails.
-[[nodiscard]] Replay replay(const model::Model& model, validation::Estimator estimator,
+[[nodiscard]] Replay replay(const model::Model& model, estimation::Estimator estimator,
                             const std::filesystem::path& recording, const Core& core);
 
 }  // namespace spoolflow::cortex_m

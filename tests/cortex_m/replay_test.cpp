@@ -6,8 +6,8 @@
 namespace spoolflow::cortex_m {
 namespace {
 
+using estimation::Estimator;
 using sensor::Status;
-using validation::Estimator;
 
 constexpr double most_percent = 0.1;  // of the rated flow: a tenth of what the best flow meters claim
 

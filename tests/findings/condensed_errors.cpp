@@ -74,7 +74,7 @@ CondensedRuns condensed_runs(const std::filesystem::path& folder) {
   const recording::Campaign campaign = recording::read_campaign(folder / "campaign.toml");
   const model::Model model = calibration::calibrate(campaign, "rig findings", [](const std::string&, double) {});
   const auto estimated = [&](const std::string& name) {
-    return validation::estimate_run(model, folder / name, {}, {validation::Estimator::condensed}, [](double) {});
+    return validation::estimate_run(model, folder / name, {}, {estimation::Estimator::condensed}, [](double) {});
   };
   CondensedRuns runs{.ramp = {}, .ramps = estimated("ramps_30_to_70bar.csv")};
   for (const rig::CampaignItem& item : items) {

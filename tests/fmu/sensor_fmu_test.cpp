@@ -9,7 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/validation/estimation.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 #include "tests/fmu/fmu_instance.hpp"
 
 namespace spoolflow::exports {
@@ -31,12 +32,13 @@ Rows example_rows(std::size_t count) {
   const model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
   const auto reader = recording::open_reader(SPOOLFLOW_SOURCES "/examples/valve_a/duty_cycle_1.h5",
                                              validation::sensor_channels(model, {}));
-  validation::Estimation estimation(model, validation::Estimator::observer);
+  estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
   Rows rows;
   recording::SampleBlock block;
   std::vector<sensor::Estimate<double>> estimates;
   while (rows.estimates.size() < count && reader->next(block)) {
-    estimation.run(block, estimates);
+    estimates.resize(block.rows);
+    estimation::run(sensor, validation::sensor_columns(block), estimates);
     const auto append = [&](std::vector<double>& to, recording::Channel channel) {
       const auto& from = block.columns[static_cast<std::size_t>(channel)];
       to.insert(to.end(), from.begin(), from.end());
@@ -265,7 +267,7 @@ TEST_P(SensorFmu, WithoutVoltageAnswersAsEstimateWithoutThatChannel) {
   begin(*instance);
   const std::vector<double> flow = run(*instance, 0, 3000);
   const model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
-  model::RunningSensor sensor(&model.observer->parameters, full_scale_m3_per_s);
+  estimation::RunningSensor sensor(&model.observer->parameters, full_scale_m3_per_s);
   for (std::size_t k = 0; k < flow.size(); ++k) {
     const auto expected =
         sensor.step({1e-3 * static_cast<double>(k), rows().current_A[k], std::numeric_limits<double>::quiet_NaN(),
@@ -306,7 +308,7 @@ TEST_P(SensorFmu, OfAModelWithoutObserverRunsTheCondensedSensorAndSaysSo) {
   const auto instance = other.instantiate(log);
   ASSERT_NE(instance, nullptr);
   begin(*instance);
-  model::RunningSensor sensor(&model.condensed.parameters, full_scale_m3_per_s);
+  estimation::RunningSensor sensor(&model.condensed.parameters, full_scale_m3_per_s);
   const std::vector<double> flow = run(*instance, 0, 100);
   for (std::size_t k = 0; k < flow.size(); ++k) {
     const auto expected = sensor.step({1e-3 * static_cast<double>(k), rows().current_A[k], rows().voltage_V[k],

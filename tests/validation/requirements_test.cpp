@@ -52,10 +52,10 @@ Validation one_run(const std::string& name = "ramp", bool reference = true) {
   run.name = name;
   run.samples = 100;
   EstimatorResult& result = run.results.emplace_back();
-  result.estimator = Estimator::observer;
+  result.estimator = estimation::Estimator::observer;
   result.fault_share = 0.02;
   PooledResult& pooled = out.pooled.emplace_back();
-  pooled.estimator = Estimator::observer;
+  pooled.estimator = estimation::Estimator::observer;
   if (reference) pooled.metrics = result.metrics = compared.metrics();
   return out;
 }
@@ -70,7 +70,7 @@ TEST_F(RequirementsFile, HoldsLimitsWithTheirDefaults) {
   EXPECT_THAT(asked.limits[0].place, HasSubstr("line 1"));
   EXPECT_EQ(asked.limits[1].unit, LimitUnit::percent);
   EXPECT_EQ(asked.limits[1].at_least, 93);
-  EXPECT_EQ(asked.limits[1].estimator, Estimator::condensed);
+  EXPECT_EQ(asked.limits[1].estimator, estimation::Estimator::condensed);
 }
 
 TEST_F(RequirementsFile, ThatCannotBeUsedIsRefusedWithItsLine) {
@@ -93,10 +93,10 @@ TEST_F(RequirementsFile, ThatCannotBeUsedIsRefusedWithItsLine) {
 
 TEST_F(RequirementsFile, NamesOfRunsAndEstimatorsMustBeAmongThoseThatRun) {
   const Requirements run = read("[[limit]]\nfigure = 'p95'\nat_most = 5\nrun = 'rump'\n");
-  EXPECT_THROW(check_names(run, {"ramp", "duty_cycle"}, {Estimator::observer}), recording::RecordingError);
-  EXPECT_NO_THROW(check_names(run, {"rump"}, {Estimator::observer}));
+  EXPECT_THROW(check_names(run, {"ramp", "duty_cycle"}, {estimation::Estimator::observer}), recording::RecordingError);
+  EXPECT_NO_THROW(check_names(run, {"rump"}, {estimation::Estimator::observer}));
   const Requirements estimator = read("[[limit]]\nfigure = 'p95'\nat_most = 5\nestimator = 'condensed'\n");
-  EXPECT_THROW(check_names(estimator, {"ramp"}, {Estimator::observer}), recording::RecordingError);
+  EXPECT_THROW(check_names(estimator, {"ramp"}, {estimation::Estimator::observer}), recording::RecordingError);
 }
 
 TEST_F(RequirementsFile, LimitsAreJudgedAtTheFigureItself) {

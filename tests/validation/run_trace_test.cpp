@@ -12,7 +12,7 @@ namespace {
 RunSamples sine(std::size_t samples, std::size_t spike = 0) {
   RunSamples run;
   Answers answers{};
-  answers.estimator = Estimator::observer;
+  answers.estimator = estimation::Estimator::observer;
   for (std::size_t k = 0; k < samples; ++k) {
     const double t = 1e-3 * static_cast<double>(k);
     const auto flow = static_cast<float>(1e-3 * std::sin(t));

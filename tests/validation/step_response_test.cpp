@@ -14,7 +14,7 @@ constexpr double step_scale = 1e-3;
 RunSamples square_wave(double late_s, double lag_s, double amplitude = 0.3) {
   RunSamples run;
   Answers answers{};
-  answers.estimator = Estimator::observer;
+  answers.estimator = estimation::Estimator::observer;
   const auto flow = [&](double t) { return (std::fmod(t, 4.0) < 2 ? 0.2 : 0.2 + amplitude) * step_scale; };
   double meter = flow(0);
   double estimate = flow(0);

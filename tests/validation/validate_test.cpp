@@ -30,7 +30,7 @@ class Validate : public ::testing::Test {
     return folder / name;
   }
   [[nodiscard]] Validation run(const std::vector<fs::path>& recordings, ValidationOptions options = {}) const {
-    options.estimators = {Estimator::condensed};
+    options.estimators = {estimation::Estimator::condensed};
     return validate(model, recordings, options, [](double) {});
   }
   /// 1.5 A at 1 mm are 20 N of flow force: this flow.

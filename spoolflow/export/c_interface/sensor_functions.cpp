@@ -10,16 +10,16 @@
 #include <string>
 #include <string_view>
 
+#include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
 #include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/model/running_sensor.hpp"
 
 namespace {
 
+using spoolflow::estimation::RunningSensor;
+using spoolflow::estimation::RunningState;
 using spoolflow::model::Model;
-using spoolflow::model::RunningSensor;
-using spoolflow::model::RunningState;
 namespace sensor = spoolflow::sensor;
 namespace exports = spoolflow::exports;
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <variant>
 
+#include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/export/fmu/component.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
-#include "spoolflow/model/running_sensor.hpp"
 
 namespace spoolflow::exports::fmu {
 namespace {
@@ -37,18 +37,18 @@ class SensorComponent : public Component {
   }
   void start(std::span<double> values) override {
     running_.reset();
-    model::RunningSensor ahead = running_;
+    estimation::RunningSensor ahead = running_;
     tell(ahead.step(sample_of(values, 0)), values);
   }
   void sample(std::span<double> values, std::int64_t number) override {
     tell(running_.step(sample_of(values, number)), values);
   }
   [[nodiscard]] std::span<char> memory() override {
-    return {reinterpret_cast<char*>(&running_.state()), sizeof(model::RunningState)};
+    return {reinterpret_cast<char*>(&running_.state()), sizeof(estimation::RunningState)};
   }
 
  private:
-  static model::TimedSample sample_of(std::span<const double> values, std::int64_t number) {
+  static estimation::TimedSample sample_of(std::span<const double> values, std::int64_t number) {
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     return {.time_s = static_cast<double>(number) * values[sensor_sample_step],
             .current_A = values[sensor_current],
@@ -74,7 +74,7 @@ class SensorComponent : public Component {
   Parameters parameters_{};
   std::vector<TunableNumber> tunable_;
   std::vector<Variable> variables_;
-  model::RunningSensor running_;
+  estimation::RunningSensor running_;
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace {
 
 using analysis::Analysis;
 using analysis::PointResult;
-using validation::Estimator;
+using estimation::Estimator;
 
 const char* const legend_of_kinds =
     "<div class=\"heat\"><span><svg viewBox=\"0 0 16 12\" aria-hidden=\"true\"><rect width=\"16\" height=\"12\" "
@@ -93,9 +93,9 @@ void show_budget(HtmlPage& page, const model::Model& model, const Analysis& anal
                       fixed(units::L_per_min_from_m3_per_s(point->stated.lower), 2),
                       fixed(units::L_per_min_from_m3_per_s(point->stated.upper), 2)));
     }
-    for (const validation::Correlation& c : point->budget.correlations) {
-      page.note(fmt::format("Correlated: {} with {}, r = {}: {}.", validation::about(c.one).title,
-                            validation::about(c.other).title, fixed(c.coefficient, 2), c.source));
+    for (const uncertainty::Correlation& c : point->budget.correlations) {
+      page.note(fmt::format("Correlated: {} with {}, r = {}: {}.", uncertainty::about(c.one).title,
+                            uncertainty::about(c.other).title, fixed(c.coefficient, 2), c.source));
     }
   }
   page.section("All working points, and the check by Monte Carlo");

@@ -21,7 +21,7 @@ const GroupShare* largest(const std::vector<GroupShare>& shares, bool part_of_mo
 }
 
 std::string range_of_expanded(const model::Model& model, const analysis::Analysis& analysis,
-                              validation::Estimator estimator) {
+                              estimation::Estimator estimator) {
   double lowest = INFINITY;
   double highest = 0;
   for (const analysis::PointResult& point : analysis.points) {
@@ -34,7 +34,7 @@ std::string range_of_expanded(const model::Model& model, const analysis::Analysi
   return fmt::format("{} to {} % of full scale", fixed(lowest * percent, 1), fixed(highest * percent, 1));
 }
 
-std::string agreement(const analysis::Analysis& analysis, validation::Estimator estimator) {
+std::string agreement(const analysis::Analysis& analysis, estimation::Estimator estimator) {
   std::size_t points = 0;
   std::size_t validated = 0;
   double lowest = INFINITY;
@@ -50,7 +50,7 @@ std::string agreement(const analysis::Analysis& analysis, validation::Estimator 
       "{}: Monte Carlo's standard deviation is {} to {} times the budget's. The 95 % interval stated is the budget's "
       "at "
       "{} of {} points, where the trials validate it (JCGM 101, clause 8), and the trials' own at the others.",
-      validation::name(estimator), fixed(lowest, 2), fixed(highest, 2), validated, points);
+      estimation::name(estimator), fixed(lowest, 2), fixed(highest, 2), validated, points);
 }
 
 /// The factor of one kind with the largest total index.
@@ -69,7 +69,7 @@ std::string leading_factor(const analysis::SobolIndices& found, analysis::Factor
 std::string across_the_series(const analysis::Study& study) {
   for (std::size_t o = 0; o < analysis::study_outputs; ++o) {
     const analysis::StudyOutput& output = analysis::study_output_list()[o];
-    if (output.estimator != validation::Estimator::observer || !output.p95) continue;
+    if (output.estimator != estimation::Estimator::observer || !output.p95) continue;
     const analysis::SobolIndices& found = study.indices[o];
     return fmt::format(
         "From one valve of a series to the next (virtual rig, {} runs) the observer's 95th percentile of the error "
@@ -83,7 +83,7 @@ std::string across_the_series(const analysis::Study& study) {
 }  // namespace
 
 AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Analysis& analysis) {
-  const validation::Estimator estimator = analysis::leading_estimator(analysis);
+  const estimation::Estimator estimator = analysis::leading_estimator(analysis);
   const std::vector<GroupShare> shares = analysis::mean_shares(analysis.points, estimator);
   AnalysisVerdict out;
   if (shares.empty()) {
@@ -107,7 +107,7 @@ AnalysisVerdict analysis_verdict(const model::Model& model, const analysis::Anal
   if (analysis.study) out.remarks.push_back(across_the_series(*analysis.study));
   out.remarks.push_back(fmt::format("Half the stated 95 % interval of the {} at the working points: {}.",
                                     sensor_name(estimator), range_of_expanded(model, analysis, estimator)));
-  for (const validation::Estimator each : {validation::Estimator::condensed, validation::Estimator::observer}) {
+  for (const estimation::Estimator each : {estimation::Estimator::condensed, estimation::Estimator::observer}) {
     const bool there = std::any_of(analysis.points.begin(), analysis.points.end(),
                                    [&](const auto& point) { return point.estimator == each && point.reachable; });
     if (there) out.remarks.push_back(agreement(analysis, each));

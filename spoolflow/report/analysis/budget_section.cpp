@@ -13,15 +13,15 @@ namespace {
 /// Budgets alone, at the points that `analyse` takes by default.
 std::vector<analysis::PointResult> budgets(const model::Model& model) {
   const analysis::Scenario scenario;
-  const validation::InstrumentFigures figures = analysis::instrument_figures(scenario.instruments);
+  const uncertainty::InstrumentFigures figures = analysis::instrument_figures(scenario.instruments);
   std::vector<analysis::PointResult> out;
-  for (const validation::Estimator estimator : validation::all_estimators(model)) {
-    const validation::Inputs inputs = validation::inputs_of(model, estimator, figures);
-    for (const validation::WorkingPoint& point : analysis::working_points(model, scenario.points)) {
-      const auto function = validation::PointFunction::at(model, estimator, point);
+  for (const estimation::Estimator estimator : estimation::all_estimators(model)) {
+    const uncertainty::Inputs inputs = uncertainty::inputs_of(model, estimator, figures);
+    for (const uncertainty::WorkingPoint& point : analysis::working_points(model, scenario.points)) {
+      const auto function = uncertainty::PointFunction::at(model, estimator, point);
       if (!function) continue;
       analysis::PointResult& result = out.emplace_back();
-      validation::SeededNumbers none(0, "");
+      uncertainty::SeededNumbers none(0, "");
       result.estimator = estimator;
       result.point = point;
       result.reachable = true;
@@ -44,7 +44,7 @@ void budget_section(HtmlPage& page, const model::Model& model) {
       "and "
       "the sensitivities.");
   std::vector<CaptionedChart> charts;
-  for (const validation::Estimator estimator : validation::all_estimators(model)) {
+  for (const estimation::Estimator estimator : estimation::all_estimators(model)) {
     charts.push_back(
         {share_chart(analysis::mean_shares(results, estimator), estimator),
          fmt::format("The {}: share of the variance of its flow rate, mean over the points.", sensor_name(estimator))});

@@ -29,7 +29,7 @@ std::string tone_of(bool part_of_model) {
 
 }  // namespace
 
-HtmlTable budget_table(const validation::Budget& budget, const ReaderUnits& units) {
+HtmlTable budget_table(const uncertainty::Budget& budget, const ReaderUnits& units) {
   HtmlTable table({{"input", Set::sentence},
                    {"type, distribution", Set::text},
                    {"from", Set::sentence},
@@ -38,14 +38,14 @@ HtmlTable budget_table(const validation::Budget& budget, const ReaderUnits& unit
                    {"contribution<br>[L/min]"},
                    {"share<br>[%]"},
                    {"degrees of<br>freedom"}});
-  for (const validation::BudgetLine& line : budget.lines) {
-    const validation::QuantityAbout& about = validation::about(line.input.quantity);
+  for (const uncertainty::BudgetLine& line : budget.lines) {
+    const uncertainty::QuantityAbout& about = uncertainty::about(line.input.quantity);
     // The table is turned into the reader's units by its headings; what a sensitivity counts per stands in the cells.
     const double per_SI = about.per_SI * units.instead_of(about.unit).factor;
     table.row(
         {html_text(about.title),
-         fmt::format("{}, {}", line.input.evaluation == validation::Evaluation::type_a ? "A" : "B",
-                     validation::name(line.input.distribution)),
+         fmt::format("{}, {}", line.input.evaluation == uncertainty::Evaluation::type_a ? "A" : "B",
+                     uncertainty::name(line.input.distribution)),
          html_text(line.input.source),
          fmt::format("{} {}", three_digits(line.input.standard_uncertainty * about.per_SI), unit_text(about.unit)),
          three_digits(L_per_min_from_m3_per_s(line.sensitivity_m3_per_s) / per_SI),
@@ -74,11 +74,11 @@ HtmlTable points_table(const std::vector<analysis::PointResult>& points, double 
     columns.push_back({"by", Set::text});
   }
   HtmlTable table(std::move(columns));
-  const validation::Estimator* before = nullptr;
+  const estimation::Estimator* before = nullptr;
   for (const analysis::PointResult& result : points) {
     const bool begins = before != nullptr && *before != result.estimator;
     before = &result.estimator;
-    std::vector<std::string> cells{std::string(validation::name(result.estimator)),
+    std::vector<std::string> cells{std::string(estimation::name(result.estimator)),
                                    fixed(units::mm_from_m(result.point.position_m), 2),
                                    fixed(units::bar_from_Pa(result.point.pressure_difference_Pa), 0)};
     if (!result.reachable) {
@@ -86,7 +86,7 @@ HtmlTable points_table(const std::vector<analysis::PointResult>& points, double 
       table.row(cells, begins);
       continue;
     }
-    const validation::Budget& budget = result.budget;
+    const uncertainty::Budget& budget = result.budget;
     const auto L_min = [](double m3_per_s) { return fixed(L_per_min_from_m3_per_s(m3_per_s), 2); };
     const bool tried = result.check.figures.trials > 0;
     for (const std::string& cell :
@@ -105,7 +105,7 @@ HtmlTable points_table(const std::vector<analysis::PointResult>& points, double 
 }
 
 BarChart contribution_chart(const analysis::PointResult& result) {
-  std::vector<validation::BudgetLine> lines = result.budget.lines;
+  std::vector<uncertainty::BudgetLine> lines = result.budget.lines;
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
     return std::abs(a.contribution_m3_per_s) > std::abs(b.contribution_m3_per_s);
   });
@@ -114,10 +114,10 @@ BarChart contribution_chart(const analysis::PointResult& result) {
       .axis = "Contribution to the standard uncertainty [L/min]",
       .bars = {}};
   const double largest = lines.empty() ? 0 : std::abs(lines.front().contribution_m3_per_s);
-  for (const validation::BudgetLine& line : lines) {
+  for (const uncertainty::BudgetLine& line : lines) {
     const double size_m3_per_s = std::abs(line.contribution_m3_per_s);
     if (size_m3_per_s < 0.01 * largest || size_m3_per_s == 0) continue;
-    const validation::QuantityAbout& about = validation::about(line.input.quantity);
+    const uncertainty::QuantityAbout& about = uncertainty::about(line.input.quantity);
     const double L_min = L_per_min_from_m3_per_s(size_m3_per_s);
     chart.bars.push_back({.name = std::string(about.title),
                           .tone = tone_of(about.part_of_model),
@@ -127,7 +127,7 @@ BarChart contribution_chart(const analysis::PointResult& result) {
   return chart;
 }
 
-BarChart share_chart(const std::vector<analysis::GroupShare>& shares, validation::Estimator estimator) {
+BarChart share_chart(const std::vector<analysis::GroupShare>& shares, estimation::Estimator estimator) {
   BarChart chart{.description = fmt::format("Mean shares of the variance of the {}", sensor_name(estimator)),
                  .axis = "Share of the variance, mean over the points [%]",
                  .bars = {}};

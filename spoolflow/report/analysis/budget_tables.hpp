@@ -8,7 +8,7 @@
 namespace spoolflow::report {
 
 /// Every line of one budget, with units and sources.
-[[nodiscard]] HtmlTable budget_table(const validation::Budget& budget, const ReaderUnits& units = {});
+[[nodiscard]] HtmlTable budget_table(const uncertainty::Budget& budget, const ReaderUnits& units = {});
 
 /// One line a point: flow, uncertainty, and what Monte Carlo says of it where trials were made.
 [[nodiscard]] HtmlTable points_table(const std::vector<analysis::PointResult>& points, double full_scale_m3_per_s);
@@ -17,6 +17,6 @@ namespace spoolflow::report {
 [[nodiscard]] BarChart contribution_chart(const analysis::PointResult& result);
 
 /// Mean shares of the variance over the points.
-[[nodiscard]] BarChart share_chart(const std::vector<analysis::GroupShare>& shares, validation::Estimator estimator);
+[[nodiscard]] BarChart share_chart(const std::vector<analysis::GroupShare>& shares, estimation::Estimator estimator);
 
 }  // namespace spoolflow::report

@@ -11,7 +11,6 @@
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/text/sensor_name.hpp"
 #include "spoolflow/units/conversion.hpp"
-#include "spoolflow/validation/estimator.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -96,7 +95,7 @@ std::vector<std::string_view> groups_of(const OperatingMap& map) {
   std::vector<std::pair<std::string_view, int>> counts;
   for (const MapCell& cell : map.cells) {
     if (!cell.reachable) continue;
-    const std::string_view group = validation::about(cell.dominant).group;
+    const std::string_view group = uncertainty::about(cell.dominant).group;
     const auto found = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == group; });
     if (found == counts.end()) {
       counts.emplace_back(group, 1);
@@ -117,7 +116,7 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
   const std::string_view pressure = units.instead_of("bar").shown;
   const std::vector<std::string_view> groups = groups_of(map);
   const auto tone_of = [&](const MapCell& cell) {
-    const std::string_view group = validation::about(cell.dominant).group;
+    const std::string_view group = uncertainty::about(cell.dominant).group;
     const auto place = static_cast<std::size_t>(std::find(groups.begin(), groups.end(), group) - groups.begin());
     return fmt::format("style=\"fill:var(--{})\"", tones[std::min(place, tones.size() - 1)]);
   };
@@ -130,7 +129,7 @@ std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_
   const std::string dominant =
       drawn(map, units,
             name + ": group of inputs with the largest share of the variance, over position and pressure difference",
-            tone_of, [](const MapCell& cell) { return letters_of(validation::about(cell.dominant).group); });
+            tone_of, [](const MapCell& cell) { return letters_of(uncertainty::about(cell.dominant).group); });
   std::string legend = "<div class=\"heat\"><span>Counts most:</span>";
   for (std::size_t k = 0; k < groups.size(); ++k) {
     legend += colour_key(fmt::format("style=\"fill:var(--{})\"", tones[std::min(k, tones.size() - 1)]),

@@ -26,7 +26,7 @@ bool after_gap(const std::vector<double>& time_s, std::size_t k) {
 }
 
 CaptionedFigure course(const RunResult& result) {
-  const std::string name(validation::name(result.estimator));
+  const std::string name(estimation::name(result.estimator));
   std::vector<double> below, above, error, expanded, of_trials;
   for (std::size_t k = 0; k < result.time_s.size(); ++k) {
     const double half = result.coverage_factor * result.combined_m3_per_s[k];
@@ -82,12 +82,12 @@ BarChart parts(const RunResult& result) {
     return a.rms_contribution_m3_per_s > b.rms_contribution_m3_per_s;
   });
   BarChart chart{
-      .description = fmt::format("Contributions of the inputs along the run, {}", validation::name(result.estimator)),
+      .description = fmt::format("Contributions of the inputs along the run, {}", estimation::name(result.estimator)),
       .axis = "Contribution, root mean square over the run [L/min]",
       .bars = {}};
   for (const analysis::RunLine& line : lines) {
     if (line.rms_contribution_m3_per_s < 0.01 * lines.front().rms_contribution_m3_per_s) continue;
-    const validation::QuantityAbout& about = validation::about(line.input.quantity);
+    const uncertainty::QuantityAbout& about = uncertainty::about(line.input.quantity);
     const double size = L_min * line.rms_contribution_m3_per_s;
     chart.bars.push_back({.name = std::string(about.title),
                           .tone = about.part_of_model ? "observer" : "condensed",

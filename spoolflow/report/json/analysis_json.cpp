@@ -19,23 +19,23 @@ Json finite(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json input(const validation::InputUncertainty& input) {
-  const validation::QuantityAbout& about = validation::about(input.quantity);
+Json input(const uncertainty::InputUncertainty& input) {
+  const uncertainty::QuantityAbout& about = uncertainty::about(input.quantity);
   return {{"quantity", about.name},
           {"group", about.group},
           {"standard_uncertainty", input.standard_uncertainty * about.per_SI},
           {"unit", about.unit},
-          {"type", input.evaluation == validation::Evaluation::type_a ? "A" : "B"},
-          {"distribution", validation::name(input.distribution)},
+          {"type", input.evaluation == uncertainty::Evaluation::type_a ? "A" : "B"},
+          {"distribution", uncertainty::name(input.distribution)},
           {"degrees_of_freedom", finite(input.degrees_of_freedom)},
           {"source", input.source}};
 }
 
-Json lines(const validation::Budget& budget) {
+Json lines(const uncertainty::Budget& budget) {
   Json out = Json::array();
-  for (const validation::BudgetLine& line : budget.lines) {
+  for (const uncertainty::BudgetLine& line : budget.lines) {
     Json entry = input(line.input);
-    const double per_SI = validation::about(line.input.quantity).per_SI;
+    const double per_SI = uncertainty::about(line.input.quantity).per_SI;
     entry["sensitivity_L_min_per_unit"] = L_per_min_from_m3_per_s(line.sensitivity_m3_per_s) / per_SI;
     entry["contribution_L_min"] = L_per_min_from_m3_per_s(line.contribution_m3_per_s);
     entry["share"] = line.share;
@@ -44,11 +44,11 @@ Json lines(const validation::Budget& budget) {
   return out;
 }
 
-Json correlations(const validation::Budget& budget) {
+Json correlations(const uncertainty::Budget& budget) {
   Json out = Json::array();
-  for (const validation::Correlation& c : budget.correlations) {
-    out.push_back({{"one", validation::about(c.one).name},
-                   {"other", validation::about(c.other).name},
+  for (const uncertainty::Correlation& c : budget.correlations) {
+    out.push_back({{"one", uncertainty::about(c.one).name},
+                   {"other", uncertainty::about(c.other).name},
                    {"coefficient", c.coefficient},
                    {"source", c.source}});
   }
@@ -74,19 +74,19 @@ Json monte_carlo(const analysis::MonteCarlo& check) {
 }
 
 Json point(const analysis::PointResult& result, double full_scale_m3_per_s) {
-  Json out{{"estimator", validation::name(result.estimator)},
+  Json out{{"estimator", estimation::name(result.estimator)},
            {"position_mm", units::mm_from_m(result.point.position_m)},
            {"pressure_difference_bar", units::bar_from_Pa(result.point.pressure_difference_Pa)},
            {"oil_temperature_C", units::degC_from_K(result.point.oil_temperature_K)},
            {"motion", result.point.opening ? "opening" : "closing"},
            {"inside_maps", result.reachable}};
   if (!result.reachable) return out;
-  const validation::Budget& budget = result.budget;
+  const uncertainty::Budget& budget = result.budget;
   out["current_A"] = result.current_A;
   out["position_reading_mm"] = units::mm_from_m(result.position_reading_m);
   out["flow_L_min"] = L_per_min_from_m3_per_s(result.flow_m3_per_s);
   out["sensitivities_by"] =
-      result.estimator == validation::Estimator::condensed ? "automatic differentiation" : "central differences";
+      result.estimator == estimation::Estimator::condensed ? "automatic differentiation" : "central differences";
   out["combined_standard_L_min"] = L_per_min_from_m3_per_s(budget.combined_m3_per_s);
   out["effective_degrees_of_freedom"] = finite(budget.degrees_of_freedom);
   out["coverage_factor"] = budget.coverage_factor;
@@ -107,7 +107,7 @@ Json map(const analysis::OperatingMap& map) {
   for (std::size_t k = 0; k < map.cells.size(); ++k) {
     const analysis::MapCell& cell = map.cells[k];
     if (!cell.reachable) continue;
-    const validation::QuantityAbout& about = validation::about(cell.dominant);
+    const uncertainty::QuantityAbout& about = uncertainty::about(cell.dominant);
     cells.push_back({{"position_mm", units::mm_from_m(map.position_m[k % columns])},
                      {"pressure_difference_bar", units::bar_from_Pa(map.pressure_difference_Pa[k / columns])},
                      {"flow_L_min", L_per_min_from_m3_per_s(cell.flow_m3_per_s)},
@@ -116,7 +116,7 @@ Json map(const analysis::OperatingMap& map) {
                      {"group", about.group},
                      {"share", cell.dominant_share}});
   }
-  return {{"estimator", validation::name(map.estimator)}, {"cells", cells}};
+  return {{"estimator", estimation::name(map.estimator)}, {"cells", cells}};
 }
 
 Json index(const analysis::Index& index) {
@@ -134,7 +134,7 @@ Json run_result(const analysis::RunResult& result) {
   double squares = 0;
   for (const double u : result.combined_m3_per_s) squares += u * u;
   const double instants = static_cast<double>(result.combined_m3_per_s.size());
-  Json out{{"estimator", validation::name(result.estimator)},
+  Json out{{"estimator", estimation::name(result.estimator)},
            {"instants", result.time_s.size()},
            {"trials", result.trials},
            {"combined_standard_rms_L_min", L_per_min_from_m3_per_s(std::sqrt(squares / instants))},
@@ -172,7 +172,7 @@ Json study(const analysis::Study& study) {
                          {"first_order", index(found.factors[f].first_order)},
                          {"total", index(found.factors[f].total)}});
     }
-    outputs.push_back({{"estimator", validation::name(output.estimator)},
+    outputs.push_back({{"estimator", estimation::name(output.estimator)},
                        {"error", output.p95 ? "p95" : "rms"},
                        {"mean_percent_FS", 100 * found.mean},
                        {"standard_deviation_percent_FS", 100 * found.standard_deviation},
@@ -199,7 +199,7 @@ void write_analysis_json(std::ostream& out, const model::Model& model, const ana
   for (const auto& group : analysis::mean_shares(analysis.points, analysis::leading_estimator(analysis))) {
     shares.push_back({{"group", group.group}, {"part_of_model", group.part_of_model}, {"mean_share", group.share}});
   }
-  file["mean_shares"] = {{"estimator", validation::name(analysis::leading_estimator(analysis))}, {"groups", shares}};
+  file["mean_shares"] = {{"estimator", estimation::name(analysis::leading_estimator(analysis))}, {"groups", shares}};
   Json points = Json::array();
   for (const analysis::PointResult& each : analysis.points)
     points.push_back(point(each, model.valve.rated_flow_m3_per_s));

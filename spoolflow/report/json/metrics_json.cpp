@@ -91,7 +91,7 @@ Json MetricsJson::profiles(const std::vector<validation::ErrorProfile>& profiles
 }
 
 Json MetricsJson::estimator(const validation::EstimatorResult& result) const {
-  Json out{{"estimator", validation::name(result.estimator)}};
+  Json out{{"estimator", estimation::name(result.estimator)}};
   if (result.metrics) add_metrics(out, *result.metrics);
   if (result.worst) {
     out["worst"] = {{"time_s", result.worst->time_s},
@@ -145,7 +145,7 @@ Json MetricsJson::steps(const validation::StepResponse& response) {
            {"reference_rise_ms", milliseconds(response.reference_rise_s)},
            {"estimators", Json::array()}};
   for (const validation::StepAnswer& answer : response.answers) {
-    out["estimators"].push_back({{"estimator", validation::name(answer.estimator)},
+    out["estimators"].push_back({{"estimator", estimation::name(answer.estimator)},
                                  {"followed", answer.followed},
                                  {"delay_ms", milliseconds(answer.delay_s)},
                                  {"rise_ms", milliseconds(answer.rise_s)},
@@ -171,7 +171,7 @@ Json MetricsJson::run(const validation::RunResult& run) const {
 }
 
 Json MetricsJson::pooled(const validation::PooledResult& pooled) const {
-  Json out{{"estimator", validation::name(pooled.estimator)}};
+  Json out{{"estimator", estimation::name(pooled.estimator)}};
   if (pooled.metrics) add_metrics(out, *pooled.metrics);
   out["error_over"] = profiles(pooled.profiles);
   if (pooled.direction) add_directions(out, *pooled.direction);
@@ -184,7 +184,7 @@ Json requirements(const validation::Validation& validation) {
     const validation::Limit& limit = judged.limit;
     const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
     limits.push_back({{"run", judged.run},
-                      {"estimator", validation::name(judged.estimator)},
+                      {"estimator", estimation::name(judged.estimator)},
                       {"figure", name_of(validation::figure_names, limit.figure)},
                       {"when", name_of(validation::when_names, limit.when)},
                       {"unit", name_of(validation::limit_unit_names, limit.unit)},

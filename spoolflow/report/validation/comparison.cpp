@@ -22,7 +22,7 @@ ComparedValidation at_hand(const model::Model& model, const validation::Validati
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (!pooled.metrics) continue;
     const validation::GroupFigures& all = pooled.metrics->all;
-    ComparedEstimator each{std::string(validation::name(pooled.estimator)),
+    ComparedEstimator each{std::string(estimation::name(pooled.estimator)),
                            all.error.p95 * percent,
                            all.error.rms * percent,
                            all.error.largest * percent,

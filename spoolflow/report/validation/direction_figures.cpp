@@ -23,7 +23,7 @@ std::optional<CaptionedFigure> hysteresis_figure(const validation::Validation& v
     if (!pooled.direction) continue;
     const std::vector<validation::DirectionBin> bins = pooled.direction->bins();
     if (bins.size() < 3) continue;
-    const std::string name(validation::name(pooled.estimator));
+    const std::string name(estimation::name(pooled.estimator));
     Mark opening{.shape = Shape::line, .tone = name, .name = name + ", opening", .width_px = 1.7};
     Mark closing{.shape = Shape::dashed, .tone = name, .name = name + ", closing", .width_px = 1.7};
     for (const validation::DirectionBin& bin : bins) {
@@ -65,14 +65,14 @@ CaptionedFigure distribution_figure(const validation::Validation& validation, do
       for (const validation::EstimatorResult& result : run.results) {
         if (result.profiles.empty()) continue;
         panel.marks.push_back(
-            distribution(result.profiles.front(), std::string(validation::name(result.estimator)), percent));
+            distribution(result.profiles.front(), std::string(estimation::name(result.estimator)), percent));
       }
     }
   }
   double nearly_all = 0;
   for (const validation::PooledResult& pooled : validation.pooled) {
-    Mark mark = distribution(pooled.profiles.front(), std::string(validation::name(pooled.estimator)), percent);
-    mark.name = std::string(validation::name(pooled.estimator));
+    Mark mark = distribution(pooled.profiles.front(), std::string(estimation::name(pooled.estimator)), percent);
+    mark.name = std::string(estimation::name(pooled.estimator));
     mark.width_px = 2.2;
     for (std::size_t k = 0; k < mark.x.size() && mark.y[k] < 99.5; ++k) nearly_all = std::max(nearly_all, mark.x[k]);
     panel.marks.push_back(std::move(mark));
@@ -115,7 +115,7 @@ HtmlTable direction_table(const validation::Validation& validation, double full_
       const char* name =
           direction == Direction::opening ? "opens" : (direction == Direction::closing ? "closes" : "rests");
       table.row(
-          {first ? std::string(validation::name(pooled.estimator)) : "", name, fmt::format("{}", figures->samples),
+          {first ? std::string(estimation::name(pooled.estimator)) : "", name, fmt::format("{}", figures->samples),
            fixed(figures->median_m3_per_s * percent, 2), fixed(figures->p95_m3_per_s * percent, 2)},
           first);
       first = false;

@@ -15,7 +15,7 @@ namespace {
 std::string step_text(const validation::StepAnswer& answer, std::size_t steps) {
   if (answer.followed == 0) return fmt::format(" The {} follows none of them.", sensor_name(answer.estimator));
   std::string out =
-      fmt::format(" {}: {} ms {} the meter, {} ms from 10 to 90 %, {} % overshoot", validation::name(answer.estimator),
+      fmt::format(" {}: {} ms {} the meter, {} ms from 10 to 90 %, {} % overshoot", estimation::name(answer.estimator),
                   fixed(1e3 * std::abs(answer.delay_s), 0), answer.delay_s < 0 ? "before" : "after",
                   fixed(1e3 * answer.rise_s, 0), fixed(100 * answer.overshoot, 0));
   if (answer.followed < steps) out += fmt::format(" ({} of them followed)", answer.followed);
@@ -33,7 +33,7 @@ CaptionedFigure step_figure(const validation::StepResponse& response, const std:
   for (const validation::StepAnswer& answer : response.answers) {
     caption += step_text(answer, response.steps);
     if (answer.followed == 0) continue;
-    const std::string name(validation::name(answer.estimator));
+    const std::string name(estimation::name(answer.estimator));
     panel.marks.push_back({.tone = name, .name = name, .width_px = 1.4, .x = time_ms, .y = scaled(answer.course, 1)});
   }
   return {{.description = "Step response, run " + run,
@@ -50,7 +50,7 @@ CaptionedFigure frequency_figure(const validation::RunResult& run) {
   std::string caption = "Frequency response, as far as the run excites it (the meter's lag taken out).";
   for (const validation::EstimatorResult& result : run.results) {
     if (!result.frequency_response) continue;
-    const std::string name(validation::name(result.estimator));
+    const std::string name(estimation::name(result.estimator));
     Mark gains{.tone = name, .name = name, .width_px = 1.6};
     Mark phases{.tone = name, .width_px = 1.6};
     for (const validation::FrequencyPoint& point : result.frequency_response->points) {

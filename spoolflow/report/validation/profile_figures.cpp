@@ -48,7 +48,7 @@ Panel coverage_panel(const validation::Validation& validation, std::size_t quant
   Panel panel{.title = "Inside the 95 % band [%]", .height_px = 80, .lowest = 0.0, .highest = 100.0};
   Mark promised{.shape = Shape::dashed, .tone = "muted", .width_px = 1};
   for (const validation::PooledResult& pooled : validation.pooled) {
-    Mark mark{.tone = std::string(validation::name(pooled.estimator)), .width_px = 1.6};
+    Mark mark{.tone = std::string(estimation::name(pooled.estimator)), .width_px = 1.6};
     for (const validation::ProfileBin& bin : pooled.profiles[quantity].bins()) {
       mark.x.push_back(0.5 * (bin.from + bin.to) * as.factor + as.offset);
       mark.y.push_back(100 * bin.band_coverage);
@@ -74,7 +74,7 @@ std::vector<CaptionedFigure> profile_figures(const validation::Validation& valid
       most_bins = std::max(most_bins, bins.size());
       for (const bool p95 : {true, false}) {
         panel.marks.push_back(
-            profile_line(bins, as, 100 / full_scale_m3_per_s, p95, std::string(validation::name(pooled.estimator))));
+            profile_line(bins, as, 100 / full_scale_m3_per_s, p95, std::string(estimation::name(pooled.estimator))));
       }
     }
     if (most_bins < 3) continue;

@@ -13,7 +13,7 @@ namespace {
 using validation::JudgedLimit;
 
 std::string figure_text(const JudgedLimit& judged) {
-  const std::string estimator(validation::name(judged.estimator));
+  const std::string estimator(estimation::name(judged.estimator));
   switch (judged.limit.figure) {
     case validation::Figure::p95:
       return fmt::format("95th percentile of the {}'s error", estimator);

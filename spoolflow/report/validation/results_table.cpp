@@ -14,8 +14,8 @@ namespace {
 
 using validation::Metrics;
 
-std::string estimator_cell(validation::Estimator estimator) {
-  return fmt::format(R"(<i class="dot {0}"></i>{0})", validation::name(estimator));
+std::string estimator_cell(estimation::Estimator estimator) {
+  return fmt::format(R"(<i class="dot {0}"></i>{0})", estimation::name(estimator));
 }
 
 double largest_p95(const validation::Validation& validation) {
@@ -40,11 +40,11 @@ std::string figure_cell(const validation::ErrorFigures& figures, double value, i
   return figures.samples == 0 ? "\u2013" : fixed(value, decimals);
 }
 
-std::vector<std::string> result_cells(const std::string& run, validation::Estimator estimator, const Metrics& m,
+std::vector<std::string> result_cells(const std::string& run, estimation::Estimator estimator, const Metrics& m,
                                       double percent, double longest) {
   return {run,
           estimator_cell(estimator),
-          bar_cell(m.all.error.p95 * percent, longest * percent, 2, validation::name(estimator)),
+          bar_cell(m.all.error.p95 * percent, longest * percent, 2, estimation::name(estimator)),
           figure_cell(m.moving.error, m.moving.error.p95 * percent, 2),
           figure_cell(m.rest.error, m.rest.error.p95 * percent, 2),
           figure_cell(m.reversal.error, m.reversal.error.p95 * percent, 2),
@@ -149,7 +149,7 @@ HtmlTable all_figures_table(const validation::Validation& validation, double ful
 HtmlTable status_table(const validation::Validation& validation) {
   struct Said {
     std::string meaning;
-    std::map<validation::Estimator, double> samples;
+    std::map<estimation::Estimator, double> samples;
   };
   std::vector<std::pair<std::string, Said>> statuses;
   double total = 0;
@@ -165,7 +165,7 @@ HtmlTable status_table(const validation::Validation& validation) {
   }
   std::vector<HtmlTable::Column> columns{{"Status", Set::text}};
   for (const validation::PooledResult& pooled : validation.pooled) {
-    columns.push_back({std::string(validation::name(pooled.estimator)) + "<br>% of samples"});
+    columns.push_back({std::string(estimation::name(pooled.estimator)) + "<br>% of samples"});
   }
   columns.push_back({"What it says", Set::sentence});
   HtmlTable table(std::move(columns));

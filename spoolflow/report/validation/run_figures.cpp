@@ -15,8 +15,8 @@ namespace {
 
 using units::litre_per_minute_per_m3_per_s;
 
-std::string text(validation::Estimator estimator) {
-  return std::string(validation::name(estimator));
+std::string text(estimation::Estimator estimator) {
+  return std::string(estimation::name(estimator));
 }
 
 Mark line(const validation::Line& data, double factor, const std::string& tone, const std::string& name,

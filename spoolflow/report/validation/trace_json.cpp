@@ -93,11 +93,11 @@ class TraceJson {
     Json names = Json::array();
     for (const validation::StatusRow& row : rows) {
       names.push_back({{"name", row.name},
-                       {"tone", row.fault ? "fault" : std::string(validation::name(leading().estimator))},
+                       {"tone", row.fault ? "fault" : std::string(estimation::name(leading().estimator))},
                        {"bit", row.place},
                        {"share", fixed(100 * row.share, row.share < 0.01 ? 2 : 0) + " %"}});
     }
-    return {{"title", fmt::format("Status of the {}", std::string(validation::name(leading().estimator)))},
+    return {{"title", fmt::format("Status of the {}", std::string(estimation::name(leading().estimator)))},
             {"names", std::move(names)},
             {"values", base64_of(leading().status)}};
   }
@@ -111,8 +111,8 @@ class TraceJson {
     Json out = Json::array();
     for (const TracedEstimator& each : trace_.estimators) {
       const double width_px = &each == &leading() ? 1.4 : 1;
-      out.push_back(series(data_of(each), {std::string(validation::name(each.estimator)),
-                                           std::string(validation::name(each.estimator)), "line", width_px}));
+      out.push_back(series(data_of(each), {std::string(estimation::name(each.estimator)),
+                                           std::string(estimation::name(each.estimator)), "line", width_px}));
     }
     return out;
   }
@@ -121,7 +121,7 @@ class TraceJson {
     Json out = Json::array();
     Json band{{"low", numbers(leading().lower_m3_per_s, flow_factor)},
               {"high", numbers(leading().upper_m3_per_s, flow_factor)}};
-    out.push_back(series(std::move(band), {"95 % band", std::string(validation::name(leading().estimator)), "band"}));
+    out.push_back(series(std::move(band), {"95 % band", std::string(estimation::name(leading().estimator)), "band"}));
     if (run_.has_reference) {
       out.push_back(line(trace_.reference_m3_per_s, flow_factor, {"measured", "ink", "line", 1.8}));
     }

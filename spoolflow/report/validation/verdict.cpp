@@ -25,7 +25,7 @@ class Judge {
  private:
   [[nodiscard]] std::string percent(double flow_m3_per_s) const { return fixed(flow_m3_per_s * percent_, 1) + " %"; }
   [[nodiscard]] const validation::PooledResult& leading() const { return validation_.pooled.back(); }
-  [[nodiscard]] std::string leading_name() const { return std::string(validation::name(leading().estimator)); }
+  [[nodiscard]] std::string leading_name() const { return std::string(estimation::name(leading().estimator)); }
   [[nodiscard]] const validation::RunResult* run_of_largest_error() const;
   void add_phases(std::vector<std::string>& out) const;
   void add_worst_bins(std::vector<std::string>& out) const;
@@ -57,7 +57,7 @@ std::string Judge::sentence() const {
   std::string out = fmt::format("95 % of the {}'s errors lie within {} of full scale ({} L/min)", leading_name(),
                                 percent(error.p95), fixed(units::L_per_min_from_m3_per_s(error.p95), 1));
   if (validation_.pooled.size() > 1) {
-    out += fmt::format(", those of the {} sensor within {}", validation::name(validation_.pooled.front().estimator),
+    out += fmt::format(", those of the {} sensor within {}", estimation::name(validation_.pooled.front().estimator),
                        percent(validation_.pooled.front().metrics->all.error.p95));
   }
   const validation::RunResult* run = run_of_largest_error();

@@ -63,7 +63,7 @@ TEST(DirectionFigures, NameTheHysteresisAndWhereItIs) {
   const double full_scale = 1e-3;
   validation::Validation validation;
   validation::PooledResult& pooled = validation.pooled.emplace_back();
-  pooled.estimator = validation::Estimator::observer;
+  pooled.estimator = estimation::Estimator::observer;
   pooled.direction = validation::DirectionProfile({2.4e-3, full_scale});
   validation::ErrorProfile profile(1, full_scale);
   for (int k = 0; k < 2400; ++k) {
@@ -88,10 +88,10 @@ TEST(DynamicsFigures, GiveDelayRiseAndCorner) {
                                                0.044,
                                                {-0.1, 0, 0.1},
                                                {0, 0.5, 1},
-                                               {{validation::Estimator::observer, 2, -0.012, 0.06, 0.05, {0, 0.6F, 1}},
-                                                {validation::Estimator::condensed, 0, NAN, NAN, NAN, {}}}};
+                                               {{estimation::Estimator::observer, 2, -0.012, 0.06, 0.05, {0, 0.6F, 1}},
+                                                {estimation::Estimator::condensed, 0, NAN, NAN, NAN, {}}}};
   validation::EstimatorResult& result = run.results.emplace_back();
-  result.estimator = validation::Estimator::observer;
+  result.estimator = estimation::Estimator::observer;
   result.frequency_response = validation::FrequencyResponse{{{0.5, 1, -0.1, 1}, {5, 0.6, -1, 0.9}}, 3.21};
   const std::vector<CaptionedFigure> figures = dynamics_figures(run);
   ASSERT_EQ(figures.size(), 2U);

@@ -71,7 +71,7 @@ TEST_F(Comparison, StandsBesideTheValidationAtHand) {
   validation::Validation validation;
   validation.runs.emplace_back();
   validation::PooledResult& pooled = validation.pooled.emplace_back();
-  pooled.estimator = validation::Estimator::observer;
+  pooled.estimator = estimation::Estimator::observer;
   pooled.profiles.assign(4, validation::ErrorProfile(5e5, 80 / 60000.0));
   pooled.metrics = validation::Metrics{};
   pooled.metrics->all.error.p95 = 0.05 * 80 / 60000.0;

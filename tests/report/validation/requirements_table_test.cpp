@@ -21,8 +21,8 @@ validation::Validation asked(bool second_met) {
   validation::Validation out;
   out.requirements_file = "limits.toml";
   out.limits = {
-      {band, "all runs", validation::Estimator::observer, 95.123, true},
-      {rest, "ramp <1>", validation::Estimator::observer, second_met ? std::optional(4.0) : std::nullopt, second_met}};
+      {band, "all runs", estimation::Estimator::observer, 95.123, true},
+      {rest, "ramp <1>", estimation::Estimator::observer, second_met ? std::optional(4.0) : std::nullopt, second_met}};
   return out;
 }
 

@@ -53,7 +53,7 @@ validation::Validation one_run(int samples, double at_rest_L_min, bool reference
   run.duration_s = samples > 1 ? 1e-3 * (samples - 1) : 0;
   run.has_reference = reference;
   validation::EstimatorResult& result = run.results.emplace_back();
-  result.estimator = validation::Estimator::condensed;
+  result.estimator = estimation::Estimator::condensed;
   validation::ComparedSamples compared(full_scale);
   std::vector<validation::ErrorProfile> profiles(4, validation::ErrorProfile(1, full_scale));
   for (int k = 0; k < samples; ++k) {

@@ -1,0 +1,36 @@
+#pragma once
+/// From columns of samples to answers: the one way through which a sensor meets what was recorded, simulated or sent.
+#include <concepts>
+#include <limits>
+#include <span>
+
+#include "spoolflow/estimation/running_sensor.hpp"
+
+namespace spoolflow::estimation {
+
+/// What a sensor reads, in SI units, one entry a sample; a missing value is NaN. Time, current and position are equally
+/// long; voltage and oil temperature are as long, or empty where they were not measured.
+struct Columns {
+  std::span<const double> time_s, current_A, voltage_V, position_m, oil_temperature_K;
+
+  [[nodiscard]] std::size_t size() const { return time_s.size(); }
+  [[nodiscard]] TimedSample operator[](std::size_t k) const {
+    constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+    return {time_s[k], current_A[k], voltage_V.empty() ? not_measured : voltage_V[k], position_m[k],
+            oil_temperature_K.empty() ? not_measured : oil_temperature_K[k]};
+  }
+};
+
+/// One sample after the other, as in the valve: calls `each(k, estimate)` after sample k, when sensor.state() is that
+/// after the sample. A sensor goes on where it was, so that columns may come in pieces.
+template <std::invocable<std::size_t, const sensor::Estimate<double>&> Each>
+void run(RunningSensor& sensor, const Columns& columns, Each&& each) {
+  for (std::size_t k = 0; k < columns.size(); ++k) each(k, sensor.step(columns[k]));
+}
+
+/// One estimate a sample, in `estimates`, which is as long as the columns.
+inline void run(RunningSensor& sensor, const Columns& columns, std::span<sensor::Estimate<double>> estimates) {
+  run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& estimate) { estimates[k] = estimate; });
+}
+
+}  // namespace spoolflow::estimation
