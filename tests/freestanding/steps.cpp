@@ -7,3 +7,8 @@ extern "C" void condensed_step(const sensor::CondensedTables<float>* valve, sens
                                const sensor::Sample<float>* sample, sensor::Estimate<float>* estimate) {
   *estimate = sensor::step(*valve, *state, *sample);
 }
+
+extern "C" void observer_step(const sensor::ObserverParameters<float>* valve, sensor::ObserverState<float>* state,
+                              const sensor::Sample<float>* sample, sensor::Estimate<float>* estimate) {
+  *estimate = sensor::step(*valve, *state, *sample);
+}
