@@ -24,7 +24,7 @@ static_assert(same(SPOOLFLOW_STATUS_SAMPLE_MISSING, Status::sample_missing));
 static_assert(same(SPOOLFLOW_STATUS_TIME_FAULT, Status::time_fault));
 static_assert(same(SPOOLFLOW_STATUS_COIL_FAULT, Status::coil_fault));
 static_assert(SPOOLFLOW_STATUS_FAULTS == spoolflow::sensor::fault_bits);
-static_assert(spoolflow::sensor::status_names.size() == 11, "a new status bit belongs into spoolflow.h, too");
+static_assert(spoolflow::sensor::status_names.size() == 10, "a new status bit belongs into spoolflow.h, too");
 
 }  // namespace
 
