@@ -15,6 +15,7 @@
 #include "spoolflow/calibration/fits/spring.hpp"
 #include "spoolflow/calibration/operation/band.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
+#include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -115,10 +116,10 @@ ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, con
 
   out.oil_temperature_K = {edge.edge.temperature_K.at(0), edge.edge.temperature_K.at(sensor::edge_temperatures - 1)};
   out.residuals = {
-      {"spring force", "N", spring.residual.rms(), spring.residual.largest},
-      {"magnetic force", "N", magnetic.residual.rms(), magnetic.residual.largest},
-      {"axial force", "N", axial_force.rms(), axial_force.largest},
-      {"flow rate", "m3/s", flow.rms(), flow.largest},
+      {std::string(model::of_spring_force), "N", spring.residual.rms(), spring.residual.largest},
+      {std::string(model::of_magnetic_force), "N", magnetic.residual.rms(), magnetic.residual.largest},
+      {std::string(model::of_axial_force), "N", axial_force.rms(), axial_force.largest},
+      {std::string(model::of_flow_rate), "m3/s", flow.rms(), flow.largest},
       {"position drift", "m", position.drift_residual_m, position.drift_residual_m},
   };
   out.fits.push_back(spring.known);
