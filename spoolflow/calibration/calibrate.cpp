@@ -91,9 +91,7 @@ model::Model calibrate_valve(const CampaignRecordings& recordings, const model::
       valve, out.condensed.parameters.closed_below_m,
       [&](double share) { progress("full sensor in operation", condensed_share + (1 - condensed_share) * share); });
   out.observer = std::move(full.observer);
-  out.evidence.solenoid = std::move(full.solenoid);
-  out.evidence.magnetic_force_residuals = std::move(full.magnetic_force_residuals);
-  out.evidence.axial_force_residuals = std::move(full.axial_force_residuals);
+  out.evidence.bench = std::move(full.bench);
   return out;
 }
 
