@@ -204,7 +204,8 @@ constexpr void correct_ratio(PressureState<T>& state, const KalmanUpdate<T>& upd
 template <class T>
 constexpr void update_sliding(const PressureParameters<T>& pressure, PressureState<T>& state,
                               const ForceInnovation<T>& innovation, T time_step_s) {
-  const T noise_N2 = squared(innovation.noise_N) * (pressure.force_correlation_s / time_step_s);
+  // Samples within the correlation of the errors share one piece of evidence; a longer step is still no more than one.
+  const T noise_N2 = squared(innovation.noise_N) * larger(pressure.force_correlation_s / time_step_s, T(1));
   const T expected_N2 = squared(innovation.slope_N_per_Pa) * state.variance_Pa2 + squared(innovation.noise_N);
   state.innovation_squared += (squared(innovation.force_N) / expected_N2 - state.innovation_squared) *
                               smaller(time_step_s / T(innovation_averaging_s), T(1));
