@@ -10,7 +10,7 @@ target_include_directories(spoolflow_settings INTERFACE $<BUILD_INTERFACE:${PROJ
 target_compile_features(spoolflow_settings INTERFACE cxx_std_20)
 add_library(spoolflow_warnings INTERFACE)
 target_compile_options(spoolflow_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                                                    -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+                                                    -Wnon-virtual-dtor -Woverloaded-virtual $<$<BOOL:${SPOOLFLOW_DEVELOPER}>:-Werror>)
 if(SPOOLFLOW_SANITIZE)
   # Clang also finds names of other files that were joined to this one; GCC looks for shadows inside one.
   target_compile_options(spoolflow_warnings INTERFACE -Wno-shadow)

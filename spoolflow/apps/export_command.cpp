@@ -13,6 +13,7 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
+#include "spoolflow/export/embedded_parts.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
@@ -78,6 +79,12 @@ bool names_valve(const std::string& name) {
 }
 
 void export_fmu(const ExportArguments& arguments) {
+  if (!exports::windows_is_served()) {
+    fmt::print(
+        stderr,
+        "this program was built without MinGW: the FMU runs on Linux alone; for Windows compile its sources there, "
+        "or build spoolflow where x86_64-w64-mingw32-g++-posix is installed\n");
+  }
   const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
   if (names_valve(arguments.model)) {
     const rig::ValveUnderTest valve = rig::read_valve_and_campaign(arguments.model).valve;

@@ -16,6 +16,10 @@ FmuParts embedded_parts(const std::string& name, std::span<const EmbeddedFile> s
   return {binary(name + ".so"), binary(name + ".dll"), sources};
 }
 
+bool windows_is_served() {
+  return !embedded_parts("sensor_fmu", {}).win64.empty();
+}
+
 std::vector<std::string> translation_units(std::span<const EmbeddedFile> sources) {
   std::vector<std::string> units;
   for (const EmbeddedFile& source : sources) {

@@ -55,10 +55,12 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
   std::vector<ArchiveMember> members{
       {"modelDescription.xml", fmi2 ? model_description_fmi2(content) : model_description_fmi3(content)},
       {linux64 + content.identifier + ".so", std::string(parts.linux64)},
-      {win64 + content.identifier + ".dll", std::string(parts.win64)},
       {std::string("resources/") + fmu::resource_name, fmu::resource_bytes(content.resource)},
       {"documentation/index.html", fmu_documentation(content)},
       {"documentation/licenses/license.txt", asset("LICENSE")}};
+  if (!parts.win64.empty()) {
+    members.insert(members.begin() + 2, {win64 + content.identifier + ".dll", std::string(parts.win64)});
+  }
   if (fmi2) {
     members.push_back({"model.png", asset("icon.png")});
   } else {

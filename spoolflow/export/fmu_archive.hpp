@@ -10,7 +10,7 @@ namespace spoolflow::exports {
 /// What travels inside the program for one FMU.
 struct FmuParts {
   std::string_view linux64;  ///< shared library
-  std::string_view win64;
+  std::string_view win64;    ///< the same; empty where this program was built without a compiler for Windows
   std::span<const EmbeddedFile> sources;  ///< everything in the FMU's folder sources, named by its path there
 };
 
