@@ -125,9 +125,7 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
       out.valve, out.condensed.parameters.closed_below_m,
       [&](double share) { progress("full sensor in operation", fitting_share + (1 - fitting_share) * share); });
   out.observer = std::move(full.observer);
-  out.evidence.solenoid = std::move(full.solenoid);
-  out.evidence.magnetic_force_residuals = std::move(full.magnetic_force_residuals);
-  out.evidence.axial_force_residuals = std::move(full.axial_force_residuals);
+  out.evidence.bench = std::move(full.bench);
   progress("done", 1.0);
   return out;
 }

@@ -1,6 +1,5 @@
 #include "spoolflow/calibration/observer.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -45,11 +44,7 @@ constexpr double coverage_factor = 2;
 
 FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
   FitResidual out;
-  for (const AxialForceFit& fit : fits) {
-    out.largest = std::max(out.largest, (fit.*residual).largest);
-    out.sum_of_squares += (fit.*residual).sum_of_squares;
-    out.samples += (fit.*residual).samples;
-  }
+  for (const AxialForceFit& fit : fits) out += fit.*residual;
   return out;
 }
 
@@ -61,95 +56,139 @@ std::vector<const recording::Recording*> with_reference(const std::vector<const 
   return out;
 }
 
+/// What the bench recordings give, the position sensor's drift taken off each.
+struct BenchFits {
+  PositionSensorFit position;
+  SpringFit spring;
+  MagneticForceFit magnetic;
+  ActuatorFit actuator;
+  std::vector<recording::Recording> axial_recordings;
+  std::vector<AxialForceFit> axial;
+  MeteringEdgeFit edge;
+};
+
+BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
+  std::vector<const recording::Recording*> bench{&recordings.spring};
+  bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
+  BenchFits out{};
+  out.position = fit_position_sensor(bench, stroke_m);
+  out.spring = fit_spring(without_zero_offset(recordings.spring, stroke_m), stroke_m);
+  const double closed_m = closed_reading_m(recordings.solenoid_force_map[recording::Channel::position], stroke_m);
+  const recording::Recording force_map = shifted(recordings.solenoid_force_map, closed_m);
+  out.magnetic = fit_magnetic_force(force_map, stroke_m);
+  // The armature never meets its stop in `solenoid_dynamic`: the rig's zero is that of the force map.
+  std::optional<recording::Recording> dynamic;
+  if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
+  out.actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, out.magnetic, stroke_m);
+  for (const recording::Recording* recording : recordings.axial_force_maps)
+    out.axial_recordings.push_back(without_zero_offset(*recording, stroke_m));
+  for (const recording::Recording& recording : out.axial_recordings)
+    out.axial.push_back(fit_axial_force(recording, stroke_m));
+  out.edge = fit_metering_edge(out.axial, out.spring.spring, out.spring.friction_half_width_N);
+  return out;
+}
+
+model::BenchResiduals residuals_on_bench(const BenchFits& fits, double stroke_m) {
+  model::BenchResiduals out;
+  out.magnetic_force = fits.actuator.profiles;
+  if (fits.actuator.dynamics) out.solenoid = fits.actuator.dynamics->traces;
+  for (const recording::Recording& recording : fits.axial_recordings) {
+    std::vector<model::MapResidual> each =
+        axial_force_residuals(recording, fits.spring.spring, fits.edge.edge, stroke_m);
+    std::move(each.begin(), each.end(), std::back_inserter(out.axial_force));
+  }
+  return out;
+}
+
+/// With what only operation shows as assumed.
+sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double closed_below_m) {
+  sensor::ObserverParameters<double> out{};
+  out.actuator = fits.actuator.actuator;
+  out.spring = fits.spring.spring;
+  out.edge = fits.edge.edge;
+  out.position_sensor = {fits.position.noise_m, assumed_backlash_m, fits.position.drift_m_per_K,
+                         fits.position.drift_free_K, assumed_hardest_acceleration_m_per_s2};
+  out.friction = assumed_friction;
+  out.pressure = supply;
+  out.band = {.friction_share = 0.03,
+              .force_residual_N =
+                  std::hypot(fits.magnetic.residual.rms(), together(fits.axial, &AxialForceFit::force_residual).rms(),
+                             fits.spring.residual.rms()),
+              .flow_residual_m3_per_s = together(fits.axial, &AxialForceFit::flow_residual).rms(),
+              .coverage_factor = coverage_factor,
+              .creep_per_s = 1,
+              .unseen_factor = 4.2,
+              .reference_lag_s = 0.03};
+  out.closed_below_m = closed_below_m;
+  out.largest_current_A = fits.magnetic.largest_current_A;
+  return out;
+}
+
+std::vector<model::Residual> residuals_of_fits(const BenchFits& fits) {
+  const FitResidual axial_force = together(fits.axial, &AxialForceFit::force_residual);
+  const FitResidual flow = together(fits.axial, &AxialForceFit::flow_residual);
+  std::vector<model::Residual> out{
+      {"spring force", "N", fits.spring.residual.rms(), fits.spring.residual.largest},
+      {"magnetic force", "N", fits.magnetic.residual.rms(), fits.magnetic.residual.largest},
+      {"axial force", "N", axial_force.rms(), axial_force.largest},
+      {"flow rate", "m3/s", flow.rms(), flow.largest},
+      {"position drift", "m", fits.position.drift_residual_m, fits.position.drift_residual_m},
+  };
+  if (fits.actuator.dynamics) {
+    for (const TestResidual& test : fits.actuator.dynamics->tests)
+      out.push_back(
+          {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});
+  }
+  return out;
+}
+
+std::vector<model::Fit> known_of_bench(const BenchFits& fits) {
+  std::vector<model::Fit> out{fits.spring.known};
+  out.insert(out.end(), fits.edge.known.begin(), fits.edge.known.end());
+  if (fits.position.known) out.push_back(*fits.position.known);
+  const ActuatorFit& actuator = fits.actuator;
+  out.push_back(actuator.loop_widths ? actuator.loop_widths->known : actuator.friction);
+  if (actuator.flux_linkage.measured) out.push_back(actuator.flux_linkage.known);
+  if (actuator.dynamics) out.push_back(actuator.dynamics->known);
+  return out;
+}
+
+/// Without an operating recording.
+void assume_operation(model::Observer& observer) {
+  observer.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
+                       "contact_stiffness_N_per_m", "friction_tolerance_N",  "breakaway_share",
+                       "position_backlash_m",       "band_friction_share",   "band_force_share",
+                       "band_rest_share",           "band_tolerance_N"};
+  observer.parameters.friction.tolerance_N = unknown_tolerance_N;
+  observer.parameters.position_sensor.backlash_m = unknown_backlash_m;
+  scale_band(observer.parameters, assumed_force_error_ratio);
+}
+
 }  // namespace
 
 ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
                                        double closed_below_m, const std::function<void(double)>& progress) {
-  std::vector<const recording::Recording*> bench{&recordings.spring};
-  bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
-  const PositionSensorFit position = fit_position_sensor(bench, valve.stroke_m);
-  const SpringFit spring = fit_spring(without_zero_offset(recordings.spring, valve.stroke_m), valve.stroke_m);
-  const double closed_m = closed_reading_m(recordings.solenoid_force_map[recording::Channel::position], valve.stroke_m);
-  const recording::Recording force_map = shifted(recordings.solenoid_force_map, closed_m);
-  const MagneticForceFit magnetic = fit_magnetic_force(force_map, valve.stroke_m);
-  // The armature never meets its stop in `solenoid_dynamic`: the rig's zero is that of the force map.
-  std::optional<recording::Recording> dynamic;
-  if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
-  const ActuatorFit actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, magnetic, valve.stroke_m);
-  std::vector<recording::Recording> axial_recordings;
-  for (const recording::Recording* recording : recordings.axial_force_maps)
-    axial_recordings.push_back(without_zero_offset(*recording, valve.stroke_m));
-  std::vector<AxialForceFit> axial;
-  for (const recording::Recording& recording : axial_recordings)
-    axial.push_back(fit_axial_force(recording, valve.stroke_m));
-  const FitResidual flow = together(axial, &AxialForceFit::flow_residual);
-  const FitResidual axial_force = together(axial, &AxialForceFit::force_residual);
-  const MeteringEdgeFit edge = fit_metering_edge(axial, spring.spring, spring.friction_half_width_N);
-
+  const BenchFits fits = fit_bench(recordings, valve.stroke_m);
   ObserverCalibration calibration{};
-  calibration.magnetic_force_residuals = actuator.profiles;
-  if (actuator.dynamics) calibration.solenoid = actuator.dynamics->traces;
-  for (const recording::Recording& recording : axial_recordings) {
-    std::vector<model::MapResidual> each = axial_force_residuals(recording, spring.spring, edge.edge, valve.stroke_m);
-    std::move(each.begin(), each.end(), std::back_inserter(calibration.axial_force_residuals));
-  }
+  calibration.bench = residuals_on_bench(fits, valve.stroke_m);
   model::Observer& out = calibration.observer;
-  sensor::ObserverParameters<double>& parameters = out.parameters;
-  parameters.actuator = actuator.actuator;
-  parameters.spring = spring.spring;
-  parameters.edge = edge.edge;
-  parameters.position_sensor = {position.noise_m, assumed_backlash_m, position.drift_m_per_K, position.drift_free_K,
-                                assumed_hardest_acceleration_m_per_s2};
-  parameters.friction = assumed_friction;
-  parameters.pressure = supply;
+  out.parameters = parameters_from(fits, closed_below_m);
+  const auto& temperature_K = fits.edge.edge.temperature_K;
+  out.oil_temperature_K = {temperature_K.at(0), temperature_K.at(sensor::edge_temperatures - 1)};
+  out.residuals = residuals_of_fits(fits);
+  out.fits = known_of_bench(fits);
   const std::vector<const recording::Recording*> operation = with_reference(recordings.operation);
-  parameters.band = {.friction_share = 0.03,
-                     .force_residual_N = std::hypot(magnetic.residual.rms(), axial_force.rms(), spring.residual.rms()),
-                     .flow_residual_m3_per_s = flow.rms(),
-                     .coverage_factor = coverage_factor,
-                     .creep_per_s = 1,
-                     .unseen_factor = 4.2,
-                     .reference_lag_s = 0.03};
-  parameters.closed_below_m = closed_below_m;
-  parameters.largest_current_A = magnetic.largest_current_A;
-
-  out.oil_temperature_K = {edge.edge.temperature_K.at(0), edge.edge.temperature_K.at(sensor::edge_temperatures - 1)};
-  out.residuals = {
-      {"spring force", "N", spring.residual.rms(), spring.residual.largest},
-      {"magnetic force", "N", magnetic.residual.rms(), magnetic.residual.largest},
-      {"axial force", "N", axial_force.rms(), axial_force.largest},
-      {"flow rate", "m3/s", flow.rms(), flow.largest},
-      {"position drift", "m", position.drift_residual_m, position.drift_residual_m},
-  };
-  out.fits.push_back(spring.known);
-  out.fits.insert(out.fits.end(), edge.known.begin(), edge.known.end());
-  if (position.known) out.fits.push_back(*position.known);
-  if (actuator.loop_widths) out.fits.push_back(actuator.loop_widths->known);
-  if (!actuator.loop_widths) out.fits.push_back(actuator.friction);
-  if (actuator.flux_linkage.measured) out.fits.push_back(actuator.flux_linkage.known);
-  if (actuator.dynamics) {
-    out.fits.push_back(actuator.dynamics->known);
-    for (const TestResidual& test : actuator.dynamics->tests)
-      out.residuals.push_back(
-          {fmt::format("solenoid_dynamic, test {}", test.test), "N", test.model_N.rms(), test.model_N.largest});
-  }
   if (!operation.empty()) {
-    const OperationFit fit = fit_operation(parameters, operation, valve.rated_flow_m3_per_s, progress);
+    const OperationFit fit = fit_operation(out.parameters, operation, valve.rated_flow_m3_per_s, progress);
     out.fits.push_back(fit.known);
     out.residuals.push_back({"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
   } else {
-    out.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
-                    "contact_stiffness_N_per_m", "friction_tolerance_N",  "breakaway_share",
-                    "position_backlash_m",       "band_friction_share",   "band_force_share",
-                    "band_rest_share",           "band_tolerance_N"};
-    parameters.friction.tolerance_N = unknown_tolerance_N;
-    parameters.position_sensor.backlash_m = unknown_backlash_m;
-    scale_band(parameters, assumed_force_error_ratio);
+    assume_operation(out);
   }
   for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
                               "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "band_reference_lag_s"})
     out.defaults.emplace_back(assumed);
-  if (!actuator.dynamics) {
+  if (!fits.actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");
   }

@@ -18,9 +18,7 @@ struct ObserverRecordings {
 
 struct ObserverCalibration {
   model::Observer observer;
-  std::vector<model::SolenoidTrace> solenoid;  ///< these three: see model::Evidence
-  std::vector<model::MapResidual> magnetic_force_residuals;
-  std::vector<model::MapResidual> axial_force_residuals;
+  model::BenchResiduals bench;
 };
 
 /// Bench maps free of position drift, then what only operation shows; what no recording shows is assumed, and said so

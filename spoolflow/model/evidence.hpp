@@ -44,6 +44,13 @@ struct MapResidual {
   std::vector<double> rms_N;
 };
 
+/// What the full sensor leaves of the bench recordings; empty without an observer.
+struct BenchResiduals {
+  std::vector<SolenoidTrace> solenoid;      ///< empty without `solenoid_dynamic`
+  std::vector<MapResidual> magnetic_force;  ///< rising current
+  std::vector<MapResidual> axial_force;     ///< of each recording, rising pressure difference
+};
+
 /// The largest slope of flow over flow force that the map has at each point: how much a newton costs there.
 struct SensitivityMap {
   std::vector<double> position_m;                 ///< rows
@@ -61,9 +68,7 @@ struct Uniqueness {
 struct Evidence {
   std::vector<MagneticForceLoop> magnetic_force;
   std::vector<AxialForceLoop> axial_force;
-  std::vector<SolenoidTrace> solenoid;                ///< empty without `solenoid_dynamic`
-  std::vector<MapResidual> magnetic_force_residuals;  ///< rising current; these three are empty without an observer
-  std::vector<MapResidual> axial_force_residuals;     ///< of each recording, rising pressure difference
+  BenchResiduals bench;
   SensitivityMap sensitivity;
   Uniqueness uniqueness;
 };

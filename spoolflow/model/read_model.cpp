@@ -131,14 +131,14 @@ Evidence evidence(const JsonNode& node) {
     for (const JsonNode& trace : node.at("solenoid_traces").elements()) {
       const std::vector<double> current_A = trace.at("current_A").numbers();
       const std::size_t n = current_A.size();
-      out.solenoid.push_back({static_cast<int>(trace.at("test").number(0, 1e6)), trace.at("position_m").number(),
-                              current_A, column(trace, "measured_N", n), column(trace, "model_N", n),
-                              column(trace, "map_N", n)});
+      out.bench.solenoid.push_back({static_cast<int>(trace.at("test").number(0, 1e6)), trace.at("position_m").number(),
+                                    current_A, column(trace, "measured_N", n), column(trace, "model_N", n),
+                                    column(trace, "map_N", n)});
     }
   }
   if (node.has("magnetic_force_residuals")) {
-    out.magnetic_force_residuals = map_residuals(node.at("magnetic_force_residuals"));
-    out.axial_force_residuals = map_residuals(node.at("axial_force_residuals"));
+    out.bench.magnetic_force = map_residuals(node.at("magnetic_force_residuals"));
+    out.bench.axial_force = map_residuals(node.at("axial_force_residuals"));
   }
   const JsonNode sensitivity = node.at("sensitivity");
   out.sensitivity.position_m = sensitivity.at("position_m").rising_numbers();

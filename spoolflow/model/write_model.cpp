@@ -111,7 +111,7 @@ Json evidence(const Evidence& evidence) {
                      {"pressure_difference_Pa", loop.pressure_difference_Pa}});
   }
   Json solenoid = Json::array();
-  for (const SolenoidTrace& trace : evidence.solenoid) {
+  for (const SolenoidTrace& trace : evidence.bench.solenoid) {
     solenoid.push_back({{"test", trace.test},
                         {"position_m", trace.position_m},
                         {"current_A", trace.current_A},
@@ -122,8 +122,8 @@ Json evidence(const Evidence& evidence) {
   return {{"magnetic_force_loops", magnetic},
           {"axial_force_loops", axial},
           {"solenoid_traces", solenoid},
-          {"magnetic_force_residuals", map_residuals(evidence.magnetic_force_residuals)},
-          {"axial_force_residuals", map_residuals(evidence.axial_force_residuals)},
+          {"magnetic_force_residuals", map_residuals(evidence.bench.magnetic_force)},
+          {"axial_force_residuals", map_residuals(evidence.bench.axial_force)},
           {"sensitivity",
            {{"position_m", evidence.sensitivity.position_m},
             {"pressure_difference_Pa", evidence.sensitivity.pressure_difference_Pa},

@@ -58,16 +58,42 @@ double force_beyond(const sensor::MagneticForce<double>& magnetic_force, double 
   return force.value + force.row_slope * std::max(0.0, current_A - edge_A);
 }
 
+struct Strokes {
+  const std::vector<Level>& levels;
+  const std::vector<double>& position_m;
+  const std::vector<double>& magnetising_A;
+};
+
+/// What map and friction leave of the strokes, and friction as a constant and a share.
+void take_residuals(ArmatureFrictionFit& fit, const SolenoidSamples& samples, const Strokes& strokes, double stroke_m) {
+  std::vector<Eigen::Vector3d> taken;
+  for (const Level& level : strokes.levels) {
+    ResidualProfile profile(stroke_m);
+    for (const Sweep& sweep : level.sweeps) {
+      const double sign = sweep.direction == Direction::opening ? 1 : -1;
+      for (std::size_t k = sweep.begin; k < sweep.end; ++k) {
+        const double position_m = strokes.position_m[k], current_A = strokes.magnetising_A[k];
+        const double magnetic_N = force_beyond(fit.magnetic_force, current_A, position_m);
+        taken.emplace_back(-sign, -sign * magnetic_N, samples.force_N[k] - magnetic_N);
+        const double left_N = taken.back()(2) + sign * fit.friction_N.at(current_A, position_m).value;
+        fit.residual.add(left_N);
+        profile.add(position_m, left_N);
+      }
+    }
+    fit.profiles.push_back(profile.at(level.value, 0));
+  }
+  const Eigen::MatrixXd all = stacked(taken);
+  fit.known = known_from_samples("armature friction as a constant and a share of the magnetic force",
+                                 {"constant_friction_N", "friction_per_magnetic_force"},
+                                 least_squares(all.leftCols(2), all.col(2), "the armature's friction"));
+}
+
 /// Covariance of the solution, from those unknowns that are not held at zero; the last column is the right side.
 Eigen::MatrixXd covariance_among_free(const Eigen::MatrixXd& all, const Eigen::VectorXd& solution) {
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index k = 0; k < solution.size(); ++k)
-    if (solution(k) > 0) free.push_back(k);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(solution.size(), solution.size());
-  if (free.empty()) return out;
+  const std::vector<Eigen::Index> free = above_zero(solution);
+  if (free.empty()) return Eigen::MatrixXd::Zero(solution.size(), solution.size());
   const LinearLeastSquares fit = least_squares(all(Eigen::all, free), all.col(solution.size()), "the loops' widths");
-  out(free, free) = fit.covariance(independent_in_a_row(fit.deviation));
-  return out;
+  return spread_over(solution.size(), free, fit.covariance(independent_in_a_row(fit.deviation)));
 }
 
 }  // namespace
@@ -112,25 +138,7 @@ ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const 
     for (int column = 0; column < columns; ++column)
       fit.magnetic_force.map.node(row, column) += correction.node(row, column);
 
-  std::vector<Eigen::Vector3d> rows;
-  for (const Level& level : levels) {
-    ResidualProfile profile(stroke_m);
-    for (const Sweep& sweep : level.sweeps) {
-      const double sign = sweep.direction == Direction::opening ? 1 : -1;
-      for (std::size_t k = sweep.begin; k < sweep.end; ++k) {
-        const double magnetic_N = force_beyond(fit.magnetic_force, magnetising_A[k], position_m[k]);
-        rows.emplace_back(-sign, -sign * magnetic_N, samples.force_N[k] - magnetic_N);
-        const double left_N = rows.back()(2) + sign * fit.friction_N.at(magnetising_A[k], position_m[k]).value;
-        fit.residual.add(left_N);
-        profile.add(position_m[k], left_N);
-      }
-    }
-    fit.profiles.push_back(profile.at(level.value, 0));
-  }
-  const Eigen::MatrixXd all = stacked(rows);
-  fit.known = known_from_samples("armature friction as a constant and a share of the magnetic force",
-                                 {"constant_friction_N", "friction_per_magnetic_force"},
-                                 least_squares(all.leftCols(2), all.col(2), "the armature's friction"));
+  take_residuals(fit, samples, {levels, position_m, magnetising_A}, stroke_m);
   return fit;
 }
 

@@ -16,6 +16,13 @@ struct FitResidual {
     largest = std::fmax(largest, std::abs(deviation));
     ++samples;
   }
+  /// Those of another as if they had been added here.
+  FitResidual& operator+=(const FitResidual& other) {
+    sum_of_squares += other.sum_of_squares;
+    largest = std::fmax(largest, other.largest);
+    samples += other.samples;
+    return *this;
+  }
   [[nodiscard]] double rms() const {
     return samples == 0 ? 0 : std::sqrt(sum_of_squares / static_cast<double>(samples));
   }

@@ -12,6 +12,23 @@
 
 namespace spoolflow::calibration {
 
+/// The covariance of all `unknowns`, of which only the `free` ones were fitted: one that is held, at a bound or by a
+/// choice, has variance zero and is correlated with nothing.
+[[nodiscard]] inline Eigen::MatrixXd spread_over(Eigen::Index unknowns, const std::vector<Eigen::Index>& free,
+                                                 const Eigen::MatrixXd& covariance_of_free) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  out(free, free) = covariance_of_free;
+  return out;
+}
+
+/// Those unknowns of a non-negative fit that are not held at zero.
+[[nodiscard]] inline std::vector<Eigen::Index> above_zero(const Eigen::VectorXd& unknowns) {
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index k = 0; k < unknowns.size(); ++k)
+    if (unknowns(k) > 0) out.push_back(k);
+  return out;
+}
+
 /// The parameters with their uncertainties and correlations after JCGM 100, 5.2.2 and H.3. `names` with the SI unit as
 /// suffix; `covariance` in those units; a parameter of variance zero is correlated with nothing.
 [[nodiscard]] inline model::Fit known_from(std::string of, const std::vector<std::string>& names,

@@ -9,17 +9,11 @@ namespace {
 
 /// The unconstrained solution over the free unknowns, zero elsewhere.
 Eigen::VectorXd solve_free(const NormalEquations& equations, const std::vector<Eigen::Index>& free) {
-  const auto count = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd matrix(count, count);
-  Eigen::VectorXd right(count);
-  for (Eigen::Index r = 0; r < count; ++r) {
-    right(r) = equations.right(free[static_cast<std::size_t>(r)]);
-    for (Eigen::Index c = 0; c < count; ++c)
-      matrix(r, c) = equations.matrix(free[static_cast<std::size_t>(r)], free[static_cast<std::size_t>(c)]);
-  }
-  const Eigen::VectorXd solution = matrix.ldlt().solve(right);
+  const Eigen::MatrixXd matrix = equations.matrix(free, free);
+  const Eigen::VectorXd right = equations.right(free);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(equations.right.size());
-  for (Eigen::Index r = 0; r < count; ++r) all(free[static_cast<std::size_t>(r)]) = solution(r);
+  const Eigen::VectorXd solution = matrix.ldlt().solve(right);
+  all(free) = solution;
   return all;
 }
 

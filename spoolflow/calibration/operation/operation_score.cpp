@@ -57,9 +57,7 @@ OperationOutcome together(const std::vector<OperationOutcome>& stretches) {
   for (const OperationOutcome& each : stretches) {
     out.interval_score += each.interval_score;
     out.inside += each.inside;
-    out.error.sum_of_squares += each.error.sum_of_squares;
-    out.error.largest = std::max(out.error.largest, each.error.largest);
-    out.error.samples += each.error.samples;
+    out.error += each.error;
   }
   return out;
 }

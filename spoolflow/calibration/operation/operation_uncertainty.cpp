@@ -37,68 +37,80 @@ Eigen::MatrixXd inverse_of(Eigen::MatrixXd curvature, double pull) {
   }
 }
 
+/// What a score tells of the dials' logarithms about where it is smallest.
+struct Curvature {
+  Eigen::MatrixXd slopes;     ///< of each stretch
+  Eigen::MatrixXd curvature;  ///< of their sum
+};
+
+/// By differences; `at(a, log_a, b, log_b)` are the scores of the stretches with the dials a and b turned so far.
+template <class Scores>
+Curvature curvature_about(const Eigen::VectorXd& middle, const std::vector<Eigen::Index>& free, double pull,
+                          const Scores& at) {
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Curvature out{Eigen::MatrixXd(middle.size(), count), Eigen::MatrixXd(count, count)};
+  Eigen::VectorXd above(count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const Eigen::Index k = free[static_cast<std::size_t>(r)];
+    const Eigen::VectorXd up = at(k, log_step, k, 0), down = at(k, -log_step, k, 0);
+    out.slopes.col(r) = (up - down) / (2 * log_step);
+    above(r) = up.sum();
+    out.curvature(r, r) = (up.sum() + down.sum() - 2 * middle.sum()) / (log_step * log_step) + 2 * pull;
+  }
+  for (Eigen::Index r = 0; r < count; ++r) {
+    for (Eigen::Index c = 0; c < r; ++c) {
+      const double both =
+          at(free[static_cast<std::size_t>(r)], log_step, free[static_cast<std::size_t>(c)], log_step).sum();
+      out.curvature(r, c) = out.curvature(c, r) = (both - above(r) - above(c) + middle.sum()) / (log_step * log_step);
+    }
+  }
+  return out;
+}
+
+/// Huber's sandwich: how much the slope differs between stretches, between inverse curvatures.
+Eigen::MatrixXd covariance_from(Curvature score, double pull) {
+  score.slopes.rowwise() -= score.slopes.colwise().mean();
+  const double stretches = static_cast<double>(score.slopes.rows());
+  const Eigen::MatrixXd scatter =
+      stretches / std::max(1.0, stretches - 1) * score.slopes.transpose().lazyProduct(score.slopes);
+  const Eigen::MatrixXd inverse = inverse_of(std::move(score.curvature), 2 * pull);
+  return inverse.lazyProduct(scatter).eval().lazyProduct(inverse);
+}
+
 }  // namespace
 
 model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
                               const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
                               double pull) {
   const std::vector<Dial> dials = operation_dials(parameters);
-  std::vector<std::size_t> free;
-  for (std::size_t k = 0; k < dials.size(); ++k)
-    if (*dials[k].value > 1.001 * dials[k].lowest && *dials[k].value < 0.999 * dials[k].highest) free.push_back(k);
-  const std::vector<OperationOutcome> here = replay_stretches(parameters, recordings, stretch_s);
-  const double rms_m3_per_s = std::max(1e-9 * full_scale_m3_per_s, together(here).error.rms());
-  const Eigen::VectorXd middle = scores(here, rms_m3_per_s, full_scale_m3_per_s);
-  const auto turned = [&](std::size_t a, double log_a, std::size_t b, double log_b) {
-    const double before_a = *dials[a].value, before_b = *dials[b].value;
-    *dials[a].value *= std::exp(log_a);
-    *dials[b].value *= std::exp(log_b);
-    Eigen::VectorXd out =
-        scores(replay_stretches(parameters, recordings, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
-    *dials[a].value = before_a;
-    *dials[b].value = before_b;
-    return out;
-  };
-
-  const auto count = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd slopes(middle.size(), count);  // of each stretch
-  Eigen::MatrixXd curvature(count, count);
-  Eigen::VectorXd above(count);
-  for (Eigen::Index r = 0; r < count; ++r) {
-    const std::size_t k = free[static_cast<std::size_t>(r)];
-    const Eigen::VectorXd up = turned(k, log_step, k, 0), down = turned(k, -log_step, k, 0);
-    slopes.col(r) = (up - down) / (2 * log_step);
-    above(r) = up.sum();
-    curvature(r, r) = (up.sum() + down.sum() - 2 * middle.sum()) / (log_step * log_step) + 2 * pull;
-  }
-  for (Eigen::Index r = 0; r < count; ++r) {
-    for (Eigen::Index c = 0; c < r; ++c) {
-      const double both =
-          turned(free[static_cast<std::size_t>(r)], log_step, free[static_cast<std::size_t>(c)], log_step).sum();
-      curvature(r, c) = curvature(c, r) = (both - above(r) - above(c) + middle.sum()) / (log_step * log_step);
-    }
-  }
-  slopes.rowwise() -= slopes.colwise().mean();
-  const double stretches = static_cast<double>(slopes.rows());
-  const Eigen::MatrixXd scatter = stretches / std::max(1.0, stretches - 1) * slopes.transpose().lazyProduct(slopes);
-  const Eigen::MatrixXd inverse = inverse_of(curvature, 2 * pull);
-  const Eigen::MatrixXd on_log_scale = inverse.lazyProduct(scatter).eval().lazyProduct(inverse);
-
-  const auto all = static_cast<Eigen::Index>(dials.size());
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all, all);
-  for (Eigen::Index r = 0; r < count; ++r) {
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const std::size_t a = free[static_cast<std::size_t>(r)], b = free[static_cast<std::size_t>(c)];
-      covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
-          *dials[a].value * *dials[b].value * on_log_scale(r, c);
-    }
-  }
   std::vector<std::string> names;
   std::vector<double> values;
+  std::vector<Eigen::Index> free;
   for (const Dial& dial : dials) {
+    if (*dial.value > 1.001 * dial.lowest && *dial.value < 0.999 * dial.highest)
+      free.push_back(static_cast<Eigen::Index>(names.size()));
     names.emplace_back(dial.name);
     values.push_back(*dial.value);
   }
+  const std::vector<OperationOutcome> here = replay_stretches(parameters, recordings, stretch_s);
+  const double rms_m3_per_s = std::max(1e-9 * full_scale_m3_per_s, together(here).error.rms());
+  const auto turned = [&](Eigen::Index a, double log_a, Eigen::Index b, double log_b) {
+    double& dial_a = *dials[static_cast<std::size_t>(a)].value;
+    double& dial_b = *dials[static_cast<std::size_t>(b)].value;
+    const double before_a = dial_a, before_b = dial_b;
+    dial_a *= std::exp(log_a);
+    dial_b *= std::exp(log_b);
+    Eigen::VectorXd out =
+        scores(replay_stretches(parameters, recordings, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
+    dial_a = before_a;
+    dial_b = before_b;
+    return out;
+  };
+  const Eigen::MatrixXd on_log_scale =
+      covariance_from(curvature_about(scores(here, rms_m3_per_s, full_scale_m3_per_s), free, pull, turned), pull);
+  const Eigen::Map<const Eigen::VectorXd> scale(values.data(), static_cast<Eigen::Index>(values.size()));
+  const Eigen::MatrixXd covariance =
+      scale.asDiagonal() * spread_over(scale.size(), free, on_log_scale) * scale.asDiagonal();
   return known_from("friction and position sensor in operation", names, values, covariance);
 }
 

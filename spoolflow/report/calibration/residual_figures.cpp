@@ -124,13 +124,12 @@ CaptionedFigure axial_residual_figure(const std::vector<MapResidual>& residuals)
 void show_model_against_bench(HtmlPage& page, const model::Model& model) {
   const model::Evidence& evidence = model.evidence;
   std::vector<CaptionedFigure> residuals;
-  if (!evidence.axial_force_residuals.empty())
-    residuals.push_back(axial_residual_figure(evidence.axial_force_residuals));
-  if (!evidence.magnetic_force_residuals.empty())
-    residuals.push_back(magnetic_residual_figure(evidence.magnetic_force_residuals));
-  if (residuals.empty() && evidence.solenoid.empty()) return;
+  if (!evidence.bench.axial_force.empty()) residuals.push_back(axial_residual_figure(evidence.bench.axial_force));
+  if (!evidence.bench.magnetic_force.empty())
+    residuals.push_back(magnetic_residual_figure(evidence.bench.magnetic_force));
+  if (residuals.empty() && evidence.bench.solenoid.empty()) return;
   page.section("The model against the bench");
-  if (!evidence.solenoid.empty()) page.figure(loops_figure(evidence.solenoid));
+  if (!evidence.bench.solenoid.empty()) page.figure(loops_figure(evidence.bench.solenoid));
   if (!residuals.empty()) page.pair(residuals);
 }
 

@@ -91,12 +91,12 @@ TEST_F(ExampleFits, OperationTellsItsParametersWithTheirUncertainty) {
 }
 
 TEST_F(ExampleFits, ModelLeavesLittleOfTheBenchThatTheMapsWereMadeOf) {
-  ASSERT_FALSE(model.evidence.axial_force_residuals.empty());
-  for (const model::MapResidual& strokes : model.evidence.axial_force_residuals)
+  ASSERT_FALSE(model.evidence.bench.axial_force.empty());
+  for (const model::MapResidual& strokes : model.evidence.bench.axial_force)
     for (const double mean_N : strokes.mean_N) EXPECT_LT(std::abs(mean_N), 0.5) << strokes.held;
-  ASSERT_FALSE(model.evidence.solenoid.empty());
+  ASSERT_FALSE(model.evidence.bench.solenoid.empty());
   double model_N2 = 0, map_N2 = 0;
-  for (const model::SolenoidTrace& trace : model.evidence.solenoid) {
+  for (const model::SolenoidTrace& trace : model.evidence.bench.solenoid) {
     for (std::size_t k = 0; k < trace.current_A.size(); ++k) {
       model_N2 += std::pow(trace.measured_N[k] - trace.model_N[k], 2);
       map_N2 += std::pow(trace.measured_N[k] - trace.map_N[k], 2);
@@ -112,10 +112,10 @@ TEST_F(ExampleFits, ComeBackFromTheModelFileAndAWrongSizeIsRefusedAtItsPlace) {
   ASSERT_EQ(again.observer->fits.size(), model.observer->fits.size());
   EXPECT_EQ(again.observer->fits[1].correlation, model.observer->fits[1].correlation);
   EXPECT_EQ(again.observer->fits[1].parameters[1].name, model.observer->fits[1].parameters[1].name);
-  ASSERT_EQ(again.evidence.solenoid.size(), model.evidence.solenoid.size());
-  EXPECT_EQ(again.evidence.solenoid[0].model_N, model.evidence.solenoid[0].model_N);
-  ASSERT_EQ(again.evidence.axial_force_residuals.size(), model.evidence.axial_force_residuals.size());
-  EXPECT_EQ(again.evidence.axial_force_residuals[0].rms_N, model.evidence.axial_force_residuals[0].rms_N);
+  ASSERT_EQ(again.evidence.bench.solenoid.size(), model.evidence.bench.solenoid.size());
+  EXPECT_EQ(again.evidence.bench.solenoid[0].model_N, model.evidence.bench.solenoid[0].model_N);
+  ASSERT_EQ(again.evidence.bench.axial_force.size(), model.evidence.bench.axial_force.size());
+  EXPECT_EQ(again.evidence.bench.axial_force[0].rms_N, model.evidence.bench.axial_force[0].rms_N);
 
   model.observer->fits[0].correlation.pop_back();
   std::ostringstream damaged;

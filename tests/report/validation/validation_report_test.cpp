@@ -138,9 +138,9 @@ TEST(CalibrationReport, IsOneWellFormedPage) {
   EXPECT_THAT(out.str(), HasSubstr("the paper's Fig. 8"));
   EXPECT_THAT(out.str(), Not(HasSubstr("The model against the bench")));
   model::Model measured = small_model();
-  measured.evidence.solenoid = {{1, 1.2e-3, {0, 1, 2}, {0, 11, 20}, {0, 10.5, 20}, {0, 10, 20}}};
-  measured.evidence.axial_force_residuals = {{60e5, 323.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}},
-                                             {60e5, 343.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}}};
+  measured.evidence.bench.solenoid = {{1, 1.2e-3, {0, 1, 2}, {0, 11, 20}, {0, 10.5, 20}, {0, 10, 20}}};
+  measured.evidence.bench.axial_force = {{60e5, 323.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}},
+                                         {60e5, 343.15, {1e-3, 2e-3}, {0.1, -0.1}, {0.1, 0.1}}};
   std::ostringstream with;
   write_calibration_report(with, measured);
   EXPECT_EQ(unbalanced_markup(with.str()), "");
