@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "spoolflow/export/number_groups.hpp"
+#include "spoolflow/numerics/crossing.hpp"
 
 namespace spoolflow::exports {
 namespace {
@@ -52,15 +53,11 @@ double pressure_share(double time_s) {
   return course(corners, time_s);
 }
 
-/// The current at which the magnetic force has this size; bisection over the map's range.
+/// The current at which the magnetic force has this size, within the map's range.
 double balancing_current_A(const sensor::MagneticForce<double>& magnetic_force, double position_m, double force_N) {
-  double low_A = magnetic_force.map.row_axis.first;
-  double high_A = magnetic_force.map.row_axis.at(sensor::force_map_currents - 1);
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle_A = 0.5 * (low_A + high_A);
-    (magnetic_force.at(middle_A, position_m).value < force_N ? low_A : high_A) = middle_A;
-  }
-  return 0.5 * (low_A + high_A);
+  const auto& axis = magnetic_force.map.row_axis;
+  return numerics::crossing({axis.first, axis.at(sensor::force_map_currents - 1)}, force_N,
+                            [&](double current_A) { return magnetic_force.at(current_A, position_m).value; });
 }
 
 /// A small even noise, the same on every machine; within -1 to 1.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
 
@@ -70,9 +71,7 @@ class Steps {
     if (learned_.empty() || median_s_ > 0) return;
     std::vector<double> steps;
     for (const auto& [from, step] : learned_) steps.push_back(step);
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    median_s_ = *middle;
+    median_s_ = numerics::median(std::move(steps));
     out.rate_Hz = 1 / median_s_;
     for (const auto& [from, step] : learned_) judge(from, step, out);
     learned_.clear();

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
@@ -153,14 +154,13 @@ void Plausibility::check_sampling(const Watched& time, std::span<const double> t
     if (time_s[k] > time_s[k - 1]) steps_s.push_back(time_s[k] - time_s[k - 1]);
   }
   if (steps_s.size() < 2) return;
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  if (in_range(*middle, shortest_step_s, longest_step_s)) return;
-  const std::string better = better_units(time, *middle, 0.0);
+  const double apart_s = numerics::median(std::move(steps_s));
+  if (in_range(apart_s, shortest_step_s, longest_step_s)) return;
+  const std::string better = better_units(time, apart_s, 0.0);
   throw RecordingError(fmt::format(
       "{}, column '{}': the samples are {:.4g} s apart, which is not the rate of a valve's recording ({:g} to {:g} s); "
       "{}",
-      file_, time.column->name, *middle, shortest_step_s, longest_step_s,
+      file_, time.column->name, apart_s, shortest_step_s, longest_step_s,
       better.empty() ? "check the unit of time"
                      : fmt::format("is the unit of time {} instead of {}?", better, time.column->unit.name)));
 }

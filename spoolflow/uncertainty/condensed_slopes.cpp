@@ -1,11 +1,11 @@
 #include "spoolflow/uncertainty/condensed_slopes.hpp"
 
-#include "spoolflow/uncertainty/dual.hpp"
+#include "spoolflow/numerics/dual.hpp"
 
 namespace spoolflow::uncertainty {
 namespace {
 
-using Scalar = Dual<static_cast<int>(quantity_count)>;
+using Scalar = numerics::Dual<static_cast<int>(quantity_count)>;
 
 /// Every error zero, each its own direction.
 InputErrors<Scalar> directions() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/numerics/crossing.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::uncertainty {
@@ -10,13 +11,9 @@ namespace {
 
 /// The argument between the ends at which a rising function reaches `wanted`; nothing where it does not.
 template <class Function>
-std::optional<double> crossing(double low, double high, double wanted, const Function& rising) {
+std::optional<double> crossing_between(double low, double high, double wanted, const Function& rising) {
   if (!(rising(low) <= wanted && wanted <= rising(high))) return std::nullopt;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (rising(middle) < wanted ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return numerics::crossing({low, high}, wanted, rising);
 }
 
 /// y(x) between measured points; the outermost ones hold beyond.
@@ -51,12 +48,13 @@ double map_temperature_K(const model::Model& model) {
 std::optional<double> balanced_current_A(const model::Model& model, const WorkingPoint& point) {
   const auto& sensor = model.condensed.parameters;
   const double x = point.position_m;
-  const auto force_N = crossing(0, sensor.flow_rate.largest_force_N.at(x).value, point.pressure_difference_Pa,
-                                [&](double force) { return sensor.flow_rate.at(force, x).pressure_difference_Pa; });
+  const auto force_N =
+      crossing_between(0, sensor.flow_rate.largest_force_N.at(x).value, point.pressure_difference_Pa,
+                       [&](double force) { return sensor.flow_rate.at(force, x).pressure_difference_Pa; });
   if (!force_N) return std::nullopt;
-  return crossing(model.condensed.current_A.lower, model.condensed.current_A.upper,
-                  sensor.spring.at(x).value + *force_N,
-                  [&](double current) { return sensor.magnetic_force.at(current, x).value; });
+  return crossing_between(model.condensed.current_A.lower, model.condensed.current_A.upper,
+                          sensor.spring.at(x).value + *force_N,
+                          [&](double current) { return sensor.magnetic_force.at(current, x).value; });
 }
 
 Surroundings surroundings_at(const model::Model& model, const WorkingPoint& point, double current_A) {

@@ -5,6 +5,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <unsupported/Eigen/FFT>
 
 #include "spoolflow/validation/stretches.hpp"
 
@@ -12,6 +13,7 @@ namespace spoolflow::validation {
 namespace {
 
 using Complex = std::complex<double>;
+using Fourier = Eigen::FFT<double>;
 
 constexpr double highest_rate_Hz = 500;
 constexpr double longest_window_s = 8.2;
@@ -20,29 +22,6 @@ constexpr double bands_a_decade = 10;
 constexpr double lowest_coherence = 0.8;
 constexpr std::size_t fewest_bands = 6;
 constexpr double fewest_averages = 8;  // below, the coherence of noise is high by chance
-
-/// In place; the size is a power of two (Cooley and Tukey).
-void fourier(std::vector<Complex>& values) {
-  const std::size_t n = values.size();
-  for (std::size_t k = 1, j = 0; k < n; ++k) {
-    std::size_t bit = n >> 1U;
-    for (; (j & bit) != 0; bit >>= 1U) j ^= bit;
-    j ^= bit;
-    if (k < j) std::swap(values[k], values[j]);
-  }
-  for (std::size_t length = 2; length <= n; length <<= 1U) {
-    const Complex turn = std::polar(1.0, -2 * std::numbers::pi / static_cast<double>(length));
-    for (std::size_t begin = 0; begin < n; begin += length) {
-      Complex factor = 1;
-      for (std::size_t k = begin; k < begin + length / 2; ++k) {
-        const Complex odd = values[k + length / 2] * factor;
-        values[k + length / 2] = values[k] - odd;
-        values[k] += odd;
-        factor *= turn;
-      }
-    }
-  }
-}
 
 /// Values at even steps, by straight lines between samples; NaN in gaps.
 std::vector<double> at_even_steps(std::span<const double> time_s, std::span<const float> values, double step_s) {
@@ -66,20 +45,24 @@ struct Spectra {
   double windows = 0;
 };
 
-std::vector<Complex> windowed(const std::vector<double>& values, std::size_t begin, std::size_t length) {
+/// The spectrum of one window (Hann), without its mean, up to half the sample rate.
+std::vector<Complex> windowed(Fourier& fourier, const std::vector<double>& values, std::size_t begin,
+                              std::size_t length) {
   double mean = 0;
   for (std::size_t k = 0; k < length; ++k) mean += values[begin + k] / static_cast<double>(length);
-  std::vector<Complex> out;
+  std::vector<double> window;
   for (std::size_t k = 0; k < length; ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(length);
-    out.emplace_back((values[begin + k] - mean) * 0.5 * (1 - std::cos(angle)));
+    window.push_back((values[begin + k] - mean) * 0.5 * (1 - std::cos(angle)));
   }
-  fourier(out);
+  std::vector<Complex> out;
+  fourier.fwd(out, window);
   return out;
 }
 
 Spectra spectra_of(const std::vector<double>& reference, const std::vector<double>& estimate, std::size_t length) {
   Spectra out{std::vector<double>(length / 2), std::vector<double>(length / 2), std::vector<Complex>(length / 2), 0};
+  Fourier fourier(Fourier::impl_type(), Fourier::HalfSpectrum);
   for (std::size_t begin = 0; begin + length <= reference.size(); begin += length / 2) {
     const auto unknown = [&](const std::vector<double>& values) {
       const auto from = values.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -87,8 +70,8 @@ Spectra spectra_of(const std::vector<double>& reference, const std::vector<doubl
                          [](double value) { return std::isnan(value); });
     };
     if (unknown(reference) || unknown(estimate)) continue;
-    const std::vector<Complex> x = windowed(reference, begin, length);
-    const std::vector<Complex> y = windowed(estimate, begin, length);
+    const std::vector<Complex> x = windowed(fourier, reference, begin, length);
+    const std::vector<Complex> y = windowed(fourier, estimate, begin, length);
     for (std::size_t k = 0; k < length / 2; ++k) {
       out.reference[k] += std::norm(x[k]);
       out.estimate[k] += std::norm(y[k]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/numerics/median.hpp"
+
 namespace spoolflow::validation {
 namespace {
 
@@ -108,14 +110,6 @@ std::vector<Step> steps_of(const Samples& samples, const std::vector<float>& ref
   return out;
 }
 
-double median(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double rise_s(const Samples& samples, const std::vector<float>& values, const Step& step, const Levels& levels) {
   const bool rising = levels.change() > 0;
   const double from_s = step.half_s - change_s;
@@ -174,7 +168,12 @@ StepAnswer answer(const Samples& samples, const Answers& answers, const std::vec
     overshoots.push_back(farthest);
     course.add(samples, flow, step, own);
   }
-  return {answers.estimator, delays_s.size(), median(delays_s), median(rises_s), median(overshoots), course.mean()};
+  return {answers.estimator,
+          delays_s.size(),
+          numerics::median(delays_s),
+          numerics::median(rises_s),
+          numerics::median(overshoots),
+          course.mean()};
 }
 
 }  // namespace
@@ -191,7 +190,7 @@ std::optional<StepResponse> step_response(const RunSamples& run, double full_sca
     rises_s.push_back(rise_s(samples, run.reference_m3_per_s, step, step.reference));
     course.add(samples, run.reference_m3_per_s, step, step.reference);
   }
-  out.reference_rise_s = median(rises_s);
+  out.reference_rise_s = numerics::median(rises_s);
   out.reference_course = course.mean();
   for (const Answers& answers : run.answers) out.answers.push_back(answer(samples, answers, steps));
   return out;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 17> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
@@ -28,8 +28,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> library_
     {"hdf5.h", "HDF5"},
     {"matio.h", "matio"},
     {"openssl/", "OpenSSL"},
-    {"ceres/", "Ceres"},
     {"Eigen/", "Eigen"},
+    {"unsupported/Eigen/", "Eigen"},
+    {"fast_float/", "fast_float"},
     {"boost/", "Boost"},
     {"zip.h", "libzip"},
     {"sys/", "POSIX"},

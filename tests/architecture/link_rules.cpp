@@ -19,9 +19,9 @@ const std::map<std::string, std::string> library_of_target{
     {"hdf5::hdf5", "HDF5"},
     {"PkgConfig::MATIO", "matio"},
     {"OpenSSL::Crypto", "OpenSSL"},
-    {"Ceres::ceres", "Ceres"},
     {"Eigen3::Eigen", "Eigen"},
     {"Boost::headers", "Boost"},
+    {"FastFloat::fast_float", "fast_float"},
     {"PkgConfig::LIBZIP", "libzip"},
 };
 

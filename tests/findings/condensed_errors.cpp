@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
@@ -90,15 +91,11 @@ std::vector<Finding> condensed_findings(const CondensedRuns& runs) {
     moving.push_back(quantile_percent(run, phases.moving, 0.95));
     reversal.push_back(quantile_percent(run, phases.reversal, 1));
   }
-  const auto median = [](std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-  };
   std::vector<Finding> findings{
-      {fmt::format("condensed sensor at 60 bar, p95 while moving, median of {} runs", moving.size()), median(moving),
-       "% FS", 8, 14, "paper 4"},
+      {fmt::format("condensed sensor at 60 bar, p95 while moving, median of {} runs", moving.size()),
+       numerics::median(moving), "% FS", 8, 14, "paper 4"},
       {fmt::format("condensed sensor at 60 bar, worst around reversal, median of {} runs", reversal.size()),
-       median(reversal), "% FS", 30, 45, "paper 4"}};
+       numerics::median(reversal), "% FS", 30, 45, "paper 4"}};
   for (const double level_bar : {30.0, 40.0, 50.0, 60.0, 70.0}) {
     const double small = mean_error_percent(runs.ramps, level_bar, 0.15 * stroke_m, 0.45 * stroke_m);
     const double large = mean_error_percent(runs.ramps, level_bar, 0.7 * stroke_m, stroke_m);

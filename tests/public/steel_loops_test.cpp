@@ -6,6 +6,7 @@
 
 #include "public_data.hpp"
 #include "spoolflow/calibration/fits/hysteresis_loops.hpp"
+#include "spoolflow/numerics/crossing.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -56,14 +57,9 @@ struct Steel {
   }
   /// Flux density at a field strength, by bisection: both parts rise with it.
   double density_T(const sensor::HysteresisState<double>& state, double field_A_per_m) const {
-    double low = -2 * full_T;
-    double high = 2 * full_T;
-    for (int step = 0; step < 60; ++step) {
-      const double middle = 0.5 * (low + high);
-      const double asked = anhysteretic_A_per_m(middle) + hysteresis_at(fit.hysteresis, state, middle).value;
-      (asked < field_A_per_m ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return numerics::crossing({-2 * full_T, 2 * full_T}, field_A_per_m, [&](double density) {
+      return anhysteretic_A_per_m(density) + hysteresis_at(fit.hysteresis, state, density).value;
+    });
   }
 };
 

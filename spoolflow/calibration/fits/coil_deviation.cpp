@@ -1,14 +1,14 @@
-#include "spoolflow/calibration/numerics/jet.hpp"
-// Before the sensor is instantiated with automatic-differentiation numbers.
+#include "spoolflow/calibration/fits/coil_deviation.hpp"
+
 #include <algorithm>
 #include <thread>
 
-#include "spoolflow/calibration/fits/coil_deviation.hpp"
+#include "spoolflow/numerics/dual.hpp"
 
 namespace spoolflow::calibration {
 namespace {
 
-using Jet = ceres::Jet<double, coil_unknowns>;
+using Dual = numerics::Dual<coil_unknowns>;
 
 template <class T>
 sensor::Coil<T> coil_of(const CoilTask& task, const T* unknowns) {
@@ -24,8 +24,8 @@ sensor::Coil<T> coil_of(const CoilTask& task, const T* unknowns) {
     const auto e = static_cast<std::size_t>(k);
     const double threshold = task.coil.hysteresis.threshold[e];
     out.hysteresis.threshold[e] = T(threshold);
-    out.hysteresis.stiffness[e] = unknowns[k] / threshold;
-    out.hysteresis.stiffness_increase[e] = (unknowns[sensor::hysteresis_elements + k] - unknowns[k]) / threshold;
+    out.hysteresis.stiffness[e] = unknowns[k] / T(threshold);
+    out.hysteresis.stiffness_increase[e] = (unknowns[sensor::hysteresis_elements + k] - unknowns[k]) / T(threshold);
   }
   out.hysteresis.per_full_flux = T(task.coil.hysteresis.per_full_flux);
   out.eddy_currents = {unknowns[2 * sensor::hysteresis_elements], unknowns[2 * sensor::hysteresis_elements + 1],
@@ -56,18 +56,22 @@ CoilDeviation deviation_while_held(const CoilTask& task, std::size_t h, const Co
   const auto first = static_cast<Eigen::Index>(map_corrections * h);
   CoilDeviation out{0, Eigen::VectorXd::Zero(local), Eigen::MatrixXd::Zero(local, local)};
   Eigen::Matrix<double, local, 1> row;
-  std::array<Jet, coil_unknowns> jets;
-  for (std::size_t n = 0; n < jets.size(); ++n) jets[n] = Jet(unknowns[n], static_cast<int>(n));
-  run<Jet>(task, held, jets.data(), [&](std::size_t k, const Jet& current_A) {
+  std::array<Dual, coil_unknowns> seeded;
+  for (std::size_t n = 0; n < seeded.size(); ++n) {
+    seeded[n] = Dual(unknowns[n]);
+    seeded[n].slope[n] = 1;
+  }
+  run<Dual>(task, held, seeded.data(), [&](std::size_t k, const Dual& current_A) {
     if (!(task.weight[k] > 0)) return;
-    const auto force = force_map.at(current_A.a, held.position_m);
+    const auto force = force_map.at(current_A.value, held.position_m);
     double deviation_N = force.value - task.samples.force_N[k];
-    row.head<coil_unknowns>() = force.row_slope * current_A.v;
+    row.head<coil_unknowns>() =
+        force.row_slope * Eigen::Map<const Eigen::Matrix<double, coil_unknowns, 1>>(current_A.slope.data());
     double power = 1;
     for (int c = 0; c < map_corrections; ++c) {
       deviation_N += corrections_N(first + c) * power;
       row(coil_unknowns + c) = power;
-      power *= current_A.a / largest_A;
+      power *= current_A.value / largest_A;
     }
     row *= task.weight[k];
     deviation_N *= task.weight[k];

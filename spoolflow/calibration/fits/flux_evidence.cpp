@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "spoolflow/numerics/crossing.hpp"
+
 namespace spoolflow::calibration {
 namespace {
 
@@ -30,13 +32,8 @@ FluxEvidence evidence_from_force(const SolenoidSamples& samples, const sensor::M
     }
     const double force_N = samples.force_N[k];
     if (force_N < least_N || force_N > most_N) continue;
-    double low_A = 0;
-    double high_A = largest_A;
-    for (int halving = 0; halving < 30; ++halving) {
-      const double middle_A = 0.5 * (low_A + high_A);
-      (magnetic_force.at(middle_A, held_m).value < force_N ? low_A : high_A) = middle_A;
-    }
-    out.magnetising_current_A[k] = 0.5 * (low_A + high_A);
+    out.magnetising_current_A[k] = numerics::crossing(
+        {0, largest_A}, force_N, [&](double current_A) { return magnetic_force.at(current_A, held_m).value; });
   }
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
+#include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -121,8 +122,8 @@ void add_equation(Eigen::MatrixXd& matrix, const Shares& shares, double weight) 
     for (const auto& [c, share_c] : shares) matrix(r, c) += weight * share_r * share_c;
 }
 
-/// Smoothness keeps nodes that no sample reached near their neighbours: second differences of the flux vanish within
-/// `allowed_Wb`, those of the resistance within a thousandth of its size a knot.
+/// Smoothness keeps unknowns that no sample reached near their neighbours: second differences of the flux vanish within
+/// `allowed_Wb`, first differences of the resistance, from knot to knot, within `allowed_Ohm`.
 void add_smoothness(Eigen::MatrixXd& matrix, double allowed_Wb, double allowed_Ohm) {
   const double weight = 1 / (allowed_Wb * allowed_Wb);
   const auto add = [&](std::array<std::pair<int, int>, 3> three, double strength) {
@@ -168,9 +169,8 @@ Solution solve(const FluxChanges& changes, double inductance_H, const Eigen::Vec
     for (const auto& [k, share] : change.shares) right(k) += share * change.voltage_integral_Wb / variance;
   }
   if (!misfits.empty()) {
-    const auto middle = misfits.begin() + static_cast<std::ptrdiff_t>(misfits.size() / 2);
-    std::nth_element(misfits.begin(), middle, misfits.end());
-    fit.misfit = *middle / 0.455;  // the median of chi-square with one degree of freedom
+    constexpr double median_of_chi_square = 0.455;  // with one degree of freedom
+    fit.misfit = numerics::median(std::move(misfits)) / median_of_chi_square;
   }
   const double step_A = changes.map.row_axis.spacing;
   add_smoothness(matrix, 0.03 * inductance_H * step_A, changes.resistance_step_Ohm);

@@ -7,6 +7,7 @@
 
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -18,15 +19,7 @@ struct HeldStroke {
 };
 
 double median(std::span<const double> values) {
-  std::vector<double> sorted;
-  sorted.reserve(values.size());
-  for (const double v : values) {
-    if (!std::isnan(v)) sorted.push_back(v);
-  }
-  if (sorted.empty()) return std::nan("");
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return numerics::median({values.begin(), values.end()});
 }
 
 HeldStroke held_during(const Sweep& sweep, std::span<const double> held) {

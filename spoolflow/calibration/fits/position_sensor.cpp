@@ -8,18 +8,9 @@
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/numerics/fitted_parameters.hpp"
 #include "spoolflow/calibration/numerics/linear_least_squares.hpp"
+#include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
-namespace {
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
 double closed_reading_m(std::span<const double> position_m, double stroke_m) {
   std::vector<double> sorted;
   for (const double x : position_m) {
@@ -33,7 +24,7 @@ double closed_reading_m(std::span<const double> position_m, double stroke_m) {
     if (x > lowest + stroke_m / 400) break;
     hold.push_back(x);
   }
-  return median_of(std::move(hold));
+  return numerics::median(std::move(hold));
 }
 
 double noise_of(std::span<const double> position_m) {
@@ -43,7 +34,7 @@ double noise_of(std::span<const double> position_m) {
     if (!std::isnan(second)) differences.push_back(std::abs(second));
   }
   if (differences.size() < 100) return std::nan("");
-  return median_of(std::move(differences)) /
+  return numerics::median(std::move(differences)) /
          (0.6745 * std::sqrt(6.0));  // MAD of a normal; a second difference adds 1, 4, 1
 }
 
@@ -61,7 +52,7 @@ PositionSensorFit fit_position_sensor(const std::vector<const recording::Recordi
     closed_m.push_back(closed_reading_m(position_m, stroke_m));
   }
   std::erase_if(noises_m, [](double noise) { return std::isnan(noise); });
-  PositionSensorFit fit{0, 323.15, 0, noises_m.empty() ? 1e-6 : median_of(noises_m)};
+  PositionSensorFit fit{0, 323.15, 0, noises_m.empty() ? 1e-6 : numerics::median(noises_m)};
   if (temperatures_K.empty()) return fit;
   const auto [lowest_K, highest_K] = std::minmax_element(temperatures_K.begin(), temperatures_K.end());
   if (*highest_K - *lowest_K < 10) return fit;

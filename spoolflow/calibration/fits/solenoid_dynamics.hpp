@@ -29,7 +29,7 @@ struct SolenoidDynamicsFit {
 };
 
 /// Runs the sensor itself over the recording and fits hysteresis and eddy currents so that the magnetic force follows
-/// the load cell (output error, Gauss-Newton on Ceres's automatic differentiation, no parameter below zero). The coil's
+/// the load cell (output error, Gauss-Newton on automatic differentiation, no parameter below zero). The coil's
 /// hysteresis and eddy currents are the first guess. `only` restricts the fit to these test numbers (all if empty).
 [[nodiscard]] SolenoidDynamicsFit fit_solenoid_dynamics(const SolenoidSamples& samples,
                                                         const sensor::Coil<double>& coil,

@@ -1,9 +1,8 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <string>
+#include <fast_float/fast_float.h>
+#include <system_error>
 
 namespace spoolflow::recording {
 namespace {
@@ -20,12 +19,6 @@ std::string_view bare(std::string_view text) {
   return text;
 }
 
-/// The order of magnitude is negative: the exponent, or a mantissa that begins with 0 and a decimal point.
-bool is_tiny(std::string_view digits) {
-  const std::size_t exponent = digits.find_first_of("eE");
-  return exponent != std::string_view::npos ? digits.substr(exponent + 1).starts_with('-') : true;
-}
-
 }  // namespace
 
 Digits read_number(std::string_view text, char point, double& value) {
@@ -34,21 +27,15 @@ Digits read_number(std::string_view text, char point, double& value) {
   constexpr std::size_t longest = 400;  // no number of a recording is longer
   if (text.size() > longest) return Digits::not_a_number;
   if (text.front() == '+' && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
-  std::string pointed;
-  if (point != '.') {
-    if (text.find('.') != std::string_view::npos) return Digits::not_a_number;
-    pointed = text;
-    std::replace(pointed.begin(), pointed.end(), point, '.');
-    text = pointed;
-  }
   double read = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
+  const auto [end, error] =
+      fast_float::from_chars_advanced(text.data(), text.data() + text.size(), read,
+                                      fast_float::parse_options{fast_float::chars_format::general, point});
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return Digits::not_a_number;
-  if (error == std::errc::result_out_of_range) {
-    if (!is_tiny(text)) return Digits::out_of_range;
-    read = text.front() == '-' ? -0.0 : 0.0;
+  if (!std::isfinite(read)) {
+    const char first = text[text.front() == '-' ? 1 : 0];
+    return first == point || (first >= '0' && first <= '9') ? Digits::out_of_range : Digits::not_finite;
   }
-  if (!std::isfinite(read)) return Digits::not_finite;
   value = read;
   return Digits::number;
 }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace spoolflow::uncertainty {
+namespace spoolflow::numerics {
 
 /// Value and derivatives over `Inputs` inputs. Comparisons look at the value: where the sensor branches, the derivative
 /// is that of the branch taken.
@@ -53,4 +53,4 @@ struct Dual {
   }
 };
 
-}  // namespace spoolflow::uncertainty
+}  // namespace spoolflow::numerics

@@ -1,0 +1,23 @@
+#pragma once
+
+namespace spoolflow::numerics {
+
+struct Between {
+  double low, high;
+};
+
+/// The argument at which a rising function reaches `wanted`, by bisection to within rounding: the low end where it lies
+/// above already, the high end where it never does. Where a measured function falls in between, one of the arguments at
+/// which it passes the value upwards.
+template <class Function>
+[[nodiscard]] double crossing(Between ends, double wanted, const Function& rising) {
+  constexpr int halvings = 60;  // of a double's 53 binary digits, and some that an end near zero has more
+  for (int halving = 0; halving < halvings; ++halving) {
+    const double middle = 0.5 * (ends.low + ends.high);
+    if (middle == ends.low || middle == ends.high) break;
+    (rising(middle) < wanted ? ends.low : ends.high) = middle;
+  }
+  return 0.5 * (ends.low + ends.high);
+}
+
+}  // namespace spoolflow::numerics
