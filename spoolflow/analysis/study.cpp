@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "spoolflow/analysis/in_parallel.hpp"
-#include "spoolflow/analysis/study_state.hpp"
 #include "spoolflow/analysis/virtual_model.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
