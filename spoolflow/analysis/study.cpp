@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/analysis/study_state.hpp"
 #include "spoolflow/analysis/virtual_model.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/parallel/for_each.hpp"

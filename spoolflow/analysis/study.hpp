@@ -8,16 +8,13 @@
 
 #include "spoolflow/analysis/scenario.hpp"
 #include "spoolflow/analysis/sobol_indices.hpp"
+#include "spoolflow/analysis/study_state.hpp"
 #include "spoolflow/analysis/valve_factors.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::analysis {
-
-/// What one simulated run gives, of each estimator, as shares of full scale.
-inline constexpr std::size_t study_outputs = 4;
-using RunErrors = std::array<double, study_outputs>;
 
 /// One of the outputs.
 struct StudyOutput {

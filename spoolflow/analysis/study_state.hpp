@@ -1,13 +1,17 @@
 #pragma once
 /// The text in which a study keeps its finished runs.
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "spoolflow/analysis/study.hpp"
-
 namespace spoolflow::analysis {
+
+/// What one simulated run gives, of each estimator, as shares of full scale.
+inline constexpr std::size_t study_outputs = 4;
+using RunErrors = std::array<double, study_outputs>;
 
 using FinishedRuns = std::vector<std::optional<RunErrors>>;  // by the index in the design
 

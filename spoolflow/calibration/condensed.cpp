@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
-#include "spoolflow/calibration/fits/flow_rate.hpp"
-#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
+#include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/sensitivity.hpp"
-#include "spoolflow/calibration/fits/spring.hpp"
+#include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/fits/uniqueness.hpp"
 #include "spoolflow/model/residual_of.hpp"
 

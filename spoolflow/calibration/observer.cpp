@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/calibration/fits/actuator.hpp"
-#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/actuator_fit.hpp"
+#include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/map_residuals.hpp"
-#include "spoolflow/calibration/fits/metering_edge.hpp"
+#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
-#include "spoolflow/calibration/fits/spring.hpp"
-#include "spoolflow/calibration/operation/band.hpp"
+#include "spoolflow/calibration/fits/spring_fit.hpp"
+#include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/model/residual_of.hpp"
 

@@ -83,7 +83,7 @@ CampaignRecording recording_of(const TomlTable& entry) {
     if (table == nullptr) {
       throw RecordingError(fmt::format("{}: channels must be a table, [recording.channels]", entry.place("channels")));
     }
-    out.channels = read_channels(*table, entry.file);
+    out.channels = read_channels({*table, entry.file, "[recording.channels]"});
   }
   return out;
 }

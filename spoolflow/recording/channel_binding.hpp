@@ -6,7 +6,7 @@
 
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
-#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/recording/read_options.hpp"
 
 namespace spoolflow::recording {
 

@@ -35,10 +35,11 @@ void check_units(Channel channel, const ChannelSource& source, const TomlTable& 
 
 }  // namespace
 
-ChannelMap read_channels(const toml::table& table, const std::filesystem::path& file) {
+ChannelMap read_channels(const TomlTable& channels) {
+  const std::filesystem::path& file = channels.file;
   ChannelMap map;
-  map.place = place_of(table, file);
-  for (const auto& [key, node] : table) {
+  map.place = place_of(channels.table, file);
+  for (const auto& [key, node] : channels.table) {
     const auto channel = channel_named(key.str());
     if (!channel) {
       throw RecordingError(fmt::format("{}: unknown channel '{}'{}; allowed: {}", place_of(node, file), key.str(),
@@ -90,7 +91,7 @@ ChannelMap read_channel_map(const std::filesystem::path& file) {
                     "= {{ column = \"I_sol\", unit = \"mA\" }}",
                     file.string()));
   }
-  return read_channels(*channels, file);
+  return read_channels({*channels, file, "[channels]"});
 }
 
 }  // namespace spoolflow::recording

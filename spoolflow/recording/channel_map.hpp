@@ -9,6 +9,8 @@
 
 namespace spoolflow::recording {
 
+struct TomlTable;
+
 /// One entry of a channel map: value = scale * raw + offset, in `to` if given, else in `unit`.
 struct ChannelSource {
   std::string column;  ///< CSV header, MATLAB variable (`struct.field`) or HDF5 path (`rig/time`)
@@ -22,6 +24,9 @@ struct ChannelMap {
   std::map<Channel, ChannelSource> sources;  ///< empty: headers follow <channel>_<unit>
   std::string place;                         ///< where it was written ("map.toml, line 3"), for messages
 };
+
+/// Reads a [channels] table (toml_input.hpp). Throws RecordingError with file and line.
+[[nodiscard]] ChannelMap read_channels(const TomlTable& table);
 
 /// Reads the [channels] table of a TOML file. Throws RecordingError with file and line.
 [[nodiscard]] ChannelMap read_channel_map(const std::filesystem::path& file);

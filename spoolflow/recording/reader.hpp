@@ -7,18 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "spoolflow/recording/channel_map.hpp"
 #include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::recording {
-
-struct ReadOptions {
-  ChannelMap channels;             ///< empty: headers follow <channel>_<unit>
-  std::vector<Channel> required;   ///< absence of one of these is an error that names it
-  std::vector<Channel> optional;   ///< read where present; all other columns are skipped unparsed
-  std::optional<double> stroke_m;  ///< lets position be given in percent and position_set in mm
-};
 
 /// A run of consecutive samples; columns of channels that are absent or not asked for stay empty.
 struct SampleBlock {

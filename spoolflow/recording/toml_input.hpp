@@ -8,8 +8,6 @@
 
 #include <toml++/toml.h>
 
-#include "spoolflow/recording/channel_map.hpp"
-
 namespace spoolflow::recording {
 
 /// Throws RecordingError: no such file, or a mistake in its syntax with its line.
@@ -36,8 +34,5 @@ struct TomlTable {
   [[nodiscard]] std::optional<double> optional_positive(std::string_view key) const;
   [[nodiscard]] std::string place(std::string_view key) const;
 };
-
-/// A [channels] table.
-[[nodiscard]] ChannelMap read_channels(const toml::table& table, const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/architecture/file_rules.hpp"
+#include "tests/architecture/floors.hpp"
+#include "tests/architecture/folder_rules.hpp"
 #include "tests/architecture/folder_table.hpp"
 #include "tests/architecture/include_rules.hpp"
 #include "tests/architecture/link_rules.hpp"
@@ -124,6 +126,19 @@ constexpr const char* linked_well =
     "spoolflow_sensor:\nspoolflow_recording: spoolflow_units fmt::fmt\nspoolflow_apps: spoolflow_rig\n"
     "spoolflow_fits_lines: spoolflow_units\nspoolflow_tables: spoolflow_fits_curves\n";
 
+TEST_F(FakeTree, StandsFloorByFloor) {
+  const Floors standing = floors(table());
+  EXPECT_EQ(standing.at("units"), 1);
+  EXPECT_EQ(standing.at("recording"), 2);
+  EXPECT_EQ(standing.at("fits/curves"), 3);
+  EXPECT_EQ(standing.at("tables"), 4);  // above every room of fits
+  EXPECT_EQ(standing.at("apps"), 5);    // above all
+  write("ARCHITECTURE.md", std::string("```floors\n 2  rig\n    fits/lines\n 1  units\n```\n 3  no drawing\n") + page);
+  EXPECT_EQ(drawn_floors(root / "ARCHITECTURE.md"), (Floors{{"rig", 2}, {"fits/lines", 2}, {"units", 1}}));
+  write("ARCHITECTURE.md", page);
+  EXPECT_THROW((void)drawn_floors(root / "ARCHITECTURE.md"), std::runtime_error);
+}
+
 TEST_F(FakeTree, FindsForbiddenLinks) {
   write("links", std::string(linked_well) +
                      "spoolflow_rig: spoolflow_settings spoolflow_units fmt::fmt spoolflow_sensor spoolflow_pumps\n"
@@ -139,6 +154,27 @@ TEST_F(FakeTree, FindsAFolderWithoutATargetAndATargetWithoutAFolder) {
   EXPECT_THAT(link_violations(table(), root / "links"),
               ElementsAre("the target spoolflow_pumps has no folder in the table",
                           "the folder fits/curves has no target of its own"));
+}
+
+TEST_F(FakeTree, FindsAFolderThatIsTooFull) {
+  for (std::size_t k = 0; k < most_subjects; ++k) {
+    write("spoolflow/rig/part_" + std::to_string(k) + ".hpp", "#pragma once\n");
+    write("spoolflow/rig/part_" + std::to_string(k) + ".cpp", "");  // of the same subject
+  }
+  write("spoolflow/rig/room/part.hpp", "#pragma once\n");
+  EXPECT_THAT(full_folders(root), IsEmpty());
+  write("spoolflow/rig/one_more.cpp", "");
+  EXPECT_THAT(full_folders(root), ElementsAre("spoolflow/rig holds 26 subjects; past 25 give it rooms"));
+}
+
+TEST_F(FakeTree, FindsSubjectsThatIncludeEachOther) {
+  write("spoolflow/rig/pump.hpp", "#pragma once\n");
+  write("spoolflow/rig/pump.cpp", "#include \"spoolflow/rig/pump.hpp\"\n#include \"spoolflow/rig/oil.hpp\"\n");
+  write("spoolflow/rig/oil.hpp", "#pragma once\n");
+  EXPECT_THAT(circles(root), IsEmpty());
+  write("spoolflow/rig/oil.hpp", "#pragma once\n#include \"spoolflow/rig/pump.hpp\"\n");
+  EXPECT_THAT(circles(root),
+              ElementsAre("round in a circle: spoolflow/rig/oil -> spoolflow/rig/pump -> spoolflow/rig/oil"));
 }
 
 TEST_F(FakeTree, FindsAFileThatHasGrownTooLong) {

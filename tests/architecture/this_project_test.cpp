@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/architecture/file_rules.hpp"
+#include "tests/architecture/floors.hpp"
+#include "tests/architecture/folder_rules.hpp"
 #include "tests/architecture/folder_table.hpp"
 #include "tests/architecture/include_rules.hpp"
 #include "tests/architecture/link_rules.hpp"
@@ -30,8 +32,16 @@ TEST(ThisProject, LinksOnlyWhatItsTableAllows) {
   EXPECT_THAT(link_violations(table(), SPOOLFLOW_LINKS), IsEmpty());
 }
 
+TEST(ThisProject, StandsAsItIsDrawn) {
+  EXPECT_EQ(drawn_floors(project_root / "docs" / "ARCHITECTURE.md"), floors(table()));
+}
+
 TEST(ThisProject, KeepsItsFilesShortAndNamedByWhatTheyHold) {
   EXPECT_THAT(file_violations(project_root), IsEmpty());
+}
+
+TEST(ThisProject, KeepsItsFoldersSmallEnoughToBeTakenIn) {
+  EXPECT_THAT(full_folders(project_root), IsEmpty());
 }
 
 }  // namespace

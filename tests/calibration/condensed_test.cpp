@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
-#include "spoolflow/calibration/fits/flow_rate.hpp"
-#include "spoolflow/calibration/fits/magnetic_force.hpp"
-#include "spoolflow/calibration/fits/spring.hpp"
+#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
+#include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
+#include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/fits/uniqueness.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "synthetic_bench.hpp"

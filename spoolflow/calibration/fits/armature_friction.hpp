@@ -2,7 +2,7 @@
 /// What strokes of the armature both ways show of its friction, apart from magnetic hysteresis.
 #include <vector>
 
-#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/solenoid_samples.hpp"
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/model.hpp"

@@ -1,10 +1,9 @@
 #pragma once
 /// What all quasi-static bench protocols share: strokes long enough to be averaged, and the oil they were made in.
 #include <span>
-#include <string>
 #include <vector>
 
-#include "spoolflow/calibration/fits/level.hpp"
+#include "spoolflow/calibration/fits/sweep.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
@@ -12,9 +11,6 @@ namespace spoolflow::calibration {
 /// Strokes of at least a tenth of the valve's stroke, the first and last hundredth of it left out: friction turns over
 /// within some ten micrometres after each reversal.
 [[nodiscard]] std::vector<Sweep> find_bench_strokes(std::span<const double> position_m, double stroke_m);
-
-/// Throws CalibrationError unless the level has strokes both ways.
-void require_both_directions(const Level& level, const std::string& what);
 
 /// Mean over the recording; NaN where the channel is absent.
 [[nodiscard]] double mean_oil_temperature_K(const recording::Recording& recording);

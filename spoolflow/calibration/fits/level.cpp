@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/numerics/median.hpp"
 
@@ -60,6 +59,17 @@ std::vector<Level> sort_by_level(const std::vector<Sweep>& sweeps, std::span<con
     levels.back().value = sums.back() / static_cast<double>(levels.back().sweeps.size());
   }
   return levels;
+}
+
+void require_both_directions(const Level& level, const std::string& what) {
+  for (const Direction direction : {Direction::opening, Direction::closing}) {
+    if (std::none_of(level.sweeps.begin(), level.sweeps.end(),
+                     [&](const Sweep& sweep) { return sweep.direction == direction; })) {
+      throw CalibrationError(
+          fmt::format("{}: there is no {} stroke, and averaging needs both directions; record it to and fro", what,
+                      direction == Direction::opening ? "opening" : "closing"));
+    }
+  }
 }
 
 void require_levels(const std::vector<Level>& levels, std::size_t least_levels, const HeldQuantity& quantity,

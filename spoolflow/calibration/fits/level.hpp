@@ -27,6 +27,9 @@ struct HeldQuantity {
 /// by more than a quarter of the smallest level distance are left out.
 [[nodiscard]] std::vector<Level> sort_by_level(const std::vector<Sweep>& sweeps, std::span<const double> held);
 
+/// Throws CalibrationError unless the level has strokes both ways.
+void require_both_directions(const Level& level, const std::string& what);
+
 /// Throws CalibrationError unless there are `least_levels`, each with both directions, and no level is left out of an
 /// otherwise even row of levels.
 void require_levels(const std::vector<Level>& levels, std::size_t least_levels, const HeldQuantity& quantity,

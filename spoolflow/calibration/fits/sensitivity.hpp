@@ -3,7 +3,7 @@
 /// position).
 #include <vector>
 
-#include "spoolflow/calibration/fits/flow_rate.hpp"
+#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
 #include "spoolflow/model/evidence.hpp"
 
 namespace spoolflow::calibration {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "spoolflow/calibration/operation/band.hpp"
+#include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "spoolflow/rig/instruments/lvdt.hpp"
-#include "spoolflow/rig/plant/valve_plant.hpp"
+#include "spoolflow/rig/plant/plant_parameters.hpp"
 
 namespace spoolflow::rig {
 

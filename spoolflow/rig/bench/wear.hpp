@@ -1,6 +1,6 @@
 #pragma once
 /// What years do to a valve, on top of its plant parameters.
-#include "spoolflow/rig/plant/valve_plant.hpp"
+#include "spoolflow/rig/plant/plant_parameters.hpp"
 
 namespace spoolflow::rig {
 

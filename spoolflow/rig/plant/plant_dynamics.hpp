@@ -6,8 +6,9 @@
 /// once a step.
 #include "spoolflow/rig/hydraulics/hydraulic_circuit.hpp"
 #include "spoolflow/rig/plant/end_stop.hpp"
+#include "spoolflow/rig/plant/plant_parameters.hpp"
+#include "spoolflow/rig/plant/plant_state.hpp"
 #include "spoolflow/rig/plant/solenoid_dynamics.hpp"
-#include "spoolflow/rig/plant/valve_plant.hpp"
 
 namespace spoolflow::rig {
 

@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/metering_edge.hpp"
+#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

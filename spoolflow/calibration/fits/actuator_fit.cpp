@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/actuator.hpp"
+#include "spoolflow/calibration/fits/actuator_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

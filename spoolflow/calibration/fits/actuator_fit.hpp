@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "spoolflow/calibration/fits/armature_friction.hpp"
-#include "spoolflow/calibration/fits/flux_linkage.hpp"
-#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/flux_linkage_fit.hpp"
+#include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/solenoid_dynamics.hpp"
 #include "spoolflow/sensor/actuator.hpp"
 

@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/operation/band.hpp"
+#include "spoolflow/calibration/operation/force_error_ratio.hpp"
 
 #include <algorithm>
 #include <cmath>

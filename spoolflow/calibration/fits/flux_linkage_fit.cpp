@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/flux_linkage.hpp"
+#include "spoolflow/calibration/fits/flux_linkage_fit.hpp"
 
 #include <algorithm>
 #include <array>

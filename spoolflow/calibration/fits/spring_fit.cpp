@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/spring.hpp"
+#include "spoolflow/calibration/fits/spring_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/magnetic_force.hpp"
+#include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

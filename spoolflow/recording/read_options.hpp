@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/recording/channels/channel.hpp"
+
+namespace spoolflow::recording {
+
+/// What is read of a file.
+struct ReadOptions {
+  ChannelMap channels;             ///< empty: headers follow <channel>_<unit>
+  std::vector<Channel> required;   ///< absence of one of these is an error that names it
+  std::vector<Channel> optional;   ///< read where present; all other columns are skipped unparsed
+  std::optional<double> stroke_m;  ///< lets position be given in percent and position_set in mm
+};
+
+}  // namespace spoolflow::recording
