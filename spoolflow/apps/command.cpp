@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "spoolflow/report/page/reader_units.hpp"
+#include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -51,22 +51,14 @@ void add_quiet(CLI::App& command, bool& quiet) {
 }
 
 void add_units(CLI::App& command, std::vector<std::string>& units) {
-  std::string choice;
-  for (const report::ReaderQuantity& quantity : report::reader_quantities()) {
-    if (!choice.empty()) choice += ", ";
-    bool first = true;
-    for (const report::ReaderUnit& unit : quantity.units) {
-      if (unit.asked.empty()) continue;
-      choice += fmt::format("{}{}", first ? "" : "|", unit.asked);
-      first = false;
-    }
-  }
   // One word: a list would swallow the arguments behind it.
   const auto split = [&units](const std::string& list) {
     std::istringstream rest(list);
     for (std::string name; std::getline(rest, name, ',');) units.push_back(name);
   };
-  command.add_option_function<std::string>("--units", split, "units of the report, with commas between:\n" + choice)
+  command
+      .add_option_function<std::string>("--units", split,
+                                        "units of the report, with commas between:\n" + report::choice_of_units())
       ->type_name("UNITS");
 }
 

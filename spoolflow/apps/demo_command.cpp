@@ -7,7 +7,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/demo_files.hpp"
 #include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/report/page/reader_units.hpp"
+#include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::apps {
 namespace {

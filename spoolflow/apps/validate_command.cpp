@@ -24,12 +24,12 @@ std::vector<estimation::Estimator> chosen(const std::string& name, const model::
 void print_figures(const model::Model& model, const validation::Validation& validation) {
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
   const report::Verdict said = report::verdict(model, validation);
-  fmt::print("{}\n", said.sentence);
-  for (const std::string& limit : said.limits) fmt::print("- {}\n", limit);
+  fmt::print("{}\n", said.sentence.str());
+  for (const report::Text& limit : said.limits) fmt::print("- {}\n", limit.str());
   if (!validation.limits.empty()) fmt::print("\n{}\n", report::requirements_sentence(validation));
   for (const validation::JudgedLimit& judged : validation.limits) {
-    fmt::print("{}  {}: {}; found {}\n", judged.met ? "met    " : "NOT MET", judged.run, report::limit_text(judged),
-               report::value_text(judged));
+    fmt::print("{}  {}: {}; found {}\n", judged.met ? "met    " : "NOT MET", judged.run,
+               report::limit_text(judged).str(), report::value_text(judged).str());
   }
   fmt::print("\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", "run", "estimator", "p95 %FS", "RMS %FS", "max %FS",
              "in band");

@@ -32,8 +32,8 @@ void write(const std::filesystem::path& file, const Figure& figure) {
   for (const Mark& mark : figure.panels.front().marks) {
     if (mark.name.empty()) continue;
     names += fmt::format(R"(<path class="line {}" stroke-width="2.2" d="M{:.0f} -8h24"/>)", mark.tone, x);
-    names += fmt::format(R"(<text class="label" x="{:.0f}" y="-4">{}</text>)", x + 31, mark.name);
-    x += 60 + 7 * static_cast<double>(mark.name.size());
+    names += fmt::format(R"(<text class="label" x="{:.0f}" y="-4">{}</text>)", x + 31, mark.name.str());
+    x += 60 + 7 * static_cast<double>(mark.name.str().size());
   }
   std::ofstream out(file);
   out << fmt::format(

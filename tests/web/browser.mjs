@@ -160,6 +160,14 @@ test('a page made in other units has no other anywhere, and its plots begin in t
   assert.equal(await page.locator('select[name=pressure]').inputValue(), 'psi');
 });
 
+test('a run keeps its name in other units', async () => {
+  const { page } = await opened('named');
+  const text = await textOf(page);
+  assert.match(text, /Run ramp at 60 bar\n/);
+  assert.doesNotMatch(text.replaceAll('ramp at 60 bar', ''), /(\[|[0-9] )bar\b/);
+  assert.doesNotMatch(text, /ramp at 870/);
+});
+
 test('dragging zooms all plots of the run, a double click shows the whole run again', async () => {
   const { page } = await opened('usual');
   const figure = await plots(page);

@@ -45,6 +45,8 @@ if (!existsSync(made) || statSync(made).mtimeMs < newest) {
   run('analyse', model, '--scenario', 'few.toml', '--recording', 'gaps.csv', '--report', 'american.html',
     '--units', 'gal/min,psi,in,F,lbf');
   run('validate', model, 'single.csv', '--report', 'imperial.html', '--units', 'gal/min,psi,in,F,lbf');
+  write('ramp at 60 bar', range(0, 2000));
+  run('validate', model, 'ramp at 60 bar.csv', '--report', 'named.html', '--units', 'psi');
   for (const name of ['unmeasured', 'single', 'million']) {
     run('validate', model, `${name}.csv`, '--report', `${name}.html`);
   }

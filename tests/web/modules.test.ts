@@ -1,9 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { numberText } from './src/number_text';
 import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
+import { choices, ReadersUnits } from './src/readers_units';
 import { SampleTimes } from './src/sample_times';
 import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './src/thinning';
-import { numberText, ReadersUnits } from './src/units';
+import { units as table } from './src/units';
 import { View } from './src/view';
 
 function packed(codes: number[], scale = 1): PackedNumbers {
@@ -98,4 +100,15 @@ test('errors are told in percent of full scale or in the unit of the flow', () =
   units.choose('flow', 1);
   assert.equal(units.unitOf('error', 80).name, 'm³/h');
   assert.equal(units.unitOf('flow', 80).factor * 1000, 60);
+});
+
+test('every unit of the table can be chosen, and a page made in it begins in it', () => {
+  for (const [quantity, units] of Object.entries(table)) {
+    assert.deepEqual(choices.find((choice) => choice.quantity === quantity)?.names, units.map((unit) => unit.name));
+    units.forEach((unit, k) => {
+      const made = new ReadersUnits({ [`${quantity}Unit`]: String(k) });
+      assert.equal(made.unitOf(quantity as keyof typeof table, 80), unit);
+    });
+  }
+  assert.equal(Math.round(new ReadersUnits({ pressureUnit: '2' }).unitOf('pressure', 80).factor * 60), 870);
 });

@@ -1,13 +1,13 @@
 /** What a report page does beyond being read: colours, units, plots that zoom. Without it the page still shows all. */
+import { choices, ReadersUnits, type Choice } from './readers_units';
 import { RunPlots } from './run_plots';
 import { themeControl } from './theme';
-import { choices, ReadersUnits } from './units';
 
 performance.mark('spoolflow begin');
 const units = new ReadersUnits(document.documentElement.dataset);
 const figures = [...document.querySelectorAll<HTMLElement>('figure.run-plots')];
 
-function unitControl({ quantity, label, names }: (typeof choices)[number]): HTMLElement {
+function unitControl({ quantity, label, names }: Choice): HTMLElement {
   const out = document.createElement('label');
   out.textContent = `${label} in `;
   const select = document.createElement('select');

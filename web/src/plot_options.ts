@@ -1,7 +1,7 @@
 /** What all plots of a page have in common: axes in the page's colours, zoom by dragging, one cursor. */
 import type uPlot from 'uplot';
 import { colour } from './colours';
-import { numberText } from './units';
+import { numberText } from './number_text';
 import type { View } from './view';
 
 export const yAxisWidth = 52;

@@ -1,6 +1,7 @@
 /** What stands at the cursor, in the reader's units. Each name is a button that hides and shows its line. */
 import type { Panel, Run, Series } from './run_data';
-import { numberText, type Unit } from './units';
+import { numberText } from './number_text';
+import type { Unit } from './units';
 
 /** Values of a series at a stretch: "45.12", "44.90 to 45.30" of a band or of a stretch of several samples. */
 export function valueText(series: Series, index: number, unit: Unit): string {

@@ -1,7 +1,7 @@
 /** A run as the page carries it. Flow and error in L/min, pressure in bar, position in mm, force in N, time in s. */
 import { channelOf, bytesOf, type Channel, type PackedChannel } from './packed_numbers';
 import { SampleTimes, type PackedTimes } from './sample_times';
-import type { Quantity } from './units';
+import type { Shown } from './readers_units';
 
 /** `line`: a quantity. `band`: between `low` and `high`. `layer`: stacked on the layer before it, up to `top`. */
 interface PackedSeries extends PackedChannel {
@@ -14,7 +14,7 @@ interface PackedSeries extends PackedChannel {
 
 interface PackedPanel {
   title: string;
-  quantity: Quantity;
+  quantity: Shown;
   height: number;
   fromZero: boolean;
   series: PackedSeries[];
@@ -47,7 +47,7 @@ export interface Series extends Channel {
 
 export interface Panel {
   title: string;
-  quantity: Quantity;
+  quantity: Shown;
   height: number;
   fromZero: boolean;
   series: Series[];

@@ -5,7 +5,8 @@ import { Readout, statusText } from './readout';
 import { runOf, type PackedRun, type Run } from './run_data';
 import { StatusChart } from './status_chart';
 import { onThemeChange } from './theme';
-import { numberText, type ReadersUnits } from './units';
+import { numberText } from './number_text';
+import type { ReadersUnits } from './readers_units';
 import { View } from './view';
 
 function element<Name extends keyof HTMLElementTagNameMap>(name: Name, className: string): HTMLElementTagNameMap[Name] {

@@ -15,7 +15,6 @@
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/text/sensor_name.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -47,11 +46,11 @@ const PointResult* middle_point(const Analysis& analysis, Estimator estimator) {
   return reachable.empty() ? nullptr : reachable[reachable.size() / 2];
 }
 
-std::string place_of(const PointResult& result) {
-  return fmt::format("{} mm, {} bar, {} \u00b0C, {}", fixed(units::mm_from_m(result.point.position_m), 2),
-                     fixed(units::bar_from_Pa(result.point.pressure_difference_Pa), 0),
-                     fixed(units::degC_from_K(result.point.oil_temperature_K), 0),
-                     result.point.opening ? "opening" : "closing");
+Text place_of(const PointResult& result) {
+  return phrase("{}, {}, {}, {}", fixed(units::length(result.point.position_m), 2),
+                fixed(units::pressure(result.point.pressure_difference_Pa), 0),
+                fixed(units::temperature(result.point.oil_temperature_K), 0),
+                result.point.opening ? "opening" : "closing");
 }
 
 void show_verdict(HtmlPage& page, const AnalysisVerdict& verdict) {
@@ -74,24 +73,24 @@ void show_budget(HtmlPage& page, const model::Model& model, const Analysis& anal
                                   sensor_name(estimator))});
   }
   page.html(legend_of_kinds);
-  page.html(pair_of(shares));
+  page.pair(shares);
   for (const Estimator estimator : estimators_of(analysis)) {
     const PointResult* const point = middle_point(analysis, estimator);
     if (point == nullptr) continue;
-    page.subsection(fmt::format("The {} at {}", sensor_name(estimator), place_of(*point)));
-    page.html(figure_of(page.units().of(contribution_chart(*point)),
-                        fmt::format("Contributions to the standard uncertainty of {} L/min at a flow rate of {} L/min; "
-                                    "those below a hundredth of the largest are in the table only.",
-                                    three_digits(units::L_per_min_from_m3_per_s(point->budget.combined_m3_per_s)),
-                                    fixed(units::L_per_min_from_m3_per_s(point->flow_m3_per_s), 1)),
-                        legend_of_kinds));
-    page.table(budget_table(point->budget, page.units()));
+    page.subsection(phrase("The {} at {}", sensor_name(estimator), place_of(*point)));
+    page.chart(
+        {contribution_chart(*point),
+         phrase("Contributions to the standard uncertainty of {} at a flow rate of {}; those below a hundredth of "
+                "the largest are in the table only.",
+                three_digits(units::flow(point->budget.combined_m3_per_s)),
+                fixed(units::flow(point->flow_m3_per_s), 1)),
+         legend_of_kinds});
+    page.table(budget_table(point->budget));
     if (!point->stated.by_budget) {
       page.note(
-          fmt::format("The trials do not validate this expanded uncertainty: the 95 % interval to state is theirs, "
-                      "{} to {} L/min.",
-                      fixed(units::L_per_min_from_m3_per_s(point->stated.lower), 2),
-                      fixed(units::L_per_min_from_m3_per_s(point->stated.upper), 2)));
+          phrase("The trials do not validate this expanded uncertainty: the 95 % interval to state is theirs, "
+                 "{} to {}.",
+                 bare(fixed(units::flow(point->stated.lower), 2)), fixed(units::flow(point->stated.upper), 2)));
     }
     for (const uncertainty::Correlation& c : point->budget.correlations) {
       page.note(fmt::format("Correlated: {} with {}, r = {}: {}.", uncertainty::about(c.one).title,
@@ -130,7 +129,7 @@ void show_study(HtmlPage& page, const analysis::Study& study) {
       study.runs, three_digits(study.run_s), study.valve,
       study.given_model ? "the given model" : "the model that calibration makes of the nominal virtual valve"));
   page.html(legend_of_kinds);
-  for (const std::size_t output : {std::size_t{2}, std::size_t{0}}) page.html(study_figure(study, output));
+  for (const std::size_t output : {std::size_t{2}, std::size_t{0}}) page.chart(study_figure(study, output));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <iosfwd>
 
 #include "spoolflow/analysis/analysis.hpp"
-#include "spoolflow/report/page/reader_units.hpp"
+#include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::report {
 

@@ -49,7 +49,7 @@ void budget_section(HtmlPage& page, const model::Model& model) {
         {share_chart(analysis::mean_shares(results, estimator), estimator),
          fmt::format("The {}: share of the variance of its flow rate, mean over the points.", sensor_name(estimator))});
   }
-  page.html(pair_of(charts));
+  page.pair(charts);
   page.table(points_table(results, model.valve.rated_flow_m3_per_s));
 }
 

@@ -3,12 +3,11 @@
 #include "spoolflow/analysis/analysis.hpp"
 #include "spoolflow/report/figures/bar_chart.hpp"
 #include "spoolflow/report/page/html_table.hpp"
-#include "spoolflow/report/page/reader_units.hpp"
 
 namespace spoolflow::report {
 
 /// Every line of one budget, with units and sources.
-[[nodiscard]] HtmlTable budget_table(const uncertainty::Budget& budget, const ReaderUnits& units = {});
+[[nodiscard]] HtmlTable budget_table(const uncertainty::Budget& budget);
 
 /// One line a point: flow, uncertainty, and what Monte Carlo says of it where trials were made.
 [[nodiscard]] HtmlTable points_table(const std::vector<analysis::PointResult>& points, double full_scale_m3_per_s);

@@ -10,7 +10,6 @@
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/text/sensor_name.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -53,9 +52,8 @@ struct Grid {
 template <class Look, class Text>
 std::string drawn(const OperatingMap& map, const ReaderUnits& units, const std::string& description, const Look& look,
                   const Text& text) {
-  const ReaderUnit across_unit = units.instead_of("mm");
-  const Grid x{map.position_m, 1e3 * across_unit.factor, left_px, right_px};
-  const Grid y{map.pressure_difference_Pa, 1e-5 * units.instead_of("bar").factor, bottom_px, upper_px};
+  const Grid x{map.position_m, units.value(units::length(1)), left_px, right_px};
+  const Grid y{map.pressure_difference_Pa, units.value(units::pressure(1)), bottom_px, upper_px};
   std::string out = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", width_px, height_px,
                                 html_text(description));
   const std::size_t columns = map.position_m.size();
@@ -86,7 +84,7 @@ std::string drawn(const OperatingMap& map, const ReaderUnits& units, const std::
   }
   out += fmt::format(R"(<path class="axis" d="M{0} {1}V{2}H{3}"/>)", left_px, upper_px, bottom_px, right_px);
   out += fmt::format(R"(<text class="label" text-anchor="middle" x="{}" y="{}">Position [{}]</text></svg>)",
-                     0.5 * (left_px + right_px), bottom_px + 36, across_unit.shown);
+                     0.5 * (left_px + right_px), bottom_px + 36, units.unit(units::Kind::length).shown);
   return out;
 }
 
@@ -113,7 +111,7 @@ std::vector<std::string_view> groups_of(const OperatingMap& map) {
 
 std::string operating_map_figures(const OperatingMap& map, double full_scale_m3_per_s, const ReaderUnits& units) {
   const std::string name(sensor_name(map.estimator));
-  const std::string_view pressure = units.instead_of("bar").shown;
+  const std::string_view pressure = units.unit(units::Kind::pressure).shown;
   const std::vector<std::string_view> groups = groups_of(map);
   const auto tone_of = [&](const MapCell& cell) {
     const std::string_view group = uncertainty::about(cell.dominant).group;

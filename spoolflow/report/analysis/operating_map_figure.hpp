@@ -2,7 +2,7 @@
 #include <string>
 
 #include "spoolflow/analysis/point_analysis.hpp"
-#include "spoolflow/report/page/reader_units.hpp"
+#include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::report {
 

@@ -16,7 +16,6 @@ namespace spoolflow::report {
 namespace {
 
 using analysis::RunResult;
-constexpr double L_min = units::litre_per_minute_per_m3_per_s;
 
 /// Whether nothing was recorded before an instant for much longer than usual.
 bool after_gap(const std::vector<double>& time_s, std::size_t k) {
@@ -31,14 +30,14 @@ CaptionedFigure course(const RunResult& result) {
   for (std::size_t k = 0; k < result.time_s.size(); ++k) {
     const double half = result.coverage_factor * result.combined_m3_per_s[k];
     // NaN breaks the area.
-    below.push_back(after_gap(result.time_s, k) ? NAN : L_min * (result.flow_m3_per_s[k] - half));
-    above.push_back(L_min * (result.flow_m3_per_s[k] + half));
-    expanded.push_back(L_min * half);
-    of_trials.push_back(L_min * result.coverage_factor * result.deviation_m3_per_s[k]);
+    below.push_back(after_gap(result.time_s, k) ? NAN : result.flow_m3_per_s[k] - half);
+    above.push_back(result.flow_m3_per_s[k] + half);
+    expanded.push_back(half);
+    of_trials.push_back(result.coverage_factor * result.deviation_m3_per_s[k]);
     if (!result.reference_m3_per_s.empty())
-      error.push_back(L_min * std::abs(result.flow_m3_per_s[k] - result.reference_m3_per_s[k]));
+      error.push_back(std::abs(result.flow_m3_per_s[k] - result.reference_m3_per_s[k]));
   }
-  Panel flow{.title = "Flow rate [L/min]"};
+  Panel flow{.title = "Flow rate", .quantity = units::Kind::flow};
   flow.marks.push_back({.shape = Shape::area,
                         .tone = name,
                         .name = "budget's interval (95 %)",
@@ -50,10 +49,10 @@ CaptionedFigure course(const RunResult& result) {
                           .name = "reference",
                           .width_px = 1.2,
                           .x = result.time_s,
-                          .y = scaled(result.reference_m3_per_s, L_min)});
+                          .y = scaled(result.reference_m3_per_s, 1)});
   }
-  flow.marks.push_back({.tone = name, .name = name, .x = result.time_s, .y = scaled(result.flow_m3_per_s, L_min)});
-  Panel size{.title = "Error and expanded uncertainty [L/min]", .height_px = 160, .lowest = 0.0};
+  flow.marks.push_back({.tone = name, .name = name, .x = result.time_s, .y = scaled(result.flow_m3_per_s, 1)});
+  Panel size{.title = "Error and expanded uncertainty", .quantity = units::Kind::flow, .height_px = 160, .lowest = 0.0};
   if (!error.empty()) {
     size.marks.push_back(
         {.tone = "ink", .name = "magnitude of the error", .width_px = 1, .x = result.time_s, .y = error});
@@ -68,9 +67,12 @@ CaptionedFigure course(const RunResult& result) {
   // Peaks of single instants would squeeze everything else.
   std::vector<double> sorted = expanded;
   std::sort(sorted.begin(), sorted.end());
-  size.highest = std::max(1e-6, 2.5 * sorted[static_cast<std::size_t>(0.98 * static_cast<double>(sorted.size() - 1))]);
+  constexpr double least_m3_per_s = 1e-6 / units::litre_per_minute_per_m3_per_s;
+  size.highest =
+      std::max(least_m3_per_s, 2.5 * sorted[static_cast<std::size_t>(0.98 * static_cast<double>(sorted.size() - 1))]);
   return {{.description = "The " + name + "'s flow rate with the budget's interval over time",
-           .x_title = "Time [s]",
+           .x_title = "Time",
+           .x_quantity = units::Kind::time,
            .panels = {flow, size}},
           fmt::format("The {} along the run with the budget's 95 % interval (k = {}).", sensor_name(result.estimator),
                       fixed(result.coverage_factor, 2))};
@@ -83,16 +85,16 @@ BarChart parts(const RunResult& result) {
   });
   BarChart chart{
       .description = fmt::format("Contributions of the inputs along the run, {}", estimation::name(result.estimator)),
-      .axis = "Contribution, root mean square over the run [L/min]",
+      .axis = "Contribution, root mean square over the run",
+      .quantity = units::Kind::flow,
       .bars = {}};
   for (const analysis::RunLine& line : lines) {
     if (line.rms_contribution_m3_per_s < 0.01 * lines.front().rms_contribution_m3_per_s) continue;
     const uncertainty::QuantityAbout& about = uncertainty::about(line.input.quantity);
-    const double size = L_min * line.rms_contribution_m3_per_s;
     chart.bars.push_back({.name = std::string(about.title),
                           .tone = about.part_of_model ? "observer" : "condensed",
-                          .solid = {size},
-                          .text = three_digits(size)});
+                          .solid = {line.rms_contribution_m3_per_s},
+                          .text = bare(three_digits(units::flow(line.rms_contribution_m3_per_s)))});
   }
   return chart;
 }
@@ -112,11 +114,11 @@ void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double fu
     for (const double u : result.combined_m3_per_s) squares += u * u;
     const double rms = std::sqrt(squares / static_cast<double>(result.combined_m3_per_s.size()));
     page.subsection(fmt::format("The {}", sensor_name(result.estimator)));
-    page.paragraph(fmt::format(
-        "Standard uncertainty {} L/min ({} % FS), root mean square over the run; {} whole replays with drawn errors "
-        "give {} times that.",
-        three_digits(L_min * rms), fixed(100 * rms / full_scale_m3_per_s, 2), result.trials,
-        fixed(result.deviation_ratio, 2)));
+    page.paragraph(
+        phrase("Standard uncertainty {} ({} % FS), root mean square over the run; {} whole replays with drawn errors "
+               "give {} times that.",
+               three_digits(units::flow(rms)), fixed(100 * rms / full_scale_m3_per_s, 2), result.trials,
+               fixed(result.deviation_ratio, 2)));
     if (result.shares) {
       page.paragraph(fmt::format(
           "Of {} instants with a reference, {} lie in the sensor's own 95 % band; the budget predicts {}, the trials "
@@ -129,9 +131,8 @@ void show_run_budget(HtmlPage& page, const analysis::RunAnalysis& run, double fu
                 "show; its lag counts."));
     }
     page.figure(course(result));
-    page.html(figure_of(page.units().of(parts(result)),
-                        "What makes the uncertainty along the run; less than a hundredth of the largest "
-                        "left out."));
+    page.chart(
+        {parts(result), "What makes the uncertainty along the run; less than a hundredth of the largest left out."});
   }
 }
 

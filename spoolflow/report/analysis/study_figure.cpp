@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/report/figures/bar_chart.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/text/sensor_name.hpp"
 
 namespace spoolflow::report {
 
-std::string study_figure(const analysis::Study& study, std::size_t output) {
+CaptionedChart study_figure(const analysis::Study& study, std::size_t output) {
   const analysis::SobolIndices& found = study.indices[output];
   const analysis::StudyOutput& about = analysis::study_output_list()[output];
   std::vector<std::size_t> order(found.factors.size());
@@ -36,12 +35,12 @@ std::string study_figure(const analysis::Study& study, std::size_t output) {
          .pale = length(indices.total),
          .text = fmt::format("{} / {}", fixed(indices.first_order.value, 2), fixed(indices.total.value, 2))});
   }
-  return figure_of(
-      chart, fmt::format("{} of the {}: first-order index (solid; alone) / total index (pale; with all "
-                         "interactions), whiskers 95 % confidence. Over the series the error is {} \u00b1 {} % FS "
-                         "(mean, standard deviation).",
-                         error, sensor_name(about.estimator), fixed(100 * found.mean, 2),
-                         fixed(100 * found.standard_deviation, 2)));
+  return {std::move(chart),
+          fmt::format("{} of the {}: first-order index (solid; alone) / total index (pale; with all "
+                      "interactions), whiskers 95 % confidence. Over the series the error is {} \u00b1 {} % FS "
+                      "(mean, standard deviation).",
+                      error, sensor_name(about.estimator), fixed(100 * found.mean, 2),
+                      fixed(100 * found.standard_deviation, 2))};
 }
 
 }  // namespace spoolflow::report

@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "spoolflow/report/figures/scaled.hpp"
-#include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
-
 namespace spoolflow::report {
 namespace {
 
-using units::litre_per_minute_per_m3_per_s;
-using units::millimetre_per_metre;
-
-std::string bar_text(double pressure_Pa) {
-  return three_digits(units::bar_from_Pa(pressure_Pa)) + " bar";
-}
+using units::Kind;
 
 /// Levels in rising order, whatever the order in which they were recorded.
 std::vector<const model::AxialForceLoop*> by_pressure(const model::Evidence& evidence) {
@@ -52,12 +41,12 @@ Mark position_line(const std::vector<const model::AxialForceLoop*>& loops, std::
   Mark line{
       .shape = Shape::line,
       .tone = "muted",
-      .end_label = fixed(units::mm_from_m(loops.front()->position_m[at]), 1) + " mm",
+      .end_label = fixed(units::length(loops.front()->position_m[at]), 1),
       .width_px = 0.9,
   };
   for (const model::AxialForceLoop* loop : loops) {
     line.x.push_back(0.5 * (loop->opening_N[at] + loop->closing_N[at]));
-    line.y.push_back(units::L_per_min_from_m3_per_s(loop->flow_m3_per_s[at]));
+    line.y.push_back(loop->flow_m3_per_s[at]);
   }
   return line;
 }
@@ -65,7 +54,7 @@ Mark position_line(const std::vector<const model::AxialForceLoop*>& loops, std::
 }  // namespace
 
 CaptionedFigure flow_force_figure(const model::Evidence& evidence) {
-  Panel panel{.title = "Flow rate [L/min]", .height_px = 400, .lowest = 0.0};
+  Panel panel{.title = "Flow rate", .quantity = Kind::flow, .height_px = 400, .lowest = 0.0};
   const auto loops = by_pressure(evidence);
   if (!loops.empty()) {
     const std::size_t points = loops.front()->position_m.size();
@@ -75,38 +64,40 @@ CaptionedFigure flow_force_figure(const model::Evidence& evidence) {
     panel.marks.front().name = "one position, both directions averaged";
   }
   for (std::size_t k = 0; k < loops.size(); ++k) {
-    const std::vector<double> flow = scaled(loops[k]->flow_m3_per_s, litre_per_minute_per_m3_per_s);
+    const std::vector<double>& flow = loops[k]->flow_m3_per_s;
     const bool last = k + 1 == loops.size();
     panel.marks.push_back(
         {Shape::line, "", ramp(k, loops.size()), last ? "spool opens" : "", "", 1.6, loops[k]->opening_N, flow, {}});
     panel.marks.push_back(
         {Shape::dashed, "", ramp(k, loops.size()), last ? "spool closes" : "", "", 1.2, loops[k]->closing_N, flow, {}});
   }
-  std::string levels;
+  Text levels;
   for (const model::AxialForceLoop* loop : loops) {
-    levels += (levels.empty() ? "" : ", ") + three_digits(units::bar_from_Pa(loop->pressure_difference_set_Pa));
+    if (!levels.empty()) levels += ", ";
+    levels += bare(three_digits(units::pressure(loop->pressure_difference_set_Pa)));
   }
   return {{.description = "Flow rate over axial force at held pressure differences, both directions of motion",
-           .x_title = "Axial force [N]",
+           .x_title = "Axial force",
+           .x_quantity = Kind::force,
            .panels = {std::move(panel)}},
-          fmt::format("Flow rate over axial force (the paper's Fig. 5) at held pressure differences of {} bar, pale to "
-                      "deep. Between an opening and its closing line lies twice the friction. Along a line of position "
-                      "the flow is read off the force: the steeper the line, the more flow a newton of error costs.",
-                      levels),
+          phrase("Flow rate over axial force (the paper's Fig. 5) at held pressure differences of {} {}, pale to "
+                 "deep. Between an opening and its closing line lies twice the friction. Along a line of position "
+                 "the flow is read off the force: the steeper the line, the more flow a newton of error costs.",
+                 levels, unit_text(Kind::pressure)),
           {}};
 }
 
 CaptionedFigure magnetic_force_figure(const model::Evidence& evidence) {
-  Panel panel{.title = "Magnetic force [N]", .height_px = 400};
+  Panel panel{.title = "Magnetic force", .quantity = Kind::force, .height_px = 400};
   const auto loops = by_current(evidence);
   for (std::size_t k = loops.size(); k-- > 0;) {
-    const std::vector<double> position = scaled(loops[k]->position_m, millimetre_per_metre);
+    const std::vector<double>& position = loops[k]->position_m;
     const bool last = k + 1 == loops.size();
     panel.marks.push_back({Shape::line,
                            "",
                            ramp(k, loops.size()),
                            last ? "armature opens" : "",
-                           fixed(loops[k]->current_A, 1) + " A",
+                           fixed(units::current(loops[k]->current_A), 1),
                            1.6,
                            position,
                            loops[k]->opening_N,
@@ -122,7 +113,8 @@ CaptionedFigure magnetic_force_figure(const model::Evidence& evidence) {
                            {}});
   }
   return {{.description = "Magnetic force over position at held currents, both directions of motion",
-           .x_title = "Position [mm]",
+           .x_title = "Position",
+           .x_quantity = Kind::length,
            .panels = {std::move(panel)}},
           "Magnetic force over position (the paper's Fig. 8) at held currents. The gap between both directions is "
           "hysteresis and friction of the armature; the sensor's map is their mean.",
@@ -130,7 +122,7 @@ CaptionedFigure magnetic_force_figure(const model::Evidence& evidence) {
 }
 
 CaptionedFigure friction_figure(const model::Evidence& evidence) {
-  Panel panel{.title = "Spool friction, half width [N]", .height_px = 250, .lowest = 0.0};
+  Panel panel{.title = "Spool friction, half width", .quantity = Kind::force, .height_px = 250, .lowest = 0.0};
   const auto loops = by_pressure(evidence);
   double least = INFINITY;
   double most = 0;
@@ -142,24 +134,25 @@ CaptionedFigure friction_figure(const model::Evidence& evidence) {
                            "",
                            ramp(k, loops.size()),
                            "",
-                           bar_text(loops[k]->pressure_difference_set_Pa),
+                           three_digits(units::pressure(loops[k]->pressure_difference_set_Pa)),
                            1.4,
-                           scaled(loops[k]->position_m, millimetre_per_metre),
+                           loops[k]->position_m,
                            std::move(friction),
                            {}});
   }
-  return {{.description = "Friction half width over position per pressure difference",
-           .x_title = "Position [mm]",
-           .panels = {std::move(panel)}},
-          fmt::format("Half the width of the axial-force loops: friction that averaging removes from the map and that "
-                      "stays in the signal. It is {} N on average at the lowest pressure difference and {} N at the "
-                      "highest.",
-                      loops.empty() ? fixed(NAN, 1) : fixed(least, 1), loops.empty() ? fixed(NAN, 1) : fixed(most, 1)),
-          {}};
+  return {
+      {.description = "Friction half width over position per pressure difference",
+       .x_title = "Position",
+       .x_quantity = Kind::length,
+       .panels = {std::move(panel)}},
+      phrase("Half the width of the axial-force loops: friction that averaging removes from the map and that "
+             "stays in the signal. It is {} on average at the lowest pressure difference and {} at the highest.",
+             fixed(units::force(loops.empty() ? NAN : least), 1), fixed(units::force(loops.empty() ? NAN : most), 1)),
+      {}};
 }
 
 CaptionedFigure hysteresis_figure(const model::Evidence& evidence) {
-  Panel panel{.title = "Solenoid hysteresis, half width [N]", .height_px = 250, .lowest = 0.0};
+  Panel panel{.title = "Solenoid hysteresis, half width", .quantity = Kind::force, .height_px = 250, .lowest = 0.0};
   const auto loops = by_current(evidence);
   double widest = 0;
   double widest_at_A = 0;
@@ -171,17 +164,18 @@ CaptionedFigure hysteresis_figure(const model::Evidence& evidence) {
                            "",
                            ramp(k, loops.size()),
                            "",
-                           fixed(loops[k]->current_A, 1) + " A",
+                           fixed(units::current(loops[k]->current_A), 1),
                            1.4,
-                           scaled(loops[k]->position_m, millimetre_per_metre),
+                           loops[k]->position_m,
                            std::move(width),
                            {}});
   }
   return {{.description = "Half width of the magnetic force loops over position per current",
-           .x_title = "Position [mm]",
+           .x_title = "Position",
+           .x_quantity = Kind::length,
            .panels = {std::move(panel)}},
-          fmt::format("Half the width of the magnetic-force loops, at most {} N (at {} A).", fixed(widest, 1),
-                      fixed(widest_at_A, 1)),
+          phrase("Half the width of the magnetic-force loops, at most {} (at {}).", fixed(units::force(widest), 1),
+                 fixed(units::current(widest_at_A), 1)),
           {}};
 }
 

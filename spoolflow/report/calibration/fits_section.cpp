@@ -9,7 +9,6 @@
 #include "spoolflow/report/page/html_table.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -84,29 +83,30 @@ void show_temperatures(HtmlPage& page, const model::Model& model) {
   constexpr double shown_share = 2.0 / 3;
   constexpr int lines = 3, points = 80;
   const double pressure_Pa = shown_share * edge.highest_pressure_difference_Pa();
-  Panel force{.title = "Flow force [N], closing > 0", .height_px = 240};
-  Panel friction{.title = "Half width of the spool's friction [N]", .height_px = 160, .lowest = 0.0};
+  Panel force{.title = "Flow force", .quantity = units::Kind::force, .title_end = ", closing > 0", .height_px = 240};
+  Panel friction{
+      .title = "Half width of the spool's friction", .quantity = units::Kind::force, .height_px = 160, .lowest = 0.0};
   for (int t = 0; t < lines; ++t) {
     const double ramp = static_cast<double>(t) / (lines - 1);
     const double temperature_K = range.lower + ramp * (range.upper - range.lower);
-    Mark force_line{.ramp = ramp, .name = fixed(units::degC_from_K(temperature_K), 0) + " \u00b0C"};
+    Mark force_line{.ramp = ramp, .name = fixed(units::temperature(temperature_K), 0)};
     Mark friction_line{.ramp = ramp};
     for (int p = 0; p <= points; ++p) {
       const double position_m = model.valve.stroke_m * p / points;
       const auto point = edge.at(temperature_K, pressure_Pa, position_m);
-      for (Mark* line : {&force_line, &friction_line}) line->x.push_back(units::mm_from_m(position_m));
+      for (Mark* line : {&force_line, &friction_line}) line->x.push_back(position_m);
       force_line.y.push_back(point.flow_force_N);
       friction_line.y.push_back(point.friction_N);
     }
     force.marks.push_back(std::move(force_line));
     friction.marks.push_back(std::move(friction_line));
   }
-  page.figure(
-      {{.description = "Flow force and friction over position at the calibrated oil temperatures",
-        .x_title = "Position [mm]",
-        .panels = {std::move(force), std::move(friction)}},
-       fmt::format("Flow force and friction at {} bar over position, over the range of calibrated oil temperatures.",
-                   fixed(units::bar_from_Pa(pressure_Pa), 0))});
+  page.figure({{.description = "Flow force and friction over position at the calibrated oil temperatures",
+                .x_title = "Position",
+                .x_quantity = units::Kind::length,
+                .panels = {std::move(force), std::move(friction)}},
+               phrase("Flow force and friction at {} over position, over the range of calibrated oil temperatures.",
+                      fixed(units::pressure(pressure_Pa), 0))});
 }
 
 }  // namespace spoolflow::report

@@ -8,9 +8,6 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
-#include "spoolflow/report/figures/scaled.hpp"
-#include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -29,14 +26,16 @@ CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
   constexpr std::size_t most_parts = 6;
   const std::span<const SolenoidTrace> parts(traces.data(), std::min(most_parts, traces.size()));
   Figure figure{.description = "Magnetic force less the averaged map over coil current, measured and modelled",
-                .x_title = "Coil current [A]"};
+                .x_title = "Coil current",
+                .x_quantity = units::Kind::current};
   calibration::FitResidual map_N, model_N;
   for (const SolenoidTrace& part : parts) {
     const std::vector<double> measured_N = difference(part.measured_N, part.map_N);
     const std::vector<double> modelled_N = difference(part.model_N, part.map_N);
     const bool first = &part == &parts.front();
-    Panel panel{.title = part.test == 0 ? "Force less the averaged map [N]"
-                                        : fmt::format("Part {}: force less the averaged map [N]", part.test),
+    Panel panel{.title = part.test == 0 ? "Force less the averaged map"
+                                        : fmt::format("Part {}: force less the averaged map", part.test),
+                .quantity = units::Kind::force,
                 .height_px = 170};
     panel.marks.push_back({.shape = Shape::dots,
                            .tone = "condensed",
@@ -56,23 +55,22 @@ CaptionedFigure loops_figure(const std::vector<SolenoidTrace>& traces) {
       model_N.add(measured_N[k] - modelled_N[k]);
     }
   }
-  return {
-      std::move(figure),
-      fmt::format("The solenoid at {} mm, armature held: how far the magnetic force lies from the averaged map. The "
-                  "map alone leaves {} N (RMS), the model with hysteresis and eddy currents {} N.",
-                  fixed(units::mm_from_m(parts.front().position_m), 2), three_digits(map_N.rms()),
-                  three_digits(model_N.rms()))};
+  return {std::move(figure),
+          phrase("The solenoid at {}, armature held: how far the magnetic force lies from the averaged map. The "
+                 "map alone leaves {} (RMS), the model with hysteresis and eddy currents {}.",
+                 fixed(units::length(parts.front().position_m), 2), three_digits(units::force(map_N.rms())),
+                 three_digits(units::force(model_N.rms())))};
 }
 
 /// Mean deviations of one family of strokes as lines, RMS in the caption.
-Panel residual_panel(std::string title, const std::vector<const MapResidual*>& family,
-                     const std::function<std::string(const MapResidual&)>& name, bool named) {
-  Panel panel{.title = std::move(title), .height_px = 200};
+Panel residual_panel(Text title, const std::vector<const MapResidual*>& family,
+                     const std::function<QuantityText(const MapResidual&)>& name, bool named) {
+  Panel panel{.title = std::move(title), .quantity = units::Kind::force, .height_px = 200};
   for (std::size_t k = 0; k < family.size(); ++k) {
     panel.marks.push_back({.ramp = ramp(k, family.size()),
-                           .name = named ? name(*family[k]) : "",
+                           .name = named ? Text(name(*family[k])) : Text(),
                            .width_px = 1.2,
-                           .x = scaled(family[k]->position_m, units::millimetre_per_metre),
+                           .x = family[k]->position_m,
                            .y = family[k]->mean_N});
   }
   return panel;
@@ -89,34 +87,33 @@ CaptionedFigure magnetic_residual_figure(const std::vector<MapResidual>& residua
   std::vector<const MapResidual*> family;
   for (const MapResidual& each : residuals) family.push_back(&each);
   Figure figure{.description = "What the magnetic force map leaves of the strokes, over position",
-                .x_title = "Position [mm]"};
+                .x_title = "Position",
+                .x_quantity = units::Kind::length};
   figure.panels.push_back(residual_panel(
-      "Magnetic force less model [N]", family, [](const MapResidual& each) { return fixed(each.held, 2) + " A"; },
+      "Magnetic force less model", family, [](const MapResidual& each) { return fixed(units::current(each.held), 2); },
       true));
-  return {
-      std::move(figure),
-      fmt::format("What magnetic force, hysteresis and armature friction leave of the force map's strokes, averaged "
-                  "at each position; single samples deviate by {} N (RMS).",
-                  three_digits(rms_of(residuals)))};
+  return {std::move(figure),
+          phrase("What magnetic force, hysteresis and armature friction leave of the force map's strokes, averaged "
+                 "at each position; single samples deviate by {} (RMS).",
+                 three_digits(units::force(rms_of(residuals))))};
 }
 
 CaptionedFigure axial_residual_figure(const std::vector<MapResidual>& residuals) {
   std::map<double, std::vector<const MapResidual*>> by_temperature;
   for (const MapResidual& each : residuals) by_temperature[each.oil_temperature_K].push_back(&each);
   Figure figure{.description = "What spring, flow force and friction leave of the axial-force strokes, over position",
-                .x_title = "Position [mm]"};
+                .x_title = "Position",
+                .x_quantity = units::Kind::length};
   for (const auto& [temperature_K, family] : by_temperature) {
-    const std::string warm = temperature_K > 0 ? fixed(units::degC_from_K(temperature_K), 0) + " \u00b0C: " : "";
+    const Text warm = temperature_K > 0 ? phrase("{}: ", fixed(units::temperature(temperature_K), 0)) : Text();
     figure.panels.push_back(residual_panel(
-        warm + "axial force less model [N]", family,
-        [](const MapResidual& each) { return three_digits(units::bar_from_Pa(each.held)) + " bar"; },
-        figure.panels.empty()));
+        phrase("{}axial force less model", warm), family,
+        [](const MapResidual& each) { return three_digits(units::pressure(each.held)); }, figure.panels.empty()));
   }
-  return {
-      std::move(figure),
-      fmt::format("What spring, flow force and friction leave of the axial-force strokes, averaged at each position; "
-                  "single samples deviate by {} N (RMS).",
-                  three_digits(rms_of(residuals)))};
+  return {std::move(figure),
+          phrase("What spring, flow force and friction leave of the axial-force strokes, averaged at each position; "
+                 "single samples deviate by {} (RMS).",
+                 three_digits(units::force(rms_of(residuals))))};
 }
 
 }  // namespace

@@ -3,12 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "spoolflow/report/calibration/calibration_figures.hpp"
 #include "spoolflow/report/figures/heat_scale.hpp"
-#include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -29,10 +25,9 @@ std::vector<Cell> cells_of(const model::SensitivityMap& map, double full_scale_m
   for (std::size_t d = 0; d < columns; ++d) {
     for (std::size_t p = 0; p < map.position_m.size(); ++p) {
       const double slope = 100 * map.flow_per_force_m3_per_s_N[p * columns + d] / full_scale_m3_per_s;
-      cells.push_back({units::mm_from_m(edge_before(map.position_m, p)),
-                       units::mm_from_m(edge_before(map.position_m, p + 1)),
-                       units::bar_from_Pa(edge_before(map.pressure_difference_Pa, d)),
-                       units::bar_from_Pa(edge_before(map.pressure_difference_Pa, d + 1)), heat.colour(slope)});
+      cells.push_back({edge_before(map.position_m, p), edge_before(map.position_m, p + 1),
+                       edge_before(map.pressure_difference_Pa, d), edge_before(map.pressure_difference_Pa, d + 1),
+                       heat.colour(slope)});
     }
   }
   return cells;
@@ -43,7 +38,7 @@ Mark operating_dots(const std::vector<validation::RunResult>& runs) {
   std::set<std::pair<double, double>> points;
   for (const validation::RunResult& run : runs) {
     for (const validation::OperatingPoint& point : run.operating_points) {
-      points.emplace(units::mm_from_m(point.position_m), units::bar_from_Pa(point.pressure_difference_Pa));
+      points.emplace(point.position_m, point.pressure_difference_Pa);
     }
   }
   Mark dots{
@@ -61,16 +56,17 @@ CaptionedFigure sensitivity_figure(const model::Model& model, const std::vector<
   const model::SensitivityMap& map = model.evidence.sensitivity;
   CaptionedFigure out{{
                           .description = "Slope of flow rate over force by position and pressure difference",
-                          .x_title = "Position [mm]",
+                          .x_title = "Position",
+                          .x_quantity = units::Kind::length,
                           .x_lowest = 0.0,
-                          .x_highest = units::mm_from_m(model.valve.stroke_m),
+                          .x_highest = model.valve.stroke_m,
                       },
                       {},
                       heat.legend("% FS per newton")};
-  Panel panel{.title = "Pressure difference [bar]", .height_px = 330, .lowest = 0.0};
+  Panel panel{.title = "Pressure difference", .quantity = units::Kind::pressure, .height_px = 330, .lowest = 0.0};
   if (!map.position_m.empty() && !map.pressure_difference_Pa.empty()) {
     panel.cells = cells_of(map, model.valve.rated_flow_m3_per_s);
-    panel.highest = units::bar_from_Pa(map.pressure_difference_Pa.back());
+    panel.highest = map.pressure_difference_Pa.back();
     Mark dots = operating_dots(runs);
     if (!dots.x.empty()) {
       panel.highest = std::max(*panel.highest, *std::max_element(dots.y.begin(), dots.y.end()));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/report/figures/reader_axes.hpp"
 #include "spoolflow/report/figures/ticks.hpp"
 #include "spoolflow/report/text/html_text.hpp"
 
@@ -35,7 +36,7 @@ Frame frame_of(const BarChart& chart, double width_px) {
   double highest = chart.lowest;
   for (const Bar& bar : chart.bars) {
     longest_name = std::max(longest_name, bar.name.size());
-    longest_text = std::max(longest_text, bar.text.size());
+    longest_text = std::max(longest_text, bar.text.str().size());
     highest = std::max({highest, reach(bar.solid), bar.pale ? reach(*bar.pale) : highest});
   }
   if (!(highest > chart.lowest)) highest = chart.lowest + 1;
@@ -88,16 +89,20 @@ void draw_bar(std::string& out, const Frame& frame, const Bar& bar, double y) {
   out += fmt::format(R"(<text class="title" style="font-weight:400" text-anchor="end" x="{:.1f}" y="{:.1f}">{}</text>)",
                      frame.left - 8, middle, html_text(bar.name));
   out += fmt::format(R"x(<text class="tick" style="fill:var(--ink)" x="{:.1f}" y="{:.1f}">{}</text>)x", frame.right + 8,
-                     middle, html_text(bar.text));
+                     middle, html_text(bar.text.str()));
 }
 
-std::string captioned(const std::string& drawing, const std::string& caption, const std::string& legend) {
-  return fmt::format("<figure>{}{}<figcaption>{}</figcaption></figure>\n", legend, drawing, html_text(caption));
+std::string captioned(const CaptionedChart& each, double room_px, const ReaderUnits& units) {
+  return fmt::format(
+      "<figure>{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div><figcaption>{}</figcaption></figure>\n",
+      each.legend, svg_of(each.chart, room_px, units), svg_of(each.chart, narrow_px, units),
+      html_text(each.caption.in(units)));
 }
 
 }  // namespace
 
-std::string svg_of(const BarChart& chart, double width_px) {
+std::string svg_of(const BarChart& described, double width_px, const ReaderUnits& units) {
+  const BarChart chart = in_units(described, units);
   const Frame frame = frame_of(chart, width_px);
   std::string out = fmt::format(R"(<svg viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", width_px,
                                 frame.bottom + axis_px, html_text(chart.description));
@@ -112,18 +117,14 @@ std::string svg_of(const BarChart& chart, double width_px) {
   return out;
 }
 
-std::string figure_of(const BarChart& chart, const std::string& caption, const std::string& legend) {
-  return captioned(fmt::format("<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>", svg_of(chart, wide_px),
-                               svg_of(chart, narrow_px)),
-                   caption, legend);
+std::string figure_of(const CaptionedChart& each, const ReaderUnits& units) {
+  return captioned(each, wide_px, units);
 }
 
-std::string pair_of(const std::vector<CaptionedChart>& charts) {
+std::string pair_of(const std::vector<CaptionedChart>& charts, const ReaderUnits& units) {
   std::string out = "<div class=\"pair\">";
   for (const CaptionedChart& each : charts) {
-    out += captioned(fmt::format("<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>",
-                                 svg_of(each.chart, half_px), svg_of(each.chart, narrow_px)),
-                     each.caption, {});
+    out += captioned(each, half_px, units);
   }
   return out + "</div>\n";
 }

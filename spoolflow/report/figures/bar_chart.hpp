@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/report/text/text.hpp"
+
 namespace spoolflow::report {
 
 /// One line of a chart. `pale` is a second, wider bar behind the first; whiskers are a confidence interval.
@@ -16,27 +18,29 @@ struct Bar {
   std::string tone;  ///< a colour of the style sheet
   Length solid;
   std::optional<Length> pale = {};
-  std::string text;  ///< the value, as it is to be read
+  Text text;  ///< the value, as it is to be read
 };
 
 struct BarChart {
-  std::string description;  ///< for screen readers
-  std::string axis;         ///< what is drawn, with its unit
+  std::string description;                   ///< for screen readers
+  std::string axis;                          ///< what is drawn; without a quantity with its unit
+  std::optional<units::Kind> quantity = {};  ///< of SI lengths; its unit is written behind the axis' name
   std::vector<Bar> bars;
   double lowest = 0;
   std::optional<double> highest = {};  ///< else from the bars; what goes beyond is cut off
 };
 
 /// Text keeps its size whatever the width.
-[[nodiscard]] std::string svg_of(const BarChart& chart, double width_px);
+[[nodiscard]] std::string svg_of(const BarChart& chart, double width_px, const ReaderUnits& units);
 
 /// A figure over the whole width, drawn a second time for narrow screens. `legend` is markup.
-[[nodiscard]] std::string figure_of(const BarChart& chart, const std::string& caption, const std::string& legend = {});
-/// Charts beside each other where there is room, one caption below each.
 struct CaptionedChart {
   BarChart chart;
-  std::string caption;
+  Text caption;
+  std::string legend = {};
 };
-[[nodiscard]] std::string pair_of(const std::vector<CaptionedChart>& charts);
+[[nodiscard]] std::string figure_of(const CaptionedChart& each, const ReaderUnits& units);
+/// Charts beside each other where there is room, one caption below each.
+[[nodiscard]] std::string pair_of(const std::vector<CaptionedChart>& charts, const ReaderUnits& units);
 
 }  // namespace spoolflow::report

@@ -1,9 +1,12 @@
 #pragma once
 /// A figure as a plain description: panels above each other that share the x axis. How it looks is decided where it is
-/// drawn (svg_figure.hpp) and in the page's style sheet.
+/// drawn (svg_figure.hpp) and in the page's style sheet. An axis that names its quantity has SI values and is drawn in
+/// the reader's unit; one that names none is drawn as it is.
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "spoolflow/report/text/text.hpp"
 
 namespace spoolflow::report {
 
@@ -14,8 +17,8 @@ struct Mark {
   Shape shape = Shape::line;
   std::string tone = "ink";         ///< a colour of the style sheet: ink, soft, observer, condensed, a to d
   std::optional<double> ramp = {};  ///< instead of a tone: 0 to 1 along a family of lines
-  std::string name = {};            ///< in the legend; empty: not there
-  std::string end_label = {};       ///< beside the last point
+  Text name = {};                   ///< in the legend; empty: not there
+  Text end_label = {};              ///< beside the last point
   double width_px = 1.6;
   std::vector<double> x = {}, y = {};
   std::vector<double> y_upper = {};  ///< areas only: they lie between y and y_upper
@@ -46,7 +49,9 @@ struct Cell {
 
 /// One pair of axes: marks over cells, or the rows of a timeline.
 struct Panel {
-  std::string title;  ///< the quantity with its unit: "Flow rate [L/min]"
+  Text title;                                ///< "Flow rate"; without a quantity with its unit: "Gain [%]"
+  std::optional<units::Kind> quantity = {};  ///< of y; its unit is written behind the title
+  std::string title_end = {};                ///< behind the unit
   double height_px = 220;
   std::optional<double> lowest = {}, highest = {};  ///< else from the data; marks beyond are cut off
   std::vector<Cell> cells = {};
@@ -62,9 +67,10 @@ struct AxisMark {
 
 struct Figure {
   std::string description;  ///< for screen readers
-  std::string x_title;
+  Text x_title;
+  std::optional<units::Kind> x_quantity = {};
   std::optional<double> x_lowest = {}, x_highest = {};
-  std::vector<AxisMark> x_marks = {};  ///< else round numbers
+  std::vector<AxisMark> x_marks = {};  ///< in the drawing's unit; else round numbers
   std::vector<Panel> panels = {};
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/figures/plot_frame.hpp"
+#include "spoolflow/report/figures/reader_axes.hpp"
 #include "spoolflow/report/figures/svg_mark.hpp"
 #include "spoolflow/report/figures/ticks.hpp"
 #include "spoolflow/report/text/html_text.hpp"
@@ -71,12 +72,12 @@ void draw_x_axis(std::string& out, const Figure& figure, const PlotFrame& frame,
     out += fmt::format(R"(<path class="axis" d="M{:.1f} {:.1f}v4"/>)", x, frame.bottom);
     out += text(x, frame.bottom + 17, "tick", "middle", ticks.text[k]);
   }
-  out += text(0.5 * (frame.left + frame.right), frame.bottom + 35, "label", "middle", figure.x_title);
+  out += text(0.5 * (frame.left + frame.right), frame.bottom + 35, "label", "middle", figure.x_title.str());
 }
 
 void draw_panel(std::string& out, const Panel& panel, const PlotFrame& frame, const Ticks& x_ticks,
                 const std::string& clip) {
-  out += text(frame.left, frame.top - 9, "title", "start", panel.title);
+  out += text(frame.left, frame.top - 9, "title", "start", panel.title.str());
   for (const double x : x_ticks.at) {
     out += fmt::format(R"(<path class="grid" d="M{:.1f} {:.1f}V{:.1f}"/>)", frame.x_px(x), frame.top, frame.bottom);
   }
@@ -93,7 +94,8 @@ void draw_panel(std::string& out, const Panel& panel, const PlotFrame& frame, co
 
 }  // namespace
 
-std::string svg_of(const Figure& figure, const Layout& layout, const std::string& id) {
+std::string svg_of(const Figure& described, const Layout& layout, const std::string& id, const ReaderUnits& units) {
+  const Figure figure = in_units(described, units);
   double height = 2 + x_axis_px;
   for (const Panel& panel : figure.panels) height += title_px + height_of(panel, layout) + gap_px;
   std::string out = fmt::format(R"(<svg viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", layout.width_px,
@@ -119,15 +121,16 @@ std::string svg_of(const Figure& figure, const Layout& layout, const std::string
   return out + "</svg>\n";
 }
 
-std::string legend_of(const Figure& figure) {
+std::string legend_of(const Figure& figure, const ReaderUnits& units) {
   std::vector<std::string> names;
   std::string out;
   for (const Panel& panel : figure.panels) {
     for (const Mark& mark : panel.marks) {
-      if (mark.name.empty() || std::find(names.begin(), names.end(), mark.name) != names.end()) continue;
-      names.push_back(mark.name);
+      const std::string name = mark.name.in(units);
+      if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      names.push_back(name);
       out += fmt::format(R"(<span><svg class="key" viewBox="0 0 26 12" aria-hidden="true">{}</svg>{}</span>)",
-                         key_of(mark), html_text(mark.name));
+                         key_of(mark), html_text(name));
     }
   }
   return out.empty() ? out : "<div class=\"legend\">" + out + "</div>";

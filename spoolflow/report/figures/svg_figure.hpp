@@ -14,9 +14,10 @@ struct Layout {
 };
 
 /// `id` is unique on the page (it names the drawing's clip paths).
-[[nodiscard]] std::string svg_of(const Figure& figure, const Layout& layout, const std::string& id);
+[[nodiscard]] std::string svg_of(const Figure& figure, const Layout& layout, const std::string& id,
+                                 const ReaderUnits& units = {});
 
 /// The names in the figure with their line styles, as HTML; empty where nothing is named.
-[[nodiscard]] std::string legend_of(const Figure& figure);
+[[nodiscard]] std::string legend_of(const Figure& figure, const ReaderUnits& units = {});
 
 }  // namespace spoolflow::report

@@ -109,7 +109,7 @@ void draw_end_labels(std::string& out, const std::vector<Mark>& marks, const Plo
     if (!free) continue;
     taken.push_back(place);
     out += fmt::format(R"(<text class="mark" x="{:.1f}" y="{:.1f}">{}</text>)", place.x, place.y,
-                       html_text(mark.end_label));
+                       html_text(mark.end_label.str()));
   }
 }
 

@@ -202,12 +202,14 @@ Json requirements(const validation::Validation& validation) {
 void write_metrics(std::ostream& out, const model::Model& model, const validation::Validation& validation) {
   const MetricsJson json(model.valve.rated_flow_m3_per_s);
   const Verdict said = verdict(model, validation);
+  Json limits = Json::array();
+  for (const Text& limit : said.limits) limits.push_back(limit.str());
   Json file{{"format", "spoolflow metrics"},
             {"version", 1},
             {"valve", model.valve.name},
             {"full_scale_L_min", units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s)},
-            {"verdict", said.sentence},
-            {"limits", said.limits},
+            {"verdict", said.sentence.str()},
+            {"limits", std::move(limits)},
             {"reference_lag_s", validation.reference_lag_s},
             {"reference_lag_applied", validation.reference_lag_applied},
             {"all_runs", Json::array()},

@@ -17,10 +17,6 @@ constexpr Layout half{510, 1};
 constexpr const char* nothing_from_outside =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-std::string legend(const CaptionedFigure& figure) {
-  return figure.legend.empty() ? legend_of(figure.figure) : figure.legend;
-}
-
 }  // namespace
 
 HtmlPage::HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units)
@@ -32,27 +28,27 @@ void HtmlPage::section(std::string_view heading) {
   contents_ += fmt::format("<a href=\"#s{}\">{}</a>", sections_, html_text(heading));
 }
 
-void HtmlPage::subsection(std::string_view heading) {
-  body_ += fmt::format("<h3>{}</h3>\n", html_text(heading));
+void HtmlPage::subsection(const Text& heading) {
+  body_ += fmt::format("<h3>{}</h3>\n", html_text(heading.in(units_)));
 }
 
-void HtmlPage::paragraph(std::string_view text) {
-  body_ += fmt::format("<p>{}</p>\n", html_text(text));
+void HtmlPage::paragraph(const Text& text) {
+  body_ += fmt::format("<p>{}</p>\n", html_text(text.in(units_)));
 }
 
-void HtmlPage::note(std::string_view text) {
-  body_ += fmt::format("<p class=\"soft\">{}</p>\n", html_text(text));
+void HtmlPage::note(const Text& text) {
+  body_ += fmt::format("<p class=\"soft\">{}</p>\n", html_text(text.in(units_)));
 }
 
-std::string HtmlPage::caption(const std::string& text) {
-  return fmt::format("<figcaption><b>Figure {}.</b> {}</figcaption>", figures_, html_text(text));
+std::string HtmlPage::caption(const Text& text) {
+  return fmt::format("<figcaption><b>Figure {}.</b> {}</figcaption>", figures_, html_text(text.in(units_)));
 }
 
 std::string HtmlPage::drawings(const CaptionedFigure& figure, const Layout& layout) const {
-  const Figure drawn = units_.of(figure.figure);
-  return fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>", legend(figure),
-                     svg_of(drawn, layout, fmt::format("f{}w", figures_)),
-                     svg_of(drawn, narrow, fmt::format("f{}n", figures_)));
+  return fmt::format("{}<div class=\"wide\">{}</div><div class=\"narrow\">{}</div>",
+                     figure.legend.empty() ? legend_of(figure.figure, units_) : figure.legend,
+                     svg_of(figure.figure, layout, fmt::format("f{}w", figures_), units_),
+                     svg_of(figure.figure, narrow, fmt::format("f{}n", figures_), units_));
 }
 
 void HtmlPage::figure(const CaptionedFigure& figure) {
@@ -85,7 +81,7 @@ std::string HtmlPage::str() const {
              "<nav aria-label=\"Contents\">{5}</nav></header>\n",
              nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_,
              units_.attributes()) +
-         units_.markup(body_) + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
+         body_ + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
 }
 
 }  // namespace spoolflow::report

@@ -1,14 +1,15 @@
 #pragma once
 /// One self-contained page: style sheet and script inside, no network. Without script it shows the same, standing
-/// still. Everything that comes in is turned into the reader's units, but for drawings made outside (`units()`).
+/// still. Texts, tables and figures are written out in the reader's units here; markup made outside asks `units()`.
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "spoolflow/report/figures/bar_chart.hpp"
 #include "spoolflow/report/figures/figure.hpp"
 #include "spoolflow/report/figures/svg_figure.hpp"
 #include "spoolflow/report/page/html_table.hpp"
-#include "spoolflow/report/page/reader_units.hpp"
+#include "spoolflow/report/text/text.hpp"
 
 namespace spoolflow::report {
 
@@ -16,7 +17,7 @@ namespace spoolflow::report {
 /// page's script puts plots that zoom in the figure's place (trace_json.hpp); print keeps the figure.
 struct CaptionedFigure {
   Figure figure;
-  std::string caption = {};
+  Text caption = {};
   std::string legend = {};
   std::string live = {};
 };
@@ -26,23 +27,25 @@ class HtmlPage {
   /// `kind` stands above the title, `origin` below it: where and when the page was made.
   HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units = {});
 
-  void section(std::string_view heading);     ///< appears in the contents
-  void subsection(std::string_view heading);  ///< does not
-  void paragraph(std::string_view text);
-  void note(std::string_view text);  ///< small print
+  void section(std::string_view heading);  ///< appears in the contents
+  void subsection(const Text& heading);    ///< does not
+  void paragraph(const Text& text);
+  void note(const Text& text);  ///< small print
   void html(std::string_view markup) { body_ += markup; }
-  void table(const HtmlTable& table) { body_ += units_.of(table).str(); }
+  void table(const HtmlTable& table) { body_ += table.str(units_); }
   [[nodiscard]] const ReaderUnits& units() const { return units_; }
   /// Over the whole width; drawn a second time for narrow screens, so that its text keeps its size.
   void figure(const CaptionedFigure& figure);
   /// Two beside each other where there is room; drawn twice as well.
   void pair(const std::vector<CaptionedFigure>& figures);
+  void chart(const CaptionedChart& chart) { body_ += figure_of(chart, units_); }
+  void pair(const std::vector<CaptionedChart>& charts) { body_ += pair_of(charts, units_); }
   [[nodiscard]] std::string str() const;
 
  private:
   /// Legend, and the drawing for wide and for narrow screens.
   [[nodiscard]] std::string drawings(const CaptionedFigure& figure, const Layout& layout) const;
-  [[nodiscard]] std::string caption(const std::string& text);
+  [[nodiscard]] std::string caption(const Text& text);
 
   std::string kind_, title_, origin_;
   ReaderUnits units_;

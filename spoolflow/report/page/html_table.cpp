@@ -1,10 +1,5 @@
 #include "spoolflow/report/page/html_table.hpp"
 
-#include <algorithm>
-#include <string_view>
-
-#include "spoolflow/report/text/html_text.hpp"
-
 namespace spoolflow::report {
 namespace {
 
@@ -22,36 +17,38 @@ const char* class_of(Set set) {
   return "";
 }
 
-/// Two units in brackets below each other: columns are as wide as their numbers.
-std::string heading_of(std::string heading) {
-  constexpr std::string_view between = " / ";
-  const std::size_t at = heading.find(between, std::min(heading.find('['), heading.size()));
-  return at == std::string::npos ? heading : heading.replace(at, between.size(), " /<br>");
+/// The unit on the heading's second line, two units below each other: columns are as wide as their numbers.
+std::string heading_of(const HtmlTable::Column& column, const ReaderUnits& units) {
+  if (!column.quantity) return column.heading;
+  std::string out = column.heading;
+  out += out.find("<br>") == std::string::npos ? "<br>[" : " [";
+  out += units.unit(*column.quantity).shown;
+  if (!column.beside.empty()) out += " /<br>" + column.beside;
+  return out + "]";
 }
 
 }  // namespace
 
-void HtmlTable::row(const std::vector<std::string>& cells, bool begins_group) {
-  rows_.push_back({cells, begins_group});
+std::string HtmlTable::Cell::in(const ReaderUnits& units, const Column& column) const {
+  if (!quantity_) return text_.in(units);
+  return (column.quantity == quantity_->quantity.kind ? bare(*quantity_) : *quantity_).in(units);
 }
 
-void HtmlTable::change_column(std::size_t column, const std::function<std::string(const std::string&)>& change) {
-  for (Row& row : rows_) {
-    if (column < row.cells.size()) row.cells[column] = change(row.cells[column]);
-  }
+void HtmlTable::row(std::vector<Cell> cells, bool begins_group) {
+  rows_.push_back({std::move(cells), begins_group});
 }
 
-std::string HtmlTable::str() const {
+std::string HtmlTable::str(const ReaderUnits& units) const {
   std::string head;
   for (const Column& column : columns_) {
-    head += std::string("<th scope=\"col\"") + class_of(column.set) + ">" + heading_of(column.heading) + "</th>";
+    head += std::string("<th scope=\"col\"") + class_of(column.set) + ">" + heading_of(column, units) + "</th>";
   }
   std::string rows;
   for (const Row& row : rows_) {
     rows += row.begins_group ? "<tr class=\"first\">" : "<tr>";
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      rows +=
-          std::string("<td") + class_of(columns_[c].set) + ">" + (c < row.cells.size() ? row.cells[c] : "") + "</td>";
+      rows += std::string("<td") + class_of(columns_[c].set) + ">" +
+              (c < row.cells.size() ? row.cells[c].in(units, columns_[c]) : "") + "</td>";
     }
     rows += "</tr>\n";
   }

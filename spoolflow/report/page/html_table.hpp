@@ -1,34 +1,50 @@
 #pragma once
-#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "spoolflow/report/text/text.hpp"
 
 namespace spoolflow::report {
 
 /// How a column is set.
 enum class Set { number, text, sentence, hash };
 
-/// A table; cells are markup (html_text where they are text).
+/// A table; headings and cells are markup (html_text where they are text).
 class HtmlTable {
  public:
   struct Column {
     std::string heading;
     Set set = Set::number;
+    std::optional<units::Kind> quantity = {};  ///< its unit stands below the heading, so not in the cells
+    std::string beside = {};                   ///< a second unit, behind the first: "% FS"
   };
+  /// A text, or a quantity, which is written without its unit where the column tells it.
+  class Cell {
+   public:
+    // Whatever can be read can stand in a cell.
+    Cell(Text text) : text_(std::move(text)) {}                  // NOLINT(google-explicit-constructor)
+    Cell(std::string text) : text_(std::move(text)) {}           // NOLINT(google-explicit-constructor)
+    Cell(const char* text) : text_(text) {}                      // NOLINT(google-explicit-constructor)
+    Cell(const QuantityText& quantity) : quantity_(quantity) {}  // NOLINT(google-explicit-constructor)
+
+    [[nodiscard]] std::string in(const ReaderUnits& units, const Column& column) const;
+
+   private:
+    Text text_;
+    std::optional<QuantityText> quantity_;
+  };
+
   explicit HtmlTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
   /// `begins_group`: a heavier line above.
-  void row(const std::vector<std::string>& cells, bool begins_group = false);
-  [[nodiscard]] std::string str() const;
+  void row(std::vector<Cell> cells, bool begins_group = false);
+  [[nodiscard]] std::string str(const ReaderUnits& units = {}) const;
   [[nodiscard]] bool empty() const { return rows_.empty(); }
-
-  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
-  void heading(std::size_t column, const std::string& text) { columns_[column].heading = text; }
-  /// Every cell of a column becomes what `change` makes of it.
-  void change_column(std::size_t column, const std::function<std::string(const std::string&)>& change);
 
  private:
   struct Row {
-    std::vector<std::string> cells;
+    std::vector<Cell> cells;
     bool begins_group;
   };
   std::vector<Column> columns_;

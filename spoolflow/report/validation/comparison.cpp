@@ -6,7 +6,6 @@
 
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -14,11 +13,7 @@ namespace {
 /// The validation at hand in the form of the others.
 ComparedValidation at_hand(const model::Model& model, const validation::Validation& validation) {
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
-  ComparedValidation out{model.valve.name,
-                         "this report",
-                         units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s),
-                         validation.runs.size(),
-                         {}};
+  ComparedValidation out{model.valve.name, "this report", model.valve.rated_flow_m3_per_s, validation.runs.size(), {}};
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (!pooled.metrics) continue;
     const validation::GroupFigures& all = pooled.metrics->all;
@@ -33,7 +28,7 @@ ComparedValidation at_hand(const model::Model& model, const validation::Validati
                            {}};
     constexpr auto pressure = static_cast<std::size_t>(validation::Quantity::pressure_difference);
     for (const validation::ProfileBin& bin : pooled.profiles[pressure].bins()) {
-      each.pressure_difference_bar.push_back(units::bar_from_Pa(0.5 * (bin.from + bin.to)));
+      each.pressure_difference_Pa.push_back(0.5 * (bin.from + bin.to));
       each.p95_over_pressure.push_back(bin.p95_m3_per_s * percent);
     }
     out.estimators.push_back(std::move(each));
@@ -63,7 +58,8 @@ HtmlTable comparison_table(const std::vector<ComparedValidation>& all) {
     for (const ComparedEstimator& estimator : each.estimators) {
       const std::string tone = html_text(estimator.name);
       table.row({first ? html_text(each.valve) : "", first ? html_text(each.file) : "",
-                 first ? fmt::format("{}", each.runs) : "", first ? three_digits(each.full_scale_L_min) + " L/min" : "",
+                 first ? fmt::format("{}", each.runs) : "",
+                 first ? Text(three_digits(units::flow(each.full_scale_m3_per_s))) : Text(),
                  fmt::format(R"(<i class="dot {0}"></i>{0})", tone),
                  fmt::format(R"(<i class="bar {}" style="width:{:.0f}px"></i>{})", tone,
                              longest > 0 ? full_px * estimator.p95 / longest : 0.0, fixed(estimator.p95, 2)),
@@ -82,7 +78,7 @@ CaptionedFigure pressure_figure(const std::vector<ComparedValidation>& all) {
   for (std::size_t k = all.size(); k-- > 0;) {
     const ComparedEstimator& leading = all[k].estimators.back();
     Mark mark{.name = fmt::format("{} ({}), {}", all[k].valve, all[k].file, leading.name),
-              .x = leading.pressure_difference_bar,
+              .x = leading.pressure_difference_Pa,
               .y = leading.p95_over_pressure};
     if (k == 0) {
       mark.tone = leading.name;
@@ -95,7 +91,8 @@ CaptionedFigure pressure_figure(const std::vector<ComparedValidation>& all) {
     panel.marks.push_back(std::move(mark));
   }
   return {{.description = "Error over pressure difference of several validations",
-           .x_title = "Measured pressure difference [bar]",
+           .x_title = "Measured pressure difference",
+           .x_quantity = units::Kind::pressure,
            .panels = {std::move(panel)}},
           "Size of the error over the pressure difference, side by side.",
           {},

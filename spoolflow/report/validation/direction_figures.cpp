@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -16,7 +15,7 @@ using validation::Direction;
 
 std::optional<CaptionedFigure> hysteresis_figure(const validation::Validation& validation, double percent) {
   Panel panel{.title = "Mean error [% FS]", .height_px = 220};
-  std::string caption =
+  Text caption =
       "Mean error over position while the spool opens and closes, all runs; the gap between both is "
       "what is left of hysteresis.";
   for (const validation::PooledResult& pooled : validation.pooled) {
@@ -27,22 +26,22 @@ std::optional<CaptionedFigure> hysteresis_figure(const validation::Validation& v
     Mark opening{.shape = Shape::line, .tone = name, .name = name + ", opening", .width_px = 1.7};
     Mark closing{.shape = Shape::dashed, .tone = name, .name = name + ", closing", .width_px = 1.7};
     for (const validation::DirectionBin& bin : bins) {
-      const double position_mm = units::mm_from_m(0.5 * (bin.from_m + bin.to_m));
-      opening.x.push_back(position_mm);
-      closing.x.push_back(position_mm);
+      const double position_m = 0.5 * (bin.from_m + bin.to_m);
+      opening.x.push_back(position_m);
+      closing.x.push_back(position_m);
       opening.y.push_back(bin.opening_m3_per_s * percent);
       closing.y.push_back(bin.closing_m3_per_s * percent);
     }
     panel.marks.push_back(std::move(opening));
     panel.marks.push_back(std::move(closing));
     const validation::Hysteresis widest = *pooled.direction->hysteresis();
-    caption +=
-        fmt::format(" {}: at most {} % FS, at {} mm.", name, fixed(std::abs(widest.difference_m3_per_s) * percent, 1),
-                    fixed(units::mm_from_m(widest.position_m), 2));
+    caption += phrase(" {}: at most {} % FS, at {}.", name, fixed(std::abs(widest.difference_m3_per_s) * percent, 1),
+                      fixed(units::length(widest.position_m), 2));
   }
   if (panel.marks.empty()) return std::nullopt;
   return CaptionedFigure{{.description = "Mean error over position, opening and closing",
-                          .x_title = "Position [mm]",
+                          .x_title = "Position",
+                          .x_quantity = units::Kind::length,
                           .panels = {std::move(panel)}},
                          caption,
                          {},

@@ -2,16 +2,10 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "spoolflow/report/figures/scaled.hpp"
-#include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
-
 namespace spoolflow::report {
 namespace {
 
-/// A range on both axes, in the figure's units.
+/// A range on both axes.
 struct Box {
   double x_lowest, x_highest, y_lowest, y_highest;
 
@@ -20,7 +14,7 @@ struct Box {
   }
 };
 
-/// Points that were used, in the figure's units.
+/// Points that were used.
 struct Used {
   std::vector<double> x, y;
 };
@@ -59,7 +53,8 @@ Sides sides_of(const Used& used, const Box& calibrated) {
 
 /// What an envelope is called.
 struct Names {
-  std::string description, title, caption;
+  std::string description;
+  Text caption;
 };
 
 CaptionedFigure with_points(const Names& names, Panel panel, Sides sides) {
@@ -68,7 +63,8 @@ CaptionedFigure with_points(const Names& names, Panel panel, Sides sides) {
   panel.marks.push_back(dots(std::move(sides.inside), "ink", "used by the runs"));
   if (!sides.outside.x.empty()) panel.marks.push_back(dots(std::move(sides.outside), "fault", "used, extrapolated"));
   return {{.description = names.description,
-           .x_title = "Position [mm]",
+           .x_title = "Position",
+           .x_quantity = units::Kind::length,
            .x_lowest = sides.axes.x_lowest,
            .x_highest = sides.axes.x_highest,
            .panels = {std::move(panel)}},
@@ -77,10 +73,10 @@ CaptionedFigure with_points(const Names& names, Panel panel, Sides sides) {
           {}};
 }
 
-CaptionedFigure box_figure(const Names& names, const Used& used, const Box& calibrated) {
+/// `panel`: the axis.
+CaptionedFigure box_figure(const Names& names, Panel panel, const Used& used, const Box& calibrated) {
   Sides sides = sides_of(used, calibrated);
   const Box& axes = sides.axes;
-  Panel panel{.title = names.title, .height_px = 220};
   panel.marks = {shade(axes.x_lowest, calibrated.x_lowest, axes.y_lowest, axes.y_highest, "not calibrated"),
                  shade(calibrated.x_highest, axes.x_highest, axes.y_lowest, axes.y_highest),
                  shade(calibrated.x_lowest, calibrated.x_highest, axes.y_lowest, calibrated.y_lowest),
@@ -91,12 +87,12 @@ CaptionedFigure box_figure(const Names& names, const Used& used, const Box& cali
 /// A column of all runs' points.
 template <class Point>
 Used used_by(const std::vector<validation::RunResult>& runs, std::vector<Point> validation::RunResult::*points,
-             double Point::*other, double factor) {
+             double Point::*other) {
   Used out;
   for (const validation::RunResult& run : runs) {
     for (const Point& point : run.*points) {
-      out.x.push_back(units::mm_from_m(point.position_m));
-      out.y.push_back(point.*other * factor);
+      out.x.push_back(point.position_m);
+      out.y.push_back(point.*other);
     }
   }
   return out;
@@ -109,28 +105,25 @@ CaptionedFigure flow_figure(const model::Model& model, const Used& used) {
     return a.pressure_difference_set_Pa < b.pressure_difference_set_Pa;
   });
   Mark above{Shape::area, "fault", {}, "above the highest calibrated pressure difference", "", 0, {}, {}, {}};
-  above.x = scaled(highest.position_m, units::millimetre_per_metre);
-  above.y = scaled(highest.flow_m3_per_s, units::litre_per_minute_per_m3_per_s);
+  above.x = highest.position_m;
+  above.y = highest.flow_m3_per_s;
   const double most = above.y.empty() ? 0 : *std::max_element(above.y.begin(), above.y.end());
   Sides sides = sides_of(used, {above.x.front(), above.x.back(), 0, most});
   sides.inside = used;
   sides.outside = {};
   above.y_upper.assign(above.y.size(), sides.axes.y_highest);
-  Panel panel{.title = "Flow rate [L/min]", .height_px = 220};
+  Panel panel{.title = "Flow rate", .quantity = units::Kind::flow, .height_px = 220};
   panel.marks.push_back(std::move(above));
-  return with_points({"Flow rate over position: calibrated and used", "",
-                      fmt::format("Flow rates over position; shaded: above the bench's flow at {} bar.",
-                                  fixed(units::bar_from_Pa(highest.pressure_difference_set_Pa), 0))},
+  return with_points({"Flow rate over position: calibrated and used",
+                      phrase("Flow rates over position; shaded: above the bench's flow at {}.",
+                             fixed(units::pressure(highest.pressure_difference_set_Pa), 0))},
                      std::move(panel), std::move(sides));
 }
 
-std::optional<Span> calibrated_temperatures_C(const model::Model& model) {
-  const auto C = [](double K) { return K - units::kelvin_at_0_degC; };
-  if (model.observer) {
-    return Span{C(model.observer->oil_temperature_K.lower), C(model.observer->oil_temperature_K.upper), 1};
-  }
+std::optional<Span> calibrated_temperatures_K(const model::Model& model) {
+  if (model.observer) return Span{model.observer->oil_temperature_K.lower, model.observer->oil_temperature_K.upper, 1};
   if (model.condensed.oil_temperature_K) {
-    return Span{C(*model.condensed.oil_temperature_K), C(*model.condensed.oil_temperature_K), 1};
+    return Span{*model.condensed.oil_temperature_K, *model.condensed.oil_temperature_K, 1};
   }
   return std::nullopt;
 }
@@ -139,19 +132,19 @@ std::optional<CaptionedFigure> temperature_figure(const model::Model& model,
                                                   const std::vector<validation::RunResult>& runs) {
   constexpr double near_K = 0.5;  // of noise, that no extrapolation is
   Panel panel{.title = "Oil temperatures", .height_px = 0};
-  const std::optional<Span> calibrated = calibrated_temperatures_C(model);
+  const std::optional<Span> calibrated = calibrated_temperatures_K(model);
   if (calibrated) panel.rows.push_back({"calibrated", "soft", {*calibrated}});
   const std::size_t before = panel.rows.size();
   for (const validation::RunResult& run : runs) {
     if (!run.oil_temperature_K) continue;
-    const Span used{run.oil_temperature_K->lowest - units::kelvin_at_0_degC,
-                    run.oil_temperature_K->highest - units::kelvin_at_0_degC, 1};
+    const Span used{run.oil_temperature_K->lowest, run.oil_temperature_K->highest, 1};
     const bool outside = calibrated && (used.from < calibrated->from - near_K || used.to > calibrated->to + near_K);
     panel.rows.push_back({outside ? run.name + ", extrapolated" : run.name, outside ? "fault" : "observer", {used}});
   }
   if (panel.rows.size() == before) return std::nullopt;
   return CaptionedFigure{{.description = "Oil temperatures, calibrated and used",
-                          .x_title = "Oil temperature [\u00b0C]",
+                          .x_title = "Oil temperature",
+                          .x_quantity = units::Kind::temperature,
                           .panels = {std::move(panel)}},
                          "Oil temperatures of the calibration and of the runs.",
                          {},
@@ -165,28 +158,26 @@ std::vector<CaptionedFigure> envelope_figures(const model::Model& model,
   using Run = validation::RunResult;
   std::vector<CaptionedFigure> out;
   const model::Condensed& map = model.condensed;
-  const double lowest_mm = units::mm_from_m(map.position_m.lower);
-  const double highest_mm = units::mm_from_m(map.position_m.upper);
-  const Used pressures = used_by(runs, &Run::operating_points, &validation::OperatingPoint::pressure_difference_Pa,
-                                 1 / units::pascal_per_bar);
+  const Used pressures = used_by(runs, &Run::operating_points, &validation::OperatingPoint::pressure_difference_Pa);
   if (!pressures.x.empty()) {
-    out.push_back(box_figure({"Pressure difference over position: calibrated and used", "Pressure difference [bar]",
+    out.push_back(box_figure({"Pressure difference over position: calibrated and used",
                               "Working points against the flow-force map's range; shaded: extrapolation."},
+                             {.title = "Pressure difference", .quantity = units::Kind::pressure, .height_px = 220},
                              pressures,
-                             {lowest_mm, highest_mm, units::bar_from_Pa(map.pressure_difference_Pa.lower),
-                              units::bar_from_Pa(map.pressure_difference_Pa.upper)}));
+                             {map.position_m.lower, map.position_m.upper, map.pressure_difference_Pa.lower,
+                              map.pressure_difference_Pa.upper}));
   }
-  const Used flows =
-      used_by(runs, &Run::flow_points, &validation::FlowPoint::flow_m3_per_s, units::litre_per_minute_per_m3_per_s);
+  const Used flows = used_by(runs, &Run::flow_points, &validation::FlowPoint::flow_m3_per_s);
   if (!flows.x.empty() && !model.evidence.axial_force.empty() &&
       !model.evidence.axial_force.front().position_m.empty()) {
     out.push_back(flow_figure(model, flows));
   }
-  const Used currents = used_by(runs, &Run::solenoid_points, &validation::SolenoidPoint::current_A, 1);
+  const Used currents = used_by(runs, &Run::solenoid_points, &validation::SolenoidPoint::current_A);
   if (!currents.x.empty()) {
-    out.push_back(box_figure({"Coil current over position: calibrated and used", "Coil current [A]",
+    out.push_back(box_figure({"Coil current over position: calibrated and used",
                               "Working points against the magnetic-force map's range; shaded: extrapolation."},
-                             currents, {lowest_mm, highest_mm, map.current_A.lower, map.current_A.upper}));
+                             {.title = "Coil current", .quantity = units::Kind::current, .height_px = 220}, currents,
+                             {map.position_m.lower, map.position_m.upper, map.current_A.lower, map.current_A.upper}));
   }
   if (auto temperatures = temperature_figure(model, runs)) out.push_back(std::move(*temperatures));
   return out;

@@ -3,33 +3,32 @@
 #include <fmt/format.h>
 
 #include "spoolflow/report/validation/run_figures.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
 
-/// How a quantity is written and drawn.
+/// What stands below the errors.
 struct Presentation {
   const char* name;
   const char* axis;
-  double factor, offset;
+  units::Kind kind;
 };
 
 Presentation presentation(validation::Quantity quantity) {
   switch (quantity) {
     case validation::Quantity::flow:
-      return {"measured flow rate", "Measured flow rate [L/min]", units::litre_per_minute_per_m3_per_s, 0};
+      return {"measured flow rate", "Measured flow rate", units::Kind::flow};
     case validation::Quantity::position:
-      return {"position", "Position [mm]", units::millimetre_per_metre, 0};
+      return {"position", "Position", units::Kind::length};
     case validation::Quantity::pressure_difference:
-      return {"measured pressure difference", "Measured pressure difference [bar]", 1 / units::pascal_per_bar, 0};
+      return {"measured pressure difference", "Measured pressure difference", units::Kind::pressure};
     case validation::Quantity::oil_temperature:
       break;
   }
-  return {"oil temperature", "Oil temperature [\u00b0C]", 1, -units::kelvin_at_0_degC};
+  return {"oil temperature", "Oil temperature", units::Kind::temperature};
 }
 
-Mark profile_line(const std::vector<validation::ProfileBin>& bins, const Presentation& as, double percent, bool p95,
+Mark profile_line(const std::vector<validation::ProfileBin>& bins, double percent, bool p95,
                   const std::string& estimator) {
   Mark mark{
       .shape = p95 ? Shape::line : Shape::dashed,
@@ -38,19 +37,19 @@ Mark profile_line(const std::vector<validation::ProfileBin>& bins, const Present
       .width_px = p95 ? 1.8 : 1.1,
   };
   for (const validation::ProfileBin& bin : bins) {
-    mark.x.push_back(0.5 * (bin.from + bin.to) * as.factor + as.offset);
+    mark.x.push_back(0.5 * (bin.from + bin.to));
     mark.y.push_back((p95 ? bin.p95_m3_per_s : bin.median_m3_per_s) * percent);
   }
   return mark;
 }
 
-Panel coverage_panel(const validation::Validation& validation, std::size_t quantity, const Presentation& as) {
+Panel coverage_panel(const validation::Validation& validation, std::size_t quantity) {
   Panel panel{.title = "Inside the 95 % band [%]", .height_px = 80, .lowest = 0.0, .highest = 100.0};
   Mark promised{.shape = Shape::dashed, .tone = "muted", .width_px = 1};
   for (const validation::PooledResult& pooled : validation.pooled) {
     Mark mark{.tone = std::string(estimation::name(pooled.estimator)), .width_px = 1.6};
     for (const validation::ProfileBin& bin : pooled.profiles[quantity].bins()) {
-      mark.x.push_back(0.5 * (bin.from + bin.to) * as.factor + as.offset);
+      mark.x.push_back(0.5 * (bin.from + bin.to));
       mark.y.push_back(100 * bin.band_coverage);
     }
     if (mark.x.size() > promised.x.size()) promised.x = mark.x;
@@ -74,14 +73,15 @@ std::vector<CaptionedFigure> profile_figures(const validation::Validation& valid
       most_bins = std::max(most_bins, bins.size());
       for (const bool p95 : {true, false}) {
         panel.marks.push_back(
-            profile_line(bins, as, 100 / full_scale_m3_per_s, p95, std::string(estimation::name(pooled.estimator))));
+            profile_line(bins, 100 / full_scale_m3_per_s, p95, std::string(estimation::name(pooled.estimator))));
       }
     }
     if (most_bins < 3) continue;
-    Panel coverage = coverage_panel(validation, q, as);
+    Panel coverage = coverage_panel(validation, q);
     out.push_back(
         {{.description = fmt::format("Error over {}", as.name),
           .x_title = as.axis,
+          .x_quantity = as.kind,
           .panels = {std::move(panel), std::move(coverage)}},
          fmt::format("Size of the error over {}, all runs; below it the share of the samples inside the 95 % band.",
                      as.name),

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/report/validation/comparison.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -38,8 +39,8 @@ ComparedEstimator estimator_at(const Json& json, const std::string& place, const
   const Json::json_pointer bins(place + "/error_over/pressure_difference_bar");
   for (std::size_t b = 0; json.contains(bins) && b < json.at(bins).size(); ++b) {
     const std::string bin = fmt::format("{}/{}", bins.to_string(), b);
-    out.pressure_difference_bar.push_back(
-        0.5 * (at<double>(json, bin + "/from", file) + at<double>(json, bin + "/to", file)));
+    out.pressure_difference_Pa.push_back(
+        units::Pa_from_bar(0.5 * (at<double>(json, bin + "/from", file) + at<double>(json, bin + "/to", file))));
     out.p95_over_pressure.push_back(at<double>(json, bin + "/p95_percent_FS", file));
   }
   return out;
@@ -62,7 +63,7 @@ ComparedValidation read_compared(const std::filesystem::path& metrics_file) {
   }
   ComparedValidation out{at<std::string>(json, "/valve", metrics_file),
                          metrics_file.filename().string(),
-                         at<double>(json, "/full_scale_L_min", metrics_file),
+                         units::m3_per_s_from_L_per_min(at<double>(json, "/full_scale_L_min", metrics_file)),
                          at<Json>(json, "/runs", metrics_file).size(),
                          {}};
   const std::size_t estimators = at<Json>(json, "/all_runs", metrics_file).size();

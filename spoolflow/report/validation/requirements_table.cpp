@@ -6,6 +6,7 @@
 
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -49,8 +50,19 @@ const char* when_text(validation::When when) {
   return "";
 }
 
-std::string bounds_text(const validation::Limit& limit) {
-  const std::string unit(name_of(validation::limit_unit_names, limit.unit));
+/// A flow that is written in a limit's unit.
+units::Quantity limit_flow(double value_L_min) {
+  return units::flow(units::m3_per_s_from_L_per_min(value_L_min));
+}
+
+Text bounds_text(const validation::Limit& limit) {
+  if (limit.unit == validation::LimitUnit::litre_per_minute) {
+    if (limit.at_least && limit.at_most)
+      return phrase("{} to {}", bare(general(limit_flow(*limit.at_least))), general(limit_flow(*limit.at_most)));
+    if (limit.at_least) return phrase("at least {}", general(limit_flow(*limit.at_least)));
+    return phrase("at most {}", general(limit_flow(*limit.at_most)));
+  }
+  const std::string_view unit = name_of(validation::limit_unit_names, limit.unit);
   if (limit.at_least && limit.at_most) return fmt::format("{:g} to {:g} {}", *limit.at_least, *limit.at_most, unit);
   if (limit.at_least) return fmt::format("at least {:g} {}", *limit.at_least, unit);
   return fmt::format("at most {:g} {}", *limit.at_most, unit);
@@ -70,12 +82,13 @@ std::string requirements_sentence(const validation::Validation& validation) {
                      all - met == 1 ? "is" : "are");
 }
 
-std::string limit_text(const JudgedLimit& judged) {
-  return figure_text(judged) + when_text(judged.limit.when) + ": " + bounds_text(judged.limit);
+Text limit_text(const JudgedLimit& judged) {
+  return phrase("{}{}: {}", figure_text(judged), when_text(judged.limit.when), bounds_text(judged.limit));
 }
 
-std::string value_text(const JudgedLimit& judged) {
+Text value_text(const JudgedLimit& judged) {
   if (!judged.value) return "nothing: no reference flow, or no such samples";
+  if (judged.limit.unit == validation::LimitUnit::litre_per_minute) return fixed(limit_flow(*judged.value), 2);
   return fixed(*judged.value, 2) + " " + std::string(name_of(validation::limit_unit_names, judged.limit.unit));
 }
 
@@ -89,7 +102,7 @@ void show_requirements(HtmlPage& page, const validation::Validation& validation)
     table.row({fmt::format("<b class=\"badge {}\">{}</b>", judged.met ? "pass" : "fail",
                            judged.met ? "pass" : (judged.value ? "fail" : "not judged")),
                html_text(figure_text(judged) + when_text(judged.limit.when)), html_text(judged.run),
-               html_text(bounds_text(judged.limit)), judged.value ? html_text(value_text(judged)) : "\u2013"});
+               bounds_text(judged.limit), judged.value ? value_text(judged) : "\u2013"});
   }
   page.table(table);
 }

@@ -7,7 +7,6 @@
 
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -40,8 +39,8 @@ std::string figure_cell(const validation::ErrorFigures& figures, double value, i
   return figures.samples == 0 ? "\u2013" : fixed(value, decimals);
 }
 
-std::vector<std::string> result_cells(const std::string& run, estimation::Estimator estimator, const Metrics& m,
-                                      double percent, double longest) {
+std::vector<HtmlTable::Cell> result_cells(const std::string& run, estimation::Estimator estimator, const Metrics& m,
+                                          double percent, double longest) {
   return {run,
           estimator_cell(estimator),
           bar_cell(m.all.error.p95 * percent, longest * percent, 2, estimation::name(estimator)),
@@ -63,9 +62,9 @@ void add_all_figures(HtmlTable& table, const std::string& run, const std::string
     const validation::GroupFigures& figures;
   };
   const auto both = [&](double value, bool with_sign) {
-    const double flow_L_min = units::L_per_min_from_m3_per_s(value);
-    return with_sign ? fmt::format("{} / {}", signed_fixed(flow_L_min, 2), signed_fixed(value * percent, 2))
-                     : fmt::format("{} / {}", fixed(flow_L_min, 2), fixed(value * percent, 2));
+    const units::Quantity flow = units::flow(value);
+    return with_sign ? phrase("{} / {}", bare(signed_fixed(flow, 2)), signed_fixed(value * percent, 2))
+                     : phrase("{} / {}", bare(fixed(flow, 2)), fixed(value * percent, 2));
   };
   bool first = true;
   for (const Group& group : {Group{"all", metrics.all}, Group{"moving", metrics.moving}, Group{"at rest", metrics.rest},
@@ -121,16 +120,19 @@ HtmlTable results_table(const validation::Validation& validation, double full_sc
 }
 
 HtmlTable all_figures_table(const validation::Validation& validation, double full_scale_m3_per_s) {
+  const auto flow_and_share = [](const char* heading) {
+    return HtmlTable::Column{heading, Set::number, units::Kind::flow, "% FS"};
+  };
   HtmlTable table({{"Run", Set::text},
                    {"Estimator", Set::text},
                    {"Samples", Set::text},
                    {"number"},
-                   {"95 % below<br>[L/min / % FS]"},
-                   {"RMS<br>[L/min / % FS]"},
-                   {"largest<br>[L/min / % FS]"},
-                   {"bias<br>[L/min / % FS]"},
+                   flow_and_share("95 % below"),
+                   flow_and_share("RMS"),
+                   flow_and_share("largest"),
+                   flow_and_share("bias"),
                    {"in band<br>%"},
-                   {"band width<br>[L/min / % FS]"},
+                   flow_and_share("band width"),
                    {"width<br>/ RMS"}});
   const double percent = 100 / full_scale_m3_per_s;
   for (const validation::RunResult& run : validation.runs) {
@@ -170,12 +172,12 @@ HtmlTable status_table(const validation::Validation& validation) {
   columns.push_back({"What it says", Set::sentence});
   HtmlTable table(std::move(columns));
   for (auto& [name, said] : statuses) {
-    std::vector<std::string> cells{"<code>" + html_text(name) + "</code>"};
+    std::vector<HtmlTable::Cell> cells{"<code>" + html_text(name) + "</code>"};
     for (const validation::PooledResult& pooled : validation.pooled) {
       const double share = 100 * said.samples[pooled.estimator] / total;
-      cells.push_back(share > 0 ? fixed(share, share < 1 ? 2 : 1) : "");
+      cells.emplace_back(share > 0 ? fixed(share, share < 1 ? 2 : 1) : "");
     }
-    cells.push_back(html_text(said.meaning));
+    cells.emplace_back(html_text(said.meaning));
     table.row(cells);
   }
   return table;

@@ -8,40 +8,35 @@
 #include "spoolflow/report/figures/scaled.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/report/validation/trace_json.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
-
-using units::litre_per_minute_per_m3_per_s;
 
 std::string text(estimation::Estimator estimator) {
   return std::string(estimation::name(estimator));
 }
 
-Mark line(const validation::Line& data, double factor, const std::string& tone, const std::string& name,
-          double width_px = 1.4) {
+Mark line(const validation::Line& data, const std::string& tone, const std::string& name, double width_px = 1.4,
+          double factor = 1) {
   return {Shape::line, tone, {}, name, "", width_px, data.time_s, scaled(data.value, factor), {}};
 }
 
-Mark band(const validation::Ribbon& data, double factor, const std::string& tone, const std::string& name) {
-  return {Shape::area, tone, {}, name, "", 0, data.time_s, scaled(data.lower, factor), scaled(data.upper, factor)};
+Mark band(const validation::Ribbon& data, const std::string& tone, const std::string& name) {
+  return {Shape::area, tone, {}, name, "", 0, data.time_s, scaled(data.lower, 1), scaled(data.upper, 1)};
 }
 
 Panel flow_panel(const validation::RunResult& run) {
   const validation::EstimatorResult& leading = run.results.back();
-  Panel panel{.title = "Flow rate [L/min]", .height_px = 280};
-  panel.marks.push_back(band(leading.band_m3_per_s, litre_per_minute_per_m3_per_s, text(leading.estimator),
-                             text(leading.estimator) + ", 95 % band"));
+  Panel panel{.title = "Flow rate", .quantity = units::Kind::flow, .height_px = 280};
+  panel.marks.push_back(band(leading.band_m3_per_s, text(leading.estimator), text(leading.estimator) + ", 95 % band"));
   for (std::size_t e = 0; e + 1 < run.results.size(); ++e) {
-    panel.marks.push_back(line(run.results[e].flow_m3_per_s, litre_per_minute_per_m3_per_s,
-                               text(run.results[e].estimator), text(run.results[e].estimator), 0.9));
+    panel.marks.push_back(
+        line(run.results[e].flow_m3_per_s, text(run.results[e].estimator), text(run.results[e].estimator), 0.9));
   }
   if (run.has_reference) {
-    panel.marks.push_back(line(run.reference_line_m3_per_s, litre_per_minute_per_m3_per_s, "ink", "measured", 1.9));
+    panel.marks.push_back(line(run.reference_line_m3_per_s, "ink", "measured", 1.9));
   }
-  panel.marks.push_back(line(leading.flow_m3_per_s, litre_per_minute_per_m3_per_s, text(leading.estimator),
-                             text(leading.estimator), 1.3));
+  panel.marks.push_back(line(leading.flow_m3_per_s, text(leading.estimator), text(leading.estimator), 1.3));
   return panel;
 }
 
@@ -50,18 +45,17 @@ Panel error_panel(const validation::RunResult& run, double full_scale_m3_per_s) 
   for (const validation::EstimatorResult& result : run.results) {
     if (!result.metrics) continue;
     const bool leading = &result == &run.results.back();
-    panel.marks.push_back(line(result.error_m3_per_s, 100 / full_scale_m3_per_s, text(result.estimator),
-                               text(result.estimator), leading ? 1.3 : 0.9));
+    panel.marks.push_back(line(result.error_m3_per_s, text(result.estimator), text(result.estimator),
+                               leading ? 1.3 : 0.9, 100 / full_scale_m3_per_s));
   }
   return panel;
 }
 
 Panel pressure_panel(const validation::RunResult& run) {
   const validation::EstimatorResult& leading = run.results.back();
-  Panel panel{.title = "Pressure difference [bar]", .height_px = 90, .lowest = 0.0};
-  panel.marks.push_back(line(run.pressure_difference_line_Pa, 1 / units::pascal_per_bar, "ink", "measured", 1.6));
-  panel.marks.push_back(line(leading.pressure_difference_Pa, 1 / units::pascal_per_bar, text(leading.estimator),
-                             text(leading.estimator), 1.0));
+  Panel panel{.title = "Pressure difference", .quantity = units::Kind::pressure, .height_px = 90, .lowest = 0.0};
+  panel.marks.push_back(line(run.pressure_difference_line_Pa, "ink", "measured", 1.6));
+  panel.marks.push_back(line(leading.pressure_difference_Pa, text(leading.estimator), text(leading.estimator), 1.0));
   return panel;
 }
 
@@ -82,13 +76,14 @@ Panel status_panel(const validation::EstimatorResult& result) {
 CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m3_per_s) {
   const validation::EstimatorResult& leading = run.results.back();
   CaptionedFigure out{{.description = "Measured and estimated flow rate, error and status over time, run " + run.name,
-                       .x_title = "Time [s]",
+                       .x_title = "Time",
+                       .x_quantity = units::Kind::time,
                        .panels = {flow_panel(run)}}};
   const bool judged = leading.metrics.has_value();
   if (judged) out.figure.panels.push_back(error_panel(run, full_scale_m3_per_s));
   if (!run.pressure_difference_line_Pa.time_s.empty()) out.figure.panels.push_back(pressure_panel(run));
-  Panel position{.title = "Position [mm]", .height_px = 70, .lowest = 0.0};
-  position.marks.push_back(line(run.position_line_m, units::millimetre_per_metre, "ink", "measured", 1.2));
+  Panel position{.title = "Position", .quantity = units::Kind::length, .height_px = 70, .lowest = 0.0};
+  position.marks.push_back(line(run.position_line_m, "ink", "measured", 1.2));
   out.figure.panels.push_back(std::move(position));
   if (!leading.status.empty()) out.figure.panels.push_back(status_panel(leading));
   out.caption = judged ? "Measured and estimated flow rate, and their difference (the paper's Figs. 9 and 10). "
@@ -108,14 +103,14 @@ Mark layer(const validation::RunTrace& trace, const std::vector<float>& from_N, 
            const std::string& tone, const std::string& name) {
   constexpr std::size_t stretches = 400;
   const std::vector<float>& upper_N = to_N.highest.empty() ? to_N.lowest : to_N.highest;
-  return band(validation::thinned_band(trace.time_s, from_N, upper_N, stretches), 1, tone, name);
+  return band(validation::thinned_band(trace.time_s, from_N, upper_N, stretches), tone, name);
 }
 
 }  // namespace
 
 CaptionedFigure force_figure(const validation::RunResult& run) {
   const validation::EstimatorResult& leading = run.results.back();
-  Panel panel{.title = "Force [N]", .height_px = 230};
+  Panel panel{.title = "Force", .quantity = units::Kind::force, .height_px = 230};
   if (!run.trace.estimators.empty()) {
     const validation::TracedEstimator& says = run.trace.estimators.back();
     const std::vector<float> nothing(run.trace.time_s.size(), 0.0F);
@@ -123,10 +118,11 @@ CaptionedFigure force_figure(const validation::RunResult& run) {
                    layer(run.trace, says.spring_force_N.lowest, says.spring_and_flow_N, "a", "flow force"),
                    layer(run.trace, says.spring_and_flow_N.lowest, says.all_forces_N, "d", "friction")};
   }
-  panel.marks.push_back(line(leading.magnetic_force_N, 1, "ink", "magnetic"));
+  panel.marks.push_back(line(leading.magnetic_force_N, "ink", "magnetic"));
   return {
       {.description = "Forces on the spool over time, run " + run.name,
-       .x_title = "Time [s]",
+       .x_title = "Time",
+       .x_quantity = units::Kind::time,
        .panels = {std::move(panel)}},
       fmt::format("Forces as the {} sees them, stacked: the magnetic force carries spring, flow force and friction. "
                   "While the spool closes, friction helps and lies over the flow force.",
@@ -138,28 +134,27 @@ CaptionedFigure force_figure(const validation::RunResult& run) {
 CaptionedFigure worst_moment_figure(const validation::RunResult& run, double full_scale_m3_per_s) {
   const validation::EstimatorResult& leading = run.results.back();
   const validation::WorstMoment& worst = *leading.worst;
-  Panel panel{.title = "Flow rate [L/min]", .height_px = 230};
-  panel.marks.push_back(band(worst.band_m3_per_s, litre_per_minute_per_m3_per_s, text(leading.estimator),
-                             text(leading.estimator) + ", 95 % band"));
-  panel.marks.push_back(line(worst.reference_m3_per_s, litre_per_minute_per_m3_per_s, "ink", "measured", 1.9));
+  Panel panel{.title = "Flow rate", .quantity = units::Kind::flow, .height_px = 230};
+  panel.marks.push_back(band(worst.band_m3_per_s, text(leading.estimator), text(leading.estimator) + ", 95 % band"));
+  panel.marks.push_back(line(worst.reference_m3_per_s, "ink", "measured", 1.9));
   for (std::size_t e = 0; e < run.results.size(); ++e) {
     const bool last = e + 1 == run.results.size();
-    panel.marks.push_back(line(worst.flow_m3_per_s[e], litre_per_minute_per_m3_per_s, text(run.results[e].estimator),
-                               text(run.results[e].estimator), last ? 1.4 : 0.9));
+    panel.marks.push_back(
+        line(worst.flow_m3_per_s[e], text(run.results[e].estimator), text(run.results[e].estimator), last ? 1.4 : 0.9));
   }
   std::string status;
   for (const std::string& name : worst.status) status += (status.empty() ? "" : ", ") + name;
   return {{.description = "The seconds around the largest error, run " + run.name,
-           .x_title = "Time [s]",
+           .x_title = "Time",
+           .x_quantity = units::Kind::time,
            .panels = {std::move(panel)}},
-          fmt::format("The {}'s largest error: {} % FS at {} s, {}, {} mm open{}. Status then: {}.",
-                      text(leading.estimator), signed_fixed(100 * worst.error_m3_per_s / full_scale_m3_per_s, 1),
-                      fixed(worst.time_s, 2), worst.moving ? "in motion" : (worst.rest ? "at rest" : "closed"),
-                      fixed(units::mm_from_m(worst.position_m), 2),
-                      worst.pressure_difference_Pa
-                          ? ", " + fixed(units::bar_from_Pa(*worst.pressure_difference_Pa), 0) + " bar"
-                          : "",
-                      status.empty() ? "none" : status),
+          phrase("The {}'s largest error: {} % FS at {}, {}, {} open{}. Status then: {}.", text(leading.estimator),
+                 signed_fixed(100 * worst.error_m3_per_s / full_scale_m3_per_s, 1), fixed(units::time(worst.time_s), 2),
+                 worst.moving ? "in motion" : (worst.rest ? "at rest" : "closed"),
+                 fixed(units::length(worst.position_m), 2),
+                 worst.pressure_difference_Pa ? phrase(", {}", fixed(units::pressure(*worst.pressure_difference_Pa), 0))
+                                              : Text(),
+                 status.empty() ? "none" : status),
           {}};
 }
 

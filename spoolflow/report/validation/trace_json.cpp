@@ -8,6 +8,7 @@
 #include "spoolflow/report/figures/packed_numbers.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/units/conversion.hpp"
+#include "spoolflow/units/reader_unit.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -56,10 +57,15 @@ Json layer(const TracedChannel& force_N, const TracedChannel& top_N, const std::
 
 struct PanelLook {
   const char* title;
-  const char* quantity;
+  std::string_view quantity;  ///< by the name of the page's chooser
   int height_px;
   bool from_zero;
 };
+
+/// Data come in the usual unit; the page's script turns them into the reader's.
+std::string_view chooser_name(units::Kind kind) {
+  return units::reader_quantity(kind).name;
+}
 
 Json panel(const PanelLook& look, Json all_series) {
   return {{"title", look.title},
@@ -75,16 +81,16 @@ class TraceJson {
 
   [[nodiscard]] Json panels() const {
     Json out = Json::array();
-    out.push_back(panel({"Flow rate", "flow", 300, true}, flow()));
+    out.push_back(panel({"Flow rate", chooser_name(units::Kind::flow), 300, true}, flow()));
     if (run_.has_reference) {
       out.push_back(panel({"Error, estimated less measured", "error", 160, false},
                           of_every_estimator([](auto& each) { return channel(each.error_m3_per_s, flow_factor); })));
     }
-    out.push_back(panel({"Pressure difference", "pressure", 110, true}, pressure()));
+    out.push_back(panel({"Pressure difference", chooser_name(units::Kind::pressure), 110, true}, pressure()));
     out.push_back(
-        panel({"Position", "position", 90, true},
+        panel({"Position", chooser_name(units::Kind::length), 90, true},
               Json::array({line(trace_.position_m, units::millimetre_per_metre, {"measured", "ink", "line", 1.2})})));
-    out.push_back(panel({"Forces on the spool", "force", 190, true}, forces()));
+    out.push_back(panel({"Forces on the spool", chooser_name(units::Kind::force), 190, true}, forces()));
     return out;
   }
 

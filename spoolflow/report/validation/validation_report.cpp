@@ -18,16 +18,15 @@
 #include "spoolflow/report/validation/results_table.hpp"
 #include "spoolflow/report/validation/run_figures.hpp"
 #include "spoolflow/report/validation/verdict.hpp"
-#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::report {
 namespace {
 
 void show_verdict(HtmlPage& page, const Verdict& verdict) {
-  page.html("<p class=\"verdict\">" + html_text(verdict.sentence) + "</p>\n");
+  page.html("<p class=\"verdict\">" + html_text(verdict.sentence.in(page.units())) + "</p>\n");
   if (verdict.limits.empty()) return;
   page.html("<ul class=\"limits\">");
-  for (const std::string& limit : verdict.limits) page.html("<li>" + html_text(limit) + "</li>");
+  for (const Text& limit : verdict.limits) page.html("<li>" + html_text(limit.in(page.units())) + "</li>");
   page.html("</ul>\n");
 }
 
@@ -81,12 +80,12 @@ void show_run(HtmlPage& page, const validation::RunResult& run, double full_scal
 
 void show_definitions(HtmlPage& page, const validation::Validation& validation, double full_scale_m3_per_s) {
   page.subsection("How the figures are made");
-  page.paragraph(fmt::format(
-      "Error: estimate less reference, sample by sample. Full scale (FS): {} L/min. \u201c95 % of errors below\u201d: "
+  page.paragraph(phrase(
+      "Error: estimate less reference, sample by sample. Full scale (FS): {}. \u201c95 % of errors below\u201d: "
       "the "
       "95th percentile of the errors' magnitudes. Of reading: error over reference, where the reference is above a "
       "tenth of full scale.",
-      three_digits(units::L_per_min_from_m3_per_s(full_scale_m3_per_s))));
+      three_digits(units::flow(full_scale_m3_per_s))));
   page.paragraph(
       "Moving: commanded faster than 1 % of the stroke a second. At rest: not moving, and more than 1 % open. Around "
       "reversal: within 2 s of a change of direction, or of a start or stop above half of the stroke.");

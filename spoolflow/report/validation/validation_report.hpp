@@ -3,7 +3,7 @@
 #include <iosfwd>
 
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/report/page/reader_units.hpp"
+#include "spoolflow/report/text/reader_units.hpp"
 #include "spoolflow/report/validation/comparison.hpp"
 #include "spoolflow/validation/validate.hpp"
 

@@ -1,16 +1,16 @@
 #pragma once
 /// The judgement in words: how good, and what limits it.
-#include <string>
 #include <vector>
 
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/report/text/text.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::report {
 
 struct Verdict {
-  std::string sentence;             ///< the figures
-  std::vector<std::string> limits;  ///< what limits them, the most telling first; at most five
+  Text sentence;             ///< the figures
+  std::vector<Text> limits;  ///< what limits them, the most telling first; at most five
 };
 
 [[nodiscard]] Verdict verdict(const model::Model& model, const validation::Validation& validation);

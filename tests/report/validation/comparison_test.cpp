@@ -51,7 +51,7 @@ TEST_F(Comparison, ReadsTheEstimatorsThatHaveFigures) {
   EXPECT_EQ(other.estimators.front().name, "observer");
   EXPECT_EQ(other.estimators.front().p95, 3.5);
   EXPECT_NEAR(other.estimators.front().band_coverage_percent, 95.1, 1e-9);
-  EXPECT_EQ(other.estimators.front().pressure_difference_bar, (std::vector<double>{12.5}));
+  EXPECT_THAT(other.estimators.front().pressure_difference_Pa, ::testing::ElementsAre(::testing::DoubleEq(12.5e5)));
 }
 
 TEST_F(Comparison, RefusesWhatValidateDidNotWrite) {

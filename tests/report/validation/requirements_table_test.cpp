@@ -28,9 +28,9 @@ validation::Validation asked(bool second_met) {
 
 TEST(RequirementsTable, NamesFigureBoundAndVerdict) {
   const validation::Validation validation = asked(true);
-  EXPECT_EQ(limit_text(validation.limits[0]), "share of the samples inside the observer's 95 % band: 93 to 99 %");
-  EXPECT_EQ(value_text(validation.limits[0]), "95.12 %");
-  EXPECT_EQ(limit_text(validation.limits[1]), "95th percentile of the observer's error, at rest: at most 5 % FS");
+  EXPECT_EQ(limit_text(validation.limits[0]).str(), "share of the samples inside the observer's 95 % band: 93 to 99 %");
+  EXPECT_EQ(value_text(validation.limits[0]).str(), "95.12 %");
+  EXPECT_EQ(limit_text(validation.limits[1]).str(), "95th percentile of the observer's error, at rest: at most 5 % FS");
   EXPECT_EQ(requirements_sentence(validation), "All 2 limits of limits.toml are met.");
   EXPECT_EQ(requirements_sentence(asked(false)), "1 of 2 limits of limits.toml is not met.");
 }

@@ -14,8 +14,10 @@ namespace spoolflow::report {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::Property;
 
 constexpr double full_scale = 80 / 60000.0;
 
@@ -113,21 +115,40 @@ TEST(ValidationReport, OfOneSampleOfNoReferenceAndOfNothingIsStillAPage) {
   EXPECT_THAT(without_scripts(page), Not(HasSubstr("nan")));
 }
 
+TEST(ValidationReport, InOtherUnitsTurnsItsFiguresAndNoName) {
+  validation::Validation validation = one_run(1000, 5);
+  validation.runs.front().name = "ramp at 60 bar";
+  validation.runs.front().file = "ramp at 60 bar.csv";
+  validation.runs.front().pressure_difference_Pa = validation::Extent{59.5e5, 60.5e5};
+  validation.runs.front().results.front().worst->pressure_difference_Pa = 60e5;
+  std::ostringstream out;
+  write_validation_report(out, small_model(), validation, {}, ReaderUnits({"psi", "gal/min"}));
+  std::string page = without_scripts(out.str());
+  EXPECT_THAT(page, HasSubstr("863 to 877 psi"));
+  EXPECT_THAT(page, HasSubstr(", 870 psi. Status then"));
+  EXPECT_THAT(page, HasSubstr("(1.32 gal/min)"));
+  EXPECT_THAT(page, HasSubstr(">Run ramp at 60 bar</h2>"));
+  EXPECT_THAT(page, HasSubstr(">ramp at 60 bar.csv<"));
+  for (std::size_t at = page.find("ramp at 60 bar"); at != std::string::npos; at = page.find("ramp at 60 bar"))
+    page.erase(at, 14);
+  EXPECT_THAT(page, Not(ContainsRegex("(\\[|[0-9] )(bar|L/min)")));
+}
+
 TEST(Verdict, GivesTheFigureAndNamesRestWhereRestLimitsIt) {
   const Verdict said = verdict(small_model(), one_run(1000, 5));
-  EXPECT_THAT(said.sentence, HasSubstr("within 6.2 % of full scale (5.0 L/min)"));
+  EXPECT_THAT(said.sentence.str(), HasSubstr("within 6.2 % of full scale (5.0 L/min)"));
   ASSERT_FALSE(said.limits.empty());
-  EXPECT_THAT(said.limits.front(), HasSubstr("At rest"));
-  EXPECT_THAT(said.limits, Contains(HasSubstr("95 % band holds 100.0 %")));
+  EXPECT_THAT(said.limits.front().str(), HasSubstr("At rest"));
+  EXPECT_THAT(said.limits, Contains(Property(&Text::str, HasSubstr("95 % band holds 100.0 %"))));
 }
 
 TEST(Verdict, DoesNotBlameRestWhereItIsNoWorse) {
   const Verdict said = verdict(small_model(), one_run(1000, 1));
-  for (const std::string& limit : said.limits) EXPECT_THAT(limit, Not(HasSubstr("At rest")));
+  for (const Text& limit : said.limits) EXPECT_THAT(limit.str(), Not(HasSubstr("At rest")));
 }
 
 TEST(Verdict, WithoutReferenceSaysThatTheErrorCannotBeTold) {
-  EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence, HasSubstr("cannot be told"));
+  EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence.str(), HasSubstr("cannot be told"));
 }
 
 TEST(CalibrationReport, IsOneWellFormedPage) {
