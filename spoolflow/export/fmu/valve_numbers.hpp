@@ -28,9 +28,12 @@ struct VirtualValve {
   }
 };
 
-/// Choices that are no described numbers come first: kind of load, ideal hold.
+/// Choices that are no described numbers come first: kind of load, ideal hold, kind of the solenoids' hysteresis.
+inline constexpr std::size_t valve_choices = 4;
 inline std::vector<double> numbers_of(const VirtualValve& valve) {
-  std::vector<double> out{static_cast<double>(valve.plant.load.kind), valve.plant.load.ideal_hold ? 1.0 : 0.0};
+  std::vector<double> out{static_cast<double>(valve.plant.load.kind), valve.plant.load.ideal_hold ? 1.0 : 0.0,
+                          static_cast<double>(valve.plant.solenoid_a.hysteresis.kind),
+                          static_cast<double>(valve.plant.solenoid_b.hysteresis.kind)};
   rig::for_each_parameter(valve, [&](std::string_view, const rig::Parameter&, double value) { out.push_back(value); });
   return out;
 }
@@ -46,16 +49,20 @@ inline std::string valve_order() {
 
 /// The inverse of numbers_of. Throws ResourceError where there are too few or too many numbers.
 inline void take_numbers(std::span<const double> numbers, VirtualValve& valve) {
-  std::size_t next = 2;
+  std::size_t next = valve_choices;
   rig::for_each_parameter(valve, [&](std::string_view, const rig::Parameter&, double& value) {
     if (next < numbers.size()) value = numbers[next];
     ++next;
   });
-  if (next != numbers.size() || !(numbers[0] >= 0 && numbers[0] <= 2)) {
+  const auto is_hysteresis = [](double number) { return number >= 0 && number <= 1; };
+  if (next != numbers.size() || !(numbers[0] >= 0 && numbers[0] <= 2) || !is_hysteresis(numbers[2]) ||
+      !is_hysteresis(numbers[3])) {
     throw ResourceError("the resource holds other numbers than this valve has; export the FMU again");
   }
   valve.plant.load.kind = static_cast<rig::LoadKind>(static_cast<int>(numbers[0]));
   valve.plant.load.ideal_hold = numbers[1] != 0;
+  valve.plant.solenoid_a.hysteresis.kind = static_cast<rig::HysteresisKind>(static_cast<int>(numbers[2]));
+  valve.plant.solenoid_b.hysteresis.kind = static_cast<rig::HysteresisKind>(static_cast<int>(numbers[3]));
 }
 
 }  // namespace spoolflow::exports::fmu

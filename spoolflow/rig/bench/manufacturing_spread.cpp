@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "spoolflow/rig/numerics/elementary_functions.hpp"
+#include "spoolflow/rig/numerics/noise.hpp"
+
 namespace spoolflow::rig {
 namespace {
 
@@ -15,6 +18,11 @@ class Draw {
     return amount_ * standard_deviation * std::clamp(noise.normal(), -2.5, 2.5);
   }
   double factor(std::string_view name, double relative) const { return 1 + deviate(name, relative); }
+  /// Up to `largest` times more or less, evenly over the logarithm.
+  double times_or_over(std::string_view name, double largest) const {
+    Noise noise(seed_, std::string("spread of ").append(name));
+    return power(largest, amount_ * noise.uniform(-1, 1));
+  }
 
  private:
   double amount_;
@@ -44,6 +52,10 @@ void draw(const ManufacturingSpread& spread, std::uint64_t seed, PlantParameters
   plant.spool_friction.base_N *= drawn.factor("spool friction", spread.friction);
   plant.flow_force.friction_per_pressure_N_per_Pa *= drawn.factor("pressure friction", spread.friction);
   plant.flow_force.lateral_friction *= drawn.factor("lateral friction", spread.friction);
+  const double ageing_time = drawn.times_or_over("ageing time", spread.ageing_time);
+  for (Friction* friction : {&plant.spool_friction, &plant.solenoid_a.friction, &plant.solenoid_b.friction}) {
+    friction->ageing_time_s *= ageing_time;  // one oil and one grinding for all three
+  }
   plant.spool.clearance_m *= drawn.factor("clearance", spread.clearance);
   const double discharge = drawn.factor("discharge", spread.discharge);
   const auto cut = [&](MeteringEdge& edge, std::string name) {
@@ -59,6 +71,9 @@ void draw(const ManufacturingSpread& spread, std::uint64_t seed, PlantParameters
     solenoid.coil.resistance_20C_ohm *= drawn.factor(name + " resistance", spread.coil_resistance);
     solenoid.circuit.radial_gap_m *= drawn.factor(name + " radial gap", spread.radial_gap);
     solenoid.hysteresis.coercive_field_A_per_m *= drawn.factor(name + " coercive field", spread.coercive_field);
+    const double reversible_share = drawn.factor(name + " reversible share", spread.reversible_share);
+    solenoid.hysteresis.jiles_atherton.reversible_share *= reversible_share;
+    solenoid.hysteresis.preisach.reversible_share *= reversible_share;
     solenoid.iron.saturation_T *= drawn.factor(name + " saturation", spread.saturation);
     solenoid.friction.base_N *= drawn.factor(name + " friction", spread.friction);
   };

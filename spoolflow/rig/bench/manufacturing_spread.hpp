@@ -7,7 +7,8 @@
 
 namespace spoolflow::rig {
 
-/// Relative standard deviations unless the unit says otherwise; draws are cut off at 2.5 of them.
+/// Relative standard deviations unless the unit says otherwise; draws are cut off at 2.5 of them. The ageing time of
+/// the contacts is drawn evenly over its logarithm.
 struct ManufacturingSpread {
   double amount = 0.0;
   double spring_rate = 0.02;
@@ -20,10 +21,12 @@ struct ManufacturingSpread {
   double coil_resistance = 0.02;
   double radial_gap = 0.06;
   double coercive_field = 0.15;
+  double reversible_share = 0.15;
   double saturation = 0.01;
   double sensor_gain = 0.002;
   double sensor_zero_m = 5.0e-6;
   double sensor_drift = 0.15;
+  double ageing_time = 4.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -41,10 +44,14 @@ struct ManufacturingSpread {
     visit(Parameter{"coil_resistance", "1", 0, 0.1, "data sheets allow 5 to 7 %"}, self.coil_resistance);
     visit(Parameter{"radial_gap", "1", 0, 0.2, "film or tube wall between armature and tube"}, self.radial_gap);
     visit(Parameter{"coercive_field", "1", 0, 0.4, "annealing of the iron"}, self.coercive_field);
+    visit(Parameter{"reversible_share", "1", 0, 0.4, "of its magnetisation; grain and stress"}, self.reversible_share);
     visit(Parameter{"saturation", "1", 0, 0.04, "melt and annealing"}, self.saturation);
     visit(Parameter{"sensor_gain", "1", 0, 0.02, "after setting"}, self.sensor_gain);
     visit(Parameter{"sensor_zero_m", "m", 0, 3e-5, "after setting"}, self.sensor_zero_m);
     visit(Parameter{"sensor_drift", "1", 0, 0.5, "of the zero's drift"}, self.sensor_drift);
+    visit(Parameter{"ageing_time", "1", 1, 10,
+                    "how many times faster or slower stiction grows at rest, at most: no data sheet tells it"},
+          self.ageing_time);
   }
 };
 

@@ -62,6 +62,9 @@ void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
   settings.add("rating", valve.rating).add("plant", valve.plant).add("electronics", valve.electronics);
   settings.add("bench_amplifier", valve.bench_amplifier).add("instruments", valve.instruments);
   settings.add("wear", valve.wear).add("spread", valve.spread);
+  settings.add_choice("hysteresis", {"jiles_atherton", "preisach"}, [&plant = valve.plant](std::size_t kind) {
+    plant.solenoid_a.hysteresis.kind = plant.solenoid_b.hysteresis.kind = static_cast<HysteresisKind>(kind);
+  });
   settings.add_choice("plant.load.kind", {"held_difference", "orifice", "cylinder"},
                       [&load = valve.plant.load](std::size_t kind) { load.kind = static_cast<LoadKind>(kind); });
   settings.add_flag("plant.load.ideal_hold", valve.plant.load.ideal_hold);

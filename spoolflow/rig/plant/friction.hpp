@@ -20,8 +20,8 @@ namespace spoolflow::rig {
 struct Friction {
   double base_N = 1.4;
   double stiction_ratio = 1.25;
-  double ageing_gain = 4.2;
-  double ageing_time_s = 2.5;
+  double ageing_gain = 2.6;
+  double ageing_time_s = 1.1;
   double ageing_distance_m = 3.0e-5;
   double stribeck_velocity_m_per_s = 4.0e-3;
   double contact_stiffness_N_per_m = 4.0e6;
@@ -37,7 +37,8 @@ struct Friction {
     visit(Parameter{"ageing_gain", "1", 0, 8, "what long rest adds to that ratio (oil squeezed out, silting)"},
           self.ageing_gain);
     visit(Parameter{"ageing_time_s", "s", 0.1, 1000,
-                    "time constant of that growth; seconds to minutes at fine clearance"},
+                    "time constant of that growth; seconds to minutes at fine clearance. No data sheet tells it: the "
+                    "presets' are drawn at random between 1 and 20 s"},
           self.ageing_time_s);
     visit(Parameter{"ageing_distance_m", "m", 1e-6, 1e-3, "sliding that renews the film: some asperity lengths"},
           self.ageing_distance_m);

@@ -1,93 +1,70 @@
 #pragma once
-/// Static hysteresis of the iron: a field of parallel stop elements (Prandtl) on top of the anhysteretic curve.
-///
-///     H = H_an(B) + sum_k h_k,   h_k <- clamp(h_k + s_k dB, -kappa_k, +kappa_k)
-///
-/// Each element is an elastic, perfectly plastic spring between B and H: it stores h_k^2/(2 s_k) and dissipates
-/// kappa_k |dB| while it yields, so the operator is thermodynamically consistent, every minor loop closes, and the
-/// enclosed area is the loss. It is the stop form of the energy-based play model (Bergqvist 1997; Francois-Lavet,
-/// Henrotte et al. 2013), written for flux as input. Rate-independent; leaves out the narrowing of loops in saturation.
-#include <algorithm>
-#include <array>
-#include <cmath>
-
+/// The solenoid's iron: field over flux density with memory, by one of two models of hysteresis. Both take the flux
+/// density as input, leave out rates (eddy_currents.hpp has them) and share nothing with the sensor's stop operators.
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/plant/jiles_atherton.hpp"
 #include "spoolflow/rig/plant/magnetic_material.hpp"
+#include "spoolflow/rig/plant/preisach.hpp"
 
 namespace spoolflow::rig {
 
+enum class HysteresisKind {
+  jiles_atherton,  ///< walls lag behind the anhysteretic curve of magnetic_material.hpp; minor loops creep
+  preisach         ///< relays, whose interaction fields make the curve; minor loops close
+};
+
 struct MagneticHysteresis {
+  HysteresisKind kind = HysteresisKind::preisach;
   double coercive_field_A_per_m = 110.0;
-  double reversal_width_T = 0.30;
+  JilesAtherton jiles_atherton{};
+  Preisach preisach{};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit(Parameter{"coercive_field_A_per_m", "A/m", 0, 600, "annealed low-carbon steel 60 to 200; 0 is lossless iron"},
           self.coercive_field_A_per_m);
-    visit(Parameter{"reversal_width_T", "T", 0.02, 1.0, "flux change that brings the last element to yield"},
-          self.reversal_width_T);
+    visit("jiles_atherton", self.jiles_atherton);
+    visit("preisach", self.preisach);
   }
 };
 
-inline constexpr std::size_t hysteresis_elements = 5;
-/// Field of each stop element [A/m].
-using HysteresisState = std::array<double, hysteresis_elements>;
-
-/// The elements' constants: equal shares of the coercive field as yield, and elastic slopes by which element k yields
-/// after the share (k + 1)/n of the reversal width.
-struct StopElements {
-  double yield_A_per_m;                                   ///< kappa_k
-  std::array<double, hysteresis_elements> slope_m_per_H;  ///< s_k
+/// The constants of the model that the solenoid has; the other's are not looked at.
+struct Iron {
+  HysteresisKind kind;
+  JilesAthertonIron jiles_atherton;
+  PreisachIron preisach;
 };
 
-inline StopElements stop_elements(const MagneticHysteresis& hysteresis) {
-  StopElements stops{};
-  stops.yield_A_per_m = hysteresis.coercive_field_A_per_m / static_cast<double>(hysteresis_elements);
-  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    stops.slope_m_per_H[k] =
-        hysteresis.coercive_field_A_per_m / (hysteresis.reversal_width_T * static_cast<double>(k + 1));
-  }
-  return stops;
+inline Iron iron_of(const MagneticMaterial& material, const MagneticHysteresis& hysteresis) {
+  return {.kind = hysteresis.kind,
+          .jiles_atherton = jiles_atherton_iron(material, hysteresis.jiles_atherton, hysteresis.coercive_field_A_per_m),
+          .preisach = preisach_iron(material, hysteresis.preisach, hysteresis.coercive_field_A_per_m)};
 }
 
-/// The elements after a monotone change of the flux density.
-inline HysteresisState advanced(const StopElements& stops, HysteresisState elements, double change_T) {
-  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    elements[k] =
-        std::clamp(elements[k] + stops.slope_m_per_H[k] * change_T, -stops.yield_A_per_m, stops.yield_A_per_m);
-  }
-  return elements;
+/// What the iron remembers; {} is demagnetised.
+struct IronMemory {
+  double flux_density_T = 0.0;
+  double field_A_per_m = 0.0;
+  JilesAthertonMemory jiles_atherton;
+  PreisachMemory preisach;
+};
+
+/// The field at a flux density reached monotonely, and its slope.
+inline FieldPoint iron_field(const Iron& iron, const IronMemory& memory, double flux_density_T) {
+  if (iron.kind == HysteresisKind::preisach) return field_at(iron.preisach, memory.preisach, flux_density_T);
+  return field_at(iron.jiles_atherton, memory.jiles_atherton, flux_density_T);
 }
 
-/// Sum of the elements' fields after a monotone change of the flux density, and its slope there.
-inline FieldPoint hysteretic_field(const StopElements& stops, const HysteresisState& elements, double change_T) {
-  FieldPoint sum{0.0, 0.0};
-  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    const double elastic = elements[k] + stops.slope_m_per_H[k] * change_T;
-    sum.field_A_per_m += std::min(std::max(elastic, -stops.yield_A_per_m), stops.yield_A_per_m);
-    sum.slope_m_per_H += std::abs(elastic) < stops.yield_A_per_m ? stops.slope_m_per_H[k] : 0.0;
-  }
-  return sum;
-}
-
-/// Recoverable energy density [J/m3] in the elements.
-inline double hysteretic_energy(const StopElements& stops, const HysteresisState& elements) {
-  double energy = 0.0;
-  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    if (stops.slope_m_per_H[k] > 0.0) energy += 0.5 * elements[k] * elements[k] / stops.slope_m_per_H[k];
-  }
-  return energy;
-}
-
-/// Energy density [J/m3] dissipated while the flux density changes monotonely: each element's yield field times the
-/// part of the change over which it yields.
-inline double hysteresis_loss(const StopElements& stops, const HysteresisState& elements, double change_T) {
-  double loss = 0.0;
-  for (std::size_t k = 0; k < hysteresis_elements; ++k) {
-    const double beyond = std::abs(elements[k] + stops.slope_m_per_H[k] * change_T) - stops.yield_A_per_m;
-    if (beyond > 0.0) loss += stops.yield_A_per_m * beyond / stops.slope_m_per_H[k];
-  }
-  return loss;
+/// Moves the memory to a flux density reached monotonely; returns the work [J/m3] done on the iron, H dB. Over a cycle
+/// it is what hysteresis loses; in between, part of it is stored.
+inline double magnetise(const Iron& iron, IronMemory& memory, double flux_density_T) {
+  const double change_T = flux_density_T - memory.flux_density_T;
+  const double before_A_per_m = memory.field_A_per_m;
+  memory.flux_density_T = flux_density_T;
+  memory.field_A_per_m = iron.kind == HysteresisKind::preisach
+                             ? magnetise(iron.preisach, memory.preisach, flux_density_T)
+                             : magnetise(iron.jiles_atherton, memory.jiles_atherton, flux_density_T);
+  return 0.5 * (before_A_per_m + memory.field_A_per_m) * change_T;
 }
 
 }  // namespace spoolflow::rig

@@ -16,20 +16,18 @@ struct PlantLosses {
   SolenoidLosses solenoid_a, solenoid_b;
 };
 
+/// `iron_J_per_m3` is the work done on the iron; what of it is stored comes back within a cycle, some millijoules that
+/// move no temperature.
 inline void add_losses(const Solenoid& solenoid, const SolenoidConstants& constants, const SolenoidState& state,
-                       const SolenoidRates& rates, double flux_change_Wb, double h, SolenoidLosses& losses) {
+                       const SolenoidRates& rates, double iron_J_per_m3, double h, SolenoidLosses& losses) {
   const double skin = rates.eddy_current_A - state.skin_current_A;
   losses.winding_J += h * constants.resistance_ohm * rates.current_A * rates.current_A;
-  losses.iron_J +=
-      h * (solenoid.eddy.core_resistance_ohm * rates.eddy_current_A * rates.eddy_current_A +
-           solenoid.eddy.skin_resistance_ohm * skin * skin) +
-      constants.iron_length_m / constants.per_iron_area_m2 *
-          hysteresis_loss(constants.stops, state.hysteresis_A_per_m, flux_change_Wb * constants.per_iron_area_m2);
+  losses.iron_J += h * (solenoid.eddy.core_resistance_ohm * rates.eddy_current_A * rates.eddy_current_A +
+                        solenoid.eddy.skin_resistance_ohm * skin * skin) +
+                   constants.iron_length_m / constants.per_iron_area_m2 * iron_J_per_m3;
 }
 
-inline void commit(const SolenoidConstants& constants, SolenoidState& state, SolenoidVector states) {
-  state.hysteresis_A_per_m = advanced(constants.stops, state.hysteresis_A_per_m,
-                                      (states[state_flux] - state.flux_Wb) * constants.per_iron_area_m2);
+inline void commit(SolenoidState& state, SolenoidVector states) {
   state.flux_linkage_Wb = states[state_linkage];
   state.flux_Wb = states[state_flux];
   state.skin_current_A = states[state_skin];
@@ -73,8 +71,10 @@ inline void commit(const PlantParameters& p, const PlantConstants& c, PlantState
   const double displacement = reached[state_x] - state.position_m;
   const auto commit_flux = [&](const Solenoid& solenoid, const SolenoidConstants& constants, SolenoidState& memory,
                                SolenoidVector states, const SolenoidRates& rates, SolenoidLosses& loss) {
-    add_losses(solenoid, constants, memory, rates, states[state_flux] - memory.flux_Wb, h, loss);
-    commit(constants, memory, states);
+    const double iron_J_per_m3 =
+        magnetise(constants.iron, memory.iron, states[state_flux] * constants.per_iron_area_m2);
+    add_losses(solenoid, constants, memory, rates, iron_J_per_m3, h, loss);
+    commit(memory, states);
   };
   if (c.magnetic_a) {
     commit_flux(p.solenoid_a, c.solenoid_a_constants, state.solenoid_a, solenoid_a_of(reached), first.solenoid_a,

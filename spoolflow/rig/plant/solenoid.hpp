@@ -51,7 +51,7 @@ struct SolenoidState {
   double flux_linkage_Wb = 0.0;  ///< of the winding
   double flux_Wb = 0.0;          ///< through iron and working gap
   double skin_current_A = 0.0;   ///< j_2 of the eddy ladder
-  HysteresisState hysteresis_A_per_m{};
+  IronMemory iron;
   CoilHeatState heat;
   FrictionState friction;
 };

@@ -6,7 +6,7 @@
 ///     e   = (N i - U - r_2/(r_1 + r_2) j_2)/G,  G = 1/(r_1 + r_2) + G_shorted
 ///     dlambda/dt = u - R i,   dPhi/dt = e,   dj_2/dt = (r_2/l_2)(j - j_2),   j = (e + r_2 j_2)/(r_1 + r_2)
 ///
-/// The hysteresis elements are functions of the flux since the step's start, committed at its end.
+/// The iron's field is a function of the flux since the step's start; its memory is committed at the step's end.
 #include <span>
 
 #include "spoolflow/rig/plant/solenoid.hpp"
@@ -31,8 +31,7 @@ struct SolenoidConstants {
   double side_force_N_per_Wb2;
   double iron_length_m;
   double per_iron_area_m2;
-  AnhystereticCurve iron;
-  StopElements stops;
+  Iron iron;
   WorkingGap gap;
 };
 
@@ -51,8 +50,7 @@ inline SolenoidConstants solenoid_constants(const Solenoid& solenoid, const Coil
       .side_force_N_per_Wb2 = side_force_per_flux_squared(solenoid.circuit),
       .iron_length_m = solenoid.circuit.iron_length_m,
       .per_iron_area_m2 = 1.0 / solenoid.circuit.iron_area_m2,
-      .iron = anhysteretic_curve(solenoid.iron),
-      .stops = stop_elements(solenoid.hysteresis),
+      .iron = iron_of(solenoid.iron, solenoid.hysteresis),
       .gap = working_gap(solenoid.circuit)};
 }
 
@@ -65,18 +63,16 @@ struct SolenoidRates {
   double iron_slope_per_H;  ///< dU/dPhi
 };
 
-/// At the states, with the hysteresis elements and flux at the step's start, the armature's travel towards its pole,
+/// At the states, with the iron's memory at the step's start, the armature's travel towards its pole,
 /// and the voltage over the terminals.
 inline SolenoidRates solenoid_rates(const SolenoidConstants& constants, const SolenoidState& start,
                                     SolenoidVector states, double travel_m, double voltage_V, SolenoidRate rate) {
   const double linkage = states[state_linkage], flux = states[state_flux], skin = states[state_skin];
-  const FieldPoint iron = anhysteretic_field(constants.iron, flux * constants.per_iron_area_m2);
-  const FieldPoint memory =
-      hysteretic_field(constants.stops, start.hysteresis_A_per_m, (flux - start.flux_Wb) * constants.per_iron_area_m2);
+  const FieldPoint iron = iron_field(constants.iron, start.iron, flux * constants.per_iron_area_m2);
   const GapPermeance gap = gap_permeance(constants.gap, travel_m);
   const double per_gap = 1.0 / gap.permeance_H;
   const double reluctance = constants.radial_reluctance_per_H + per_gap;
-  const double drop = constants.iron_length_m * (iron.field_A_per_m + memory.field_A_per_m) + flux * reluctance;
+  const double drop = constants.iron_length_m * iron.field_A_per_m + flux * reluctance;
 
   const double current = (linkage - constants.turns * flux) * constants.per_leakage_inductance_H;
   const double induced =
@@ -91,9 +87,7 @@ inline SolenoidRates solenoid_rates(const SolenoidConstants& constants, const So
           .induced_V = induced,
           .magnetic_force_N = 0.5 * gap_drop * gap_drop * gap.slope_H_per_m,
           .side_force_N = constants.side_force_N_per_Wb2 * flux * flux,
-          .iron_slope_per_H =
-              constants.iron_length_m * constants.per_iron_area_m2 * (iron.slope_m_per_H + memory.slope_m_per_H) +
-              reluctance};
+          .iron_slope_per_H = constants.iron_length_m * constants.per_iron_area_m2 * iron.slope_m_per_H + reluctance};
 }
 
 /// Solves (1 - w J) k = r with the Jacobian at `point`; w > 0 [s].

@@ -78,7 +78,7 @@ PlantConstants plant_constants(const PlantParameters& p, const PlantState& state
   c.hydraulics = p.arrangement != Arrangement::solenoid_bench;
   const auto magnetic = [](const SolenoidState& solenoid, double voltage_V) {
     return voltage_V != 0.0 || solenoid.flux_linkage_Wb != 0.0 || solenoid.flux_Wb != 0.0 ||
-           solenoid.skin_current_A != 0.0 || solenoid.hysteresis_A_per_m != HysteresisState{};
+           solenoid.skin_current_A != 0.0 || solenoid.iron.field_A_per_m != 0.0;
   };
   c.magnetic_a = c.solenoid_a && magnetic(state.solenoid_a, input.voltage_a_V);
   c.magnetic_b = c.solenoid_b && magnetic(state.solenoid_b, input.voltage_b_V);

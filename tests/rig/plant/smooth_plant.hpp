@@ -19,6 +19,7 @@ inline PlantParameters smooth_plant() {
   for (Solenoid* solenoid : {&p.solenoid_a, &p.solenoid_b}) {
     solenoid->friction.base_N = 0.0;
     solenoid->side_friction_coefficient = 0.0;
+    solenoid->hysteresis.kind = HysteresisKind::jiles_atherton;  // without pinning: its anhysteretic curve alone
     solenoid->hysteresis.coercive_field_A_per_m = 0.0;
   }
   return p;
