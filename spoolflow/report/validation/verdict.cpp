@@ -191,7 +191,10 @@ Verdict calibration_verdict(const model::Model& model) {
       "Calibrated {} from {} to {} and up to {}. The maps give the bench's forces back to {} (magnetic) and {} "
       "(axial), its flow to {} RMS.",
       model.observer ? "for the observer and the condensed sensor" : "for the condensed sensor",
-Text residual_text(const model::Model& model, std::string_view of) {
+      bare(fixed(units::pressure(condensed.pressure_difference_Pa.lower), 0)),
+      fixed(units::pressure(condensed.pressure_difference_Pa.upper), 0),
+      fixed(units::current(condensed.current_A.upper), 2), residual_text(model, model::of_magnetic_force),
+      residual_text(model, model::of_axial_force), residual_text(model, model::of_flow_rate));
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
   out.limits.push_back(phrase("Below {} of opening the flow force does not tell the flow.",
                               fixed(units::length(uniqueness.blind_below_m), 2)));
