@@ -173,6 +173,11 @@ void describe_pressure_constants(Visitor& visitor) {
                     .unit = "Pa2",
                     .meaning = "the variance of unobserved changes falls no lower"},
                    sensor::least_unobserved_variance_Pa2);
+  visitor.constant(
+      {.name = "most_variance_Pa2",
+       .unit = "Pa2",
+       .meaning = "a variance of the pressure difference that reaches this is none: the belief begins anew"},
+      sensor::most_variance_Pa2);
 }
 
 template <class Visitor>

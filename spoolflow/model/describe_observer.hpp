@@ -16,7 +16,7 @@ void describe_coil(Coil& coil, Visitor& visitor) {
                .meaning = "flux linkage of the coil",
                .rows = magnetising_current_axis,
                .columns = position_axis,
-               .relation = rises_over_rows(1e-6)},
+               .relation = rises_over_rows(1e-4)},
               coil.flux_linkage.map);
   auto& hysteresis = coil.hysteresis;
   visitor.list({.key = "hysteresis_threshold_Wb",
@@ -110,11 +110,11 @@ void describe_actuator(Actuator& actuator, Visitor& visitor) {
                  actuator.force_uncertainty_N);
   visitor.number({.key = "magnetising_current_uncertainty_A",
                   .unit = "A",
-                  .limits = {0, 1e3},
+                  .limits = {0, 10},
                   .meaning = "one standard deviation of the magnetising current at rest"},
                  actuator.current_uncertainty_A);
   visitor.number(
-      {.key = "eddy_current_uncertainty", .unit = "1", .limits = {0, 1e3}, .meaning = "its growth per eddy current"},
+      {.key = "eddy_current_uncertainty", .unit = "1", .limits = {0, 10}, .meaning = "its growth per eddy current"},
       actuator.eddy_uncertainty);
 }
 
@@ -268,17 +268,17 @@ void describe_band(Band& band, Visitor& visitor) {
                  band.flow_residual_m3_per_s);
   visitor.number({.key = "band_coverage_factor",
                   .unit = "1",
-                  .limits = {0, 100},
+                  .limits = {0.1, 100},
                   .meaning = "standard deviations in the 95 % band"},
                  band.coverage_factor);
   visitor.number({.key = "band_force_share",
                   .unit = "1",
-                  .limits = {0, 10},
+                  .limits = {1e-3, 10},
                   .meaning = "how much of the forces' errors the band counts while the spool slides"},
                  band.force_share);
   visitor.number({.key = "band_rest_share",
                   .unit = "1",
-                  .limits = {0, 100},
+                  .limits = {1e-3, 100},
                   .meaning = "how much of the forces' errors the band counts while the spool rests"},
                  band.rest_share);
   visitor.number(

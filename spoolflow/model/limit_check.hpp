@@ -1,5 +1,6 @@
 #pragma once
 /// Whether a valve's numbers are such that the sensor's equations can live with them: visitor of a description.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -89,6 +90,9 @@ class LimitCheck {
   void map(const TableParameter& about, const sensor::Map<T, Rows, Columns>& map) {
     check_axis(about.rows, joined({"/", about.key, "/", about.rows.key}), map.row_axis, Rows);
     check_axis(about.columns, joined({"/", about.key, "/", about.columns.key}), map.column_axis, Columns);
+    T largest = 0;
+    for (const T value : map.values) largest = std::max({largest, value, -value});
+    const T least = static_cast<T>(about.relation.least) * largest;
     for (int row = 0; row < Rows; ++row) {
       for (int column = 0; column < Columns; ++column) {
         const auto where = [&] { return joined({"/", about.key, "/values", place(row), place(column)}); };
@@ -96,9 +100,9 @@ class LimitCheck {
         within(about, where, value);
         if (about.relation.kind == Relation::Kind::rises_over_rows && row > 0) {
           const T before = map.node(row - 1, column);
-          if (!(value - before >= static_cast<T>(about.relation.least) * map.row_axis.spacing))
-            violated(where(),
-                     joined({decimal(value), " does not rise above ", decimal(before), " in the row before it"}));
+          if (!(value - before >= least && value > before))
+            violated(where(), joined({decimal(value), " does not rise above ", decimal(before),
+                                      " in the row before it by ", decimal(least), " or more"}));
         }
         if (about.relation.kind == Relation::Kind::never_falls && column > 0) {
           const T before = map.node(row, column - 1);
@@ -184,10 +188,10 @@ class LimitCheck {
     within(about, joined({path, "/0"}), axis.first);
     const std::string end = joined({path, place(points - 1)});
     within(about, end, axis.at(points - 1));
-    const T least = static_cast<T>(1e-9 * about.limits.highest);
+    const T least = static_cast<T>(about.least_step);
     if (!(axis.spacing >= least && axis.per_spacing > 0 && axis.at(points - 1) > axis.first))
-      violated(path, joined({"steps of ", decimal(axis.spacing), "; an axis rises by ", decimal(least), " at least"}));
-    if (about.ends_above_zero && !(axis.at(points - 1) > 0))
+      violated(path, joined({"steps of ", decimal(axis.spacing), "; it rises by ", decimal(least), " or more a step"}));
+    if (!(axis.at(points - 1) > 0))
       violated(end, joined({decimal(axis.at(points - 1)), " is not above zero, where this axis ends"}));
   }
 

@@ -20,7 +20,7 @@ struct Relation {
   enum class Kind {
     none,
     rises,            ///< of a list: each entry lies above the one before
-    rises_over_rows,  ///< of a map: each row lies above the one before, by no less than `least` per unit of its axis
+    rises_over_rows,  ///< of a map: each row lies above the one before, by no less than `least` of the largest entry
     never_falls,      ///< of a map: nowhere does it fall along a row
     alike,            ///< of a curve: no entry is more than `least` times its neighbour
     not_above,        ///< of a number: not larger than `other`
@@ -57,12 +57,12 @@ struct Parameter {
   std::optional<double> otherwise{};  ///< what a file that does not give it is read with
 };
 
-/// An axis of a table: its points rise in equal steps.
+/// An axis of a table: its points rise in equal steps and end above zero.
 struct AxisParameter {
   const char* key;
   const char* unit;
   Limits limits;
-  bool ends_above_zero = false;  ///< its last point must lie above zero
+  double least_step = 0;  ///< between its points; no slope of a table is steeper than its limits over this
 };
 
 /// A curve, a map or a volume.
@@ -71,8 +71,8 @@ struct TableParameter {
   const char* unit;
   Limits limits;
   const char* meaning;
-  AxisParameter rows{"", "", {0, 0}};     ///< of a map; a curve has no rows, a volume's axes stand beside it
-  AxisParameter columns{"", "", {0, 0}};  ///< of a map or curve
+  AxisParameter rows{"", "", {0, 0}, 0};     ///< of a map; a curve has no rows, a volume's axes stand beside it
+  AxisParameter columns{"", "", {0, 0}, 0};  ///< of a map or curve
   Relation relation{};
   const char* evidence = "";
 };

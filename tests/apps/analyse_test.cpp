@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string model = SPOOLFLOW_EXAMPLE_MODEL;
+const std::string analysed_model = SPOOLFLOW_EXAMPLE_MODEL;
 
 /// Little of everything, so that it takes a second.
 constexpr const char* small = R"(
@@ -35,12 +35,14 @@ TEST_F(Analyse, ReproducesTheKnownIndicesOfIshigami) {
 
 TEST_F(Analyse, GivesTheSameBytesWithAnyNumberOfThreads) {
   write("s.toml", std::string(small) + "[study]\nskip = true\n");
-  ASSERT_EQ(run("analyse " + model + " --scenario s.toml --json one.json --report one.html --jobs 1").status, 0);
-  ASSERT_EQ(run("analyse " + model + " --scenario s.toml --json three.json --report three.html --jobs 3").status, 0);
+  ASSERT_EQ(run("analyse " + analysed_model + " --scenario s.toml --json one.json --report one.html --jobs 1").status,
+            0);
+  ASSERT_EQ(
+      run("analyse " + analysed_model + " --scenario s.toml --json three.json --report three.html --jobs 3").status, 0);
   EXPECT_EQ(content("one.json"), content("three.json"));
   EXPECT_EQ(content("one.html"), content("three.html"));
   EXPECT_THAT(content("one.html"), HasSubstr("Improve the "));
-  ASSERT_EQ(run("analyse " + model + " --scenario s.toml --json other.json --seed 2").status, 0);
+  ASSERT_EQ(run("analyse " + analysed_model + " --scenario s.toml --json other.json --seed 2").status, 0);
   EXPECT_NE(content("one.json"), content("other.json"));
 }
 
@@ -56,13 +58,13 @@ TEST_F(Analyse, TakesTheScenarioThatItPrints) {
   changed.replace(changed.find("positions = 20"), 14, "positions = 2 ");
   changed.replace(changed.find("pressure_differences = 12"), 25, "pressure_differences = 2 ");
   write("s.toml", changed);
-  EXPECT_EQ(run("analyse " + model + " --scenario s.toml --json o.json").status, 0);
+  EXPECT_EQ(run("analyse " + analysed_model + " --scenario s.toml --json o.json").status, 0);
 }
 
 TEST_F(Analyse, RefusesAWrongScenarioInOneLineThatNamesTheRemedy) {
   const auto refused = [&](const std::string& text) {
     write("s.toml", text);
-    const Answer answer = run("analyse " + model + " --scenario s.toml --json o.json");
+    const Answer answer = run("analyse " + analysed_model + " --scenario s.toml --json o.json");
     EXPECT_EQ(answer.status, 2) << text;
     EXPECT_EQ(std::count(answer.message.begin(), answer.message.end(), '\n'), 1) << answer.message;
     EXPECT_EQ(files(), (std::vector<std::string>{"s.toml"})) << "an output was left behind";
@@ -79,7 +81,7 @@ TEST_F(Analyse, RefusesAWrongScenarioInOneLineThatNamesTheRemedy) {
 
 TEST_F(Analyse, RefusesToOverwriteItsInputs) {
   write("s.toml", small);
-  const Answer answer = run("analyse " + model + " --scenario s.toml --json s.toml");
+  const Answer answer = run("analyse " + analysed_model + " --scenario s.toml --json s.toml");
   EXPECT_EQ(answer.status, 2);
   EXPECT_EQ(content("s.toml"), small);
 }
@@ -88,7 +90,7 @@ TEST_F(Analyse, WritesItsPageInTheUnitsAskedForAndRefusesOthers) {
   write("s.toml",
         "[points]\npositions_percent = [50]\npressure_differences_bar = [40]\n[monte_carlo]\ntrials = 100\n"
         "[map]\npositions = 2\npressure_differences = 2\n[study]\nskip = true\n");
-  const std::string command = "analyse " + model + " --scenario s.toml --report r.html --json o.json --units ";
+  const std::string command = "analyse " + analysed_model + " --scenario s.toml --report r.html --json o.json --units ";
   EXPECT_EQ(run(command + "psi,gal/min").status, 0);
   EXPECT_THAT(content("r.html"), HasSubstr("580 psi"));
   EXPECT_EQ(content("r.html").find("40 bar"), std::string::npos);
@@ -102,7 +104,7 @@ TEST_F(Analyse, SaysWhereNoPointLiesInsideTheMaps) {
   write("s.toml",
         "[points]\npressure_differences_bar = [300]\n[map]\npositions = 2\npressure_differences = 2\n"
         "[study]\nskip = true\n");
-  const Answer answer = run("analyse " + model + " --scenario s.toml --json o.json --report r.html");
+  const Answer answer = run("analyse " + analysed_model + " --scenario s.toml --json o.json --report r.html");
   EXPECT_EQ(answer.status, 0);
   EXPECT_THAT(answer.output, HasSubstr("No point of the scenario lies inside the calibrated maps"));
   EXPECT_TRUE(content("o.json").find("\"inside_maps\": true") == std::string::npos);

@@ -22,7 +22,7 @@ std::string told(const Relation& relation) {
     case Relation::Kind::rises:
       return "rises";
     case Relation::Kind::rises_over_rows:
-      return fmt::format("rises from row to row, by {} per unit of the row axis at least", relation.least);
+      return fmt::format("rises from row to row, by {} of the largest entry at least", relation.least);
     case Relation::Kind::never_falls:
       return "never falls along a row";
     case Relation::Kind::alike:

@@ -50,7 +50,9 @@ TEST(ReaderUnit, IsAskedForByANameOfItsOwn) {
   for (const ReaderQuantity& quantity : reader_quantities()) {
     for (const ReaderUnit& unit : quantity.units) ++asked[unit.asked];
     for (const ReaderUnit& unit : quantity.units) {
-      if (quantity.plotted) EXPECT_EQ(unit.offset, 0) << "the page's script knows factors alone";
+      if (quantity.plotted) {
+        EXPECT_EQ(unit.offset, 0) << "the page's script knows factors alone";
+      }
     }
   }
   asked.erase("");

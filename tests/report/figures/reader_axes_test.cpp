@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/report/figures/svg_figure.hpp"
+#include "tests/report/american_units.hpp"
 
 namespace spoolflow::report {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double per_L_min = 1 / 60000.0;
 
 Figure pressures_over_temperature() {
   Figure figure{.description = "Run at 60 bar",

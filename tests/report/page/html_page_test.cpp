@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/report/american_units.hpp"
 #include "tests/report/markup.hpp"
 
 namespace spoolflow::report {
@@ -12,11 +13,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using units::Kind;
-
-const ReaderUnits& american() {
-  static const ReaderUnits units({"gal/min", "psi", "in", "F", "lbf"});
-  return units;
-}
 
 HtmlTable flows() {
   HtmlTable table({{"run", Set::text},

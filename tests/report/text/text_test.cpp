@@ -7,16 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/report/text/number_text.hpp"
+#include "tests/report/american_units.hpp"
 
 namespace spoolflow::report {
 namespace {
-
-const ReaderUnits& american() {
-  static const ReaderUnits units({"gal/min", "psi", "in", "F", "lbf"});
-  return units;
-}
-
-constexpr double per_L_min = 1 / 60000.0;
 
 TEST(QuantityText, HasAboutAsManyDigitsInEveryUnit) {
   EXPECT_EQ(fixed(units::pressure(60e5), 0).in({}), "60 bar");
