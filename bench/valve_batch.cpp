@@ -1,6 +1,6 @@
 /// Sensors over many valves: one after the other, and together in SIMD registers, in one run.
 /// valve_batch MODEL.json RECORDING
-#include "spoolflow/validation/valve_batch.hpp"
+#include "spoolflow/estimation/batch/valve_batch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -68,8 +68,8 @@ void one_after_the_other(const std::vector<const Parameters*>& valves, std::vect
 }
 
 template <class Parameters>
-void together(validation::ValveBatch<Parameters>& batch, Signals& on) {
-  validation::EstimateRows estimates{};
+void together(estimation::batch::ValveBatch<Parameters>& batch, Signals& on) {
+  estimation::batch::EstimateRows estimates{};
   estimates.flow_m3_per_s = on.flow;
   estimates.pressure_difference_Pa = on.pressure;
   batch.step({on.time_step_s, on.current_A, on.voltage_V, on.position_m, on.oil_temperature_K}, estimates);
@@ -89,8 +89,8 @@ void compare(const char* estimator, const Parameters& parameters, Signals& on, b
   std::vector<const Parameters*> valves;
   for (std::size_t valve = 0; valve < on.valves; ++valve) valves.push_back(&copies[own ? valve : 0]);
   std::vector<State> states(on.valves);
-  const auto sets = validation::instruction_sets();
-  std::vector<validation::ValveBatch<Parameters>> batches;
+  const auto sets = estimation::batch::instruction_sets();
+  std::vector<estimation::batch::ValveBatch<Parameters>> batches;
   for (const auto instructions : sets) batches.emplace_back(valves, instructions);
   double alone_ns = 1e15, touch_ns = 1e15;
   std::vector<double> together_ns(sets.size(), 1e15);
@@ -118,7 +118,8 @@ int main(int argc, char** argv) {
     const recording::Recording file = recording::read_recording(argv[2], validation::sensor_channels(model, {}));
     fmt::print("Nanoseconds a sample and valve, and the share of one after the other; wanted: at most 40 %.\n");
     fmt::print("{:<11}{:>6}  {:<13}{:>9}", "estimator", "valves", "models", "alone");
-    for (const auto instructions : validation::instruction_sets()) fmt::print("{:>16}", validation::name(instructions));
+    for (const auto instructions : estimation::batch::instruction_sets())
+      fmt::print("{:>16}", estimation::batch::name(instructions));
     fmt::print("   reading four floats and writing two\n");
     for (const std::size_t valves : {8U, 16U}) {
       Signals signals(file, valves);

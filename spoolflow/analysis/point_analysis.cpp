@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "spoolflow/analysis/in_parallel.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/validate.hpp"
 
@@ -108,7 +108,7 @@ std::vector<PointResult> analyse_points(const model::Model& model, const Scenari
   for (const Estimator estimator : estimators) inputs.push_back(uncertainty::inputs_of(model, estimator, figures));
   std::vector<PointResult> out(estimators.size() * points.size());
   Counted counted(out.size(), progress);
-  in_parallel(out.size(), workers, [&](std::size_t k) {
+  parallel::for_each(out.size(), workers, [&](std::size_t k) {
     const std::size_t e = k / points.size();
     out[k] = at_point(model, estimators[e], points[k % points.size()], inputs[e], scenario, k);
     counted.one_more();
@@ -137,7 +137,7 @@ std::vector<OperatingMap> operating_maps(const model::Model& model, const Scenar
   for (OperatingMap& map : out) {
     const uncertainty::Inputs inputs = uncertainty::inputs_of(model, map.estimator, figures);
     const std::size_t columns = map.position_m.size();
-    in_parallel(cells, workers, [&](std::size_t k) {
+    parallel::for_each(cells, workers, [&](std::size_t k) {
       map.cells[k] = cell_at(model, map.estimator,
                              {map.position_m[k % columns], map.pressure_difference_Pa[k / columns], temperature_K,
                               !scenario.points.closing},

@@ -5,9 +5,9 @@
 #include <mutex>
 #include <numbers>
 
-#include "spoolflow/analysis/in_parallel.hpp"
 #include "spoolflow/analysis/monte_carlo.hpp"
 #include "spoolflow/analysis/run_function.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::analysis {
@@ -324,7 +324,7 @@ RunAnalysis analyse_run(const model::Model& model, const RunSamples& run, const 
     budget.prepare();
     std::mutex mutex;  // guards progress
     double done = 0;
-    in_parallel(budget.pieces(), workers, [&](std::size_t piece) {
+    parallel::for_each(budget.pieces(), workers, [&](std::size_t piece) {
       budget.work(piece);
       const std::lock_guard lock(mutex);
       done += 1 / static_cast<double>(budget.pieces());

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/analysis/in_parallel.hpp"
 #include "spoolflow/analysis/virtual_model.hpp"
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -165,7 +165,7 @@ Study global_study(const model::Model& given, const Scenario& scenario, const ri
   const double before = own_model ? calibrating_share : 0;
   Ledger ledger(runs, fingerprint, work,
                 [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
-  in_parallel(design.points(), work.workers, [&](std::size_t k) {
+  parallel::for_each(design.points(), work.workers, [&](std::size_t k) {
     if (runs[k]) return;
     ledger.finished(k, run_errors(model, drawn_valve(nominal, scenario.study.spread, design.point(k)), scenario));
   });

@@ -1,6 +1,5 @@
 /// `spoolflow analyse`: how uncertain the flow rate is, why, and what to improve next.
 #include <fstream>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/json/analysis_json.hpp"
@@ -73,7 +73,7 @@ void self_check(const AnalyseArguments& arguments) {
 }
 
 unsigned workers(const AnalyseArguments& arguments) {
-  return arguments.jobs == 0 ? std::max(1U, std::thread::hardware_concurrency()) : arguments.jobs;
+  return arguments.jobs == 0 ? parallel::cores() : arguments.jobs;
 }
 
 analysis::Scenario scenario_of(const AnalyseArguments& arguments) {

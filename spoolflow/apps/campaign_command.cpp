@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +10,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 
@@ -45,7 +45,7 @@ void campaign(const CampaignArguments& arguments) {
     rig::run_campaign(items, {.store = [&](const auto& item, const auto& run,
                                            const auto& simulation) { store(folder, item, run, simulation); },
                               .progress = [&](double share) { progress.update(share); },
-                              .workers = std::max(1U, std::thread::hardware_concurrency()),
+                              .workers = parallel::cores(),
                               .with_truth = arguments.with_truth});
   }
   OutputFile text(folder / "campaign.toml");

@@ -1,12 +1,10 @@
 /// `spoolflow estimate`: the flow rate of a recording, sample by sample, from what the sensor may read.
-#include <algorithm>
-#include <atomic>
 #include <exception>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -19,6 +17,7 @@
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
 #include "spoolflow/recording/files/file_format.hpp"
@@ -169,42 +168,51 @@ bool reads_beside_others(const std::string& file) {
   }
 }
 
-/// All recordings, as many at a time as the machine has cores. The first failure is thrown when the others are done.
+/// Throws all failures as one, each told as if it had come alone. A failure of the work weighs more than an unusable
+/// input.
+[[noreturn]] void throw_together(const std::vector<std::exception_ptr>& failures) {
+  if (failures.size() == 1) std::rethrow_exception(failures.front());
+  std::vector<std::string> messages;
+  bool work_failed = false;
+  for (const std::exception_ptr& failure : failures) {
+    try {
+      std::rethrow_exception(failure);
+    } catch (const std::exception& error) {
+      messages.emplace_back(error.what());
+      work_failed = work_failed || dynamic_cast<const std::invalid_argument*>(&error) == nullptr;
+    }
+  }
+  const std::string text = fmt::format("{}", fmt::join(messages, "\nspoolflow estimate: "));
+  if (work_failed) throw std::runtime_error(text);
+  throw std::invalid_argument(text);
+}
+
+/// All recordings, as many at a time as the machine has cores. Failures are thrown when the others are done.
 void estimate_all(const Task& task, const std::vector<std::string>& recordings,
                   const std::vector<std::filesystem::path>& targets) {
-  std::atomic<std::size_t> next{0};
   std::mutex one_at_a_time, told;
   std::vector<std::exception_ptr> failures(recordings.size());
-  const auto work = [&] {
-    for (std::size_t k = next++; k < recordings.size(); k = next++) {
-      try {
-        std::unique_lock alone(one_at_a_time, std::defer_lock);
-        if (!reads_beside_others(recordings[k])) alone.lock();
-        const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k], false);
-        const std::lock_guard lock(told);
-        tell(notes, recordings[k]);
-      } catch (...) {
-        failures[k] = std::current_exception();
-      }
+  parallel::for_each(recordings.size(), parallel::cores(), [&](std::size_t k) {
+    try {
+      std::unique_lock alone(one_at_a_time, std::defer_lock);
+      if (!reads_beside_others(recordings[k])) alone.lock();
+      const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k], false);
+      const std::lock_guard lock(told);
+      tell(notes, recordings[k]);
+    } catch (...) {
+      failures[k] = std::current_exception();
     }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const std::size_t count =
-        std::min<std::size_t>(recordings.size(), std::max(1U, std::thread::hardware_concurrency()));
-    while (workers.size() + 1 < count) workers.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  });
+  std::erase(failures, nullptr);
+  if (!failures.empty()) throw_together(failures);
 }
+
 }  // namespace
 
 void estimate(const EstimateArguments& arguments) {
   Task task = task_of(arguments);
   if (arguments.recordings.size() == 1) {
-    const bool beside = std::thread::hardware_concurrency() > 1;
+    const bool beside = parallel::cores() > 1;
     tell(estimate_one(task, arguments.recordings.front(), arguments.output, beside), arguments.recordings.front());
     return;
   }

@@ -14,6 +14,11 @@ struct Columns {
   std::span<const double> time_s, current_A, voltage_V, position_m, oil_temperature_K;
 
   [[nodiscard]] std::size_t size() const { return time_s.size(); }
+  /// The same of the first samples.
+  [[nodiscard]] Columns first(std::size_t count) const {
+    const auto of = [&](std::span<const double> column) { return column.empty() ? column : column.first(count); };
+    return {of(time_s), of(current_A), of(voltage_V), of(position_m), of(oil_temperature_K)};
+  }
   [[nodiscard]] TimedSample operator[](std::size_t k) const {
     constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
     return {time_s[k], current_A[k], voltage_V.empty() ? not_measured : voltage_V[k], position_m[k],

@@ -12,16 +12,6 @@
 
 namespace spoolflow::estimation {
 
-/// What a running sensor remembers; trivially copyable, and so are its bytes.
-struct RunningState {
-  sensor::CondensedState<double> condensed;  ///< of the two, that of the estimator that runs
-  sensor::ObserverState<double> observer;
-  double last_time_s = 0;
-  bool started = false;   ///< a sample came in
-  bool answered = false;  ///< a complete one did
-};
-static_assert(std::is_trivially_copyable_v<RunningState>);
-
 /// What is measured at one instant. NaN means not measured.
 struct TimedSample {
   double time_s;
@@ -30,6 +20,51 @@ struct TimedSample {
   double position_m;
   double oil_temperature_K;
 };
+
+/// The same as the sensor takes it.
+template <class T>
+struct SteppedSample {
+  sensor::Sample<T> sample;
+  bool repeated;  ///< a second look at the same instant
+};
+
+/// How samples that carry times become the sensor's, and what is answered before any was complete.
+struct SampleTimes {
+  double last_time_s = 0;
+  bool started = false;   ///< a sample came in
+  bool answered = false;  ///< a complete one did
+
+  /// The time step is zero at first, and NaN where the time is no number.
+  template <class T>
+  SteppedSample<T> next(const TimedSample& sample) {
+    double step_s = std::numeric_limits<double>::quiet_NaN();
+    const bool repeated = started && sample.time_s == last_time_s;
+    if (std::isfinite(sample.time_s)) {
+      step_s = started ? sample.time_s - last_time_s : 0.0;
+      started = true;
+      last_time_s = sample.time_s;
+    }
+    return {{T(step_s), T(sample.current_A), T(sample.voltage_V), T(sample.position_m), T(sample.oil_temperature_K)},
+            repeated};
+  }
+  /// Makes the sensor's answer to it what is told.
+  template <class T>
+  void finish(sensor::Estimate<T>& answer, const SteppedSample<T>& given, double rated_flow_m3_per_s) {
+    if (!answered) {
+      answered = sensor::unusable(given.sample) == sensor::Status::none;
+      if (!answered) answer.flow_upper_m3_per_s = T(rated_flow_m3_per_s);
+    }
+    if (given.repeated) answer.status |= sensor::Status::time_fault;
+  }
+};
+
+/// What a running sensor remembers; trivially copyable, and so are its bytes.
+struct RunningState {
+  sensor::CondensedState<double> condensed;  ///< of the two, that of the estimator that runs
+  sensor::ObserverState<double> observer;
+  SampleTimes times;
+};
+static_assert(std::is_trivially_copyable_v<RunningState>);
 
 class RunningSensor {
  public:
@@ -54,23 +89,11 @@ class RunningSensor {
   /// answer; both say time_fault, and the next time step counts from the new time. Before the first complete sample the
   /// flow is zero with a band over the whole rated flow.
   sensor::Estimate<double> step(const TimedSample& sample) {
-    const double time_step_s = state_.started ? sample.time_s - state_.last_time_s : 0.0;
-    const bool repeated = state_.started && time_step_s == 0.0;
-    if (std::isfinite(sample.time_s)) {
-      state_.started = true;
-      state_.last_time_s = sample.time_s;
-    }
-    const sensor::Sample<double> measured{
-        std::isfinite(sample.time_s) ? time_step_s : std::numeric_limits<double>::quiet_NaN(), sample.current_A,
-        sample.voltage_V, sample.position_m, sample.oil_temperature_K};
+    const auto given = state_.times.next<double>(sample);
     sensor::Estimate<double> out = std::holds_alternative<const sensor::ObserverParameters<double>*>(parameters_)
-                                       ? sensor::step(*std::get<1>(parameters_), state_.observer, measured)
-                                       : sensor::step(*condensed_, state_.condensed, measured);
-    if (!state_.answered) {
-      state_.answered = sensor::unusable(measured) == sensor::Status::none;
-      if (!state_.answered) out.flow_upper_m3_per_s = rated_flow_m3_per_s_;
-    }
-    if (repeated) out.status |= sensor::Status::time_fault;
+                                       ? sensor::step(*std::get<1>(parameters_), state_.observer, given.sample)
+                                       : sensor::step(*condensed_, state_.condensed, given.sample);
+    state_.times.finish(out, given, rated_flow_m3_per_s_);
     return out;
   }
 

@@ -60,6 +60,17 @@ TEST_F(EstimateSeveral, FinishesTheOthersWhereOneIsDamaged) {
   EXPECT_FALSE(std::filesystem::exists(folder / "together/run1.csv"));
 }
 
+TEST_F(EstimateSeveral, TellsEveryFailureOfSeveral) {
+  write("run1.csv", "time_s,current_A,position_mm\n0,1,1\n0.001,one,1\n");
+  write("run3.csv", "time_s,position_mm\n0,1\n0.001,1\n");
+  const Answer answer = run("estimate " + model + " run0.csv run1.csv run2.csv run3.csv missing.csv -o together");
+  EXPECT_EQ(answer.status, 2);
+  for (const std::string name : {"run1.csv", "run3.csv", "missing.csv"})
+    EXPECT_THAT(answer.message, HasSubstr("spoolflow estimate: " + name)) << name;
+  EXPECT_THAT(content("together/run0.csv"), Not(IsEmpty()));
+  EXPECT_THAT(content("together/run2.csv"), Not(IsEmpty()));
+}
+
 TEST_F(EstimateSeveral, RefusesTwoOfOneNameAndStandardStreams) {
   std::filesystem::create_directory(folder / "other");
   write("other/run0.csv", strokes(0));

@@ -1,9 +1,9 @@
 #include "spoolflow/calibration/fits/coil_deviation.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include "spoolflow/numerics/dual.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -102,10 +102,8 @@ sensor::Coil<double> coil_with(const CoilTask& task, const CoilUnknowns& unknown
 
 CoilDeviation coil_deviation(const CoilTask& task, const CoilUnknowns& unknowns, const Eigen::VectorXd& corrections_N) {
   std::vector<CoilDeviation> parts(task.held.size());
-  std::vector<std::thread> threads;
-  for (std::size_t h = 0; h < parts.size(); ++h)
-    threads.emplace_back([&, h] { parts[h] = deviation_while_held(task, h, unknowns, corrections_N); });
-  for (std::thread& thread : threads) thread.join();
+  parallel::for_each(parts.size(), parallel::cores(),
+                     [&](std::size_t h) { parts[h] = deviation_while_held(task, h, unknowns, corrections_N); });
 
   const Eigen::Index all = coil_unknowns + corrections_N.size();
   CoilDeviation out{0, Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(all, all)};

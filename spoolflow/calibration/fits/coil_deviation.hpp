@@ -46,7 +46,7 @@ struct CoilDeviation {
   Eigen::MatrixXd curvature;
 };
 
-/// Runs the sensor's own coil along all samples with automatic differentiation; each held position in a thread.
+/// Runs the sensor's own coil along all samples with automatic differentiation; held positions side by side.
 [[nodiscard]] CoilDeviation coil_deviation(const CoilTask& task, const CoilUnknowns& unknowns,
                                            const Eigen::VectorXd& corrections_N);
 

@@ -2,11 +2,10 @@
 /// The observer over an operating recording, sample by sample, beside its reference flow.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/recording/recording.hpp"
-#include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
 
@@ -26,24 +25,19 @@ void replay(const sensor::ObserverParameters<double>& parameters,
             const std::vector<const recording::Recording*>& recordings, Each&& each) {
   using recording::Channel;
   for (const recording::Recording* recording : recordings) {
-    const auto time_s = (*recording)[Channel::time];
-    const auto current_A = (*recording)[Channel::current];
-    const auto position_m = (*recording)[Channel::position];
     const auto reference_m3_per_s = (*recording)[Channel::flow_reference];
-    const auto at = [&](Channel channel, std::size_t k) {
-      return recording->has(channel) ? (*recording)[channel][k] : std::numeric_limits<double>::quiet_NaN();
-    };
-    sensor::ObserverState<double> state{};
-    double last_s = time_s[0];
-    const std::size_t samples = std::min(recording->size(), operation_samples / recordings.size());
-    for (std::size_t k = 0; k < samples; ++k) {
-      sensor::step(
-          parameters, state,
-          {time_s[k] - last_s, current_A[k], at(Channel::voltage, k), position_m[k], at(Channel::oil_temperature, k)});
-      last_s = time_s[k];
-      if (std::isfinite(reference_m3_per_s[k]))
-        each(ReplayedSample{state, time_s[k], position_m[k], reference_m3_per_s[k]});
-    }
+    const estimation::Columns all{.time_s = (*recording)[Channel::time],
+                                  .current_A = (*recording)[Channel::current],
+                                  .voltage_V = recording->column(Channel::voltage),
+                                  .position_m = (*recording)[Channel::position],
+                                  .oil_temperature_K = recording->column(Channel::oil_temperature)};
+    const estimation::Columns used = all.first(std::min(all.size(), operation_samples / recordings.size()));
+    constexpr double rated_flow_m3_per_s = 0;  // told before the first complete sample only, which nobody looks at
+    estimation::RunningSensor sensor(&parameters, rated_flow_m3_per_s);
+    estimation::run(sensor, used, [&](std::size_t k, const sensor::Estimate<double>& /*told*/) {
+      if (!std::isfinite(reference_m3_per_s[k])) return;
+      each(ReplayedSample{sensor.state().observer, used.time_s[k], used.position_m[k], reference_m3_per_s[k]});
+    });
   }
 }
 

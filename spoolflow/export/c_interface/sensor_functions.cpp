@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
 #include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/model/model.hpp"
@@ -189,11 +189,16 @@ spoolflow_result spoolflow_step_arrays(spoolflow_sensor* sensor, size_t count, c
   const auto put = [](auto* column, std::size_t k, auto value) {
     if (column != nullptr) column[k] = value;
   };
-  const double nothing = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t k = 0; k < count; ++k) {
-    const spoolflow_estimate estimate = told(sensor->running.step(
-        {inputs->time_s[k], inputs->current_A[k], inputs->voltage_V == nullptr ? nothing : inputs->voltage_V[k],
-         inputs->position_m[k], inputs->oil_temperature_K == nullptr ? nothing : inputs->oil_temperature_K[k]}));
+  const auto column = [count](const double* first) {
+    return first == nullptr ? std::span<const double>() : std::span(first, count);
+  };
+  const spoolflow::estimation::Columns columns{.time_s = column(inputs->time_s),
+                                               .current_A = column(inputs->current_A),
+                                               .voltage_V = column(inputs->voltage_V),
+                                               .position_m = column(inputs->position_m),
+                                               .oil_temperature_K = column(inputs->oil_temperature_K)};
+  run(sensor->running, columns, [&](std::size_t k, const sensor::Estimate<double>& answer) {
+    const spoolflow_estimate estimate = told(answer);
     put(outputs->flow_m3_per_s, k, estimate.flow_m3_per_s);
     put(outputs->flow_lower_m3_per_s, k, estimate.flow_lower_m3_per_s);
     put(outputs->flow_upper_m3_per_s, k, estimate.flow_upper_m3_per_s);
@@ -203,7 +208,7 @@ spoolflow_result spoolflow_step_arrays(spoolflow_sensor* sensor, size_t count, c
     put(outputs->flow_force_N, k, estimate.flow_force_N);
     put(outputs->friction_force_N, k, estimate.friction_force_N);
     put(outputs->status, k, estimate.status);
-  }
+  });
   return SPOOLFLOW_OK;
 }
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 #include <fmt/format.h>
 
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
@@ -146,10 +145,8 @@ void run_campaign(const std::vector<CampaignItem>& items, const CampaignWork& wo
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t one, std::size_t two) { return runs[one].duration_s() > runs[two].duration_s(); });
 
-  std::mutex mutex;  // guards progress, shares and failure
+  std::mutex mutex;  // guards progress and shares
   std::vector<double> shares(items.size(), 0.0);
-  std::exception_ptr failure;
-  std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
   struct Stopped {};
 
@@ -172,30 +169,15 @@ void run_campaign(const std::vector<CampaignItem>& items, const CampaignWork& wo
     const std::lock_guard lock(mutex);
     shares[index] = weight;
   };
-  const auto worker = [&] {
-    for (std::size_t k = next++; k < order.size() && !stop; k = next++) {
-      try {
-        simulate_item(order[k]);
-      } catch (const Stopped&) {
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) {
-          failure = std::current_exception();
-        }
-        stop = true;
-      }
+  parallel::for_each(order.size(), work.workers, [&](std::size_t k) {
+    try {
+      simulate_item(order[k]);
+    } catch (const Stopped&) {
+    } catch (...) {
+      stop = true;
+      throw;
     }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (unsigned k = 1; k < work.workers; ++k) {
-      workers.emplace_back(worker);
-    }
-    worker();
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+  });
 }
 
 }  // namespace spoolflow::rig

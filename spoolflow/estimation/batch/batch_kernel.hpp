@@ -1,23 +1,44 @@
 #pragma once
 /// The steps of a ValveBatch for the instruction set that the including translation unit is compiled for. All that
 /// stands here has internal linkage or the target's register in its type.
+#include <cstddef>
 #include <experimental/simd>
 #include <new>
 
+#include "spoolflow/estimation/batch/batch_steps.hpp"
+#include "spoolflow/estimation/batch/pack_tables.hpp"
+#include "spoolflow/estimation/batch/valve_batch.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/sensor/condensed.hpp"
-#include "spoolflow/validation/batch_steps.hpp"
-#include "spoolflow/validation/pack_tables.hpp"
-#include "spoolflow/validation/valve_batch.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 namespace {
 
 using Register = simd::native_simd<float>;
 using Pack = ValvePack<Register, valves_together / Register::size()>;
 
-/// Where one valve's numbers lie, in the order in which they are described: visitor of a description.
+// Rows of numbers are read as packs, and registers of a pack follow each other.
+static_assert(sizeof(Pack) == valves_together * sizeof(float) && sizeof(Pack::Index) == sizeof(Pack));
+// Inputs are given, and answers fetched, by their number.
+using Answers = sensor::Estimate<Pack>;
+static_assert(sizeof(sensor::Sample<Pack>) == 5 * sizeof(Pack) && sizeof(Answers) == 9 * sizeof(Pack));
+static_assert(offsetof(sensor::Sample<Pack>, current_A) == 1 * sizeof(Pack));
+static_assert(offsetof(sensor::Sample<Pack>, voltage_V) == 2 * sizeof(Pack));
+static_assert(offsetof(sensor::Sample<Pack>, position_m) == 3 * sizeof(Pack));
+static_assert(offsetof(sensor::Sample<Pack>, oil_temperature_K) == 4 * sizeof(Pack));
+static_assert(offsetof(Answers, flow_lower_m3_per_s) == 1 * sizeof(Pack));
+static_assert(offsetof(Answers, flow_upper_m3_per_s) == 2 * sizeof(Pack));
+static_assert(offsetof(Answers, pressure_difference_Pa) == 3 * sizeof(Pack));
+static_assert(offsetof(Answers, magnetic_force_N) == 4 * sizeof(Pack));
+static_assert(offsetof(Answers, spring_force_N) == 5 * sizeof(Pack));
+static_assert(offsetof(Answers, flow_force_N) == 6 * sizeof(Pack));
+static_assert(offsetof(Answers, friction_force_N) == 7 * sizeof(Pack));
+static_assert(offsetof(Answers, status) == 8 * sizeof(Pack));
+
+/// Where one valve's numbers lie, in the order in which they are described: visitor of a description that names
+/// `Capacity` numbers and tables at most.
+template <std::size_t Capacity>
 class Described {
  public:
   template <class Table>
@@ -48,17 +69,22 @@ class Described {
   }
   void number(const char* /*key*/, const float& value, double /*lowest*/, double /*highest*/) { add(&value); }
   [[nodiscard]] const float* at(std::size_t k) const { return addresses_[k]; }
+  [[nodiscard]] bool all_held() const { return count_ <= Capacity; }
 
  private:
-  void add(const float* address) { addresses_[count_++] = address; }
-  std::array<const float*, 128> addresses_{};
+  void add(const float* address) {
+    if (count_ < Capacity) addresses_[count_] = address;
+    ++count_;
+  }
+  std::array<const float*, Capacity> addresses_{};
   std::size_t count_ = 0;
 };
 
 /// Puts the valves' numbers side by side: visitor of the same description over packs.
+template <std::size_t Capacity>
 class SideBySide {
  public:
-  SideBySide(const std::array<Described, valves_together>& valves, const float* numbers)
+  SideBySide(const std::array<Described<Capacity>, valves_together>& valves, const float* numbers)
       : valves_(valves), numbers_(numbers) {}
 
   template <class Table>
@@ -100,7 +126,7 @@ class SideBySide {
   }
 
  private:
-  const std::array<Described, valves_together>& valves_;
+  const std::array<Described<Capacity>, valves_together>& valves_;
   const float* numbers_;
   std::size_t next_ = 0;
 };
@@ -147,12 +173,16 @@ template <class Valves>
 }
 
 template <class Float, class Parameters, class State, class Describe>
-void begin_valves(void* memory, const void* const* valves, const float* numbers, const Describe& describe) {
+bool begin_valves(void* memory, const void* const* valves, const float* numbers, const Describe& describe) {
   auto& together = *new (memory) Together<Parameters, State>{};
-  std::array<Described, valves_together> described{};
+  // Each number is a pack of the parameters, each table more than one: described once, they cannot be more.
+  constexpr std::size_t capacity = sizeof(Parameters) / sizeof(Pack);
+  std::array<Described<capacity>, valves_together> described{};
   for (std::size_t k = 0; k < valves_together; ++k) describe(*static_cast<const Float*>(valves[k]), described[k]);
-  SideBySide side_by_side(described, numbers);
+  if (!described[0].all_held()) return false;
+  SideBySide<capacity> side_by_side(described, numbers);
   describe(together.parameters, side_by_side);
+  return true;
 }
 
 using CondensedTogether = Together<sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>>;
@@ -160,7 +190,7 @@ using CondensedTogether = Together<sensor::CondensedTables<Pack>, sensor::Conden
 constexpr BatchSteps condensed_steps{
     sizeof(CondensedTogether), alignof(CondensedTogether),
     [](void* memory, const void* const* valves, const float* numbers) {
-      begin_valves<sensor::CondensedTables<float>, sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>>(
+      return begin_valves<sensor::CondensedTables<float>, sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>>(
           memory, valves, numbers,
           [](auto& tables, auto& visitor) { model::describe_condensed_tables(tables, visitor); });
     },
@@ -171,11 +201,12 @@ using ObserverTogether = Together<sensor::ObserverParameters<Pack>, sensor::Obse
 constexpr BatchSteps observer_steps{
     sizeof(ObserverTogether), alignof(ObserverTogether),
     [](void* memory, const void* const* valves, const float* numbers) {
-      begin_valves<sensor::ObserverParameters<float>, sensor::ObserverParameters<Pack>, sensor::ObserverState<Pack>>(
-          memory, valves, numbers,
-          [](auto& parameters, auto& visitor) { model::describe_observer(parameters, visitor); });
+      return begin_valves<sensor::ObserverParameters<float>, sensor::ObserverParameters<Pack>,
+                          sensor::ObserverState<Pack>>(memory, valves, numbers, [](auto& parameters, auto& visitor) {
+        model::describe_observer(parameters, visitor);
+      });
     },
     step_rows<ObserverTogether>};
 
 }  // namespace
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

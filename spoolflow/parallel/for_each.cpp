@@ -1,14 +1,19 @@
-#include "spoolflow/analysis/in_parallel.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-namespace spoolflow::analysis {
+namespace spoolflow::parallel {
 
-void in_parallel(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work) {
+unsigned cores() {
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+void for_each(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
   std::mutex mutex;  // guards failure
@@ -26,10 +31,10 @@ void in_parallel(std::size_t count, unsigned workers, const std::function<void(s
   };
   {
     std::vector<std::jthread> others;
-    for (unsigned k = 1; k < workers; ++k) others.emplace_back(worker);
+    while (others.size() + 1 < std::min<std::size_t>(workers, count)) others.emplace_back(worker);
     worker();
   }
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace spoolflow::analysis
+}  // namespace spoolflow::parallel

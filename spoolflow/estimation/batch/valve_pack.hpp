@@ -13,7 +13,7 @@
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 
 namespace simd = std::experimental;
 
@@ -112,7 +112,7 @@ struct PackIndex {
 
 template <class Register, int Count>
 struct ValvePack {
-  using Lanes = validation::Lanes<Register, Count>;
+  using Lanes = batch::Lanes<Register, Count>;
   using Mask = PackMask<Register, Count>;
   using Index = PackIndex<Register, Count>;
   std::array<Register, Count> lanes{};
@@ -270,4 +270,4 @@ template <class Register, int Count, class State, class Body>
   keep(!condition, before, state);
 }
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

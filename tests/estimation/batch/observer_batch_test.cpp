@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/validation/valve_batch.hpp"
+#include "spoolflow/estimation/batch/valve_batch.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 namespace {
 
 using Observer = sensor::ObserverParameters<float>;
@@ -158,4 +158,4 @@ TEST_P(ObserverBatch, AnswersForDifferentValvesInAllModesAsSingleObserversDo) {
 }
 
 }  // namespace
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

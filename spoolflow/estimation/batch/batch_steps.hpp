@@ -6,7 +6,7 @@
 
 #include "spoolflow/sensor/sample.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 
 /// A number of sensor::Estimate, counted in their order, and where to write it.
 struct WantedAnswer {
@@ -26,8 +26,9 @@ struct BatchRows {
 struct BatchSteps {
   std::size_t bytes;
   std::size_t alignment;
-  /// `numbers`: a beginning that all valves' numbers have in common.
-  void (*begin)(void* memory, const void* const* valves, const float* numbers);
+  /// `numbers`: a beginning that all valves' numbers have in common. False where the description of the numbers names
+  /// more of them than there is room for.
+  bool (*begin)(void* memory, const void* const* valves, const float* numbers);
   void (*step)(void* memory, const BatchRows& rows);
 };
 
@@ -36,4 +37,4 @@ extern const BatchSteps observer_baseline;
 extern const BatchSteps observer_avx2;
 extern const BatchSteps condensed_avx2;  ///< bytes = 0 where the compiler's target has none
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

@@ -1,8 +1,8 @@
 #pragma once
 /// Status words of several valves.
-#include "spoolflow/validation/valve_pack.hpp"
+#include "spoolflow/estimation/batch/valve_pack.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 
 /// Status words.
 template <class Register, int Count>
@@ -33,4 +33,4 @@ void mark(PackStatus<Register, Count>& status, const PackMask<Register, Count>& 
   status = status | when(condition, bit);
 }
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

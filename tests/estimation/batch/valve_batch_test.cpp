@@ -1,4 +1,4 @@
-#include "spoolflow/validation/valve_batch.hpp"
+#include "spoolflow/estimation/batch/valve_batch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 namespace {
 
 /// A valve with forces and flows of its own; `k` makes it another one.
@@ -151,4 +151,4 @@ TEST(ValveBatch, RefusesWhatIsNoWholeNumberOfValvesOrSamples) {
 }
 
 }  // namespace
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

@@ -1,9 +1,9 @@
 #pragma once
 /// Tables and rings of several valves, each with its own numbers. A register fetches from all of them by turning rows
 /// into lanes: each valve's neighbouring numbers are loaded at once and then dealt out.
-#include "spoolflow/validation/pack_status.hpp"
+#include "spoolflow/estimation/batch/pack_status.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 
 /// The same table of each valve, counted from a beginning that all valves' numbers have in common.
 template <class Register, int Count>
@@ -135,8 +135,9 @@ template <class Register, int Count>
 template <class Register, int Count, std::size_t Size>
 ValvePack<Register, Count> in_ring(const std::array<ValvePack<Register, Count>, Size>& ring,
                                    const PackIndex<Register, Count>& place) {
-  using Lanes = validation::Lanes<Register, Count>;
+  using Lanes = estimation::batch::Lanes<Register, Count>;
   const auto places = std::bit_cast<std::array<std::int32_t, Lanes::valves>>(place.lanes);
+  static_assert(sizeof ring[0] == Lanes::valves * sizeof(float), "entry after entry, in each the valves side by side");
   const auto* const numbers = reinterpret_cast<const float*>(ring.data());
   return each_register<ValvePack<Register, Count>>([&](std::size_t r) {
     return Register([&](auto k) {
@@ -148,7 +149,7 @@ ValvePack<Register, Count> in_ring(const std::array<ValvePack<Register, Count>, 
 template <class Register, int Count, std::size_t Size>
 void put_in_ring(std::array<ValvePack<Register, Count>, Size>& ring, const PackIndex<Register, Count>& place,
                  const ValvePack<Register, Count>& value) {
-  using Lanes = validation::Lanes<Register, Count>;
+  using Lanes = estimation::batch::Lanes<Register, Count>;
   const auto places = std::bit_cast<std::array<std::int32_t, Lanes::valves>>(place.lanes);
   const auto values = std::bit_cast<std::array<float, Lanes::valves>>(value.lanes);
   auto* const numbers = reinterpret_cast<float*>(ring.data());
@@ -156,13 +157,13 @@ void put_in_ring(std::array<ValvePack<Register, Count>, Size>& ring, const PackI
     numbers[static_cast<std::size_t>(places[valve]) * Lanes::valves + valve] = values[valve];
 }
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch
 
 template <class Register, int Count>
-struct spoolflow::sensor::ScalarTypes<spoolflow::validation::ValvePack<Register, Count>> {
+struct spoolflow::sensor::ScalarTypes<spoolflow::estimation::batch::ValvePack<Register, Count>> {
   template <int Size>
-  using Numbers = spoolflow::validation::PackTable<Register, Count>;
-  using Mask = spoolflow::validation::PackMask<Register, Count>;
-  using Index = spoolflow::validation::PackIndex<Register, Count>;
-  using StatusWord = spoolflow::validation::PackStatus<Register, Count>;
+  using Numbers = spoolflow::estimation::batch::PackTable<Register, Count>;
+  using Mask = spoolflow::estimation::batch::PackMask<Register, Count>;
+  using Index = spoolflow::estimation::batch::PackIndex<Register, Count>;
+  using StatusWord = spoolflow::estimation::batch::PackStatus<Register, Count>;
 };

@@ -1,15 +1,15 @@
-#include "spoolflow/validation/valve_batch.hpp"
+#include "spoolflow/estimation/batch/valve_batch.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <new>
 #include <stdexcept>
+#include <string>
 
-#include <fmt/format.h>
+#include "spoolflow/estimation/batch/batch_steps.hpp"
 
-#include "spoolflow/validation/batch_steps.hpp"
-
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 namespace {
 
 const BatchSteps& steps_of(const sensor::CondensedTables<float>* /*kind*/, InstructionSet instructions) {
@@ -51,31 +51,41 @@ struct ValveBatch<Parameters>::Memory {
     std::map<const Parameters*, std::size_t> known;
     for (const Parameters* valve : valves)
       if (known.try_emplace(valve, models.size()).second) models.push_back({*valve});
+    // Places of numbers are counted in 32 bits.
+    if (models.size() > std::numeric_limits<std::int32_t>::max() / (sizeof(Model) / sizeof(float))) {
+      throw std::length_error("a batch of " + std::to_string(models.size()) +
+                              " different models: their tables are more than one batch can reach; make several");
+    }
     std::vector<const void*> addresses;
     for (const Parameters* valve : valves) addresses.push_back(&models[known.at(valve)].parameters);
     for (std::size_t first = 0; first < valves.size(); first += valves_together) {
       groups.push_back(::operator new(steps.bytes, std::align_val_t(steps.alignment)));
-      steps.begin(groups.back(), addresses.data() + first, reinterpret_cast<const float*>(models.data()));
+      if (!steps.begin(groups.back(), addresses.data() + first, reinterpret_cast<const float*>(models.data()))) {
+        forget();
+        throw std::length_error("a batch of valves: the description of their parameters names one of them twice");
+      }
     }
   }
-  ~Memory() {
-    for (void* group : groups) ::operator delete(group, std::align_val_t(steps.alignment));
-  }
+  ~Memory() { forget(); }
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
+
+ private:
+  void forget() {
+    for (void* group : groups) ::operator delete(group, std::align_val_t(steps.alignment));
+  }
 };
 
 template <class Parameters>
 ValveBatch<Parameters>::ValveBatch(std::span<const Parameters* const> valves, InstructionSet instructions) {
   if (valves.empty() || valves.size() % valves_together != 0) {
-    throw std::invalid_argument(
-        fmt::format("a batch of {} valves: their number must be a multiple of {}; fill up with "
-                    "any valve and leave its answers",
-                    valves.size(), valves_together));
+    throw std::invalid_argument("a batch of " + std::to_string(valves.size()) +
+                                " valves: their number must be a multiple of " + std::to_string(valves_together) +
+                                "; fill up with any valve and leave its answers");
   }
   const auto known = instruction_sets();
   if (std::find(known.begin(), known.end(), instructions) == known.end())
-    throw std::invalid_argument(fmt::format("this processor or build has no {} instructions", name(instructions)));
+    throw std::invalid_argument("this processor or build has no " + std::string(name(instructions)) + " instructions");
   memory_ = std::make_unique<Memory>(valves, steps_of(static_cast<const Parameters*>(nullptr), instructions));
 }
 
@@ -91,11 +101,13 @@ void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows&
   const std::size_t valves = memory_->groups.size() * valves_together;
   const std::size_t numbers = samples.current_A.size();
   if (numbers % valves != 0)
-    throw std::invalid_argument(fmt::format("{} numbers a row are no whole samples of {} valves", numbers, valves));
+    throw std::invalid_argument(std::to_string(numbers) + " numbers a row are no whole samples of " +
+                                std::to_string(valves) + " valves");
   BatchRows all{{}, {}, 0, valves, 0};
   const auto check = [&](const char* channel, std::size_t size) {
-    if (size != numbers)
-      throw std::invalid_argument(fmt::format("{} has {} numbers, but current_A has {}", channel, size, numbers));
+    if (size == numbers) return;
+    throw std::invalid_argument(std::string(channel) + " has " + std::to_string(size) + " numbers, but current_A has " +
+                                std::to_string(numbers));
   };
   const auto input = [&](std::size_t row, const char* channel, std::span<const float> from) {
     check(channel, from.size());
@@ -137,4 +149,4 @@ void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows&
 template class ValveBatch<sensor::CondensedTables<float>>;
 template class ValveBatch<sensor::ObserverParameters<float>>;
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

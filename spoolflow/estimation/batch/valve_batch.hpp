@@ -10,7 +10,7 @@
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation::batch {
 
 /// What the registers of a processor can do.
 enum class InstructionSet {
@@ -55,7 +55,8 @@ template <class Parameters>
 class ValveBatch {
  public:
   /// Copies the valves; the same one may stand in several places and is kept once. Throws std::invalid_argument
-  /// where their number is no multiple of `valves_together`, or `instructions` not among instruction_sets().
+  /// where their number is no multiple of `valves_together`, or `instructions` not among instruction_sets(), and
+  /// std::length_error where so many different models are more than one batch can hold.
   explicit ValveBatch(std::span<const Parameters* const> valves,
                       InstructionSet instructions = instruction_sets().back());
   ~ValveBatch();
@@ -73,4 +74,4 @@ class ValveBatch {
 extern template class ValveBatch<sensor::CondensedTables<float>>;
 extern template class ValveBatch<sensor::ObserverParameters<float>>;
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation::batch

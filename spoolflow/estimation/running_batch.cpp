@@ -1,0 +1,132 @@
+#include "spoolflow/estimation/running_batch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace spoolflow::estimation {
+namespace {
+
+/// So many samples of all valves are brought side by side at a time.
+constexpr std::size_t samples_at_once = 64;
+
+template <class Parameters>
+std::vector<const Parameters*> filled_up(std::span<const BatchedValve<Parameters>> valves) {
+  std::vector<const Parameters*> out;
+  for (const BatchedValve<Parameters>& valve : valves) out.push_back(valve.parameters);
+  while (!out.empty() && out.size() % batch::valves_together != 0) out.push_back(out.front());
+  return out;
+}
+
+}  // namespace
+
+template <class Parameters>
+RunningBatch<Parameters>::Rows::Rows(std::size_t numbers) {
+  for (std::vector<float>* row : {&time_step_s, &current_A, &voltage_V, &position_m, &oil_temperature_K, &flow_m3_per_s,
+                                  &flow_lower_m3_per_s, &flow_upper_m3_per_s, &pressure_difference_Pa,
+                                  &magnetic_force_N, &spring_force_N, &flow_force_N, &friction_force_N}) {
+    row->resize(numbers, std::numeric_limits<float>::quiet_NaN());
+  }
+  status.resize(numbers);
+  repeated.resize(numbers);
+}
+
+template <class Parameters>
+void RunningBatch<Parameters>::Rows::put(std::size_t at, const SteppedSample<float>& given) {
+  const sensor::Sample<float>& sample = given.sample;
+  repeated[at] = given.repeated ? 1 : 0;
+  time_step_s[at] = sample.time_step_s;
+  current_A[at] = sample.current_A;
+  voltage_V[at] = sample.voltage_V;
+  position_m[at] = sample.position_m;
+  oil_temperature_K[at] = sample.oil_temperature_K;
+}
+
+template <class Parameters>
+SteppedSample<float> RunningBatch<Parameters>::Rows::given(std::size_t at) const {
+  return {{time_step_s[at], current_A[at], voltage_V[at], position_m[at], oil_temperature_K[at]}, repeated[at] != 0};
+}
+
+template <class Parameters>
+sensor::Estimate<float> RunningBatch<Parameters>::Rows::answer(std::size_t at) const {
+  return {flow_m3_per_s[at],          flow_lower_m3_per_s[at], flow_upper_m3_per_s[at],
+          pressure_difference_Pa[at], magnetic_force_N[at],    spring_force_N[at],
+          flow_force_N[at],           friction_force_N[at],    status[at]};
+}
+
+template <class Parameters>
+RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>> valves,
+                                       batch::InstructionSet instructions)
+    : times_(valves.size()),
+      places_(filled_up(valves).size()),
+      batch_(filled_up(valves), instructions),
+      rows_(samples_at_once * places_) {
+  for (const BatchedValve<Parameters>& valve : valves) rated_flow_m3_per_s_.push_back(valve.rated_flow_m3_per_s);
+}
+
+/// A valve without a sample, or that only fills up, measures nothing: the sensor holds what it knows.
+template <class Parameters>
+void RunningBatch<Parameters>::fill(std::span<const Columns> runs, std::size_t from, std::size_t count) {
+  constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t valve = 0; valve < runs.size(); ++valve) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const bool over = from + k >= runs[valve].size();
+      rows_.put(k * places_ + valve, over ? SteppedSample<float>{{nothing, nothing, nothing, nothing, nothing}, false}
+                                          : times_[valve].template next<float>(runs[valve][from + k]));
+    }
+  }
+}
+
+template <class Parameters>
+void RunningBatch<Parameters>::step(std::size_t count) {
+  const std::size_t numbers = count * places_;
+  const auto given = [&](const std::vector<float>& row) { return std::span<const float>(row).first(numbers); };
+  const auto wanted = [&](auto& row) { return std::span(row).first(numbers); };
+  batch_.step({.time_step_s = given(rows_.time_step_s),
+               .current_A = given(rows_.current_A),
+               .voltage_V = given(rows_.voltage_V),
+               .position_m = given(rows_.position_m),
+               .oil_temperature_K = given(rows_.oil_temperature_K)},
+              {.flow_m3_per_s = wanted(rows_.flow_m3_per_s),
+               .flow_lower_m3_per_s = wanted(rows_.flow_lower_m3_per_s),
+               .flow_upper_m3_per_s = wanted(rows_.flow_upper_m3_per_s),
+               .pressure_difference_Pa = wanted(rows_.pressure_difference_Pa),
+               .magnetic_force_N = wanted(rows_.magnetic_force_N),
+               .spring_force_N = wanted(rows_.spring_force_N),
+               .flow_force_N = wanted(rows_.flow_force_N),
+               .friction_force_N = wanted(rows_.friction_force_N),
+               .status = wanted(rows_.status)});
+}
+
+template <class Parameters>
+void RunningBatch<Parameters>::run(std::span<const Columns> runs,
+                                   std::span<const std::span<sensor::Estimate<float>>> answers) {
+  if (runs.size() != size() || answers.size() != size()) {
+    throw std::invalid_argument("a batch of " + std::to_string(size()) + " valves got " + std::to_string(runs.size()) +
+                                " runs and room for the answers of " + std::to_string(answers.size()));
+  }
+  std::size_t longest = 0;
+  for (std::size_t valve = 0; valve < size(); ++valve) {
+    longest = std::max(longest, runs[valve].size());
+    if (answers[valve].size() == runs[valve].size()) continue;
+    throw std::invalid_argument("valve " + std::to_string(valve) + " has " + std::to_string(runs[valve].size()) +
+                                " samples and room for " + std::to_string(answers[valve].size()) + " answers");
+  }
+  for (std::size_t from = 0; from < longest; from += samples_at_once) {
+    const std::size_t count = std::min(samples_at_once, longest - from);
+    fill(runs, from, count);
+    step(count);
+    for (std::size_t valve = 0; valve < size(); ++valve) {
+      for (std::size_t k = 0; k < count && from + k < runs[valve].size(); ++k) {
+        sensor::Estimate<float>& answer = answers[valve][from + k] = rows_.answer(k * places_ + valve);
+        times_[valve].finish(answer, rows_.given(k * places_ + valve), rated_flow_m3_per_s_[valve]);
+      }
+    }
+  }
+}
+
+template class RunningBatch<sensor::CondensedTables<float>>;
+template class RunningBatch<sensor::ObserverParameters<float>>;
+
+}  // namespace spoolflow::estimation

@@ -1,0 +1,61 @@
+#pragma once
+/// Runs of many valves through sensors that are stepped together, each run of its own length and sampling rate.
+#include <span>
+#include <vector>
+
+#include "spoolflow/estimation/batch/valve_batch.hpp"
+#include "spoolflow/estimation/columns.hpp"
+
+namespace spoolflow::estimation {
+
+/// A valve of a batch. `Parameters` as in batch::ValveBatch.
+template <class Parameters>
+struct BatchedValve {
+  const Parameters* parameters;
+  double rated_flow_m3_per_s;
+};
+
+/// As many RunningSensors as there are valves, in single precision: the same rules for times and for what is told
+/// before the first complete sample.
+template <class Parameters>
+class RunningBatch {
+ public:
+  /// Any number of valves but none; copies their parameters. Places that are left over in the last registers are filled
+  /// up. Throws as batch::ValveBatch does.
+  explicit RunningBatch(std::span<const BatchedValve<Parameters>> valves,
+                        batch::InstructionSet instructions = batch::instruction_sets().back());
+
+  [[nodiscard]] std::size_t size() const { return rated_flow_m3_per_s_.size(); }
+
+  /// The next samples of every valve, as many as each has: one estimate a sample, in answers[valve], which is as long
+  /// as runs[valve]. A valve whose samples are over waits for the others; runs of about one length waste least. Throws
+  /// std::invalid_argument where there are not as many runs and answers as valves, or their lengths differ.
+  void run(std::span<const Columns> runs, std::span<const std::span<sensor::Estimate<float>>> answers);
+
+ private:
+  /// The valves that run side by side, sample after sample.
+  struct Rows {
+    std::vector<float> time_step_s, current_A, voltage_V, position_m, oil_temperature_K;
+    std::vector<float> flow_m3_per_s, flow_lower_m3_per_s, flow_upper_m3_per_s, pressure_difference_Pa;
+    std::vector<float> magnetic_force_N, spring_force_N, flow_force_N, friction_force_N;
+    std::vector<sensor::Status> status;
+    std::vector<char> repeated;
+    explicit Rows(std::size_t numbers);
+    void put(std::size_t at, const SteppedSample<float>& given);
+    [[nodiscard]] SteppedSample<float> given(std::size_t at) const;
+    [[nodiscard]] sensor::Estimate<float> answer(std::size_t at) const;
+  };
+  void fill(std::span<const Columns> runs, std::size_t from, std::size_t count);
+  void step(std::size_t count);
+
+  std::vector<double> rated_flow_m3_per_s_;
+  std::vector<SampleTimes> times_;
+  std::size_t places_;  ///< of valves in the batch, those that fill it up included
+  batch::ValveBatch<Parameters> batch_;
+  Rows rows_;
+};
+
+extern template class RunningBatch<sensor::CondensedTables<float>>;
+extern template class RunningBatch<sensor::ObserverParameters<float>>;
+
+}  // namespace spoolflow::estimation

@@ -1,0 +1,163 @@
+/// Runs of unequal length and sampling rate in a batch against the same runs through sensors of their own.
+#include "spoolflow/estimation/running_batch.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/sensor/valve_course.hpp"
+
+namespace spoolflow::estimation {
+namespace {
+
+using Observer = sensor::ObserverParameters<float>;
+using Answers = std::vector<sensor::Estimate<float>>;
+
+/// What one valve measures, in columns.
+struct MeasuredRun {
+  std::vector<double> time_s, current_A, voltage_V, position_m, oil_temperature_K;
+
+  [[nodiscard]] Columns from(std::size_t begin, std::size_t end) const {
+    const auto of = [&](const std::vector<double>& column) { return std::span(column).subspan(begin, end - begin); };
+    return {of(time_s), of(current_A), of(voltage_V), of(position_m), of(oil_temperature_K)};
+  }
+  [[nodiscard]] Columns all() const { return from(0, time_s.size()); }
+};
+
+sensor::ClosedFormValve valve_number(std::size_t k) {
+  return {.scale = 1 + 0.03 * static_cast<double>(k)};
+}
+
+/// Slides and rests; valve `k` at its own pace, for its own time, every so many milliseconds. Its time stamps begin
+/// anywhere, and some of it is missing or repeated.
+MeasuredRun measured(std::size_t k) {
+  const auto pace = static_cast<double>(k + 2);
+  const auto course = sensor::Course({}).slide(1.6e-3, 0.1 * pace).rest(0.15, 0.2, 40e5).slide(0.5e-3, 0.05 * pace);
+  sensor::ClosedFormRun run(valve_number(k), course);
+  const double sample_step_s = 0.4e-3 * static_cast<double>(1 + k % 4);
+  MeasuredRun out;
+  double time_s = 17.0 * static_cast<double>(k);
+  for (const sensor::ValveSample& sample : run.sampled(course.end_s(), sample_step_s)) {
+    out.time_s.push_back(time_s += sample_step_s);
+    out.current_A.push_back(sample.measured.current_A);
+    out.voltage_V.push_back(sample.measured.voltage_V);
+    out.position_m.push_back(sample.measured.position_m);
+    out.oil_temperature_K.push_back(sample.measured.oil_temperature_K);
+  }
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t s = 0; s < 3 * k; ++s) out.current_A[s] = nothing;  // valve k answers after 3 k samples
+  out.position_m[out.position_m.size() / 2] = nothing;
+  out.time_s[out.time_s.size() / 3] = out.time_s[out.time_s.size() / 3 - 1];
+  if (k == 4) out.time_s[out.time_s.size() / 4] = nothing;
+  return out;
+}
+
+constexpr double rated_flow_m3_per_s = 1e-3;
+
+/// One valve alone, in single precision as in the batch.
+Answers alone(const Observer& valve, const Columns& columns) {
+  sensor::ObserverState<float> state;
+  SampleTimes times;
+  Answers out;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto given = times.next<float>(columns[k]);
+    out.push_back(step(valve, state, given.sample));
+    times.finish(out.back(), given, rated_flow_m3_per_s);
+  }
+  return out;
+}
+
+bool alike(const sensor::Estimate<float>& a, const sensor::Estimate<float>& b) {
+  const auto near = [](float one, float other, float size) { return std::abs(one - other) <= 1e-5F * size; };
+  return near(a.flow_m3_per_s, b.flow_m3_per_s, 1e-3F) && near(a.flow_lower_m3_per_s, b.flow_lower_m3_per_s, 1e-3F) &&
+         near(a.flow_upper_m3_per_s, b.flow_upper_m3_per_s, 1e-3F) &&
+         near(a.pressure_difference_Pa, b.pressure_difference_Pa, 1e7F) &&
+         near(a.magnetic_force_N, b.magnetic_force_N, 100) && near(a.spring_force_N, b.spring_force_N, 100) &&
+         near(a.flow_force_N, b.flow_force_N, 100) && near(a.friction_force_N, b.friction_force_N, 100) &&
+         a.status == b.status;
+}
+
+class RunningBatchTest : public testing::TestWithParam<batch::InstructionSet> {
+ protected:
+  static constexpr std::size_t valves = 11;  // no multiple of what a register holds
+  void SetUp() override {
+    for (std::size_t k = 0; k < valves; ++k) {
+      models.push_back(sensor::closed_form_observer<float>(valve_number(k)));
+      runs.push_back(measured(k));
+    }
+    for (const Observer& model : models) in_batch.push_back({&model, rated_flow_m3_per_s});
+  }
+  /// The runs in `pieces` calls, each valve's divided for itself.
+  std::vector<Answers> together(std::size_t pieces) const {
+    RunningBatch<Observer> running(in_batch, GetParam());
+    std::vector<Answers> out(valves);
+    for (std::size_t k = 0; k < valves; ++k) out[k].resize(runs[k].time_s.size());
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      std::vector<Columns> columns;
+      std::vector<std::span<sensor::Estimate<float>>> answers;
+      for (std::size_t k = 0; k < valves; ++k) {
+        const std::size_t begin = runs[k].time_s.size() * piece / pieces;
+        const std::size_t end = runs[k].time_s.size() * (piece + 1) / pieces;
+        columns.push_back(runs[k].from(begin, end));
+        answers.push_back(std::span(out[k]).subspan(begin, end - begin));
+      }
+      running.run(columns, answers);
+    }
+    return out;
+  }
+
+  std::vector<Observer> models;
+  std::vector<MeasuredRun> runs;
+  std::vector<BatchedValve<Observer>> in_batch;
+};
+INSTANTIATE_TEST_SUITE_P(Batch, RunningBatchTest, testing::ValuesIn(batch::instruction_sets()),
+                         [](const auto& set) { return std::string(batch::name(set.param)); });
+
+TEST_P(RunningBatchTest, AnswersRunsOfUnequalLengthAndRateAsEachSensorAlone) {
+  for (const std::size_t pieces : {1U, 7U}) {
+    const std::vector<Answers> answers = together(pieces);
+    for (std::size_t k = 0; k < valves; ++k) {
+      const Answers expected = alone(models[k], runs[k].all());
+      ASSERT_EQ(answers[k].size(), expected.size());
+      std::size_t apart = 0;
+      for (std::size_t s = 0; s < expected.size(); ++s) {
+        if (!alike(answers[k][s], expected[s]) && ++apart == 1)
+          ADD_FAILURE() << "valve " << k << ", sample " << s << ", in " << pieces << " pieces";
+      }
+      EXPECT_EQ(apart, 0U) << "valve " << k;
+    }
+  }
+}
+
+TEST_P(RunningBatchTest, KnowsNothingOfAValveBeforeItsOwnFirstCompleteSample) {
+  const std::vector<Answers> answers = together(1);
+  for (std::size_t k = 0; k < valves; ++k) {
+    for (std::size_t s = 0; s < 3 * k; ++s) {
+      EXPECT_EQ(answers[k][s].flow_m3_per_s, 0) << k;
+      EXPECT_FLOAT_EQ(answers[k][s].flow_upper_m3_per_s, static_cast<float>(rated_flow_m3_per_s)) << k;
+    }
+    EXPECT_FALSE(has(answers[k][3 * k].status, sensor::Status::sample_missing)) << k;
+  }
+}
+
+TEST(RunningBatch, RefusesNoValvesAndRunsThatAreNotTheirs) {
+  using Batch = RunningBatch<Observer>;
+  EXPECT_THROW(Batch(std::span<const BatchedValve<Observer>>()), std::invalid_argument);
+  const Observer model = sensor::closed_form_observer<float>(valve_number(0));
+  const std::vector<BatchedValve<Observer>> one{{&model, rated_flow_m3_per_s}};
+  Batch batch(one);
+  EXPECT_EQ(batch.size(), 1U);
+  const MeasuredRun run = measured(0);
+  Answers answers(run.time_s.size() - 1);
+  const std::vector<Columns> columns{run.all()};
+  const std::vector<std::span<sensor::Estimate<float>>> too_short{answers};
+  EXPECT_THROW(batch.run(columns, {}), std::invalid_argument);
+  EXPECT_THROW(batch.run(columns, too_short), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace spoolflow::estimation
