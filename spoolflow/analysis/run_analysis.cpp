@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <numbers>
 
+#include "spoolflow/analysis/band_shares.hpp"
 #include "spoolflow/analysis/monte_carlo.hpp"
 #include "spoolflow/analysis/run_function.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -45,9 +45,6 @@ void know_oil_temperature(std::vector<InputUncertainty>& inputs, const model::Mo
     input.source = "recording: root mean square of the oil about the map's temperature";
   }
 }
-
-/// Contributions [m3/s] of one input at the instants, with their signs.
-using Contributions = std::vector<double>;
 
 class RunBudget {
  public:
@@ -90,16 +87,6 @@ class RunBudget {
   void try_out(std::size_t trial);
   void combine_instants(RunResult& out);
   void take_trials(RunResult& out) const;
-  /// Errors [m3/s] with a shape of their own, all combinations: two-point ones and the pressure belief's.
-  [[nodiscard]] std::vector<double> large_errors(std::size_t instant) const;
-  /// Share of the errors at an instant between `lower` and `upper`: these, and with each all others together normal;
-  /// `u`: standard uncertainty of all [m3/s].
-  [[nodiscard]] double share_within(std::size_t instant, double lower, double upper, double u) const;
-  /// Whether the reference errs with that input as the calibration does, so that the difference shows nothing of it.
-  [[nodiscard]] bool shared_with_reference(InputQuantity quantity) const;
-  /// What the reference shows of the errors that it shares with the calibration, trial by trial [m3/s].
-  [[nodiscard]] std::vector<double> reference_by_trial(std::size_t instant) const;
-  [[nodiscard]] BandShares band_shares(const RunResult& result) const;
 
   RunFunction function_;
   uncertainty::Inputs inputs_;
@@ -167,14 +154,15 @@ void RunBudget::combine_instants(RunResult& out) {
   }
   double variance = 0;
   for (const uncertainty::BudgetLine& line : mean) variance += line.share;
-  double welch = 0;
+  const auto n = static_cast<double>(run_.instants.size());
   for (std::size_t j = 0; j < mean.size(); ++j) {
-    const double share = variance > 0 ? mean[j].share / variance : 0;
-    const auto n = static_cast<double>(run_.instants.size());
-    out.lines.push_back({mean[j].input, std::sqrt(squares[j] / n), share});
-    if (std::isfinite(mean[j].input.degrees_of_freedom)) welch += share * share / mean[j].input.degrees_of_freedom;
+    mean[j].share = variance > 0 ? mean[j].share / variance : 0;
+    mean[j].contribution_m3_per_s = std::sqrt(squares[j] / n);
+    mean[j].degrees_of_freedom = mean[j].input.degrees_of_freedom;
+    out.lines.push_back({mean[j].input, mean[j].contribution_m3_per_s, mean[j].share});
   }
-  out.coverage_factor = uncertainty::coverage_factor_95(welch > 0 ? std::max(1.0, 1 / welch) : INFINITY);
+  out.coverage_factor =
+      uncertainty::coverage_factor_95(uncertainty::effective_degrees_of_freedom(mean, inputs_.correlations));
 }
 
 void RunBudget::take_trials(RunResult& out) const {
@@ -193,106 +181,6 @@ void RunBudget::take_trials(RunResult& out) const {
   out.deviation_ratio = of_budget > 0 ? std::sqrt(of_trials / of_budget) : std::nan("");
 }
 
-std::vector<double> RunBudget::large_errors(std::size_t instant) const {
-  std::vector<double> out{0};
-  const auto with_each = [&](const std::vector<double>& errors) {
-    std::vector<double> all;
-    for (const double before : out)
-      for (const double error : errors) all.push_back(before + error);
-    out = std::move(all);
-  };
-  for (std::size_t j = 0; j < contributions_.size(); ++j) {
-    const InputUncertainty& input = inputs_.uncertainties[j];
-    if (input.distribution == uncertainty::Distribution::two_point) {
-      with_each({-contributions_[j][instant], contributions_[j][instant]});
-    } else if (input.quantity == InputQuantity::pressure_belief) {
-      constexpr int levels = 15;
-      std::vector<double> errors;
-      for (int k = 0; k < levels; ++k) {
-        const double normal = uncertainty::normal_quantile((k + 0.5) / levels);
-        errors.push_back(function_.beliefs()[instant].flow_error_m3_per_s(normal));
-      }
-      with_each(errors);
-    }
-  }
-  return out;
-}
-
-double RunBudget::share_within(std::size_t instant, double lower, double upper, double u) const {
-  double squares = 0;
-  for (std::size_t j = 0; j < contributions_.size(); ++j) {
-    const InputUncertainty& input = inputs_.uncertainties[j];
-    const bool large =
-        input.distribution == uncertainty::Distribution::two_point || input.quantity == InputQuantity::pressure_belief;
-    if (large) squares += std::pow(contributions_[j][instant], 2);
-  }
-  const double others = std::sqrt(std::max(u * u - squares, 1e-24));
-  const std::vector<double> large = large_errors(instant);
-  double share = 0;
-  for (const double error : large) {
-    share += (uncertainty::normal_share_below((upper + error) / others) -
-              uncertainty::normal_share_below((lower + error) / others)) /
-             static_cast<double>(large.size());
-  }
-  return share;
-}
-
-bool RunBudget::shared_with_reference(InputQuantity quantity) const {
-  return !scenario_.run.other_bench &&
-         (quantity == InputQuantity::flow_meter || quantity == InputQuantity::oil_density ||
-          quantity == InputQuantity::oil_viscosity);
-}
-
-std::vector<double> RunBudget::reference_by_trial(std::size_t instant) const {
-  std::vector<double> out(trials_);
-  for (std::size_t j = 0; j < contributions_.size(); ++j) {
-    const InputUncertainty& input = inputs_.uncertainties[j];
-    if (!shared_with_reference(input.quantity) || !(input.standard_uncertainty > 0)) continue;
-    for (std::size_t trial = 0; trial < trials_; ++trial)
-      out[trial] += drawn_[trial][input.quantity] / input.standard_uncertainty * contributions_[j][instant];
-  }
-  return out;
-}
-
-BandShares RunBudget::band_shares(const RunResult& result) const {
-  const std::vector<double> lagged = function_.lagged_m3_per_s(1e-3 * scenario_.run.reference_lag_ms);
-  const double meter_share =
-      scenario_.run.other_bench ? 0.01 * scenario_.run.reference_meter_percent / std::numbers::sqrt3 : 0;
-  BandShares out;
-  out.other_bench = scenario_.run.other_bench;
-  for (std::size_t k = 0; k < run_.instants.size(); ++k) {
-    const double reference = result.reference_m3_per_s[k];
-    if (!std::isfinite(reference)) continue;
-    ++out.instants;
-    const double meter = meter_share * std::abs(reference);
-    double variance = std::pow(result.combined_m3_per_s[k], 2) + meter * meter;
-    for (std::size_t j = 0; j < contributions_.size(); ++j) {
-      if (shared_with_reference(inputs_.uncertainties[j].quantity)) variance -= std::pow(contributions_[j][k], 2);
-    }
-    const double u = std::sqrt(std::max(variance, 1e-24));
-    const double lower = result.lower_m3_per_s[k];
-    const double upper = result.upper_m3_per_s[k];
-    out.in_band += lower <= reference && reference <= upper ? 1 : 0;
-    out.in_band_by_budget += share_within(k, lower - lagged[k], upper - lagged[k], u);
-    double inside = 0;
-    SeededNumbers numbers(scenario_.seed, "reference meter", k);
-    const std::vector<double> shared = reference_by_trial(k);
-    for (std::size_t trial = 0; trial < trials_; ++trial) {
-      // What the recording made of the sensor is the truth to a trial, which has a band of its own.
-      const double shown = lagged[k] + shared[trial] +
-                           meter * uncertainty::quantile(uncertainty::Distribution::rectangular, numbers.uniform());
-      const BandedFlow& answer = answers_[trial];
-      inside += answer.lower_m3_per_s[k] <= shown && shown <= answer.upper_m3_per_s[k] ? 1 : 0;
-    }
-    out.in_band_by_trials += inside / static_cast<double>(trials_);
-    out.in_budget_interval += std::abs(reference - lagged[k]) <= result.coverage_factor * u ? 1 : 0;
-  }
-  const double n = std::max(1.0, static_cast<double>(out.instants));
-  for (double* share : {&out.in_band, &out.in_band_by_budget, &out.in_band_by_trials, &out.in_budget_interval})
-    *share /= n;
-  return out;
-}
-
 RunResult RunBudget::result() {
   RunResult out;
   out.estimator = function_.estimator();
@@ -307,7 +195,8 @@ RunResult RunBudget::result() {
   combine_instants(out);
   take_trials(out);
   if (!out.reference_m3_per_s.empty()) {
-    const BandShares shares = band_shares(out);
+    const BandShares shares =
+        band_shares(out, {function_, run_, scenario_, inputs_.uncertainties, contributions_, drawn_, answers_});
     if (shares.instants > 0) out.shares = shares;
   }
   return out;

@@ -4,40 +4,16 @@
 #include <cmath>
 
 #include "spoolflow/analysis/run_samples.hpp"
+#include "spoolflow/estimation/columns.hpp"
+#include "spoolflow/uncertainty/noisy_errors.hpp"
+#include "spoolflow/validation/first_order_lag.hpp"
 
 namespace spoolflow::analysis {
-namespace {
 
 using estimation::Estimator;
 using uncertainty::InputErrors;
 using uncertainty::InputQuantity;
 using uncertainty::SeededNumbers;
-
-sensor::Sample<double> as_sample(const estimation::TimedSample& given) {
-  return {0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K};
-}
-
-/// The errors with this sample's own noise.
-class Noisy {
- public:
-  Noisy(const InputErrors<double>& error, SeededNumbers& numbers)
-      : now_(error),
-        position_m_(error[InputQuantity::position_noise]),
-        current_A_(error[InputQuantity::current_noise]),
-        numbers_(numbers) {}
-  const InputErrors<double>& next() {
-    now_[InputQuantity::position_noise] = position_m_ == 0 ? 0 : position_m_ * numbers_.normal();
-    now_[InputQuantity::current_noise] = current_A_ == 0 ? 0 : current_A_ * numbers_.normal();
-    return now_;
-  }
-
- private:
-  InputErrors<double> now_;
-  double position_m_, current_A_;
-  SeededNumbers& numbers_;
-};
-
-}  // namespace
 
 void BandedFlow::add(const sensor::Estimate<double>& answer, double shift_m3_per_s) {
   flow_m3_per_s.push_back(answer.flow_m3_per_s + shift_m3_per_s);
@@ -56,22 +32,19 @@ RunFunction::RunFunction(const model::Model& model, Estimator estimator, const R
 }
 
 void RunFunction::run_undisturbed() {
-  estimation::RunningSensor::Parameters parameters = &model_.condensed.parameters;
-  if (estimator_ == Estimator::observer) parameters = &model_.observer->parameters;
-  estimation::RunningSensor sensor(parameters, model_.valve.rated_flow_m3_per_s);
+  estimation::RunningSensor sensor = estimation::running_sensor(model_, estimator_);
   auto instant = run_.instants.begin();
-  for (std::size_t k = 0; k < run_.samples.size(); ++k) {
-    const sensor::Estimate<double> answer = sensor.step(run_.samples[k]);
+  estimation::run(sensor, run_.samples, [&](std::size_t k, const sensor::Estimate<double>& answer) {
     every_flow_m3_per_s_.push_back(answer.flow_m3_per_s);
-    if (instant == run_.instants.end() || *instant != k) continue;
+    if (instant == run_.instants.end() || *instant != k) return;
     ++instant;
     undisturbed_.add(answer);
     pressure_Pa_.push_back(answer.pressure_difference_Pa);
-    if (estimator_ != Estimator::observer) continue;
+    if (estimator_ != Estimator::observer) return;
     const double step_s = k == 0 ? 0 : run_.samples[k].time_s - run_.samples[k - 1].time_s;
     beliefs_.push_back(uncertainty::pressure_belief(model_.observer->parameters, sensor.state().observer,
                                                     run_.samples[k].position_m, step_s));
-  }
+  });
 }
 
 void RunFunction::learn_surroundings() {
@@ -83,8 +56,10 @@ void RunFunction::learn_surroundings() {
 }
 
 std::vector<double> RunFunction::lagged_m3_per_s(double lag_s) const {
-  const std::vector<double> all = lagged(run_, every_flow_m3_per_s_, lag_s);
-  std::vector<double> out;
+  std::vector<double> time_s, out;
+  for (const estimation::TimedSample& sample : run_.samples) time_s.push_back(sample.time_s);
+  std::vector<double> all = every_flow_m3_per_s_;
+  validation::apply_lag<double>(time_s, all, lag_s);
   for (const std::size_t k : run_.instants) out.push_back(all[k]);
   return out;
 }
@@ -102,15 +77,13 @@ BandedFlow RunFunction::operator()(const InputErrors<double>& error, SeededNumbe
 BandedFlow RunFunction::condensed(const InputErrors<double>& error, SeededNumbers& noise) const {
   const auto valve = uncertainty::disturbed<double>(model_.condensed.parameters, error);
   estimation::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);  // has no memory: the instants are enough
-  Noisy noisy(error, noise);
+  uncertainty::NoisyErrors noisy(error, noise);
   BandedFlow out;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
     const estimation::TimedSample& given = run_.samples[run_.instants[k]];
     const InputErrors<double>& now = noisy.next();
-    const sensor::Sample<double> read = uncertainty::disturbed<double>(as_sample(given), surroundings_[k], now);
-    const auto answer =
-        sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
-    out.add(answer, -uncertainty::unseen_flow_m3_per_s(surroundings_[k], now));
+    out.add(sensor.step(uncertainty::disturbed(given, surroundings_[k], now)),
+            -uncertainty::unseen_flow_m3_per_s(surroundings_[k], now));
   }
   return out;
 }
@@ -118,14 +91,11 @@ BandedFlow RunFunction::condensed(const InputErrors<double>& error, SeededNumber
 BandedFlow RunFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
   const auto valve = uncertainty::disturbed(model_.observer->parameters, error, temperature_per_viscosity_K_);
   estimation::RunningSensor sensor(&valve, model_.valve.rated_flow_m3_per_s);
-  Noisy noisy(error, noise);
+  uncertainty::NoisyErrors noisy(error, noise);
   BandedFlow out;
   auto instant = run_.instants.begin();
   for (std::size_t k = 0; k < run_.samples.size(); ++k) {
-    const estimation::TimedSample& given = run_.samples[k];
-    const sensor::Sample<double> read = uncertainty::disturbed<double>(as_sample(given), noisy.next());
-    const auto answer =
-        sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
+    const auto answer = sensor.step(uncertainty::disturbed(run_.samples[k], noisy.next()));
     if (instant == run_.instants.end() || *instant != k) continue;
     ++instant;
     const uncertainty::PressureBelief& belief = beliefs_[out.flow_m3_per_s.size()];
@@ -139,7 +109,7 @@ std::vector<uncertainty::PerQuantity<double>> RunFunction::slopes() const {
   std::vector<uncertainty::PerQuantity<double>> out;
   const auto& valve = model_.condensed.parameters;
   for (std::size_t k = 0; k < run_.instants.size(); ++k) {
-    sensor::Sample<double> sample = as_sample(run_.samples[run_.instants[k]]);
+    sensor::Sample<double> sample = uncertainty::without_time(run_.samples[run_.instants[k]]);
     // Beyond the measured forces the sensor answers at the map's edge, whose slope is that of its outermost cell. Below
     // what friction hides the slope of the root runs away: there that at the friction's half width stands for it.
     const double force_N =

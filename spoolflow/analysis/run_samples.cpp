@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::analysis {
 
@@ -14,11 +15,10 @@ using recording::Channel;
 RunSamples run_samples(const recording::Recording& recording) {
   RunSamples out;
   out.name = recording.file == "-" ? "standard input" : recording.file.filename().string();
-  const auto at = [&](Channel channel, std::size_t k) { return recording.has(channel) ? recording[channel][k] : NAN; };
+  const estimation::Columns columns = validation::sensor_columns(recording);
   std::vector<std::size_t> complete;
-  for (std::size_t k = 0; k < recording.size(); ++k) {
-    out.samples.push_back({at(Channel::time, k), at(Channel::current, k), at(Channel::voltage, k),
-                           at(Channel::position, k), at(Channel::oil_temperature, k)});
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    out.samples.push_back(columns[k]);
     const estimation::TimedSample& sample = out.samples.back();
     if (std::isfinite(sample.current_A) && std::isfinite(sample.position_m)) complete.push_back(k);
   }
@@ -34,15 +34,6 @@ RunSamples run_samples(const recording::Recording& recording) {
     out.reference_m3_per_s.assign(recording[reference].begin(), recording[reference].end());
   }
   return out;
-}
-
-std::vector<double> lagged(const RunSamples& run, std::vector<double> values, double lag_s) {
-  if (!(lag_s > 0)) return values;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double step_s = run.samples[k].time_s - run.samples[k - 1].time_s;
-    values[k] = values[k - 1] - std::expm1(-step_s / lag_s) * (values[k] - values[k - 1]);
-  }
-  return values;
 }
 
 }  // namespace spoolflow::analysis

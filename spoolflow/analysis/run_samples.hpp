@@ -20,7 +20,4 @@ inline constexpr std::size_t most_instants = 4000;
 /// Throws RecordingError where no sample has both current and position.
 [[nodiscard]] RunSamples run_samples(const recording::Recording& recording);
 
-/// First-order lag, as the reference meter lags the flow.
-[[nodiscard]] std::vector<double> lagged(const RunSamples& run, std::vector<double> values, double lag_s);
-
 }  // namespace spoolflow::analysis

@@ -4,8 +4,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "spoolflow/calibration/condensed.hpp"
-#include "spoolflow/calibration/observer.hpp"
+#include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::analysis {
@@ -42,24 +41,17 @@ model::Model virtual_model(const rig::ValveAndCampaign& asked, unsigned workers,
   for (const char* protocol : {"spring", "solenoid_force_map", "axial_force_map"}) {
     if (by_protocol[protocol].empty()) throw std::logic_error(std::string("the virtual campaign has no ") + protocol);
   }
-  const recording::Recording& spring = *by_protocol["spring"].front();
-  const recording::Recording& force_map = *by_protocol["solenoid_force_map"].front();
-
   const rig::ValveUnderTest& valve = asked.valve;
-  model::Model out;
-  out.valve = {valve.name, units::m3_per_s_from_L_per_min(valve.rating.flow_L_per_min), valve.plant.spool.stroke_m,
-               "b"};
+  model::Model out = calibration::calibrate_valve(
+      {.spring = *by_protocol["spring"].front(),
+       .solenoid_force_map = *by_protocol["solenoid_force_map"].front(),
+       .solenoid_dynamic = by_protocol["solenoid_dynamic"],
+       .axial_force_maps = by_protocol["axial_force_map"],
+       .operation = by_protocol["operation"]},
+      {valve.name, units::m3_per_s_from_L_per_min(valve.rating.flow_L_per_min), valve.plant.spool.stroke_m, "b"},
+      [&](const std::string&, double share) { progress(measuring_share + (1 - measuring_share) * share); });
   const rig::Oil& oil = valve.plant.oil;
   out.fluid = {valve.fluid, oil.density_15C_kg_per_m3, oil.viscosity_40C_m2_per_s, oil.viscosity_100C_m2_per_s};
-  calibration::CondensedCalibration condensed =
-      calibration::calibrate_condensed({spring, force_map, by_protocol["axial_force_map"]}, out.valve);
-  out.condensed = std::move(condensed.condensed);
-  out.evidence = std::move(condensed.evidence);
-  calibration::ObserverCalibration full = calibration::calibrate_observer(
-      {spring, force_map, by_protocol["solenoid_dynamic"], by_protocol["axial_force_map"], by_protocol["operation"]},
-      out.valve, out.condensed.parameters.closed_below_m,
-      [&](double share) { progress(measuring_share + (1 - measuring_share) * share); });
-  out.observer = std::move(full.observer);
   return out;
 }
 

@@ -74,6 +74,27 @@ const recording::Recording& only(const std::deque<Loaded>& all, Protocol protoco
 
 }  // namespace
 
+model::Model calibrate_valve(const CampaignRecordings& recordings, const model::Valve& valve,
+                             const CalibrationProgress& progress) {
+  model::Model out;
+  out.valve = valve;
+  progress("condensed model", 0);
+  CondensedCalibration condensed =
+      calibrate_condensed({recordings.spring, recordings.solenoid_force_map, recordings.axial_force_maps}, valve);
+  out.condensed = std::move(condensed.condensed);
+  out.evidence = std::move(condensed.evidence);
+  constexpr double condensed_share = 0.15;
+  progress("full sensor", condensed_share);
+  ObserverCalibration full = calibrate_observer(
+      {recordings.spring, recordings.solenoid_force_map, recordings.solenoid_dynamic, recordings.axial_force_maps,
+       recordings.operation},
+      valve, out.condensed.parameters.closed_below_m,
+      [&](double share) { progress("full sensor in operation", condensed_share + (1 - condensed_share) * share); });
+  out.observer = std::move(full.observer);
+  out.evidence.bench = std::move(full.bench);
+  return out;
+}
+
 model::Model calibrate(const recording::Campaign& campaign, const std::string& tool_version,
                        const CalibrationProgress& progress) {
   model::Model out;
@@ -103,7 +124,6 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
                                      model::sha256_of_file(entry.file), loaded.back().recording.size()});
   }
 
-  progress("condensed model", reading_share);
   const std::vector<const recording::Recording*> axial_force_maps = of(loaded, Protocol::axial_force_map);
   if (axial_force_maps.empty()) {
     throw CalibrationError(
@@ -111,21 +131,17 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
                     "one; edit its [[recording]] tables",
                     campaign.file.string()));
   }
-  CondensedCalibration condensed =
-      calibrate_condensed({only(loaded, Protocol::spring, campaign),
-                           only(loaded, Protocol::solenoid_force_map, campaign), axial_force_maps},
-                          out.valve);
-  out.condensed = std::move(condensed.condensed);
-  out.evidence = std::move(condensed.evidence);
-  constexpr double fitting_share = 0.45;
-  progress("full sensor", fitting_share);
-  ObserverCalibration full = calibrate_observer(
-      {only(loaded, Protocol::spring, campaign), only(loaded, Protocol::solenoid_force_map, campaign),
-       of(loaded, Protocol::solenoid_dynamic), axial_force_maps, of(loaded, Protocol::operation)},
-      out.valve, out.condensed.parameters.closed_below_m,
-      [&](double share) { progress("full sensor in operation", fitting_share + (1 - fitting_share) * share); });
-  out.observer = std::move(full.observer);
-  out.evidence.bench = std::move(full.bench);
+  model::Model fitted = calibrate_valve({.spring = only(loaded, Protocol::spring, campaign),
+                                         .solenoid_force_map = only(loaded, Protocol::solenoid_force_map, campaign),
+                                         .solenoid_dynamic = of(loaded, Protocol::solenoid_dynamic),
+                                         .axial_force_maps = axial_force_maps,
+                                         .operation = of(loaded, Protocol::operation)},
+                                        out.valve, [&](const std::string& step, double share) {
+                                          progress(step, reading_share + (1 - reading_share) * share);
+                                        });
+  out.condensed = std::move(fitted.condensed);
+  out.observer = std::move(fitted.observer);
+  out.evidence = std::move(fitted.evidence);
   progress("done", 1.0);
   return out;
 }

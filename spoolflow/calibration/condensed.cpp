@@ -9,6 +9,7 @@
 #include "spoolflow/calibration/fits/sensitivity.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/fits/uniqueness.hpp"
+#include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -76,12 +77,12 @@ CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, 
                                           axial.loops.back().pressure_difference_set_Pa};
   if (!std::isnan(axial.oil_temperature_K)) out.condensed.oil_temperature_K = axial.oil_temperature_K;
   out.condensed.residuals = {
-      {"spring force", "N", spring.residual.rms(), spring.residual.largest},
+      {std::string(model::of_spring_force), "N", spring.residual.rms(), spring.residual.largest},
       {"spring force, with one friction for all positions", "N", spring.even_friction_residual.rms(),
        spring.even_friction_residual.largest},
-      {"magnetic force", "N", magnetic.residual.rms(), magnetic.residual.largest},
-      {"axial force", "N", axial.force_residual.rms(), axial.force_residual.largest},
-      {"flow rate", "m3/s", axial.flow_residual.rms(), axial.flow_residual.largest},
+      {std::string(model::of_magnetic_force), "N", magnetic.residual.rms(), magnetic.residual.largest},
+      {std::string(model::of_axial_force), "N", axial.force_residual.rms(), axial.force_residual.largest},
+      {std::string(model::of_flow_rate), "m3/s", axial.flow_residual.rms(), axial.flow_residual.largest},
   };
   out.evidence.magnetic_force = magnetic.loops;
   out.evidence.axial_force = axial.loops;

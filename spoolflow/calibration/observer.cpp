@@ -14,6 +14,7 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
+#include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -128,10 +129,10 @@ std::vector<model::Residual> residuals_of_fits(const BenchFits& fits) {
   const FitResidual axial_force = together(fits.axial, &AxialForceFit::force_residual);
   const FitResidual flow = together(fits.axial, &AxialForceFit::flow_residual);
   std::vector<model::Residual> out{
-      {"spring force", "N", fits.spring.residual.rms(), fits.spring.residual.largest},
-      {"magnetic force", "N", fits.magnetic.residual.rms(), fits.magnetic.residual.largest},
-      {"axial force", "N", axial_force.rms(), axial_force.largest},
-      {"flow rate", "m3/s", flow.rms(), flow.largest},
+      {std::string(model::of_spring_force), "N", fits.spring.residual.rms(), fits.spring.residual.largest},
+      {std::string(model::of_magnetic_force), "N", fits.magnetic.residual.rms(), fits.magnetic.residual.largest},
+      {std::string(model::of_axial_force), "N", axial_force.rms(), axial_force.largest},
+      {std::string(model::of_flow_rate), "m3/s", flow.rms(), flow.largest},
       {"position drift", "m", fits.position.drift_residual_m, fits.position.drift_residual_m},
   };
   if (fits.actuator.dynamics) {

@@ -28,9 +28,10 @@ struct Columns {
 
 /// One sample after the other, as in the valve: calls `each(k, estimate)` after sample k, when sensor.state() is that
 /// after the sample. A sensor goes on where it was, so that columns may come in pieces.
-template <std::invocable<std::size_t, const sensor::Estimate<double>&> Each>
-void run(RunningSensor& sensor, const Columns& columns, Each&& each) {
-  for (std::size_t k = 0; k < columns.size(); ++k) each(k, sensor.step(columns[k]));
+/// `Samples`: Columns, or whatever else holds a TimedSample at each index.
+template <class Samples, std::invocable<std::size_t, const sensor::Estimate<double>&> Each>
+void run(RunningSensor& sensor, const Samples& samples, Each&& each) {
+  for (std::size_t k = 0; k < samples.size(); ++k) each(k, sensor.step(samples[k]));
 }
 
 /// One estimate a sample, in `estimates`, which is as long as the columns.

@@ -24,9 +24,13 @@ struct Budget {
   double expanded_m3_per_s = 0;
 };
 
-/// Combines `lines`, of which input, sensitivity, contribution and degrees of freedom are set. Inputs that are
-/// correlated count in the Welch-Satterthwaite formula as one, with the fewest degrees of freedom among them, since the
-/// formula holds for independent contributions only (JCGM 100, G.4.1).
+/// After Welch and Satterthwaite, from the lines' shares. Inputs that are correlated count as one, with the fewest
+/// degrees of freedom among those that contribute, since the formula holds for independent contributions only
+/// (JCGM 100, G.4.1). Infinite where no line has few.
+[[nodiscard]] double effective_degrees_of_freedom(const std::vector<BudgetLine>& lines,
+                                                  const std::vector<Correlation>& correlations);
+
+/// Combines `lines`, of which input, sensitivity, contribution and degrees of freedom are set.
 [[nodiscard]] Budget combine(std::vector<BudgetLine> lines, std::vector<Correlation> correlations);
 
 }  // namespace spoolflow::uncertainty

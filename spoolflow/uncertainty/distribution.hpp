@@ -16,7 +16,7 @@ enum class Distribution { normal, rectangular, two_point };
 /// The value, in standard deviations, that a share `probability` in (0, 1) of all errors does not exceed.
 [[nodiscard]] double quantile(Distribution distribution, double probability);
 
-/// Standard normal. Acklam's rational approximation, relative error below 1.2e-9.
+/// Standard normal; `probability` in (0, 1).
 [[nodiscard]] double normal_quantile(double probability);
 /// Share of a standard normal below `value`.
 [[nodiscard]] double normal_share_below(double value);

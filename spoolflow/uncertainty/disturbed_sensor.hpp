@@ -1,6 +1,7 @@
 #pragma once
 /// The sensor with errors in its inputs and in its model: the measurement function of the uncertainty budget. Errors
 /// of maps reach every node of the table, so that the same can be done by hand to a model file.
+#include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/uncertainty/input_quantity.hpp"
@@ -97,6 +98,21 @@ sensor::Sample<T> disturbed(const sensor::Sample<double>& sample, const Surround
   sensor::Sample<T> out = disturbed(sample, error);
   out.current_A = out.current_A + hidden_N / T(surroundings.force_per_current_N_per_A);
   return out;
+}
+
+/// As the instruments give it, at its time.
+inline estimation::TimedSample at_time(double time_s, const sensor::Sample<double>& read) {
+  return {time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K};
+}
+inline sensor::Sample<double> without_time(const estimation::TimedSample& sample) {
+  return {0, sample.current_A, sample.voltage_V, sample.position_m, sample.oil_temperature_K};
+}
+inline estimation::TimedSample disturbed(const estimation::TimedSample& sample, const InputErrors<double>& error) {
+  return at_time(sample.time_s, disturbed<double>(without_time(sample), error));
+}
+inline estimation::TimedSample disturbed(const estimation::TimedSample& sample, const Surroundings& surroundings,
+                                         const InputErrors<double>& error) {
+  return at_time(sample.time_s, disturbed<double>(without_time(sample), surroundings, error));
 }
 
 /// What the condensed sensor's answer is to be lessened by: the flow that warmer oil really lets through.

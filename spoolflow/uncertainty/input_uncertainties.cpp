@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/model/residual_of.hpp"
+
 namespace spoolflow::uncertainty {
 namespace {
 
@@ -39,18 +41,14 @@ bool is_default(const InstrumentFigure& figure) {
   return figure.source.starts_with("default");
 }
 
-InputUncertainty residual(InputQuantity quantity, const std::vector<model::Residual>& residuals, std::string_view of,
-                          double values) {
-  const auto found =
-      std::find_if(residuals.begin(), residuals.end(), [&](const model::Residual& r) { return r.of == of; });
-  const double rms = found == residuals.end() ? 0 : found->rms;
-  // Samples of one sweep hang together: one value for each grid point of a sweep counts.
+/// Samples of one sweep hang together: one of `values` for each grid point of a sweep counts.
+InputUncertainty of_residual(InputQuantity quantity, const model::Residual& residual, double values) {
   return {quantity,
-          rms,
+          residual.rms,
           Evaluation::type_a,
           Distribution::normal,
           std::max(1.0, values - 1),
-          fmt::format("model, RMS residual of the {}", of)};
+          fmt::format("model, RMS residual of the {}", residual.of)};
 }
 
 class Collection {
@@ -128,13 +126,15 @@ class Collection {
   }
 
   void maps() {
-    const auto& residuals = observer_ ? model_.observer->residuals : model_.condensed.residuals;
+    const auto residual = [&](std::string_view of) -> const model::Residual& {
+      return model::residual_of(model_, observer_ ? model_.observer->residuals : model_.condensed.residuals, of);
+    };
     const auto sweeps = [](std::size_t loops, int points) { return 2.0 * static_cast<double>(loops) * points; };
-    add(residual(InputQuantity::spring, residuals, "spring force", sweeps(1, sensor::spring_positions)));
+    add(of_residual(InputQuantity::spring, residual(model::of_spring_force), sweeps(1, sensor::spring_positions)));
     as_operation_shows(inputs_.uncertainties.back());
     const double spring_N = inputs_.uncertainties.back().standard_uncertainty;
-    InputUncertainty axial = residual(InputQuantity::flow_force_map, residuals, "axial force",
-                                      sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
+    InputUncertainty axial = of_residual(InputQuantity::flow_force_map, residual(model::of_axial_force),
+                                         sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
     as_operation_shows(axial);
     axial.standard_uncertainty = std::hypot(axial.standard_uncertainty, spring_N);
     axial.source += " and of the spring, which is taken off it";
@@ -145,8 +145,8 @@ class Collection {
                                       "the flow-force map is the axial force less the fitted spring"});
     }
     add(std::move(axial));
-    InputUncertainty magnetic = residual(InputQuantity::magnetic_force_map, residuals, "magnetic force",
-                                         sweeps(model_.evidence.magnetic_force.size(), sensor::force_map_positions));
+    InputUncertainty magnetic = of_residual(InputQuantity::magnetic_force_map, residual(model::of_magnetic_force),
+                                            sweeps(model_.evidence.magnetic_force.size(), sensor::force_map_positions));
     if (observer_) {
       const auto& actuator = model_.observer->parameters.actuator;
       magnetic.standard_uncertainty = actuator.force_uncertainty_N;
@@ -167,8 +167,8 @@ class Collection {
     }
     add_load_cell(magnetic);
     add(std::move(magnetic));
-    InputUncertainty flow = residual(InputQuantity::flow_map, residuals, "flow rate",
-                                     sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
+    InputUncertainty flow = of_residual(InputQuantity::flow_map, residual(model::of_flow_rate),
+                                        sweeps(model_.evidence.axial_force.size(), sensor::flow_map_positions));
     add(std::move(flow));
     for (const InputQuantity quantity : {InputQuantity::magnetic_load_cell, InputQuantity::axial_load_cell})
       add(campaign_has_force() ? contained(quantity) : limits(quantity, figures_.load_cell));

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "spoolflow/uncertainty/condensed_slopes.hpp"
+#include "spoolflow/uncertainty/noisy_errors.hpp"
 
 namespace spoolflow::uncertainty {
 
@@ -41,17 +42,9 @@ double PointFunction::condensed(const InputErrors<double>& error) const {
 double PointFunction::observer(const InputErrors<double>& error, SeededNumbers& noise) const {
   const auto valve = disturbed(model_->observer->parameters, error, temperature_per_viscosity_K_);
   estimation::RunningSensor sensor(&valve, model_->valve.rated_flow_m3_per_s);
-  const double position_noise_m = error[InputQuantity::position_noise];
-  const double current_noise_A = error[InputQuantity::current_noise];
-  InputErrors<double> now = error;
+  NoisyErrors noisy(error, noise);
   sensor::Estimate<double> answer;
-  for (const estimation::TimedSample& given : course_) {
-    now[InputQuantity::position_noise] = position_noise_m == 0 ? 0 : position_noise_m * noise.normal();
-    now[InputQuantity::current_noise] = current_noise_A == 0 ? 0 : current_noise_A * noise.normal();
-    const sensor::Sample<double> read = disturbed<double>(
-        sensor::Sample<double>{0, given.current_A, given.voltage_V, given.position_m, given.oil_temperature_K}, now);
-    answer = sensor.step({given.time_s, read.current_A, read.voltage_V, read.position_m, read.oil_temperature_K});
-  }
+  for (const estimation::TimedSample& given : course_) answer = sensor.step(disturbed(given, noisy.next()));
   const double u_Pa = belief_.standard_uncertainty_Pa();
   return answer.flow_m3_per_s + error[InputQuantity::flow_map] +
          (u_Pa > 0 ? belief_.flow_error_m3_per_s(error[InputQuantity::pressure_belief] / u_Pa) : 0);

@@ -77,7 +77,7 @@ struct JudgedLimit {
 /// Throws RecordingError with file and line where the file cannot be used.
 [[nodiscard]] Requirements read_requirements(const std::filesystem::path& file);
 
-/// Throws RecordingError where a limit names a run that is not among `recordings`, or an estimator that is not among
+/// Throws RecordingError where a limit names a run that is not among `runs`, or an estimator that is not among
 /// `estimators`.
 void check_names(const Requirements& requirements, const std::vector<std::string>& runs,
                  const std::vector<estimation::Estimator>& estimators);

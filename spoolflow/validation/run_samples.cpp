@@ -1,7 +1,6 @@
 #include "spoolflow/validation/run_samples.hpp"
 
-#include <cmath>
-
+#include "spoolflow/validation/first_order_lag.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::validation {
@@ -35,13 +34,6 @@ void append_pressure_difference(std::vector<float>& to, const recording::SampleB
   const auto& downstream_Pa = block.column(Channel::pressure_downstream);
   if (upstream_Pa.empty() || downstream_Pa.empty()) return;
   for (std::size_t k = 0; k < block.rows; ++k) to.push_back(static_cast<float>(upstream_Pa[k] - downstream_Pa[k]));
-}
-
-void lag(std::span<const double> time_s, std::vector<float>& values, double lag_s) {
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double share = lag_s > 0 ? -std::expm1(-(time_s[k] - time_s[k - 1]) / lag_s) : 1;
-    values[k] = static_cast<float>(values[k - 1] + share * (values[k] - values[k - 1]));
-  }
 }
 
 }  // namespace
@@ -86,7 +78,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
 
 void apply_lag(std::span<const double> time_s, Answers& answers, double lag_s) {
   for (std::vector<float>* column : {&answers.flow_m3_per_s, &answers.lower_m3_per_s, &answers.upper_m3_per_s}) {
-    lag(time_s, *column, lag_s);
+    apply_lag<float>(time_s, *column, lag_s);
   }
 }
 

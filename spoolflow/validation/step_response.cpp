@@ -35,7 +35,7 @@ class Samples {
     }
     return sum / static_cast<double>(count);
   }
-  /// When the values first pass `share` of the way between two levels, between two samples; NaN where they never do.
+  /// When the values first pass `level`, interpolated between two samples; NaN where they never do.
   [[nodiscard]] double crossing_s(const std::vector<float>& values, double from_s, double to_s, double level,
                                   bool rising) const {
     for (std::size_t k = std::max<std::size_t>(1, at(from_s)); k < time_s_.size() && time_s_[k] <= to_s; ++k) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "spoolflow/analysis/point_analysis.hpp"
@@ -106,6 +107,15 @@ TEST(InputUncertainties, TheCampaignsInstrumentsGoBeforeDefaultsAndTheScenarioBe
   uncertainty::InstrumentFigures asked;
   asked.current_offset_A = {1e-2, "scenario"};
   EXPECT_NEAR(input(InputQuantity::current_offset, asked).standard_uncertainty, 1e-2 / std::sqrt(3.0), 1e-9);
+}
+
+TEST(InputUncertainties, AResidualThatTheModelDoesNotTellIsNoneOfZero) {
+  model::Model model = example();
+  for (model::Residual& residual : model.condensed.residuals) {
+    if (residual.of == "flow rate") residual.of = "flow";
+  }
+  EXPECT_THAT([&] { (void)uncertainty::inputs_of(model, Estimator::condensed, {}); },
+              ::testing::ThrowsMessage<model::ModelError>(::testing::HasSubstr("no residual of its flow rate")));
 }
 
 TEST(MonteCarlo, AdaptiveTrialsEndWhenTheFiguresAreStable) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +44,14 @@ TEST(Budget, ErrorsInCommonThatOpposeEachOtherCancel) {
                                 {{InputQuantity::spring, InputQuantity::flow_force_map, -1, ""}});
   EXPECT_NEAR(budget.combined_m3_per_s, 0, 1e-12);
   EXPECT_TRUE(std::isfinite(budget.expanded_m3_per_s));
+}
+
+TEST(Budget, CorrelatedInputsCountAsOneInTheDegreesOfFreedom) {
+  std::vector<BudgetLine> lines{line(InputQuantity::spring, 3, 8), line(InputQuantity::flow_force_map, 4, 20)};
+  for (BudgetLine& each : lines) each.share = 0.5;
+  const std::vector<Correlation> correlations{{InputQuantity::spring, InputQuantity::flow_force_map, 0.3, ""}};
+  EXPECT_DOUBLE_EQ(effective_degrees_of_freedom(lines, correlations), 8);
+  EXPECT_DOUBLE_EQ(effective_degrees_of_freedom(lines, {}), 1 / (0.25 / 8 + 0.25 / 20));
 }
 
 TEST(Distribution, CoverageFactorsAreThoseOfJcgm100TableG2) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/model/residual_of.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -167,7 +168,7 @@ std::vector<std::string> Judge::limits() const {
   return out;
 }
 
-std::string residual_text(const model::Model& model, const std::string& of) {
+std::string residual_text(const model::Model& model, std::string_view of) {
   for (const model::Residual& residual : model.condensed.residuals) {
     if (residual.of != of) continue;
     const bool flow = residual.unit == "m3/s";
@@ -193,7 +194,8 @@ Verdict calibration_verdict(const model::Model& model) {
       model.observer ? "for the observer and the condensed sensor" : "for the condensed sensor",
       fixed(units::bar_from_Pa(condensed.pressure_difference_Pa.lower), 0),
       fixed(units::bar_from_Pa(condensed.pressure_difference_Pa.upper), 0), fixed(condensed.current_A.upper, 2),
-      residual_text(model, "magnetic force"), residual_text(model, "axial force"), residual_text(model, "flow rate"));
+      residual_text(model, model::of_magnetic_force), residual_text(model, model::of_axial_force),
+      residual_text(model, model::of_flow_rate));
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
   out.limits.push_back(fmt::format("Below {} mm of opening the flow force does not tell the flow.",
                                    fixed(units::mm_from_m(uniqueness.blind_below_m), 2)));
