@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/validation/metrics.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -68,28 +66,31 @@ std::vector<Variant> variants() {
   };
 }
 
+/// Every so many samples of a channel; none of one that is not used.
+std::vector<double> thinned(const recording::Recording& recording, Channel channel, const Variant& variant, bool used) {
+  std::vector<double> out;
+  for (std::size_t k = 0; used && k < recording.column(channel).size(); k += variant.every)
+    out.push_back(recording.column(channel)[k]);
+  return out;
+}
+
 validation::GroupFigures run(const model::Model& model, const recording::Recording& recording, const Variant& variant) {
   Parameters valve = model.observer->parameters;
   variant.change(valve);
-  sensor::ObserverState<double> state{};
+  const auto column = [&](Channel channel, bool used = true) { return thinned(recording, channel, variant, used); };
+  const std::vector<double> time_s = column(Channel::time), current_A = column(Channel::current),
+                            voltage_V = column(Channel::voltage, variant.voltage),
+                            position_m = column(Channel::position),
+                            temperature_K = column(Channel::oil_temperature, variant.temperature),
+                            reference = column(Channel::flow_reference);
   validation::ComparedSamples compared(model.valve.rated_flow_m3_per_s);
-  const auto at = [&](Channel channel, std::size_t k, bool used) {
-    return used && recording.has(channel) ? recording[channel][k] : std::numeric_limits<double>::quiet_NaN();
-  };
-  double last_s = recording[Channel::time][0];
-  for (std::size_t k = 0; k < recording.size(); k += variant.every) {
-    const double time_s = recording[Channel::time][k];
-    const sensor::Estimate<double> estimate =
-        sensor::step(valve, state,
-                     {time_s - last_s, recording[Channel::current][k], at(Channel::voltage, k, variant.voltage),
-                      recording[Channel::position][k], at(Channel::oil_temperature, k, variant.temperature)});
-    last_s = time_s;
-    const double reference = recording[Channel::flow_reference][k];
-    if (std::isfinite(reference)) {
-      compared.add({estimate.flow_m3_per_s, estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s, reference,
-                    false, false, false});
-    }
-  }
+  estimation::RunningSensor sensor(&valve, model.valve.rated_flow_m3_per_s);
+  estimation::run(sensor, estimation::Columns{time_s, current_A, voltage_V, position_m, temperature_K},
+                  [&](std::size_t k, const sensor::Estimate<double>& estimate) {
+                    if (!std::isfinite(reference[k])) return;
+                    compared.add({estimate.flow_m3_per_s, estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s,
+                                  reference[k], false, false, false});
+                  });
   return compared.metrics().all;
 }
 

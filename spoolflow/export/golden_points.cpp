@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "spoolflow/estimation/bare_steps.hpp"
 #include "spoolflow/export/number_groups.hpp"
 #include "spoolflow/numerics/crossing.hpp"
 
 namespace spoolflow::exports {
+
+using estimation::stepped_flows;
+
 namespace {
 
 constexpr double time_step_s = 1e-3;
@@ -105,26 +109,14 @@ std::vector<sensor::Sample<float>> strokes(const model::Model& model) {
   return out;
 }
 
-/// Every answer of one sensor.
-template <class T, class Parameters, class State>
-std::vector<double> flows(const Parameters& parameters, State state,
-                          const std::vector<sensor::Sample<float>>& samples) {
-  std::vector<double> out;
-  for (const sensor::Sample<float>& in : samples) {
-    const sensor::Sample<T> sample{in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K};
-    out.push_back(static_cast<double>(step(parameters, state, sample).flow_m3_per_s));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<GoldenPoint> golden_points(const model::Model& model) {
   const std::vector<sensor::Sample<float>> inputs = strokes(model);
   const std::vector<double> condensed =
-      flows<double>(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, inputs);
+      stepped_flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, inputs);
   const std::vector<double> best =
-      model.observer ? flows<double>(model.observer->parameters, sensor::ObserverState<double>{}, inputs) : condensed;
+      model.observer ? stepped_flows(model.observer->parameters, sensor::ObserverState<double>{}, inputs) : condensed;
   std::vector<GoldenPoint> points;
   for (std::size_t k = 0; k < inputs.size(); ++k) points.push_back({inputs[k], condensed[k], best[k]});
   return points;
@@ -133,11 +125,11 @@ std::vector<GoldenPoint> golden_points(const model::Model& model) {
 SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<GoldenPoint>& points) {
   std::vector<sensor::Sample<float>> inputs;
   for (const GoldenPoint& point : points) inputs.push_back(point.sample);
-  const std::vector<double> condensed = flows<float>(single_precision(sensor::laid_out(model.condensed.parameters)),
+  const std::vector<float> condensed = stepped_flows(single_precision(sensor::laid_out(model.condensed.parameters)),
                                                      sensor::CondensedState<float>{}, inputs);
-  const std::vector<double> best = model.observer ? flows<float>(single_precision(model.observer->parameters),
+  const std::vector<float> best = model.observer ? stepped_flows(single_precision(model.observer->parameters),
                                                                  sensor::ObserverState<float>{}, inputs)
-                                                  : condensed;
+                                                 : condensed;
   SinglePrecisionError largest{0, 0};
   const double percent = 100.0 / model.valve.rated_flow_m3_per_s;
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "spoolflow/estimation/bare_steps.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::cortex_m {
@@ -59,18 +60,6 @@ void append_disturbances(std::vector<Sample>& samples, double stroke_m) {
   }
 }
 
-template <class Parameters, class State>
-std::vector<float> flows(const Parameters& parameters, State state, const std::vector<Sample>& samples) {
-  std::vector<float> out;
-  for (const Sample& in : samples) {
-    const auto estimate =
-        step(parameters, state,
-             sensor::Sample<double>{in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K});
-    out.push_back(static_cast<float>(estimate.flow_m3_per_s));
-  }
-  return out;
-}
-
 void append(std::string& bytes, std::uint32_t word) {
   for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xFFU);
 }
@@ -83,17 +72,18 @@ std::string packed_run(const model::Model& model, estimation::Estimator estimato
   if (samples.size() > most_samples) samples.resize(most_samples);
   const std::size_t recorded = samples.size();
   append_disturbances(samples, model.valve.stroke_m);
-  const std::vector<float> golden =
+  const std::vector<double> golden =
       estimator == estimation::Estimator::observer
-          ? flows(model.observer.value().parameters, sensor::ObserverState<double>{}, samples)
-          : flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, samples);
+          ? estimation::stepped_flows(model.observer.value().parameters, sensor::ObserverState<double>{}, samples)
+          : estimation::stepped_flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{},
+                                      samples);
   std::string bytes;
   append(bytes, static_cast<std::uint32_t>(samples.size()));
   append(bytes, static_cast<std::uint32_t>(recorded));
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const Sample& in = samples[k];
-    for (const float number :
-         {in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K, golden[k]}) {
+    for (const float number : {in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K,
+                               static_cast<float>(golden[k])}) {
       append(bytes, std::bit_cast<std::uint32_t>(number));
     }
   }
