@@ -2,8 +2,10 @@
 /// How often the reference meter lies in the sensor's band, and how often budget and trials say that it should.
 #include <vector>
 
-#include "spoolflow/analysis/run_analysis.hpp"
+#include "spoolflow/analysis/analysed_run.hpp"
 #include "spoolflow/analysis/run_function.hpp"
+#include "spoolflow/analysis/run_samples.hpp"
+#include "spoolflow/analysis/scenario.hpp"
 
 namespace spoolflow::analysis {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "spoolflow/validation/run_result.hpp"
 #include "spoolflow/validation/run_samples.hpp"
-#include "spoolflow/validation/validate.hpp"
+#include "spoolflow/validation/validation.hpp"
 
 namespace spoolflow::validation {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a user asks of the sensor, and whether a validation meets it.
+/// What a user asks of the sensor, limit by limit.
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -10,8 +10,6 @@
 #include "spoolflow/estimation/estimator.hpp"
 
 namespace spoolflow::validation {
-
-struct Validation;
 
 /// The figure that a limit bounds.
 enum class Figure { p95, rms, largest, bias, band_mean_width, band_coverage, p95_of_reading, fault_share };
@@ -81,8 +79,5 @@ struct JudgedLimit {
 /// `estimators`.
 void check_names(const Requirements& requirements, const std::vector<std::string>& runs,
                  const std::vector<estimation::Estimator>& estimators);
-
-[[nodiscard]] std::vector<JudgedLimit> judge(const Requirements& requirements, const Validation& validation,
-                                             double full_scale_m3_per_s);
 
 }  // namespace spoolflow::validation

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "spoolflow/validation/judge_run.hpp"
+#include "spoolflow/validation/judged_limits.hpp"
 #include "spoolflow/validation/run_samples.hpp"
 
 namespace spoolflow::validation {

@@ -44,5 +44,9 @@ TEST(ThisProject, KeepsItsFoldersSmallEnoughToBeTakenIn) {
   EXPECT_THAT(full_folders(project_root), IsEmpty());
 }
 
+TEST(ThisProject, HasNoSubjectsThatIncludeEachOther) {
+  EXPECT_THAT(circles(project_root), IsEmpty());
+}
+
 }  // namespace
 }  // namespace spoolflow::architecture

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/validation/validate.hpp"
+#include "spoolflow/validation/judged_limits.hpp"
 
 namespace spoolflow::validation {
 namespace {

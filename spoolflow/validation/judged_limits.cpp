@@ -1,9 +1,8 @@
-#include "spoolflow/validation/requirements.hpp"
+#include "spoolflow/validation/judged_limits.hpp"
 
 #include <cmath>
 
 #include "spoolflow/units/conversion.hpp"
-#include "spoolflow/validation/validate.hpp"
 
 namespace spoolflow::validation {
 namespace {

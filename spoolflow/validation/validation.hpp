@@ -1,0 +1,40 @@
+#pragma once
+/// What a validation is asked, and what it found.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/validation/requirements.hpp"
+#include "spoolflow/validation/run_result.hpp"
+
+namespace spoolflow::validation {
+
+struct ValidationOptions {
+  std::vector<estimation::Estimator> estimators;  ///< the leading one last
+  recording::ChannelMap channels;
+  double reference_lag_s = 0.03;     ///< of the reference meter
+  bool apply_reference_lag = false;  ///< lag the estimate likewise before comparing
+  /// Numbers that the traces of all runs together may hold: 3.5 million are 9 MiB of the report.
+  std::size_t traced_values = 3'500'000;
+  std::optional<Requirements> requirements = {};
+};
+
+/// One estimator over all runs with reference flow together.
+struct PooledResult {
+  estimation::Estimator estimator;
+  std::optional<Metrics> metrics;
+  std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`
+  std::optional<DirectionProfile> direction = {};
+};
+
+struct Validation {
+  std::vector<RunResult> runs;
+  std::vector<PooledResult> pooled;  ///< in the order of the options
+  double reference_lag_s = 0;
+  bool reference_lag_applied = false;
+  std::string requirements_file;    ///< empty: nothing was asked
+  std::vector<JudgedLimit> limits;  ///< in the file's order
+};
+
+}  // namespace spoolflow::validation
