@@ -101,6 +101,23 @@ std::string captioned(const CaptionedChart& each, double room_px, const ReaderUn
 
 }  // namespace
 
+BarChart in_units(BarChart chart, const ReaderUnits& units) {
+  const ReaderAxis axis(chart.quantity, units);
+  chart.axis = axis.titled(chart.axis);
+  for (Bar& bar : chart.bars) {
+    for (Bar::Length* length : {&bar.solid, bar.pale ? &*bar.pale : nullptr}) {
+      if (length == nullptr) continue;
+      axis.turn(length->value);
+      axis.turn(length->lower);
+      axis.turn(length->upper);
+    }
+    bar.text = bar.text.in(units);
+  }
+  axis.turn(chart.lowest);
+  axis.turn(chart.highest);
+  return chart;
+}
+
 std::string svg_of(const BarChart& described, double width_px, const ReaderUnits& units) {
   const BarChart chart = in_units(described, units);
   const Frame frame = frame_of(chart, width_px);

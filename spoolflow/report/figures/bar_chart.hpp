@@ -30,6 +30,9 @@ struct BarChart {
   std::optional<double> highest = {};  ///< else from the bars; what goes beyond is cut off
 };
 
+/// As it is drawn: SI lengths in the unit of their quantity, texts written out.
+[[nodiscard]] BarChart in_units(BarChart chart, const ReaderUnits& units);
+
 /// Text keeps its size whatever the width.
 [[nodiscard]] std::string svg_of(const BarChart& chart, double width_px, const ReaderUnits& units);
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/report/figures/bar_chart.hpp"
 #include "spoolflow/report/figures/svg_figure.hpp"
 #include "tests/report/american_units.hpp"
 
