@@ -1,5 +1,7 @@
 /// The budget of the sensor calibrated on the example recordings, at points and along a run.
+#include <array>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -201,14 +203,62 @@ TEST(BudgetAlongARun, EndsAsTheBudgetOfThePointWhereItEnds) {
   EXPECT_NEAR(shares, 1, 1e-9);
 }
 
-TEST(BudgetAlongARun, CountsTheSamplesThatHaveAReference) {
-  const RunAnalysis run = analyse_run(example(), course(true), few_trials(), 1, [](double) {});
-  ASSERT_TRUE(run.results.back().shares);
-  const BandShares& shares = *run.results.back().shares;
-  EXPECT_LE(shares.instants, 8U);
-  EXPECT_GE(shares.instants, 6U);
-  EXPECT_EQ(shares.in_budget_interval, 1) << "the reference is what the sensor says";
-  EXPECT_GT(shares.in_band_by_budget, 0.5);
+/// Nothing but the sensor errs: oil and meter are not the campaign's, and the meter is right.
+Scenario of_the_sensor_alone() {
+  Scenario scenario = few_trials();
+  scenario.run.other_bench = true;
+  scenario.run.reference_meter_percent = 0;
+  return scenario;
+}
+
+/// The observer's result along the course beside `reference(k)` [m3/s] at instant k; NaN elsewhere.
+template <class Reference>
+RunResult beside(const model::Model& model, const Scenario& scenario, const Reference& reference) {
+  RunSamples run = course(false);
+  run.reference_m3_per_s.assign(run.samples.size(), NAN);
+  for (std::size_t k = 0; k < run.instants.size(); ++k) run.reference_m3_per_s[run.instants[k]] = reference(k);
+  return analyse_run(model, run, scenario, 1, [](double) {}).results.back();
+}
+
+TEST(BudgetAlongARun, CountsTheReferencesInsideTheBandAndInsideTheBudgetsInterval) {
+  const RunResult says = analyse_run(example(), course(false), of_the_sensor_alone(), 1, [](double) {}).results.back();
+  // Of five instants three just inside, one just outside, one without a reference.
+  const auto placed = [&](const auto& half_width_m3_per_s) {
+    return *beside(example(), of_the_sensor_alone(), [&](std::size_t k) {
+              constexpr std::array places{0.98, -0.98, 1.02, 0.0, double(NAN)};
+              const double place = (k / 5) % 2 == 0 ? places[k % 5] : -places[k % 5];
+              return says.flow_m3_per_s[k] + place * half_width_m3_per_s(k, place);
+            }).shares;
+  };
+  const BandShares in_interval =
+      placed([&](std::size_t k, double) { return says.coverage_factor * says.combined_m3_per_s[k]; });
+  const double five = static_cast<double>(says.time_s.size()) / 5;
+  EXPECT_NEAR(static_cast<double>(in_interval.instants), 4 * five, 1);
+  EXPECT_NEAR(in_interval.in_budget_interval, 0.75, 1 / five);
+  const BandShares in_band = placed([&](std::size_t k, double place) {
+    return place > 0 ? says.upper_m3_per_s[k] - says.flow_m3_per_s[k] : says.flow_m3_per_s[k] - says.lower_m3_per_s[k];
+  });
+  EXPECT_NEAR(in_band.in_band, 0.75, 1 / five);
+}
+
+TEST(BudgetAlongARun, PredictsTheShareInTheBandThatAReferenceShowsWhoseErrorsAreTheBudgets) {
+  double share_before = 0;
+  for (const double width : {0.02, 0.1, 0.4}) {  // of the sensor's own band, which holds them all
+    model::Model model = example();
+    model.observer->parameters.band.coverage_factor *= width;
+    const RunResult says = analyse_run(model, course(false), of_the_sensor_alone(), 1, [](double) {}).results.back();
+    std::mt19937 random(1);
+    std::normal_distribution<double> error(0, 1);
+    const BandShares shares = *beside(model, of_the_sensor_alone(), [&](std::size_t k) {
+                                 return says.flow_m3_per_s[k] + error(random) * says.combined_m3_per_s[k];
+                               }).shares;
+    // 134 references know a share to 4 % at worst (one standard deviation), and so do 60 trials at each of them.
+    EXPECT_NEAR(shares.in_band_by_budget, shares.in_band, 0.06) << width;
+    EXPECT_NEAR(shares.in_band_by_trials, shares.in_band, 0.06) << width;
+    EXPECT_NEAR(shares.in_budget_interval, 0.95, 0.04) << width;
+    EXPECT_GT(shares.in_band, share_before + 0.04) << "a wider band holds more";
+    share_before = shares.in_band;
+  }
 }
 
 TEST(BudgetAlongARun, ErrorsOfOilAndMeterShowOnAnotherBenchOnly) {

@@ -216,5 +216,14 @@ TEST_F(WrongInput, ModelTableThatIsMissing) {
   expect_model_refused(text, {"bad.json", "/condensed", "spring_force_N"});
 }
 
+TEST_F(WrongInput, ScenarioThatIsNone) {
+  write("bad.toml", "protocol, valve\n");
+  expect_refused("simulate bad.toml -o out", {"bad.toml, line 1", "correct the TOML there"});
+  write("bad.toml", "valve = \"size_6\"\n");
+  expect_refused("simulate bad.toml -o out", {"bad.toml", "protocol is missing"});
+  write("bad.toml", "protocol = \"rampes\"\n");
+  expect_refused("simulate bad.toml -o out", {"bad.toml, line 1", "rampes"});
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

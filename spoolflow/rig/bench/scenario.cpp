@@ -1,6 +1,7 @@
 #include "spoolflow/rig/bench/scenario.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,7 +44,9 @@ Protocol protocol_of(const SettingsSource& source) {
 
 Scenario read_scenario(const std::filesystem::path& file) {
   const SettingsSource source = read_settings_source(file);
-  Scenario scenario{.valve = {}, .protocol = protocol_of(source)};
+  // Before the scenario: where an initializer throws, GCC 12 destroys those before it twice.
+  Protocol protocol = protocol_of(source);
+  Scenario scenario{.valve = {}, .protocol = std::move(protocol)};
   std::string valve = "size_6";
   apply_known(source, Settings().add_text("valve", valve));
   scenario.valve = valve_of(valve, file);
@@ -51,7 +54,7 @@ Scenario read_scenario(const std::filesystem::path& file) {
   Settings settings;
   settings.add_text("valve", valve).add_choice("protocol", protocol_names(), [](std::size_t) {});
   add_valve_settings(settings, scenario.valve);
-  std::visit([&](auto& protocol) { settings.add("run", protocol); }, scenario.protocol);
+  std::visit([&](auto& its) { settings.add("run", its); }, scenario.protocol);
   apply(source, settings);
   return scenario;
 }
