@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::exports {
@@ -49,32 +50,32 @@ class NumberGroups {
   explicit NumberGroups(const void* parameters) : begin_(static_cast<const char*>(parameters)) {}
 
   template <int Rows, int Columns>
-  void map(const std::string& key, const sensor::Map<double, Rows, Columns>& map, const std::string& row_key,
-           const std::string& column_key) {
-    axis(row_key, map.row_axis, Rows);
-    axis(column_key, map.column_axis, Columns);
-    add(map.values, Columns, key + " over " + row_key + " (a line each) and " + column_key);
+  void map(const model::TableParameter& about, const sensor::Map<double, Rows, Columns>& map) {
+    axis(about.rows, map.row_axis, Rows);
+    axis(about.columns, map.column_axis, Columns);
+    add(map.values, Columns,
+        std::string(about.key) + " over " + about.rows.key + " (a line each) and " + about.columns.key);
   }
   template <int Points>
-  void curve(const std::string& key, const sensor::Curve<double, Points>& curve, const std::string& axis_key) {
-    axis(axis_key, curve.axis, Points);
-    add(curve.values, 12, key + " over " + axis_key);
+  void curve(const model::TableParameter& about, const sensor::Curve<double, Points>& curve) {
+    axis(about.columns, curve.axis, Points);
+    add(curve.values, 12, std::string(about.key) + " over " + about.columns.key);
   }
   template <int Layers, int Rows, int Columns>
-  void volume(const std::string& key, const sensor::Volume<double, Layers, Rows, Columns>& volume) {
+  void volume(const model::TableParameter& about, const sensor::Volume<double, Layers, Rows, Columns>& volume) {
     add(volume.values, Columns,
-        key + ": " + std::to_string(Layers) + " layers of " + std::to_string(Rows) + " lines, by the axes above");
+        std::string(about.key) + ": " + std::to_string(Layers) + " layers of " + std::to_string(Rows) +
+            " lines, by the axes above");
   }
-  void axis(const std::string& key, const sensor::Axis<double>& axis, int points) {
-    add(axis, 3, key + ": first of " + std::to_string(points) + " grid points, spacing, 1 / spacing");
+  void axis(const model::AxisParameter& about, const sensor::Axis<double>& axis, int points) {
+    add(axis, 3,
+        std::string(about.key) + ": first of " + std::to_string(points) + " grid points, spacing, 1 / spacing");
   }
   template <std::size_t Count>
-  void list(const std::string& key, const std::array<double, Count>& values, double /*lowest*/, double /*highest*/) {
-    add(values, 12, key);
+  void list(const model::Parameter& about, const std::array<double, Count>& values) {
+    add(values, 12, about.key);
   }
-  void number(const std::string& key, const double& value, double /*lowest*/, double /*highest*/) {
-    add(value, 1, key);
-  }
+  void number(const model::Parameter& about, const double& value) { add(value, 1, about.key); }
 
   template <std::size_t Count>
   void table(const std::string& key, const std::array<double, Count>& numbers, int per_record) {

@@ -1,88 +1,329 @@
 #pragma once
-/// The observer's parameters, each described once; see describe_condensed.hpp.
+/// The observer's parameters, each described once; see parameter.hpp.
+#include "spoolflow/model/describe_axes.hpp"
+#include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::model {
 
-/// As describe_condensed, and visitor.list(key, array, lowest, highest).
-template <class Actuator, class Visitor>
-void describe_coil(Actuator& actuator, Visitor& visitor) {
-  visitor.map("flux_linkage_Wb", actuator.coil.flux_linkage.map, "magnetising_current_A", "position_m");
-  auto& hysteresis = actuator.coil.hysteresis;
-  visitor.list("hysteresis_threshold_Wb", hysteresis.threshold, 0.0, 1e6);
-  visitor.list("hysteresis_stiffness_A_per_Wb", hysteresis.stiffness, 0.0, 1e9);
-  visitor.list("hysteresis_stiffness_increase_A_per_Wb", hysteresis.stiffness_increase, -1e9, 1e9);
-  visitor.number("hysteresis_per_full_flux_1_per_Wb", hysteresis.per_full_flux, 0.0, 1e9);
-  auto& eddy_currents = actuator.coil.eddy_currents;
-  visitor.number("classical_eddy_current_A_per_V", eddy_currents.classical_A_per_V, 0.0, 1e3);
-  visitor.number("excess_eddy_current_A_per_rootV", eddy_currents.excess_A_per_rootV, 0.0, 1e3);
-  visitor.number("smallest_flux_rate_V", eddy_currents.smallest_rate_V, 1e-9, 1e3);
-  auto& resistance = actuator.coil_resistance;
-  visitor.number("coil_resistance_Ohm", resistance.resistance_Ohm, 0.0, 1e4);
-  visitor.number("coil_resistance_uncertainty_Ohm", resistance.uncertainty_Ohm, 0.0, 1e4);
-  visitor.number("coil_resistance_drift_Ohm_per_root_s", resistance.drift_Ohm_per_root_s, 0.0, 1e4);
-  visitor.number("voltage_noise_V_root_s", resistance.voltage_noise_V_root_s, 0.0, 1e3);
-  visitor.number("coercive_current_A", actuator.coercive_current_A, 0.0, 1e3);
-  visitor.number("per_wiping_flux_1_per_Wb", actuator.per_wiping_flux, 0.0, 1e9);
-  visitor.number("magnetic_force_uncertainty_N", actuator.force_uncertainty_N, 0.0, 1e4);
-  visitor.number("magnetising_current_uncertainty_A", actuator.current_uncertainty_A, 0.0, 1e3);
-  visitor.number("eddy_current_uncertainty", actuator.eddy_uncertainty, 0.0, 1e3);
+/// As describe_condensed, and visitor.list(Parameter, array).
+template <class Coil, class Visitor>
+void describe_coil(Coil& coil, Visitor& visitor) {
+  visitor.map({.key = "flux_linkage_Wb",
+               .unit = "Wb",
+               .limits = {-1e3, 1e3},
+               .meaning = "flux linkage of the coil",
+               .rows = magnetising_current_axis,
+               .columns = position_axis,
+               .relation = rises_over_rows(1e-4)},
+              coil.flux_linkage.map);
+  auto& hysteresis = coil.hysteresis;
+  visitor.list({.key = "hysteresis_threshold_Wb",
+                .unit = "Wb",
+                .limits = {1e-9, 1e3},
+                .meaning = "flux change after which each stop of the magnetic hysteresis yields",
+                .relation = rises},
+               hysteresis.threshold);
+  visitor.list({.key = "hysteresis_stiffness_A_per_Wb",
+                .unit = "A/Wb",
+                .limits = {0, 1e6},
+                .meaning = "current that each stop asks for, without flux"},
+               hysteresis.stiffness);
+  visitor.list({.key = "hysteresis_stiffness_increase_A_per_Wb",
+                .unit = "A/Wb",
+                .limits = {-1e6, 1e6},
+                .meaning = "what is added to that at full flux",
+                .relation = sum_not_negative("hysteresis_stiffness_A_per_Wb")},
+               hysteresis.stiffness_increase);
+  visitor.number({.key = "hysteresis_per_full_flux_1_per_Wb",
+                  .unit = "1/Wb",
+                  .limits = {0, 1e6},
+                  .meaning = "one over the full flux"},
+                 hysteresis.per_full_flux);
+  auto& eddy_currents = coil.eddy_currents;
+  visitor.number({.key = "classical_eddy_current_A_per_V",
+                  .unit = "A/V",
+                  .limits = {0, 1e3},
+                  .meaning = "eddy currents in proportion to the rate of the flux"},
+                 eddy_currents.classical_A_per_V);
+  visitor.number({.key = "excess_eddy_current_A_per_rootV",
+                  .unit = "A/V(1/2)",
+                  .limits = {0, 1e3},
+                  .meaning = "eddy currents with the root of that rate"},
+                 eddy_currents.excess_A_per_rootV);
+  visitor.number({.key = "smallest_flux_rate_V",
+                  .unit = "V",
+                  .limits = {1e-9, 1e3},
+                  .meaning = "below it the excess eddy currents become proportional, too"},
+                 eddy_currents.smallest_rate_V);
 }
 
-/// As describe_condensed and describe_coil, and visitor.volume(key, volume, layer_axis, row_axis, column_axis,
-/// VolumeKeys).
+template <class Resistance, class Visitor>
+void describe_coil_resistance(Resistance& resistance, Visitor& visitor) {
+  visitor.number({.key = "coil_resistance_Ohm",
+                  .unit = "Ohm",
+                  .limits = {0, 1e4},
+                  .meaning = "coil resistance as calibrated, where following it begins; 0: not known"},
+                 resistance.resistance_Ohm);
+  visitor.number({.key = "coil_resistance_uncertainty_Ohm",
+                  .unit = "Ohm",
+                  .limits = {0, 1e4},
+                  .meaning = "one standard deviation of it"},
+                 resistance.uncertainty_Ohm);
+  visitor.number({.key = "coil_resistance_drift_Ohm_per_root_s",
+                  .unit = "Ohm/s(1/2)",
+                  .limits = {0, 1e4},
+                  .meaning = "random walk of the coil's resistance, per root of a second"},
+                 resistance.drift_Ohm_per_root_s);
+  visitor.number({.key = "voltage_noise_V_root_s",
+                  .unit = "V s(1/2)",
+                  .limits = {0, 1e3},
+                  .meaning = "noise density of the voltage about the coil's equation"},
+                 resistance.voltage_noise_V_root_s);
+}
+
+template <class Actuator, class Visitor>
+void describe_actuator(Actuator& actuator, Visitor& visitor) {
+  describe_magnetic_force(actuator.magnetic_force, visitor);
+  visitor.map({.key = "armature_friction_N",
+               .unit = "N",
+               .limits = {0, 1e4},
+               .meaning = "half width of the armature's friction while it slides",
+               .rows = current_axis,
+               .columns = position_axis},
+              actuator.friction_N);
+  describe_coil(actuator.coil, visitor);
+  describe_coil_resistance(actuator.coil_resistance, visitor);
+  visitor.number(
+      {.key = "coercive_current_A", .unit = "A", .limits = {0, 1e3}, .meaning = "half width of the coil's widest loop"},
+      actuator.coercive_current_A);
+  visitor.number({.key = "per_wiping_flux_1_per_Wb",
+                  .unit = "1/Wb",
+                  .limits = {0, 1e9},
+                  .meaning = "one over the flux swing after which older history does not matter"},
+                 actuator.per_wiping_flux);
+  visitor.number({.key = "magnetic_force_uncertainty_N",
+                  .unit = "N",
+                  .limits = {0, 1e4},
+                  .meaning = "one standard deviation of the magnetic force at a known magnetising current"},
+                 actuator.force_uncertainty_N);
+  visitor.number({.key = "magnetising_current_uncertainty_A",
+                  .unit = "A",
+                  .limits = {0, 10},
+                  .meaning = "one standard deviation of the magnetising current at rest"},
+                 actuator.current_uncertainty_A);
+  visitor.number(
+      {.key = "eddy_current_uncertainty", .unit = "1", .limits = {0, 10}, .meaning = "its growth per eddy current"},
+      actuator.eddy_uncertainty);
+}
+
+/// Calls visitor.axis(AxisParameter, axis, points) and visitor.volume(TableParameter, volume); the volumes share the
+/// axes.
+template <class Edge, class Visitor>
+void describe_edge(Edge& edge, Visitor& visitor) {
+  visitor.axis(oil_temperature_axis, edge.temperature_K, sensor::edge_temperatures);
+  visitor.axis(pressure_difference_axis, edge.pressure_difference_Pa, sensor::edge_pressures);
+  visitor.axis(position_axis, edge.position_m, sensor::edge_positions);
+  visitor.volume(
+      {.key = "flow_force_N", .unit = "N", .limits = {-1e4, 1e4}, .meaning = "steady flow force, closing > 0"},
+      edge.flow_force_N);
+  visitor.volume({.key = "spool_friction_N",
+                  .unit = "N",
+                  .limits = {0, 1e4},
+                  .meaning = "half width of the spool's friction while it slides"},
+                 edge.friction_N);
+  visitor.volume({.key = "conductance_m3_per_s_sqrt_Pa",
+                  .unit = "m3/s/Pa(1/2)",
+                  .limits = {-1e-3, 1e-2},
+                  .meaning = "flow rate over the root of the pressure difference"},
+                 edge.conductance);
+}
+
+template <class Sensor, class Visitor>
+void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
+  visitor.number({.key = "position_noise_m",
+                  .unit = "m",
+                  .limits = {0, 1e-3},
+                  .meaning = "standard deviation of one position sample"},
+                 sensor.noise_m);
+  visitor.number({.key = "position_backlash_m",
+                  .unit = "m",
+                  .limits = {0, 1e-3},
+                  .meaning = "half width of what the spool may creep unseen"},
+                 sensor.backlash_m);
+  visitor.number({.key = "position_drift_m_per_K",
+                  .unit = "m/K",
+                  .limits = {-1e-4, 1e-4},
+                  .meaning = "drift of the position sensor's zero over oil temperature"},
+                 sensor.drift_m_per_K);
+  visitor.number({.key = "position_drift_free_K",
+                  .unit = "K",
+                  .limits = {0, 1e4},
+                  .meaning = "oil temperature at which the position sensor's zero is right"},
+                 sensor.drift_free_K);
+  visitor.number({.key = "hardest_acceleration_m_per_s2",
+                  .unit = "m/s2",
+                  .limits = {1e-3, 1e5},
+                  .meaning = "no spool accelerates harder: a jump of the position beyond it is a fault of the signal"},
+                 sensor.hardest_acceleration_m_per_s2);
+}
+
+template <class Friction, class Visitor>
+void describe_friction(Friction& friction, Visitor& visitor) {
+  visitor.number({.key = "friction_ageing_ratio",
+                  .unit = "1",
+                  .limits = {1, 20},
+                  .meaning = "the spool's friction after a long rest over its sliding friction"},
+                 friction.ageing_ratio);
+  visitor.number(
+      {.key = "friction_ageing_s", .unit = "s", .limits = {1e-4, 1e4}, .meaning = "time constant of that growth"},
+      friction.ageing_s);
+  visitor.number({.key = "contact_stiffness_N_per_m",
+                  .unit = "N/m",
+                  .limits = {0, 1e10},
+                  .meaning = "stiffness of the contacts in pre-sliding"},
+                 friction.contact_stiffness_N_per_m);
+  visitor.number({.key = "friction_tolerance_N",
+                  .unit = "N",
+                  .limits = {1e-6, 1e4},
+                  .meaning = "standard deviation of friction at rest about what the pre-sliding displacement tells, "
+                             "where pressure difference and friction share a force that does not fit"},
+                 friction.tolerance_N);
+  visitor.number({.key = "breakaway_share",
+                  .unit = "1",
+                  .limits = {0, 10},
+                  .meaning = "standard deviation of the break-away force about ageing, as a share of it"},
+                 friction.breakaway_share);
+  visitor.number({.key = "operation_friction_ratio",
+                  .unit = "1",
+                  .limits = {sensor::least_friction_ratio, sensor::most_friction_ratio},
+                  .meaning = "friction in operation over half the width of the bench's loops, to begin with"},
+                 friction.operation_ratio);
+}
+
+template <class Pressure, class Visitor>
+void describe_pressure(Pressure& pressure, Visitor& visitor) {
+  visitor.number({.key = "sliding_drift_Pa_per_sqrt_s",
+                  .unit = "Pa/s(1/2)",
+                  .limits = {0, 1e9},
+                  .meaning = "random walk of the pressure difference while the spool slides"},
+                 pressure.sliding_drift_Pa_per_sqrt_s);
+  visitor.number({.key = "resting_drift_Pa_per_sqrt_s",
+                  .unit = "Pa/s(1/2)",
+                  .limits = {0, 1e9},
+                  .meaning = "random walk of the pressure difference while the spool rests"},
+                 pressure.resting_drift_Pa_per_sqrt_s);
+  visitor.number({.key = "least_liveliness",
+                  .unit = "1",
+                  .limits = {1e-6, 1},
+                  .meaning = "process noise where the supply has proved steady, as a share of that walk",
+                  .relation = not_above("first_liveliness")},
+                 pressure.least_process_noise);
+  visitor.number(
+      {.key = "first_liveliness",
+       .unit = "1",
+       .limits = {1e-6, 1},
+       .meaning = "process noise of a supply of which nothing is known yet, as a share of that walk's variance"},
+      pressure.first_process_noise);
+  visitor.number({.key = "force_correlation_s",
+                  .unit = "s",
+                  .limits = {1e-6, 10},
+                  .meaning = "for how long errors of the forces stay alike: samples within are no new evidence"},
+                 pressure.force_correlation_s);
+  visitor.number({.key = "friction_ratio_deviation",
+                  .unit = "1",
+                  .limits = {1e-3, 2},
+                  .meaning = "standard deviation of the friction ratio at any time"},
+                 pressure.ratio_deviation);
+  visitor.number({.key = "friction_ratio_memory_s",
+                  .unit = "s",
+                  .limits = {1e-3, 1e6},
+                  .meaning = "time of sliding in which the friction ratio forgets what it has learnt"},
+                 pressure.ratio_memory_s);
+  visitor.number(
+      {.key = "yielding_s",
+       .unit = "s",
+       .limits = {1e-5, 1e3},
+       .meaning = "how fast the pressure difference gives way to a force that resting friction cannot explain"},
+      pressure.yielding_s);
+}
+
+template <class Band, class Visitor>
+void describe_band(Band& band, Visitor& visitor) {
+  visitor.number({.key = "band_friction_share",
+                  .unit = "1",
+                  .limits = {0, 10},
+                  .meaning = "standard deviation of sliding friction about its map, as a share of it"},
+                 band.friction_share);
+  visitor.number({.key = "band_force_residual_N",
+                  .unit = "N",
+                  .limits = {1e-6, 1e4},
+                  .meaning = "standard deviation of all force maps together"},
+                 band.force_residual_N);
+  visitor.number({.key = "band_flow_residual_m3_per_s",
+                  .unit = "m3/s",
+                  .limits = {0, 1},
+                  .meaning = "standard deviation of the flow about its map"},
+                 band.flow_residual_m3_per_s);
+  visitor.number({.key = "band_coverage_factor",
+                  .unit = "1",
+                  .limits = {0.1, 100},
+                  .meaning = "standard deviations in the 95 % band"},
+                 band.coverage_factor);
+  visitor.number({.key = "band_force_share",
+                  .unit = "1",
+                  .limits = {1e-3, 10},
+                  .meaning = "how much of the forces' errors the band counts while the spool slides"},
+                 band.force_share);
+  visitor.number({.key = "band_rest_share",
+                  .unit = "1",
+                  .limits = {1e-3, 100},
+                  .meaning = "how much of the forces' errors the band counts while the spool rests"},
+                 band.rest_share);
+  visitor.number(
+      {.key = "band_tolerance_N",
+       .unit = "N",
+       .limits = {0, 1e4},
+       .meaning = "how far friction at rest may lie outside of what the pre-sliding displacement bounds, one "
+                  "standard deviation as the band counts it: friction_tolerance_N scaled by how the forces' "
+                  "errors proved on operating recordings"},
+      band.tolerance_N);
+  visitor.number({.key = "band_creep_per_s",
+                  .unit = "1/s",
+                  .limits = {0, 10},
+                  .meaning = "growth of that tolerance with the time at rest, as a share of it"},
+                 band.creep_per_s);
+  visitor.number({.key = "band_unseen_factor",
+                  .unit = "1",
+                  .limits = {1e-3, 100},
+                  .meaning = "standard deviation of unseen changes of pressure over the liveliest random walk"},
+                 band.unseen_factor);
+  visitor.number({.key = "band_reference_lag_s",
+                  .unit = "s",
+                  .limits = {1e-6, 10},
+                  .meaning = "lag of the flow meter that the band is held against"},
+                 band.reference_lag_s);
+}
+
+/// Calls visitor for every parameter as describe_condensed, describe_coil and describe_edge say.
 template <class Parameters, class Visitor>
 void describe_observer(Parameters& parameters, Visitor&& visitor) {
-  visitor.map("magnetic_force_N", parameters.actuator.magnetic_force.map, "current_A", "position_m");
-  visitor.curve("magnetic_hysteresis_half_width_N", parameters.actuator.magnetic_force.hysteresis_half_width_N,
-                "current_A");
-  visitor.map("armature_friction_N", parameters.actuator.friction_N, "current_A", "position_m");
-  describe_coil(parameters.actuator, visitor);
-  visitor.curve("spring_force_N", parameters.spring.curve, "position_m");
-
-  auto& edge = parameters.edge;
-  visitor.axis("oil_temperature_K", edge.temperature_K, sensor::edge_temperatures);
-  visitor.axis("pressure_difference_Pa", edge.pressure_difference_Pa, sensor::edge_pressures);
-  visitor.axis("position_m", edge.position_m, sensor::edge_positions);
-  visitor.volume("flow_force_N", edge.flow_force_N);
-  visitor.volume("spool_friction_N", edge.friction_N);
-  visitor.volume("conductance_m3_per_s_sqrt_Pa", edge.conductance);
-
-  visitor.number("position_noise_m", parameters.position_sensor.noise_m, 0.0, 1e-3);
-  visitor.number("position_backlash_m", parameters.position_sensor.backlash_m, 0.0, 1e-3);
-  visitor.number("position_drift_m_per_K", parameters.position_sensor.drift_m_per_K, -1e-4, 1e-4);
-  visitor.number("position_drift_free_K", parameters.position_sensor.drift_free_K, 0.0, 1e4);
-  visitor.number("hardest_acceleration_m_per_s2", parameters.position_sensor.hardest_acceleration_m_per_s2, 1e-3, 1e5);
-
-  visitor.number("friction_ageing_ratio", parameters.friction.ageing_ratio, 1.0, 20.0);
-  visitor.number("friction_ageing_s", parameters.friction.ageing_s, 1e-4, 1e4);
-  visitor.number("contact_stiffness_N_per_m", parameters.friction.contact_stiffness_N_per_m, 0.0, 1e10);
-  visitor.number("friction_tolerance_N", parameters.friction.tolerance_N, 0.0, 1e4);
-  visitor.number("breakaway_share", parameters.friction.breakaway_share, 0.0, 10.0);
-  visitor.number("operation_friction_ratio", parameters.friction.operation_ratio, 0.05, 2.5);
-
-  visitor.number("sliding_drift_Pa_per_sqrt_s", parameters.pressure.sliding_drift_Pa_per_sqrt_s, 0.0, 1e9);
-  visitor.number("resting_drift_Pa_per_sqrt_s", parameters.pressure.resting_drift_Pa_per_sqrt_s, 0.0, 1e9);
-  visitor.number("least_liveliness", parameters.pressure.least_process_noise, 1e-6, 1.0);
-  visitor.number("first_liveliness", parameters.pressure.first_process_noise, 1e-6, 1.0);
-  visitor.number("force_correlation_s", parameters.pressure.force_correlation_s, 1e-6, 10.0);
-  visitor.number("friction_ratio_deviation", parameters.pressure.ratio_deviation, 1e-3, 2.0);
-  visitor.number("friction_ratio_memory_s", parameters.pressure.ratio_memory_s, 1e-3, 1e6);
-  visitor.number("yielding_s", parameters.pressure.yielding_s, 1e-5, 1e3);
-
-  visitor.number("band_friction_share", parameters.band.friction_share, 0.0, 10.0);
-  visitor.number("band_force_residual_N", parameters.band.force_residual_N, 0.0, 1e4);
-  visitor.number("band_flow_residual_m3_per_s", parameters.band.flow_residual_m3_per_s, 0.0, 1.0);
-  visitor.number("band_coverage_factor", parameters.band.coverage_factor, 0.0, 100.0);
-  visitor.number("band_force_share", parameters.band.force_share, 0.0, 10.0);
-  visitor.number("band_rest_share", parameters.band.rest_share, 0.0, 100.0);
-  visitor.number("band_tolerance_N", parameters.band.tolerance_N, 0.0, 1e4);
-  visitor.number("band_creep_per_s", parameters.band.creep_per_s, 0.0, 10.0);
-  visitor.number("band_unseen_factor", parameters.band.unseen_factor, 1e-3, 100.0);
-  visitor.number("band_reference_lag_s", parameters.band.reference_lag_s, 0.0, 10.0);
-
-  visitor.number("closed_below_m", parameters.closed_below_m, -1e-3, 0.1);
-  visitor.number("largest_current_A", parameters.largest_current_A, 0.0, 1e3);
+  describe_actuator(parameters.actuator, visitor);
+  describe_spring(parameters.spring, visitor);
+  describe_edge(parameters.edge, visitor);
+  describe_position_sensor(parameters.position_sensor, visitor);
+  describe_friction(parameters.friction, visitor);
+  describe_pressure(parameters.pressure, visitor);
+  describe_band(parameters.band, visitor);
+  visitor.number(
+      {.key = "closed_below_m", .unit = "m", .limits = {-1e-3, 0.1}, .meaning = "positions below this count as closed"},
+      parameters.closed_below_m);
+  visitor.number({.key = "largest_current_A",
+                  .unit = "A",
+                  .limits = {0, 1e3},
+                  .meaning = "currents above this count as saturated"},
+                 parameters.largest_current_A);
 }
 
 }  // namespace spoolflow::model

@@ -1,13 +1,16 @@
 #pragma once
-/// Visitors that carry the sensor's tables into JSON and back.
+/// Visitors that carry what is described into JSON and back. Reading looks at types, sizes and axes; whether the
+/// numbers are such as the sensor needs is looked at by LimitCheck.
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/model/json_node.hpp"
+#include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::model {
@@ -17,23 +20,23 @@ class TableWriter {
   explicit TableWriter(nlohmann::ordered_json& out) : out_(out) {}
 
   template <class T, int Rows, int Columns>
-  void map(const char* key, const sensor::Map<T, Rows, Columns>& map, const char* row_key, const char* column_key) {
+  void map(const TableParameter& about, const sensor::Map<T, Rows, Columns>& map) {
     auto values = nlohmann::ordered_json::array();
     for (int row = 0; row < Rows; ++row) {
       auto line = nlohmann::ordered_json::array();
       for (int column = 0; column < Columns; ++column) line.push_back(map.node(row, column));
       values.push_back(std::move(line));
     }
-    out_[key] = {{row_key, points<Rows>(map.row_axis)},
-                 {column_key, points<Columns>(map.column_axis)},
-                 {"values", std::move(values)}};
+    out_[about.key] = {{about.rows.key, points<Rows>(map.row_axis)},
+                       {about.columns.key, points<Columns>(map.column_axis)},
+                       {"values", std::move(values)}};
   }
   template <class T, int Points>
-  void curve(const char* key, const sensor::Curve<T, Points>& curve, const char* axis_key) {
-    out_[key] = {{axis_key, points<Points>(curve.axis)}, {"values", curve.values}};
+  void curve(const TableParameter& about, const sensor::Curve<T, Points>& curve) {
+    out_[about.key] = {{about.columns.key, points<Points>(curve.axis)}, {"values", curve.values}};
   }
   template <class T, int Layers, int Rows, int Columns>
-  void volume(const char* key, const sensor::Volume<T, Layers, Rows, Columns>& volume) {
+  void volume(const TableParameter& about, const sensor::Volume<T, Layers, Rows, Columns>& volume) {
     auto layers = nlohmann::ordered_json::array();
     for (int layer = 0; layer < Layers; ++layer) {
       auto rows = nlohmann::ordered_json::array();
@@ -44,21 +47,25 @@ class TableWriter {
       }
       layers.push_back(std::move(rows));
     }
-    out_[key] = std::move(layers);
+    out_[about.key] = std::move(layers);
   }
   template <class T>
-  void axis(const char* key, const sensor::Axis<T>& axis, int points) {
+  void axis(const AxisParameter& about, const sensor::Axis<T>& axis, int points) {
     auto out = nlohmann::ordered_json::array();
     for (int k = 0; k < points; ++k) out.push_back(axis.at(k));
-    out_[key] = std::move(out);
+    out_[about.key] = std::move(out);
   }
   template <class T, std::size_t Count>
-  void list(const char* key, const std::array<T, Count>& values, double /*lowest*/, double /*highest*/) {
-    out_[key] = values;
+  void list(const Parameter& about, const std::array<T, Count>& values) {
+    out_[about.key] = values;
   }
   template <class T>
-  void number(const char* key, const T& value, double /*lowest*/, double /*highest*/) {
-    out_[key] = value;
+  void number(const Parameter& about, const T& value) {
+    out_[about.key] = value;
+  }
+  template <class T>
+  void number(const Parameter& about, const std::optional<T>& value) {
+    if (value) out_[about.key] = *value;
   }
 
  private:
@@ -76,10 +83,10 @@ class TableReader {
   explicit TableReader(const JsonNode& in) : in_(in) {}
 
   template <class T, int Rows, int Columns>
-  void map(const char* key, sensor::Map<T, Rows, Columns>& map, const char* row_key, const char* column_key) {
-    const JsonNode node = in_.at(key);
-    map.row_axis = axis<T>(node.at(row_key), Rows);
-    map.column_axis = axis<T>(node.at(column_key), Columns);
+  void map(const TableParameter& about, sensor::Map<T, Rows, Columns>& map) {
+    const JsonNode node = in_.at(about.key);
+    map.row_axis = axis<T>(node.at(about.rows.key), Rows);
+    map.column_axis = axis<T>(node.at(about.columns.key), Columns);
     const std::vector<JsonNode> lines = node.at("values").elements();
     require_count(node.at("values"), lines.size(), Rows);
     for (int row = 0; row < Rows; ++row) {
@@ -92,16 +99,16 @@ class TableReader {
     }
   }
   template <class T, int Points>
-  void curve(const char* key, sensor::Curve<T, Points>& curve, const char* axis_key) {
-    const JsonNode node = in_.at(key);
-    curve.axis = axis<T>(node.at(axis_key), Points);
+  void curve(const TableParameter& about, sensor::Curve<T, Points>& curve) {
+    const JsonNode node = in_.at(about.key);
+    curve.axis = axis<T>(node.at(about.columns.key), Points);
     const std::vector<double> values = node.at("values").numbers();
     require_count(node.at("values"), values.size(), Points);
     for (std::size_t k = 0; k < values.size(); ++k) curve.values[k] = static_cast<T>(values[k]);
   }
   template <class T, int Layers, int Rows, int Columns>
-  void volume(const char* key, sensor::Volume<T, Layers, Rows, Columns>& volume) {
-    const JsonNode node = in_.at(key);
+  void volume(const TableParameter& about, sensor::Volume<T, Layers, Rows, Columns>& volume) {
+    const JsonNode node = in_.at(about.key);
     const std::vector<JsonNode> layers = node.elements();
     require_count(node, layers.size(), Layers);
     for (int layer = 0; layer < Layers; ++layer) {
@@ -119,19 +126,23 @@ class TableReader {
     }
   }
   template <class T>
-  void axis(const char* key, sensor::Axis<T>& out, int points) {
-    out = axis<T>(in_.at(key), points);
+  void axis(const AxisParameter& about, sensor::Axis<T>& out, int points) {
+    out = axis<T>(in_.at(about.key), points);
   }
   template <class T, std::size_t Count>
-  void list(const char* key, std::array<T, Count>& out, double lowest, double highest) {
-    const JsonNode node = in_.at(key);
+  void list(const Parameter& about, std::array<T, Count>& out) {
+    const JsonNode node = in_.at(about.key);
     const std::vector<JsonNode> entries = node.elements();
     require_count(node, entries.size(), static_cast<int>(Count));
-    for (std::size_t k = 0; k < Count; ++k) out[k] = static_cast<T>(entries[k].number(lowest, highest));
+    for (std::size_t k = 0; k < Count; ++k) out[k] = static_cast<T>(entries[k].number());
   }
   template <class T>
-  void number(const char* key, T& value, double lowest, double highest) {
-    value = static_cast<T>(in_.at(key).number(lowest, highest));
+  void number(const Parameter& about, T& value) {
+    value = static_cast<T>(about.otherwise && !in_.has(about.key) ? *about.otherwise : in_.at(about.key).number());
+  }
+  template <class T>
+  void number(const Parameter& about, std::optional<T>& value) {
+    if (in_.has(about.key)) value = static_cast<T>(in_.at(about.key).number());
   }
 
  private:

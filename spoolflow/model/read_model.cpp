@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/model/describe_campaign.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
-#include "spoolflow/model/describe_instruments.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/model/model_limits.hpp"
 
 namespace spoolflow::model {
 namespace {
@@ -18,11 +19,6 @@ Range range(const JsonNode& node) {
   const std::vector<double> ends = node.rising_numbers();
   if (ends.size() != 2) node.refuse(fmt::format("has {} entries, a range has 2", ends.size()));
   return {ends[0], ends[1]};
-}
-
-std::optional<double> positive_if_given(const JsonNode& node, const char* key) {
-  if (!node.has(key)) return std::nullopt;
-  return node.at(key).number(1e-12, 1e12);
 }
 
 Provenance provenance(const JsonNode& node) {
@@ -84,12 +80,6 @@ Condensed condensed(const JsonNode& node) {
   if (node.has("oil_temperature_K")) out.oil_temperature_K = node.at("oil_temperature_K").number(200, 500);
   out.residuals = residuals(node.at("residuals"));
   describe_condensed(out.parameters, TableReader(node));
-  const auto& largest = out.parameters.flow_rate.largest_force_N.values;
-  for (std::size_t k = 0; k < largest.size(); ++k) {
-    if (!(largest[k] > 0)) {
-      node.at("largest_flow_force_N").at("values").elements()[k].refuse("the largest flow force must be above zero");
-    }
-  }
   return out;
 }
 
@@ -185,22 +175,20 @@ Model parse_model(const std::string& text, const std::string& file) {
   }
   Model out;
   const JsonNode valve = root.at("valve");
-  out.valve = {valve.at("name").text(), valve.at("rated_flow_m3_per_s").number(1e-7, 1),
-               valve.at("stroke_m").number(1e-5, 0.1), valve.at("direction").text()};
+  out.valve.name = valve.at("name").text();
+  out.valve.direction = valve.at("direction").text();
+  describe_valve(out.valve, TableReader(valve));
   if (out.valve.direction != "a" && out.valve.direction != "b")
     valve.at("direction").refuse("is neither \"a\" nor \"b\"");
   const JsonNode fluid = root.at("fluid");
-  out.fluid = {fluid.at("name").text(), positive_if_given(fluid, "density_15C_kg_per_m3"),
-               positive_if_given(fluid, "viscosity_40C_m2_per_s"), positive_if_given(fluid, "viscosity_100C_m2_per_s")};
-  if (root.has("instruments")) {
-    const JsonNode given = root.at("instruments");
-    describe_instruments(out.instruments,
-                         [&](const char* key, std::optional<double>& value) { value = positive_if_given(given, key); });
-  }
+  out.fluid.name = fluid.at("name").text();
+  describe_fluid(out.fluid, TableReader(fluid));
+  if (root.has("instruments")) describe_instruments(out.instruments, TableReader(root.at("instruments")));
   out.provenance = provenance(root.at("provenance"));
   out.condensed = condensed(root.at("condensed"));
   if (root.has("observer")) out.observer = observer(root.at("observer"));
   out.evidence = evidence(root.at("evidence"));
+  require_limits(out, file);
   return out;
 }
 

@@ -2,11 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/model/describe_campaign.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
-#include "spoolflow/model/describe_instruments.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/model/model_limits.hpp"
 
 namespace spoolflow::model {
 namespace {
@@ -26,11 +27,16 @@ Json provenance(const Provenance& provenance) {
   return {{"tool", "spoolflow " + provenance.tool_version}, {"created", provenance.created}, {"inputs", inputs}};
 }
 
+Json valve(const Valve& valve) {
+  Json out{{"name", valve.name}};
+  describe_valve(valve, TableWriter(out));
+  out["direction"] = valve.direction;
+  return out;
+}
+
 Json fluid(const Fluid& fluid) {
   Json out{{"name", fluid.name}};
-  if (fluid.density_15C_kg_per_m3) out["density_15C_kg_per_m3"] = *fluid.density_15C_kg_per_m3;
-  if (fluid.viscosity_40C_m2_per_s) out["viscosity_40C_m2_per_s"] = *fluid.viscosity_40C_m2_per_s;
-  if (fluid.viscosity_100C_m2_per_s) out["viscosity_100C_m2_per_s"] = *fluid.viscosity_100C_m2_per_s;
+  describe_fluid(fluid, TableWriter(out));
   return out;
 }
 
@@ -44,9 +50,7 @@ Json residuals(const std::vector<Residual>& residuals) {
 
 Json instruments(const Instruments& instruments) {
   Json out = Json::object();
-  describe_instruments(instruments, [&](const char* key, const std::optional<double>& value) {
-    if (value) out[key] = *value;
-  });
+  describe_instruments(instruments, TableWriter(out));
   return out;
 }
 
@@ -137,13 +141,10 @@ Json evidence(const Evidence& evidence) {
 }  // namespace
 
 void write_model(std::ostream& out, const Model& model) {
+  require_limits(model, "the model to be written");
   Json file{{"format", "spoolflow model"},
             {"version", model_version},
-            {"valve",
-             {{"name", model.valve.name},
-              {"rated_flow_m3_per_s", model.valve.rated_flow_m3_per_s},
-              {"stroke_m", model.valve.stroke_m},
-              {"direction", model.valve.direction}}},
+            {"valve", valve(model.valve)},
             {"fluid", fluid(model.fluid)}};
   if (Json given = instruments(model.instruments); !given.empty()) file["instruments"] = std::move(given);
   file["provenance"] = provenance(model.provenance);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_constants.hpp"
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/sensor/status.hpp"
@@ -128,14 +129,14 @@ TEST(Formats, NameEveryChannelAndUnit) {
 struct Keys {
   std::vector<std::string> all;
   template <class Map>
-  void map(const char* key, const Map& /*map*/, const char* /*row*/, const char* /*column*/) {
-    all.emplace_back(key);
+  void map(const model::TableParameter& about, const Map& /*map*/) {
+    all.emplace_back(about.key);
   }
   template <class Curve>
-  void curve(const char* key, const Curve& /*curve*/, const char* /*axis*/) {
-    all.emplace_back(key);
+  void curve(const model::TableParameter& about, const Curve& /*curve*/) {
+    all.emplace_back(about.key);
   }
-  void number(const char* key, double /*value*/, double /*lowest*/, double /*highest*/) { all.emplace_back(key); }
+  void number(const model::Parameter& about, double /*value*/) { all.emplace_back(about.key); }
 };
 
 TEST(Formats, NameEveryKeyOfTheCondensedSensor) {
@@ -145,6 +146,29 @@ TEST(Formats, NameEveryKeyOfTheCondensedSensor) {
   model::describe_condensed(parameters, keys);
   EXPECT_GE(keys.all.size(), 10U);
   for (const std::string& key : keys.all) EXPECT_EQ(named.count(key), 1U) << key;
+}
+
+struct ConstantNames {
+  std::set<std::string> all;
+  void constant(const model::Constant& about, double /*value*/) { all.insert(about.name); }
+};
+
+TEST(Parameters, NameEveryConstantOfTheSensor) {
+  ConstantNames named;
+  model::describe_constants(named);
+  const std::regex constant("inline constexpr (?:double|float|T) ([a-z]\\w*)");
+  std::vector<std::string> missing;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "spoolflow/sensor")) {
+    if (entry.path().extension() != ".hpp") continue;
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, constant) && line.find("one_valve") == std::string::npos &&
+          named.all.count(match[1]) == 0)
+        missing.push_back(in_project(entry.path()) + ": " + match[1].str());
+    }
+  }
+  EXPECT_THAT(missing, IsEmpty());
 }
 
 TEST(Markdown, FindsHeadingsLinksAndCodeOutsideOfBlocks) {

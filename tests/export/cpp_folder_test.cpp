@@ -135,10 +135,10 @@ TEST(GoldenPoints, StayTheSameInSinglePrecision) {
 TEST(NumberGroups, NoticeAParameterThatNobodyDescribed) {
   const std::array<double, 3> parameters{1, 2, 3};
   NumberGroups groups(&parameters);
-  groups.number("first", parameters[0], 0, 1);
-  groups.number("last", parameters[2], 0, 1);
+  groups.number({.key = "first", .unit = "1", .limits = {0, 1}, .meaning = ""}, parameters[0]);
+  groups.number({.key = "last", .unit = "1", .limits = {0, 1}, .meaning = ""}, parameters[2]);
   EXPECT_THROW((void)groups.in_order(3), std::logic_error);
-  groups.number("middle", parameters[1], 0, 1);
+  groups.number({.key = "middle", .unit = "1", .limits = {0, 1}, .meaning = ""}, parameters[1]);
   EXPECT_EQ(groups.in_order(3).size(), 3U);
   EXPECT_THROW((void)groups.in_order(4), std::logic_error);
 }

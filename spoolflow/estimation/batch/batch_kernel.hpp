@@ -46,28 +46,28 @@ class Described {
     add(numbers.data());
   }
   template <class Map>
-  void map(const char* key, const Map& map, const char* /*row_key*/, const char* column_key) {
-    axis(key, map.row_axis, 0);
-    axis(column_key, map.column_axis, 0);
+  void map(const model::TableParameter& about, const Map& map) {
+    axis(about.rows, map.row_axis, 0);
+    axis(about.columns, map.column_axis, 0);
     add(map.values.data());
   }
   template <class Curve>
-  void curve(const char* /*key*/, const Curve& curve, const char* axis_key) {
-    axis(axis_key, curve.axis, 0);
+  void curve(const model::TableParameter& about, const Curve& curve) {
+    axis(about.columns, curve.axis, 0);
     add(curve.values.data());
   }
   template <class Volume>
-  void volume(const char* /*key*/, const Volume& volume) {
+  void volume(const model::TableParameter& /*about*/, const Volume& volume) {
     add(volume.values.data());
   }
-  void axis(const char* /*key*/, const sensor::Axis<float>& axis, int /*points*/) {
+  void axis(const model::AxisParameter& /*about*/, const sensor::Axis<float>& axis, int /*points*/) {
     for (const float* number : {&axis.first, &axis.spacing, &axis.per_spacing}) add(number);
   }
   template <std::size_t Count>
-  void list(const char* /*key*/, const std::array<float, Count>& values, double /*lowest*/, double /*highest*/) {
+  void list(const model::Parameter& /*about*/, const std::array<float, Count>& values) {
     for (const float& value : values) add(&value);
   }
-  void number(const char* /*key*/, const float& value, double /*lowest*/, double /*highest*/) { add(&value); }
+  void number(const model::Parameter& /*about*/, const float& value) { add(&value); }
   [[nodiscard]] const float* at(std::size_t k) const { return addresses_[k]; }
   [[nodiscard]] bool all_held() const { return count_ <= Capacity; }
 
@@ -89,6 +89,35 @@ class SideBySide {
 
   template <class Table>
   void table(const char* /*key*/, Table& table, int /*per_record*/) {
+    put(table);
+  }
+  template <class Map>
+  void map(const model::TableParameter& about, Map& map) {
+    axis(about.rows, map.row_axis, 0);
+    axis(about.columns, map.column_axis, 0);
+    put(map.values);
+  }
+  template <class Curve>
+  void curve(const model::TableParameter& about, Curve& curve) {
+    axis(about.columns, curve.axis, 0);
+    put(curve.values);
+  }
+  template <class Volume>
+  void volume(const model::TableParameter& /*about*/, Volume& volume) {
+    put(volume.values);
+  }
+  void axis(const model::AxisParameter& /*about*/, sensor::Axis<Pack>& axis, int /*points*/) {
+    for (Pack* number : {&axis.first, &axis.spacing, &axis.per_spacing}) put_number(*number);
+  }
+  template <std::size_t Count>
+  void list(const model::Parameter& /*about*/, std::array<Pack, Count>& values) {
+    for (Pack& value : values) put_number(value);
+  }
+  void number(const model::Parameter& /*about*/, Pack& value) { put_number(value); }
+
+ private:
+  template <class Table>
+  void put(Table& table) {
     std::array<std::int32_t, valves_together> first;
     for (std::size_t k = 0; k < valves_together; ++k)
       first[k] = static_cast<std::int32_t>(valves_[k].at(next_) - numbers_);
@@ -96,36 +125,13 @@ class SideBySide {
     table.first = std::bit_cast<Pack::Index>(first);
     ++next_;
   }
-  template <class Map>
-  void map(const char* key, Map& map, const char* /*row_key*/, const char* column_key) {
-    axis(key, map.row_axis, 0);
-    axis(column_key, map.column_axis, 0);
-    table(key, map.values, 0);
-  }
-  template <class Curve>
-  void curve(const char* key, Curve& curve, const char* axis_key) {
-    axis(axis_key, curve.axis, 0);
-    table(key, curve.values, 0);
-  }
-  template <class Volume>
-  void volume(const char* key, Volume& volume) {
-    table(key, volume.values, 0);
-  }
-  void axis(const char* key, sensor::Axis<Pack>& axis, int /*points*/) {
-    for (Pack* number : {&axis.first, &axis.spacing, &axis.per_spacing}) this->number(key, *number, 0, 0);
-  }
-  template <std::size_t Count>
-  void list(const char* key, std::array<Pack, Count>& values, double lowest, double highest) {
-    for (Pack& value : values) number(key, value, lowest, highest);
-  }
-  void number(const char* /*key*/, Pack& value, double /*lowest*/, double /*highest*/) {
+  void put_number(Pack& value) {
     std::array<float, valves_together> numbers;
     for (std::size_t k = 0; k < valves_together; ++k) numbers[k] = *valves_[k].at(next_);
     value = Pack::read(numbers.data());
     ++next_;
   }
 
- private:
   const std::array<Described<Capacity>, valves_together>& valves_;
   const float* numbers_;
   std::size_t next_ = 0;

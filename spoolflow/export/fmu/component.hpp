@@ -6,12 +6,18 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "spoolflow/export/fmu/variable.hpp"
 
 namespace spoolflow::exports::fmu {
+
+/// A call that cannot be followed; the instance is as before.
+struct CallError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
 
 class Component {
  public:
@@ -26,6 +32,7 @@ class Component {
   /// Seconds between samples [s], by the parameters among `values`.
   [[nodiscard]] virtual double sample_step_s(std::span<const double> values) const = 0;
   /// Parameters have been set: takes them over. Called before start and again when a tunable parameter has changed.
+  /// Throws CallError where they do not fit together, and goes on with those before.
   virtual void tune(std::span<const double> values) = 0;
   /// The state before the first sample, and among `values` the outputs that the inputs mean there.
   virtual void start(std::span<double> values) = 0;

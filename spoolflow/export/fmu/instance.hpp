@@ -16,10 +16,6 @@
 
 namespace spoolflow::exports::fmu {
 
-/// A call that cannot be followed; the instance is as before.
-struct CallError : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
 /// A communication step that is refused, but the importer may go on: the instance is as before.
 struct StepRefused : std::invalid_argument {
   using std::invalid_argument::invalid_argument;

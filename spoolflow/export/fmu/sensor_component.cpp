@@ -9,6 +9,7 @@
 #include "spoolflow/export/fmu/component.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
+#include "spoolflow/model/limit_check.hpp"
 
 namespace spoolflow::exports::fmu {
 namespace {
@@ -21,6 +22,10 @@ class SensorComponent : public Component {
       : identity_(identity), running_(&parameters_, resource.numbers.at(0)) {
     const std::span<const double> numbers(resource.numbers);
     take_numbers(numbers.subspan(2), parameters_);
+    if (const auto wrong = broken_limit()) {
+      throw ResourceError(model::joined({"the resource is damaged: ", wrong->path, ": ", wrong->problem,
+                                         "; export the FMU again with `spoolflow export fmu`"}));
+    }
     running_.parameters_changed();
     tunable_ = tunable_numbers(parameters_);
     variables_ = sensor_variables({numbers[0], numbers[1]}, tunable_);
@@ -32,7 +37,13 @@ class SensorComponent : public Component {
     return values[sensor_sample_step];
   }
   void tune(std::span<const double> values) override {
+    const Parameters before = parameters_;
     for (std::size_t k = 0; k < tunable_.size(); ++k) *tunable_[k].value = values[sensor_first_tunable + k];
+    if (const auto wrong = broken_limit()) {
+      parameters_ = before;
+      throw CallError(model::joined(
+          {"the parameters do not fit together: ", std::string_view(wrong->path).substr(1), ": ", wrong->problem}));
+    }
     running_.parameters_changed();
   }
   void start(std::span<double> values) override {
@@ -48,6 +59,9 @@ class SensorComponent : public Component {
   }
 
  private:
+  [[nodiscard]] std::optional<model::Violation> broken_limit() const {
+    return model::violation(parameters_, [](auto& parameters, auto& visitor) { describe(parameters, visitor); });
+  }
   static estimation::TimedSample sample_of(std::span<const double> values, std::int64_t number) {
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     return {.time_s = static_cast<double>(number) * values[sensor_sample_step],

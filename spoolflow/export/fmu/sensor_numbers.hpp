@@ -20,37 +20,37 @@ class NumberVisitor {
   explicit NumberVisitor(Each each) : each_(each) {}
 
   template <class Map>
-  void map(const char* key, Map& map, const char*, const char*) {
-    named(key);
+  void map(const model::TableParameter& about, Map& map) {
+    named(about.key);
     whole(map.row_axis), whole(map.column_axis);
     for (int row = 0; row < Map::rows; ++row) {
       for (int column = 0; column < Map::columns; ++column) each_(map.node(row, column));
     }
   }
   template <class Curve>
-  void curve(const char* key, Curve& curve, const char*) {
-    named(key);
+  void curve(const model::TableParameter& about, Curve& curve) {
+    named(about.key);
     whole(curve.axis);
     for (auto& value : curve.values) each_(value);
   }
   template <class Volume>
-  void volume(const char* key, Volume& volume) {
-    named(key);
+  void volume(const model::TableParameter& about, Volume& volume) {
+    named(about.key);
     for (auto& value : volume.values) each_(value);
   }
   template <class Axis>
-  void axis(const char* key, Axis& axis, int) {
-    named(key);
+  void axis(const model::AxisParameter& about, Axis& axis, int /*points*/) {
+    named(about.key);
     whole(axis);
   }
   template <class List>
-  void list(const char* key, List& values, double, double) {
-    named(key);
+  void list(const model::Parameter& about, List& values) {
+    named(about.key);
     for (auto& value : values) each_(value);
   }
   template <class Number>
-  void number(const char* key, Number& value, double, double) {
-    named(key);
+  void number(const model::Parameter& about, Number& value) {
+    named(about.key);
     each_(value);
   }
 

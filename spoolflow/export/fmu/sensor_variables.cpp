@@ -8,48 +8,41 @@
 namespace spoolflow::exports::fmu {
 namespace {
 
+/// What they mean, their units and limits stand in the model's description.
 constexpr std::array<Tunable, 15> tunables{{
     // drift and errors of the position sensor
-    {"position_drift_m_per_K", "drift.position_per_temperature",
-     "drift of the position sensor's zero over oil temperature", "m/K", "um/K"},
-    {"position_drift_free_K", "drift.free_temperature", "oil temperature at which the position sensor's zero is right",
-     "K", "degC"},
-    {"coil_resistance_drift_Ohm_per_root_s", "drift.coil_resistance",
-     "random walk of the coil's resistance, per root of a second", "Ohm/s(1/2)", ""},
+    {"position_drift_m_per_K", "drift.position_per_temperature", "um/K"},
+    {"position_drift_free_K", "drift.free_temperature", "degC"},
+    {"coil_resistance_drift_Ohm_per_root_s", "drift.coil_resistance", ""},
     // filter
-    {"position_noise_m", "filter.position_noise", "standard deviation of one position sample", "m", "um"},
-    {"sliding_drift_Pa_per_sqrt_s", "filter.pressure_drift_sliding",
-     "random walk of the pressure difference while the spool slides", "Pa/s(1/2)", "bar/s(1/2)"},
-    {"resting_drift_Pa_per_sqrt_s", "filter.pressure_drift_resting",
-     "random walk of the pressure difference while the spool rests", "Pa/s(1/2)", "bar/s(1/2)"},
-    {"yielding_s", "filter.yielding_time",
-     "how fast the pressure difference gives way to a force that resting friction cannot explain", "s", "ms"},
-    {"band_coverage_factor", "filter.band_coverage", "standard deviations in the 95 % band", "1", ""},
-    {"force_residual_N", "filter.force_residual", "standard deviation of the averaged forces about the maps", "N", ""},
-    {"flow_residual_m3_per_s", "filter.flow_residual", "standard deviation of the flow about its map", "m3/s", "L/min"},
-    {"band_force_residual_N", "filter.band_force_residual", "standard deviation of all force maps together", "N", ""},
-    {"band_flow_residual_m3_per_s", "filter.band_flow_residual", "standard deviation of the flow about its map", "m3/s",
-     "L/min"},
+    {"position_noise_m", "filter.position_noise", "um"},
+    {"sliding_drift_Pa_per_sqrt_s", "filter.pressure_drift_sliding", "bar/s(1/2)"},
+    {"resting_drift_Pa_per_sqrt_s", "filter.pressure_drift_resting", "bar/s(1/2)"},
+    {"yielding_s", "filter.yielding_time", "ms"},
+    {"band_coverage_factor", "filter.band_coverage", ""},
+    {"force_residual_N", "filter.force_residual", ""},
+    {"flow_residual_m3_per_s", "filter.flow_residual", "L/min"},
+    {"band_force_residual_N", "filter.band_force_residual", ""},
+    {"band_flow_residual_m3_per_s", "filter.band_flow_residual", "L/min"},
     // limits
-    {"hardest_acceleration_m_per_s2", "limit.acceleration",
-     "no spool accelerates harder: a jump of the position beyond it is a fault of the signal", "m/s2", ""},
-    {"closed_below_m", "limit.closed_below", "positions below this count as closed", "m", "mm"},
-    {"largest_current_A", "limit.current", "currents above this count as saturated", "A", ""},
+    {"hardest_acceleration_m_per_s2", "limit.acceleration", ""},
+    {"closed_below_m", "limit.closed_below", "mm"},
+    {"largest_current_A", "limit.current", ""},
 }};
 
 /// Keeps the numbers that a tunable names; passes over everything else.
 struct TunableVisitor {
   std::vector<TunableNumber>& found;
 
-  void map(const char*, auto&, const char*, const char*) {}
-  void curve(const char*, auto&, const char*) {}
-  void volume(const char*, auto&) {}
-  void axis(const char*, auto&, int) {}
-  void list(const char*, auto&, double, double) {}
-  void number(const char* key, double& value, double lowest, double highest) {
+  void map(const model::TableParameter&, auto&) {}
+  void curve(const model::TableParameter&, auto&) {}
+  void volume(const model::TableParameter&, auto&) {}
+  void axis(const model::AxisParameter&, auto&, int) {}
+  void list(const model::Parameter&, auto&) {}
+  void number(const model::Parameter& about, double& value) {
     const auto it =
-        std::find_if(tunables.begin(), tunables.end(), [&](const Tunable& each) { return each.key == key; });
-    if (it != tunables.end()) found.push_back({*it, &value, lowest, highest});
+        std::find_if(tunables.begin(), tunables.end(), [&](const Tunable& each) { return each.key == about.key; });
+    if (it != tunables.end()) found.push_back({*it, about, &value});
   }
 };
 
@@ -121,15 +114,15 @@ std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vect
       flag("use_voltage", "whether the coil voltage is measured"),
       flag("use_oil_temperature", "whether the oil temperature is measured")};
   for (const TunableNumber& number : tunable) {
-    all.push_back({.name = std::string(number.about.name),
-                   .description = std::string(number.about.description),
+    all.push_back({.name = std::string(number.shown.name),
+                   .description = number.about.meaning,
                    .causality = Causality::parameter,
                    .variability = Variability::tunable,
-                   .unit = std::string(number.about.unit),
-                   .display_unit = std::string(number.about.display_unit),
+                   .unit = number.about.unit,
+                   .display_unit = std::string(number.shown.display_unit),
                    .start = *number.value,
-                   .lowest = number.lowest,
-                   .highest = number.highest});
+                   .lowest = number.about.limits.lowest,
+                   .highest = number.about.limits.highest});
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spoolflow/export/fmu/variable.hpp"
+#include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -33,21 +34,18 @@ enum SensorReference : std::uint32_t {
   sensor_first_tunable
 };
 
-/// A number of the model that an FMU lets its user tune.
+/// How an FMU shows a number of the model that it lets its user tune.
 struct Tunable {
   std::string_view key;  ///< as in the model file
   std::string_view name;
-  std::string_view description;
-  std::string_view unit;
   std::string_view display_unit;
 };
 
 /// In the order of the description; numbers that this estimator does not have are not among them.
 struct TunableNumber {
-  Tunable about;
+  Tunable shown;
+  model::Parameter about;
   double* value;  ///< inside the parameters
-  double lowest;
-  double highest;
 };
 [[nodiscard]] std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters);
 [[nodiscard]] std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& parameters);

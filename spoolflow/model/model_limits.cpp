@@ -1,0 +1,28 @@
+#include "spoolflow/model/model_limits.hpp"
+
+#include "spoolflow/model/describe_campaign.hpp"
+#include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_observer.hpp"
+#include "spoolflow/model/limit_check.hpp"
+
+namespace spoolflow::model {
+
+void require_limits(const Model& model, const std::string& file) {
+  const auto require = [&](const char* place, const auto& parameters, const auto& describe) {
+    if (const auto found = violation(parameters, describe)) {
+      throw ModelError(file + ": " + place + found->path + ": " + found->problem +
+                       "; make the model again with `spoolflow calibrate`");
+    }
+  };
+  require("/valve", model.valve, [](auto& valve, auto& visitor) { describe_valve(valve, visitor); });
+  require("/fluid", model.fluid, [](auto& fluid, auto& visitor) { describe_fluid(fluid, visitor); });
+  require("/instruments", model.instruments, [](auto& given, auto& visitor) { describe_instruments(given, visitor); });
+  require("/condensed", model.condensed.parameters,
+          [](auto& parameters, auto& visitor) { describe_condensed(parameters, visitor); });
+  if (model.observer) {
+    require("/observer", model.observer->parameters,
+            [](auto& parameters, auto& visitor) { describe_observer(parameters, visitor); });
+  }
+}
+
+}  // namespace spoolflow::model

@@ -1,0 +1,126 @@
+/// Prints docs/formats/parameters.md: every number of the sensor as its description has it.
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "spoolflow/model/describe_campaign.hpp"
+#include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_constants.hpp"
+#include "spoolflow/model/describe_observer.hpp"
+#include "spoolflow/model/model.hpp"
+
+namespace spoolflow::docs {
+namespace {
+
+using model::Relation;
+
+std::string told(const Relation& relation) {
+  switch (relation.kind) {
+    case Relation::Kind::none:
+      return "";
+    case Relation::Kind::rises:
+      return "rises";
+    case Relation::Kind::rises_over_rows:
+      return fmt::format("rises from row to row, by {} of the largest entry at least", relation.least);
+    case Relation::Kind::never_falls:
+      return "never falls along a row";
+    case Relation::Kind::alike:
+      return fmt::format("neighbours differ by a factor of {} at most", relation.least);
+    case Relation::Kind::not_above:
+      return fmt::format("not larger than `{}`", relation.other);
+    case Relation::Kind::sum_not_negative:
+      return fmt::format("`{}` added, not below zero", relation.other);
+  }
+  return "";
+}
+
+std::string allowed(const model::Limits& limits) {
+  return fmt::format("{:g} to {:g}", limits.lowest, limits.highest);
+}
+
+/// Writes a line of a table for each number: visitor of the descriptions.
+class Lines {
+ public:
+  template <class Value>
+  void number(const model::Parameter& about, const Value& /*value*/) {
+    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning, about.evidence);
+  }
+  template <class Values>
+  void list(const model::Parameter& about, const Values& values) {
+    line(fmt::format("{}[{}]", about.key, values.size()), about.unit, allowed(about.limits), told(about.relation),
+         about.meaning, about.evidence);
+  }
+  template <class Axis>
+  void axis(const model::AxisParameter& about, const Axis& /*axis*/, int points) {
+    line(fmt::format("{}[{}]", about.key, points), about.unit, allowed(about.limits), "rises in equal steps",
+         "axis of the volumes below", "");
+  }
+  template <class Curve>
+  void curve(const model::TableParameter& about, const Curve& /*curve*/) {
+    table(about, fmt::format("; over `{}`[{}]", about.columns.key, Curve::points));
+  }
+  template <class Map>
+  void map(const model::TableParameter& about, const Map& /*map*/) {
+    table(about, fmt::format("; over `{}`[{}] (rows) and `{}`[{}]", about.rows.key, Map::rows, about.columns.key,
+                             Map::columns));
+  }
+  template <class Volume>
+  void volume(const model::TableParameter& about, const Volume& /*volume*/) {
+    table(about, "; over the three axes above");
+  }
+  void constant(const model::Constant& about, double value) {
+    out +=
+        fmt::format("| `{}` | {:g} | {} | {} | {} |\n", about.name, value, about.unit, about.meaning, about.evidence);
+  }
+
+  void heading(const std::string& text) {
+    out += "\n## " + text + "\n\n| key | unit | range | relation | meaning | evidence |\n|---|---|---|---|---|---|\n";
+  }
+
+  std::string out;
+
+ private:
+  void table(const model::TableParameter& about, const std::string& over) {
+    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning + over, about.evidence);
+  }
+  void line(const std::string& key, const std::string& unit, const std::string& range, const std::string& relation,
+            const std::string& meaning, const std::string& evidence) {
+    out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key, unit, range, relation, meaning, evidence);
+  }
+};
+
+std::string page() {
+  Lines lines;
+  lines.out =
+      "# Parameters\n\n"
+      "Made by `ci/parameters_page.sh` from the descriptions in `spoolflow/model/describe_condensed.hpp`, "
+      "`spoolflow/model/describe_observer.hpp`\nand their neighbours; a test keeps it fresh. The same descriptions "
+      "read and "
+      "write the model file, refuse what lies outside of range\nor relation, and make the exports. What each number "
+      "does "
+      "stands at its structure in `spoolflow/sensor`.\n";
+  lines.heading("Valve");
+  const model::Model model{};
+  model::describe_valve(model.valve, lines);
+  lines.heading("Fluid and instruments");
+  model::describe_fluid(model.fluid, lines);
+  model::describe_instruments(model.instruments, lines);
+  lines.heading("Condensed sensor");
+  model::describe_condensed(model.condensed.parameters, lines);
+  lines.heading("Observer");
+  const sensor::ObserverParameters<double> observer{};
+  model::describe_observer(observer, lines);
+  lines.out +=
+      "\n## Constants\n\nThe same for all valves; they stand in the code.\n\n"
+      "| name | value | unit | meaning | evidence |\n|---|---|---|---|---|\n";
+  model::describe_constants(lines);
+  return lines.out;
+}
+
+}  // namespace
+}  // namespace spoolflow::docs
+
+int main() {
+  std::fputs(spoolflow::docs::page().c_str(), stdout);
+}
