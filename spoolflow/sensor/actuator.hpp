@@ -69,12 +69,14 @@ constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<
                     {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
 }
 
-/// One sample; `begins` at the first. `position_m` is the position to be believed: faults and drift are removed before.
-/// Current and position must be finite; the voltage is not read. Any time step from 50 us to 5 ms.
+/// One sample. It begins anew at the first, and where a coil current that no coil has, or a leap in time, left a flux
+/// that no coil has. `position_m` is the position to be believed: faults and drift are removed before. Current and
+/// position must be finite; the voltage is not read. Any time step from 50 us to 5 ms.
 template <class T>
 [[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
                                                           ActuatorState<T>& state, const Sample<T>& sample,
-                                                          Mask<T> begins) {
+                                                          Mask<T> first) {
+  const Mask<T> begins = first || !is_number(state.coil.magnetising_current_A);
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);

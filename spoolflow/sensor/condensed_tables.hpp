@@ -92,6 +92,14 @@ constexpr void put_line(T* to, int cell, T low, T high) {
   to[0] = low - T(cell) * to[1];
 }
 
+/// The same of what is never negative, as it is evaluated in single precision, too: the line begins and ends no lower
+/// than what rounding may take away.
+template <class T>
+constexpr void put_positive_line(T* to, int cell, T low, T high) {
+  const T rounding = T(2e-7) * T(CondensedLayout::position_cells);
+  put_line(to, cell, larger(low, rounding * high), larger(high, rounding * low));
+}
+
 /// The plane through `value_at` the four corners of a cell of the other axis and a position cell.
 template <class T, class ValueAt>
 constexpr void put_plane(T* to, int other, int cell, const ValueAt& value_at) {
@@ -99,6 +107,16 @@ constexpr void put_plane(T* to, int other, int cell, const ValueAt& value_at) {
   const T rise[] = {value_at(other + 1, cell) - near[0], value_at(other + 1, cell + 1) - near[1]};
   put_line(to, cell, near[0] - T(other) * rise[0], near[1] - T(other) * rise[1]);
   put_line(to + CondensedLayout::line, cell, rise[0], rise[1]);
+}
+
+/// The same of what never falls along the other axis.
+template <class T, class ValueAt>
+constexpr void put_rising_plane(T* to, int other, int cell, const ValueAt& value_at) {
+  put_plane(to, other, cell, value_at);
+  T* const rise = to + CondensedLayout::line;
+  const T low = value_at(other + 1, cell) - value_at(other, cell);
+  const T high = value_at(other + 1, cell + 1) - value_at(other, cell + 1);
+  put_positive_line(rise, cell, low, high);
 }
 
 template <class T>
@@ -122,7 +140,8 @@ constexpr void put_record(const CondensedGrid<T>& grid, int cell, T* record) {
   const auto& flow_rate = grid.valve.flow_rate;
   put_line(record + Layout::spring, cell, grid.spring_N(cell), grid.spring_N(cell + 1));
   put_line(record + Layout::force_per_cells2, cell, grid.force_per_cells2_N(cell), grid.force_per_cells2_N(cell + 1));
-  put_line(record + Layout::uncertainty, cell, grid.uncertainty_cells2(cell), grid.uncertainty_cells2(cell + 1));
+  put_positive_line(record + Layout::uncertainty, cell, grid.uncertainty_cells2(cell),
+                    grid.uncertainty_cells2(cell + 1));
   put_line(record + Layout::spare, cell, T(0), T(0));
   for (int current = 0; current < Layout::current_cells; ++current) {
     put_plane(record + Layout::magnetic_force + Layout::plane * current, current, cell,
@@ -131,8 +150,8 @@ constexpr void put_record(const CondensedGrid<T>& grid, int cell, T* record) {
   for (int root = 0; root < Layout::root_cells; ++root) {
     T* const flow = record + Layout::flow + Layout::flow_cell * root;
     const auto share = [](int k) { return T(k) / T(Layout::root_cells); };
-    put_plane(flow, root, cell,
-              [&](int k, int p) { return flow_rate.flow_m3_per_s.at(T(p) * grid.cell_m, share(k)).value; });
+    put_rising_plane(flow, root, cell,
+                     [&](int k, int p) { return flow_rate.flow_m3_per_s.at(T(p) * grid.cell_m, share(k)).value; });
     put_plane(flow + Layout::root_pressure, root, cell,
               [&](int k, int p) { return flow_rate.root_pressure_difference.at(T(p) * grid.cell_m, share(k)).value; });
   }

@@ -38,6 +38,8 @@ inline constexpr double process_noise_fall = 0.2;
 /// The variance of unobserved changes falls no lower [Pa2]: it would fade into denormal numbers, which some cores are
 /// slow with.
 inline constexpr double least_unobserved_variance_Pa2 = 1;
+/// A variance that reaches this [Pa2], or falls below zero, is none: rounding has broken the belief.
+inline constexpr double most_variance_Pa2 = 1e30;
 
 /// How the pressure difference and the friction ratio are believed to move.
 template <class T>
@@ -77,18 +79,28 @@ struct ForceInnovation {
   T noise_N;         ///< one standard deviation
 };
 
-/// To be called before the first sample. `calibrated_ratio` is the friction ratio to begin with, `unseen_factor` that
-/// of unobserved_change_Pa.
+/// To be called before the first sample, and where the belief is broken. `calibrated_ratio` is the friction ratio to
+/// begin with, `unseen_factor` that of unobserved_change_Pa.
 template <class T>
 constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& state, T highest_Pa, T calibrated_ratio,
                      T unseen_factor) {
   state.pressure_difference_Pa = T(first_pressure_share) * highest_Pa;
   state.variance_Pa2 = squared(T(first_deviation_share) * highest_Pa);
+  state.covariance_Pa = T(0);
   state.process_noise = pressure.first_process_noise;
+  state.observed_Pa = T(0);
+  state.drift_variance_Pa2 = T(0);
   state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unseen_factor * pressure.first_process_noise);
   state.friction_ratio = calibrated_ratio;
   state.ratio_variance = squared(pressure.ratio_deviation);
   state.innovation_squared = T(usual_innovation_squared);
+}
+
+/// Whether an update came to what is no variance: forces that are many orders of magnitude beyond their noise leave
+/// nothing but rounding of it. NaN, too.
+template <class T>
+constexpr Mask<T> broken(const PressureState<T>& state) {
+  return !within(state.variance_Pa2, T(most_variance_Pa2));
 }
 
 /// Prediction while the spool slides.
@@ -189,7 +201,7 @@ constexpr void correct_pressure(PressureState<T>& state, const KalmanUpdate<T>& 
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
   state.unobserved_variance_Pa2 =
-      larger(state.unobserved_variance_Pa2 * squared(update.remaining_share), T(least_unobserved_variance_Pa2));
+      larger(T(least_unobserved_variance_Pa2), state.unobserved_variance_Pa2 * squared(update.remaining_share));
 }
 
 template <class T>

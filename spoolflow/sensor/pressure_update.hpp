@@ -82,6 +82,9 @@ template <class T>
     const Mask<T> holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
     state.friction.gauge_N += select(yields && holds, left_N, T(0));
   });
+  in_valves(broken(pressure), pressure, [&] {
+    begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unseen_factor);
+  });
   pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
 }
 

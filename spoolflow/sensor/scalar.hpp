@@ -74,7 +74,7 @@ inline double sqrt(double value) {
 
 /// Whether 0 <= value < highest, where highest > 0.
 template <class T>
-constexpr bool within(T value, T highest) {
+constexpr Mask<T> within(T value, T highest) {
   return value >= T(0) && value < highest;
 }
 /// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.

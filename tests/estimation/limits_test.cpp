@@ -1,0 +1,239 @@
+/// "Never NaN": whatever valve passes its limits, and whatever samples come, the answers are numbers and the flow lies
+/// in its band; in double and in single precision.
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "spoolflow/model/limit_check.hpp"
+#include "spoolflow/model/model.hpp"
+#include "tests/estimation/random_valve.hpp"
+
+namespace spoolflow::estimation {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// What is wrong with an answer; empty where nothing is.
+template <class T>
+std::string fault(const sensor::Estimate<T>& estimate) {
+  for (const T value : {estimate.flow_m3_per_s, estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s,
+                        estimate.pressure_difference_Pa, estimate.magnetic_force_N, estimate.spring_force_N,
+                        estimate.flow_force_N, estimate.friction_force_N}) {
+    if (!std::isfinite(value)) return "not finite";
+  }
+  if (!(estimate.flow_lower_m3_per_s <= estimate.flow_m3_per_s)) return "lower end above the flow";
+  if (!(estimate.flow_m3_per_s <= estimate.flow_upper_m3_per_s)) return "upper end below the flow";
+  return estimate.pressure_difference_Pa < 0 ? "negative pressure difference" : "";
+}
+
+/// Numbers as the valve has them.
+template <template <class> class Parameters>
+std::unique_ptr<Parameters<float>> in_single_precision(const Parameters<double>& valve) {
+  constexpr std::size_t count = sizeof(Parameters<float>) / sizeof(float);
+  const auto numbers = std::bit_cast<std::array<double, count>>(valve);
+  auto single = std::make_unique<std::array<float, count>>();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto number = static_cast<float>(numbers[k]);
+    (*single)[k] = std::abs(number) < std::numeric_limits<float>::min() ? 0.0F : number;
+  }
+  return std::make_unique<Parameters<float>>(std::bit_cast<Parameters<float>>(*single));
+}
+
+std::string fault_in_double(RunningSensor::Parameters valve, RandomSamples samples, int count) {
+  RunningSensor sensor(valve, 1e-3);
+  for (int k = 0; k < count; ++k) {
+    const std::string found = fault(sensor.step(samples.next()));
+    if (!found.empty()) return found + " at sample " + std::to_string(k);
+  }
+  return "";
+}
+
+template <class Valve, class State>
+std::string fault_in_single(const Valve& valve, State state, RandomSamples samples, int count) {
+  double last_s = 0;
+  for (int k = 0; k < count; ++k) {
+    const TimedSample sample = samples.next();
+    const std::string found =
+        fault(step(valve, state,
+                   {static_cast<float>(sample.time_s - last_s), static_cast<float>(sample.current_A),
+                    static_cast<float>(sample.voltage_V), static_cast<float>(sample.position_m),
+                    static_cast<float>(sample.oil_temperature_K)}));
+    if (!found.empty()) return found + " at sample " + std::to_string(k);
+    if (std::isfinite(sample.time_s)) last_s = sample.time_s;
+  }
+  return "";
+}
+
+constexpr auto described = [](auto& valve, auto& visitor) { describe(valve, visitor); };
+
+TEST(Limits, CondensedSensorsWithinThemAnswerWithNumbersWhateverComes) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Dice dice(seed);
+    auto valve = std::make_unique<sensor::CondensedParameters<double>>();
+    fill(*valve, dice);
+    const RandomSamples samples(dice, largest_current_A(*valve), largest_position_m(*valve));
+    EXPECT_EQ(fault_in_double(valve.get(), samples, 1000), "") << seed;
+    const auto tables = std::make_unique<sensor::CondensedTables<double>>();
+    sensor::lay_out(*valve, *tables);
+    EXPECT_EQ(fault_in_single(*in_single_precision(*tables), sensor::CondensedState<float>{}, samples, 1000), "")
+        << seed;
+  }
+}
+
+TEST(Limits, ObserversWithinThemAnswerWithNumbersWhateverComes) {
+  int single = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Dice dice(seed);
+    auto valve = std::make_unique<sensor::ObserverParameters<double>>();
+    fill(*valve, dice);
+    const RandomSamples samples(dice, largest_current_A(*valve), largest_position_m(*valve));
+    EXPECT_EQ(fault_in_double(valve.get(), samples, 1000), "") << seed;
+    const auto rounded = in_single_precision(*valve);
+    if (model::violation(*rounded, described)) continue;  // as the C++ export does
+    ++single;
+    EXPECT_EQ(fault_in_single(*rounded, sensor::ObserverState<float>{}, samples, 1000), "") << seed;
+  }
+  EXPECT_GT(single, 150);
+}
+
+TEST(Limits, RandomValvesAreWithinThem) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const model::Model model = random_model(seed);
+    const auto condensed = model::violation(model.condensed.parameters, described);
+    const auto observer = model::violation(model.observer->parameters, described);
+    EXPECT_FALSE(condensed) << condensed->path << ": " << condensed->problem;
+    EXPECT_FALSE(observer) << observer->path << ": " << observer->problem;
+  }
+}
+
+/// Every way in which one place of a model file may be damaged, tried one after the other.
+class Damage {
+ public:
+  explicit Damage(const model::Model& model) : dice_(1) {
+    std::ostringstream out;
+    write_model(out, model);
+    file_ = Json::parse(out.str());
+  }
+  void all() {
+    for (const char* part : {"valve", "condensed", "observer"}) each_in(file_[part], std::string("/") + part);
+  }
+  [[nodiscard]] int refused() const { return refused_; }
+  [[nodiscard]] int lived_with() const { return lived_with_; }
+
+ private:
+  using Json = nlohmann::ordered_json;
+
+  void each_in(Json& node, const std::string& path) {
+    if (node.is_object()) {
+      std::vector<std::string> keys;
+      for (const auto& [key, value] : node.items()) keys.push_back(key);
+      for (const std::string& key : keys) {
+        const Json kept = node;
+        node.erase(key);
+        look(path + " without " + key);
+        node = kept;
+        each_in(node[key], path + "/" + key);
+      }
+    } else if (node.is_array() && !node.empty() && (node[0].is_number() || node[0].is_array())) {
+      in_array(node, path);
+    } else if (node.is_number()) {
+      const Json kept = node;
+      const double value = node.get<double>();
+      for (const Json& other : {Json(), Json(0), Json(-value), Json(1e300)}) {
+        node = other;
+        look(path + " = " + other.dump());
+      }
+      node = kept;
+    }
+  }
+  /// Its first and last entry and one between.
+  void in_array(Json& node, const std::string& path) {
+    const Json kept = node;
+    node.erase(node.size() - 1);
+    look(path + " shortened");
+    node = kept;
+    node.push_back(node[0]);
+    look(path + " lengthened");
+    node = kept;
+    const std::size_t between = 1 + dice_.bits() % (node.size() - 1);
+    std::swap(node[between - 1], node[between]);
+    look(path + " swapped at " + std::to_string(between));
+    node = kept;
+    if (kept[0].is_number()) each_in(node[0], path + "/0");
+    each_in(node[between], path + "/" + std::to_string(between));
+    if (kept[0].is_number()) each_in(node[node.size() - 1], path + "/" + std::to_string(node.size() - 1));
+  }
+  void look(const std::string& what) {
+    try {
+      const model::Model model = model::parse_model(file_.dump(), "model.json");
+      ++lived_with_;
+      const auto& valve = model.condensed.parameters;
+      Dice dice(2);
+      const RandomSamples samples(dice, largest_current_A(valve), largest_position_m(valve));
+      EXPECT_EQ(fault_in_double(&valve, samples, 200), "") << what;
+      if (model.observer) {
+        EXPECT_EQ(fault_in_double(&model.observer->parameters, samples, 200), "") << what;
+      }
+    } catch (const model::ModelError& error) {
+      ++refused_;
+      EXPECT_THAT(error.what(), HasSubstr("model.json: /")) << what;
+    }
+  }
+
+  Dice dice_;
+  Json file_;
+  int refused_ = 0, lived_with_ = 0;
+};
+
+TEST(Limits, ADamagedModelFileIsRefusedWithItsPathOrAnswersWithNumbers) {
+  Damage damage(random_model(5));
+  damage.all();
+  EXPECT_GT(damage.refused(), 300);
+  EXPECT_GT(damage.lived_with(), 50);
+}
+
+struct Broken {
+  const char* path;  ///< JSON pointer
+  double value;
+  const char* message;
+};
+
+TEST(Limits, RefuseByPathWhatTheEquationsCannotLiveWith) {
+  std::ostringstream text;
+  write_model(text, random_model(5));
+  const auto good = nlohmann::ordered_json::parse(text.str());
+  using Pointer = nlohmann::ordered_json::json_pointer;
+  const double second_threshold = good.at(Pointer("/observer/hysteresis_threshold_Wb/1"));
+  const double first_flux = good.at(Pointer("/observer/flux_linkage_Wb/values/0/3"));
+  for (const Broken& broken :
+       {Broken{"/observer/hysteresis_threshold_Wb/2", second_threshold, "does not rise"},
+        Broken{"/observer/flux_linkage_Wb/values/1/3", first_flux, "does not rise"},
+        Broken{"/observer/band_reference_lag_s", 0, "0 is outside 1e-06 to 10 s"},
+        Broken{"/observer/friction_ageing_s", 0, "is outside"},
+        Broken{"/observer/spool_friction_N/1/2/3", -1, "is outside"},
+        Broken{"/observer/band_force_residual_N", 0, "is outside"},
+        Broken{"/observer/least_liveliness", 1, "first_liveliness"},
+        Broken{"/observer/hysteresis_stiffness_increase_A_per_Wb/0", -1e6, "hysteresis_stiffness_A_per_Wb"},
+        Broken{"/condensed/largest_flow_force_N/values/7", 0, "is outside"},
+        Broken{"/condensed/flow_m3_per_s/values/4/16", -0.1, "falls below"}}) {
+    auto damaged = good;
+    damaged[Pointer("/observer/first_liveliness")] = 0.5;
+    damaged[Pointer("/observer/least_liveliness")] = 0.5;
+    damaged[Pointer(broken.path)] = broken.value;
+    try {
+      (void)model::parse_model(damaged.dump(), "model.json");
+      ADD_FAILURE() << broken.path;
+    } catch (const model::ModelError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("model.json: ") + broken.path + ":"));
+      EXPECT_THAT(error.what(), HasSubstr(broken.message));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spoolflow::estimation
