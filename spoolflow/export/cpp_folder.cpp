@@ -11,6 +11,7 @@
 #include "spoolflow/export/sensor_headers.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
+#include "spoolflow/model/limit_check.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::exports {
@@ -62,7 +63,21 @@ std::string condensed_definition(const model::Model& model) {
   return definition("CondensedTables", "condensed", numbers, groups.in_order(numbers.size()));
 }
 
+/// What holds in double precision need not hold in the valve's: two thresholds may have become one.
+void require_limits_in_single_precision(const model::Observer& observer) {
+  const auto found = model::violation(single_precision(observer.parameters), [](auto& parameters, auto& visitor) {
+    model::describe_observer(parameters, visitor);
+  });
+  if (found) {
+    throw std::invalid_argument(
+        fmt::format("in single precision the model's /observer{}: {}; calibrate again and look at the report for what "
+                    "went astray",
+                    found->path, found->problem));
+  }
+}
+
 std::string observer_definition(const model::Observer& observer) {
+  require_limits_in_single_precision(observer);
   const std::vector<double> numbers = numbers_of(observer.parameters);
   NumberGroups groups(&observer.parameters);
   model::describe_observer(observer.parameters, groups);
