@@ -31,8 +31,10 @@ model::Model small_model() {
   model.condensed.position_m = {0, 2.4e-3};
   model.condensed.pressure_difference_Pa = {5e5, 70e5};
   model.condensed.oil_temperature_K = 323.15;
-  model.condensed.residuals = {
-      {"magnetic force", "N", 0.07, 0.3}, {"axial force", "N", 0.08, 0.3}, {"flow rate", "m3/s", 1e-6, 4e-6}};
+  model.condensed.residuals = {{"spring force", "N", 0.05, 0.2},
+                               {"magnetic force", "N", 0.07, 0.3},
+                               {"axial force", "N", 0.08, 0.3},
+                               {"flow rate", "m3/s", 1e-6, 4e-6}};
   model.evidence.magnetic_force = {{0.2, {0, 1e-3, 2e-3}, {1, 2, 2}, {3, 4, 4}},
                                    {0.4, {0, 1e-3, 2e-3}, {5, 6, 6}, {7, 8, 8}}};
   model.evidence.axial_force = {
