@@ -99,7 +99,7 @@ TEST_P(PositionTrack, TakesAFaultOutOfTheSignalUntilItIsOver) {
         EXPECT_NEAR(point.position_m, 0.5e-3 + 1e-3 * time_s, 25e-6) << time_s;
         EXPECT_EQ(point.fault, time_s >= 0.4 && time_s < 0.45) << time_s;
       },
-      [this](double time_s) { return time_s >= 0.4 && time_s < 0.45 - 1e-9 ? 0.24e-3 + step_s() : 0; });
+      [](double time_s) { return time_s >= 0.4 && time_s < 0.45 - 1e-9 ? 0.24e-3 + step_s() : 0; });
 }
 
 TEST_P(PositionTrack, BelievesAJumpThatLasts) {

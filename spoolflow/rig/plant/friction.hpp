@@ -20,7 +20,7 @@ namespace spoolflow::rig {
 struct Friction {
   double base_N = 1.4;
   double stiction_ratio = 1.25;
-  double ageing_gain = 3.3;
+  double ageing_gain = 3.0;
   double ageing_time_s = 1.1;
   double ageing_distance_m = 3.0e-5;
   double stribeck_velocity_m_per_s = 4.0e-3;
