@@ -34,9 +34,8 @@ void run(RunningSensor& sensor, const Samples& samples, Each&& each) {
   for (std::size_t k = 0; k < samples.size(); ++k) each(k, sensor.step(samples[k]));
 }
 
-/// One estimate a sample, in `estimates`, which is as long as the columns.
-inline void run(RunningSensor& sensor, const Columns& columns, std::span<sensor::Estimate<double>> estimates) {
-  run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& estimate) { estimates[k] = estimate; });
-}
+/// One estimate a sample, in `estimates`, which is as long as the columns. Compiled here once, at the library's own
+/// optimisation, whatever the caller's is.
+void run(RunningSensor& sensor, const Columns& columns, std::span<sensor::Estimate<double>> estimates);
 
 }  // namespace spoolflow::estimation
