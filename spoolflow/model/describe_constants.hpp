@@ -166,6 +166,7 @@ void describe_friction_constants(Visitor& visitor) {
 }
 
 template <class Visitor>
+// long: a list, one entry a constant
 void describe_pressure_constants(Visitor& visitor) {
   visitor.constant({.name = "first_pressure_share",
                     .unit = "1",

@@ -12,6 +12,7 @@
 #include "tests/architecture/floors.hpp"
 #include "tests/architecture/folder_rules.hpp"
 #include "tests/architecture/folder_table.hpp"
+#include "tests/architecture/function_rules.hpp"
 #include "tests/architecture/include_rules.hpp"
 #include "tests/architecture/link_rules.hpp"
 
@@ -182,6 +183,24 @@ TEST_F(FakeTree, FindsAFileThatHasGrownTooLong) {
   EXPECT_THAT(file_violations(root), IsEmpty());
   write("spoolflow/rig/long.cpp", std::string(351, '\n'));
   EXPECT_THAT(file_violations(root), ElementsAre(HasSubstr("long.cpp: 351 lines")));
+}
+
+TEST_F(FakeTree, FindsAFunctionThatHasGrownTooLongWhereNoReasonIsGiven) {
+  const auto lines = [](int count) {
+    std::string body;
+    for (int k = 0; k < count; ++k) body += "  work();\n";
+    return body;
+  };
+  write("spoolflow/rig/short.cpp", "int short_one(int a,\n              int b) {\n" + lines(57) + "}\n");
+  write("spoolflow/rig/inside.cpp",
+        "struct Oil {\n" + lines(70) + "};\n\nnamespace {\n" + lines(70) + "}  // namespace\n");
+  EXPECT_THAT(function_violations(root), IsEmpty());
+  write("spoolflow/rig/long.cpp", "// long: a table\nint table(int a) {\n" + lines(70) +
+                                      "}\n\nint long_one(int a,\n             int b) {\n" + lines(58) + "}\n");
+  write("spoolflow/rig/method.hpp",
+        "#pragma once\nclass Oil {\n public:\n  int method() {\n" + lines(59) + "  }\n};\n");
+  EXPECT_THAT(function_violations(root), ElementsAre(HasSubstr("long.cpp:75: a function of 61 lines"),
+                                                     HasSubstr("method.hpp:4: a function of 61 lines")));
 }
 
 TEST_F(FakeTree, FindsNamesThatSayNothing) {

@@ -10,6 +10,7 @@
 #include "tests/architecture/floors.hpp"
 #include "tests/architecture/folder_rules.hpp"
 #include "tests/architecture/folder_table.hpp"
+#include "tests/architecture/function_rules.hpp"
 #include "tests/architecture/include_rules.hpp"
 #include "tests/architecture/link_rules.hpp"
 
@@ -38,6 +39,10 @@ TEST(ThisProject, StandsAsItIsDrawn) {
 
 TEST(ThisProject, KeepsItsFilesShortAndNamedByWhatTheyHold) {
   EXPECT_THAT(file_violations(project_root), IsEmpty());
+}
+
+TEST(ThisProject, KeepsItsFunctionsShort) {
+  EXPECT_THAT(function_violations(project_root), IsEmpty());
 }
 
 TEST(ThisProject, KeepsItsFoldersSmallEnoughToBeTakenIn) {

@@ -99,6 +99,7 @@ struct PlantRates {
 
 /// `start` holds the memories and the states they count from; `time_s` is for the ripple. Fills what the arrangement
 /// has of `out` and leaves the rest as it is.
+// long: the whole right-hand side of the equations of motion, in the order of its states
 inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const PlantState& start,
                         const PlantInput& input, const PlantVector& u, const ContactAges& ages, double time_s,
                         PlantRates& out) {
