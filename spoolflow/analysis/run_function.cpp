@@ -5,8 +5,8 @@
 
 #include "spoolflow/analysis/run_samples.hpp"
 #include "spoolflow/estimation/columns.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/uncertainty/noisy_errors.hpp"
-#include "spoolflow/validation/first_order_lag.hpp"
 
 namespace spoolflow::analysis {
 
@@ -59,7 +59,7 @@ std::vector<double> RunFunction::lagged_m3_per_s(double lag_s) const {
   std::vector<double> time_s, out;
   for (const estimation::TimedSample& sample : run_.samples) time_s.push_back(sample.time_s);
   std::vector<double> all = every_flow_m3_per_s_;
-  validation::apply_lag<double>(time_s, all, lag_s);
+  numerics::apply_lag<double>(time_s, all, {.lag_s = lag_s});
   for (const std::size_t k : run_.instants) out.push_back(all[k]);
   return out;
 }

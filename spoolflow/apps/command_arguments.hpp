@@ -1,5 +1,6 @@
 #pragma once
 /// The commands as functions of what was asked of them, so that `demo` does exactly what the commands do.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,8 @@ struct ValidateArguments {
   std::vector<std::string> compare = {};  ///< figures of other validations
   std::string estimator = "both";
   std::vector<std::string> units = {};  ///< of the report
-  double reference_lag_ms = 30;
-  bool apply_reference_lag = false;
+  std::optional<double> reference_lag_ms = {};
+  bool apply_reference_lag = true;
   bool quiet = false;
 };
 void validate(const ValidateArguments& arguments);

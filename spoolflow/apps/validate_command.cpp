@@ -52,8 +52,8 @@ void print_figures(const model::Model& model, const validation::Validation& vali
 void validate(const ValidateArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model::read_model(arguments.model);
-  validation::ValidationOptions options{
-      chosen(arguments.estimator, model), {}, arguments.reference_lag_ms * 1e-3, arguments.apply_reference_lag};
+  validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};
+  if (arguments.reference_lag_ms) options.reference_lag_s = *arguments.reference_lag_ms * 1e-3;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
   if (!arguments.requirements.empty()) options.requirements = validation::read_requirements(arguments.requirements);
   std::vector<report::ComparedValidation> others;
@@ -114,11 +114,11 @@ void add_validate_command(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--reference-lag-ms", arguments->reference_lag_ms,
-                   "lag of the reference meter, stated in the report")
-      ->check(CLI::Range(0.0, 10000.0))
-      ->capture_default_str();
-  command->add_flag("--apply-reference-lag", arguments->apply_reference_lag,
-                    "lag the estimate likewise before comparing");
+                   "lag of the reference meter; without it dead time and lag are found from each recording")
+      ->check(CLI::Range(0.0, 10000.0));
+  command->add_flag("--apply-reference-lag,!--no-reference-lag", arguments->apply_reference_lag,
+                    "lag the estimate as the meter does before comparing (default); --no-reference-lag compares the "
+                    "answer of the instant with what the meter still shows");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { validate(*arguments); });
 }

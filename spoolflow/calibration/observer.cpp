@@ -31,9 +31,10 @@ constexpr double assumed_backlash_m = 0.45e-6;
 /// Without an operating recording these two are taken larger: what they are too small, the sensor takes for pressure.
 constexpr double unknown_tolerance_N = 1.2;
 constexpr double unknown_backlash_m = 0.55e-6;
+constexpr double assumed_moving_mass_kg = 0.11;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 /// Of the supply, which may be any: the same for every valve.
-constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 1e5,
+constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 3e5,
                                                     .resting_drift_Pa_per_sqrt_s = 1e6,
                                                     .least_process_noise = 0.01,
                                                     .first_process_noise = 0.05,
@@ -118,8 +119,8 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .flow_residual_m3_per_s = together(fits.axial, &AxialForceFit::flow_residual).rms(),
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
-              .unseen_factor = 4.2,
-              .reference_lag_s = 0.03};
+              .unseen_factor = 2.4};
+  out.moving_mass_kg = assumed_moving_mass_kg;
   out.closed_below_m = closed_below_m;
   out.largest_current_A = fits.magnetic.largest_current_A;
   return out;
@@ -187,7 +188,7 @@ ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, con
     assume_operation(out);
   }
   for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
-                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "band_reference_lag_s"})
+                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "moving_mass_kg"})
     out.defaults.emplace_back(assumed);
   if (!fits.actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");

@@ -62,12 +62,6 @@ void describe_band(Band& band, Visitor& visitor) {
                   .meaning = "standard deviation of unseen changes of pressure over the liveliest random walk",
                   .evidence = "fast_10kHz: p95 5.00, 5.00, 5.00 % FS, band 89.1, 93.0, 95.8 %"},
                  band.unseen_factor);
-  visitor.number({.key = "band_reference_lag_s",
-                  .unit = "s",
-                  .limits = {1e-6, 10},
-                  .meaning = "lag of the flow meter that the band is held against",
-                  .evidence = "fast_10kHz: p95 5.00, 5.00, 5.00 % FS, band 91.9, 93.0, 94.1 %"},
-                 band.reference_lag_s);
 }
 
 }  // namespace spoolflow::model

@@ -277,6 +277,12 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   describe_friction(parameters.friction, visitor);
   describe_pressure(parameters.pressure, visitor);
   describe_band(parameters.band, visitor);
+  visitor.number({.key = "moving_mass_kg",
+                  .unit = "kg",
+                  .limits = {1e-3, 100},
+                  .meaning = "spool, push rod and armature together",
+                  .otherwise = 0.11},
+                 parameters.moving_mass_kg);
   visitor.number(
       {.key = "closed_below_m", .unit = "m", .limits = {-1e-3, 0.1}, .meaning = "positions below this count as closed"},
       parameters.closed_below_m);

@@ -18,9 +18,14 @@ struct ForceBalance {
   FrictionBounds<T> bounds;
   FrictionInterval<T> resting;  ///< where friction lies at rest
   T friction_N;                 ///< believed
+  T half_swing_N;               ///< of friction under dither, >= 0; all friction here is that of its middle
   T noise_N;                    ///< one standard deviation of all forces together
   T direction;                  ///< 1 opening, -1 closing: of the motion or of the last
+  Mask<T> dithered;
+  Mask<T> freed;    ///< by dither, both ways in each period
+  Mask<T> settled;  ///< a whole period of dither tells, or a sample without dither
   Mask<T> sliding;
+  Mask<T> slips;   ///< friction and inertia are in motion
   Mask<T> closed;  ///< the spool covers the metering edge
 };
 
@@ -32,11 +37,47 @@ template <class T>
               squared(band.friction_share * bounds.sliding_N));
 }
 
+/// Dither takes half the swing of friction off its limits, and in motion adds what the slips' mass asks for.
+template <class T>
+[[gnu::always_inline]] constexpr FrictionBounds<T> within_swing(const ObserverParameters<T>& valve,
+                                                                const FrictionBounds<T>& bounds, T half_swing_N,
+                                                                T period_s, T velocity_m_per_s) {
+  const T elastic_m = T(2) * half_swing_N / valve.friction.contact_stiffness_N_per_m;
+  const T excess_N =
+      slip_excess_N(valve.moving_mass_kg, half_swing_N, magnitude(velocity_m_per_s) * period_s - elastic_m, period_s);
+  return {larger(bounds.sliding_N + excess_N - half_swing_N, T(0)), larger(bounds.sticking_N - half_swing_N, T(0))};
+}
+
+/// Friction over a period of dither, or at this sample, and its bounds.
+template <class T>
+[[gnu::always_inline]] constexpr void swing(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                            const Dither<T>& dither, const PositionPoint<T>& position,
+                                            ForceBalance<T>& balance) {
+  const FrictionSwing<T> swing =
+      follow_swing(state.swing, dither, balance.apparent_friction_N, is(position.motion, Motion::transient));
+  balance.dithered = dither.present;
+  balance.freed = balance.dithered && !balance.dithered;
+  balance.settled = swing.settled;
+  balance.apparent_friction_N = swing.middle_N;
+  balance.half_swing_N = swing.half_swing_N;
+  state.swing.frees = balance.freed;
+  if (!any(dither.present)) return;
+  // Where dither frees the spool altogether, no contact grows old.
+  balance.freed = dither.present && swing.half_swing_N > balance.bounds.sliding_N;
+  state.swing.frees = balance.freed;
+  state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
+  const FrictionBounds<T> bounds =
+      within_swing(valve, balance.bounds, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s);
+  balance.bounds.sliding_N = select(dither.present, bounds.sliding_N, balance.bounds.sliding_N);
+  balance.bounds.sticking_N = select(dither.present, bounds.sticking_N, balance.bounds.sticking_N);
+}
+
 /// From coil current and position to friction; moves the memory of solenoid and friction. `begins` at the first sample.
 template <class T>
 [[gnu::always_inline]] constexpr ForceBalance<T> balance_forces(const ObserverParameters<T>& valve,
                                                                 ObserverState<T>& state, const Sample<T>& sample,
-                                                                const PositionPoint<T>& position, Mask<T> begins) {
+                                                                const PositionPoint<T>& position,
+                                                                const Dither<T>& dither, Mask<T> begins) {
   Sample<T> actuated = sample;
   actuated.position_m = position.position_m;
   ForceBalance<T> out;
@@ -50,15 +91,24 @@ template <class T>
   out.armature_friction_N = pressure.friction_ratio * out.actuator.friction_half_width_N;
   out.bounds = friction_bounds(valve.friction, state.friction, out.spool_friction_N, out.armature_friction_N);
   out.apparent_friction_N = net_N - out.edge.flow_force_N;
+  swing(valve, state, dither, position, out);
   out.resting = step(valve.friction, state.friction, out.bounds, valve.position_sensor, position,
                      out.apparent_friction_N, sample.time_step_s);
+  // Dither lets the contacts creep: where the spool stands tells no friction.
+  out.resting.lower_N = select(out.dithered, -out.bounds.sticking_N, out.resting.lower_N);
+  out.resting.upper_N = select(out.dithered, out.bounds.sticking_N, out.resting.upper_N);
 
   out.closed = position.position_m < valve.closed_below_m;
-  out.sliding = is(position.motion, Motion::opening) || is(position.motion, Motion::closing);
-  out.direction = select(position.travel_m > T(0), T(1), T(-1));
+  const Mask<T> travels = is(position.motion, Motion::opening) || is(position.motion, Motion::closing);
+  out.sliding = travels || out.freed;
+  out.slips = is(position.motion, Motion::transient) && !out.freed;
+  out.direction = select(travels || !out.freed, select(position.travel_m > T(0), T(1), T(-1)), T(0));
   out.friction_N = select(out.sliding, out.direction * out.bounds.sliding_N,
                           limited(out.apparent_friction_N, out.resting.lower_N, out.resting.upper_N));
-  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds);
+  // Paper (1): the mass takes a part of the force; position tells it late, so that it is no surer than its size.
+  const T inertia_N = select(travels && !out.dithered, valve.moving_mass_kg * position.acceleration_m_per_s2, T(0));
+  out.apparent_friction_N -= inertia_N;
+  out.noise_N = sqrt(squared(force_noise_N(valve.band, out.actuator, out.bounds)) + squared(inertia_N));
   return out;
 }
 

@@ -25,6 +25,8 @@ struct FrictionState {
   T gauge_N{};     ///< middle of where friction may lie by the pre-sliding displacement, sign of the velocity
   T smooth_m{};    ///< position, smoothed
   T followed_m{};  ///< the same without what noise may fake
+  T dragged_m{};   ///< by how much the spool has dragged the sensor along one way
+  T dragging{};    ///< how sure that it does so now, sign of the way, -1 to 1
   T rest_s{};      ///< since the spool came to rest
   T held_N{};      ///< friction as it was some milliseconds ago
   T earlier_N{};   ///< and some before
@@ -44,6 +46,10 @@ struct FrictionInterval {
 inline constexpr double gauge_smoothing_s = 0.03;
 /// Standard deviations of the smoothed position's noise that the gauge takes for no motion.
 inline constexpr double gauge_slack_deviations = 2;
+/// A drag of the sensor of this size [m] is as likely as not noise's.
+inline constexpr double doubtful_drag_m = 0.1e-6;
+/// For so long [s] after it was dragged the sensor tells at which end of its backlash it lies.
+inline constexpr double drag_memory_s = 0.02;
 /// What is left of the contact's stiffness at the limit of sticking, as a share of it.
 inline constexpr double least_stiffness_share = 0.1;
 /// Standard deviations of the gauge by which friction at rest may exceed the sticking limit.
@@ -106,6 +112,17 @@ struct Contact {
   T reach_N;     ///< how far friction may lie from the gauge
 };
 
+/// Whether the spool drags the sensor along, and which way.
+template <class T>
+[[gnu::always_inline]] constexpr void drag(FrictionState<T>& state, T moved_m, T time_step_s) {
+  const Mask<T> goes_on = !(moved_m * state.dragged_m < T(0));
+  const Mask<T> moves = moved_m != T(0);
+  state.dragged_m = select(goes_on, state.dragged_m, T(0)) + moved_m;
+  const T sure = state.dragged_m / (magnitude(state.dragged_m) + T(doubtful_drag_m));
+  const T left = T(1) - smaller(time_step_s / T(drag_memory_s), T(1));
+  state.dragging = select(moves, sure, left * state.dragging);
+}
+
 /// At rest: friction changes with the pre-sliding displacement. Dahl: stiffness fades towards the limit.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_displacement(const FrictionParameters<T>& friction,
@@ -121,6 +138,7 @@ template <class T>
   const T sign = select(moved_m < T(0), T(-1), T(1));
   const T reserve = limited(T(1) - sign * contact.apparent_N / contact.holds_N, T(least_stiffness_share), T(1));
   state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
+  drag(state, moved_m, time_step_s);
   // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
   const T most_N = larger(contact.sticking_N - contact.reach_N, T(0));
   state.gauge_N = limited(state.gauge_N, -most_N, most_N);
@@ -138,6 +156,7 @@ template <class T>
   state.smooth_m = position.position_m;
   state.followed_m = position.position_m - direction * contact.slack_m;
   state.rest_s = T(0);
+  state.dragged_m = state.dragging = T(0);
 }
 
 /// Keeps what friction was `breakaway_delay_s` ago and before.
@@ -176,7 +195,10 @@ template <class T>
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   });
   detail::hold(state, apparent_N, time_step_s);
-  return {limited(state.gauge_N - reach_N, -holds_N, holds_N), limited(state.gauge_N + reach_N, -holds_N, holds_N),
+  // Friction lies on the side of the gauge to which the sensor is dragged.
+  const T below_N = reach_N * (T(1) - larger(state.dragging, T(0)));
+  const T above_N = reach_N * (T(1) + smaller(state.dragging, T(0)));
+  return {limited(state.gauge_N - below_N, -holds_N, holds_N), limited(state.gauge_N + above_N, -holds_N, holds_N),
           breakaway_N, rested_s};
 }
 

@@ -8,9 +8,6 @@
 
 namespace spoolflow::sensor {
 
-/// A slip is over in a few milliseconds, and so are most of its swings of flow: the answer follows them at this pace
-/// [s].
-inline constexpr double slip_smoothing_s = 0.02;
 /// The oil warms slowly and its sensor is noisy [s].
 inline constexpr double temperature_smoothing_s = 2;
 
@@ -46,6 +43,7 @@ template <class T>
   typename ScalarTypes<T>::StatusWord out{};
   mark(out, balance.closed, Status::closed);
   mark(out, !balance.sliding, Status::spool_at_rest);
+  mark(out, balance.dithered, Status::dithered);
   mark(out, !balance.actuator.inside_map, Status::outside_force_map);
   mark(out, !balance.edge.inside && !balance.closed, Status::outside_flow_force_map);
   mark(out, !balance.edge.temperature_inside, Status::outside_temperature);
@@ -55,32 +53,24 @@ template <class T>
   return out;
 }
 
-/// Flow rate at the believed pressure difference, with its band; paper section 3. The band also holds what a flow meter
-/// with its lag still reads.
+/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3.
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const PositionPoint<T>& position, const ForceBalance<T>& balance,
-                                             T time_step_s) {
-  const T pressure_Pa = state.pressure.pressure_difference_Pa;
-  const T flow_m3_per_s = larger(balance.edge.conductance * sqrt(pressure_Pa), T(0));
-  const T following = select(is(position.motion, Motion::transient),
-                             smaller(time_step_s / (T(slip_smoothing_s) + time_step_s), T(1)), T(1));
-  state.flow_m3_per_s += following * (flow_m3_per_s - state.flow_m3_per_s);
-  state.metered_m3_per_s += smaller(time_step_s / (valve.band.reference_lag_s + time_step_s), T(1)) *
-                            (state.flow_m3_per_s - state.metered_m3_per_s);
-
-  const PressureBand<T> band = pressure_band(valve.band, state.pressure, balance, state.friction.rest_s);
-  const T least_Pa = larger(pressure_Pa - band.below_Pa, T(0));
-  const T most_Pa = smaller(pressure_Pa + band.above_Pa, valve.edge.highest_pressure_difference_Pa());
+                                             const ForceBalance<T>& balance, T velocity_m_per_s) {
+  const T believed_Pa = state.pressure.pressure_difference_Pa;
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T expected_Pa = expected_pressure_Pa(state.pressure, balance, highest_Pa);
+  const PressureBand<T> band =
+      pressure_band(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s);
+  const T least_Pa = larger(believed_Pa - band.below_Pa, T(0));
+  const T most_Pa = smaller(believed_Pa + band.above_Pa, highest_Pa);
   const T residual = T(flow_residual_factor) * valve.band.flow_residual_m3_per_s;
-  const T lag_m3_per_s = state.metered_m3_per_s - state.flow_m3_per_s;
+  const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
-  out.flow_m3_per_s = state.flow_m3_per_s;
-  out.flow_lower_m3_per_s =
-      smaller(balance.edge.conductance * sqrt(least_Pa), out.flow_m3_per_s) - residual + smaller(lag_m3_per_s, T(0));
-  out.flow_upper_m3_per_s =
-      larger(balance.edge.conductance * sqrt(most_Pa), out.flow_m3_per_s) + residual + larger(lag_m3_per_s, T(0));
-  out.pressure_difference_Pa = pressure_Pa;
+  out.flow_m3_per_s = larger(conductance * sqrt(expected_Pa), T(0));
+  out.flow_lower_m3_per_s = smaller(conductance * sqrt(least_Pa), out.flow_m3_per_s) - residual;
+  out.flow_upper_m3_per_s = larger(conductance * sqrt(most_Pa), out.flow_m3_per_s) + residual;
+  out.pressure_difference_Pa = expected_Pa;
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;
   out.flow_force_N = balance.edge.flow_force_N;
@@ -105,14 +95,19 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   detail::follow_temperature(state, sample);
 
-  const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, state.oil_temperature_K);
-  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, begins);
+  const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
+  const PositionPoint<T> position =
+      track(valve.position_sensor, state.position, sample, state.oil_temperature_K, dither, state.swing.frees);
+  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, begins);
   state.force_noise_N = balance.noise_N;
+  const T believed_Pa = state.pressure.pressure_difference_Pa;
   believe(valve, state, balance, position, sample.time_step_s);
+  shift_swing(state.swing,
+              balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
   // The coil is slow enough to be followed in those samples that have least else to do.
   in_valves(!balance.sliding && balance.resting.breakaway_N == T(0), state.actuator,
             [&] { follow_coil(valve.actuator, state.actuator, sample); });
-  detail::answer(valve, state, position, balance, sample.time_step_s);
+  detail::answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = detail::status(valve, state, sample, position, balance);
   return state.last;
 }

@@ -3,7 +3,9 @@
 #include <type_traits>
 
 #include "spoolflow/sensor/actuator.hpp"
+#include "spoolflow/sensor/dither.hpp"
 #include "spoolflow/sensor/friction.hpp"
+#include "spoolflow/sensor/friction_swing.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
@@ -24,7 +26,6 @@ struct BandParameters {
   T tolerance_N{};    ///< standard deviation of where the band's ends at rest lie, told by the pre-sliding displacement
   T creep_per_s{};    ///< growth of that tolerance with the time at rest, as a share of it
   T unseen_factor{};  ///< standard deviation of unobserved changes of pressure over the resting drift's, at its most
-  T reference_lag_s{};  ///< of the flow meter that the band is held against: it still reads what has been
 };
 
 /// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
@@ -37,6 +38,7 @@ struct ObserverParameters {
   FrictionParameters<T> friction;
   PressureParameters<T> pressure;
   BandParameters<T> band;
+  T moving_mass_kg{};  ///< spool, push rod and armature together
   T closed_below_m{};
   T largest_current_A{};
 };
@@ -47,9 +49,9 @@ struct ObserverState {
   PositionState<T> position;
   FrictionState<T> friction;
   PressureState<T> pressure;
+  DitherState<T> dither;
+  FrictionSwingState<T> swing;
   T oil_temperature_K{};  ///< smoothed
-  T flow_m3_per_s{};      ///< as answered
-  T metered_m3_per_s{};   ///< as a flow meter with its lag would read it
   T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
   Mask<T> started{};      ///< a sample came in
   Estimate<T> last{};

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "spoolflow/sensor/dither.hpp"
 #include "spoolflow/sensor/sample.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
 
-/// Length of the blocks over which the position is averaged [s]: 20 samples at 10 kHz, 2 at 1 kHz, one at 500 Hz.
+/// Length of the blocks over which the position is averaged [s]: 20 samples at 10 kHz, 2 at 1 kHz, one at 500 Hz. Where
+/// dither frees the spool a block is a period, in which the spool's tremble cancels.
 inline constexpr double block_length_s = 2e-3;
 /// Sliding is told from windows of so many blocks, three in a row: short ones at the pace of a duty cycle ...
 inline constexpr int short_window_blocks = 2;
@@ -20,7 +22,10 @@ inline constexpr double short_window_deviations = 3;
 inline constexpr int long_window_blocks = 8;
 inline constexpr double long_window_deviations = 1.5;
 /// Windows travel evenly where the longest is no more than so many times the shortest, and a threshold more.
-inline constexpr double even_travel_ratio = 2;
+inline constexpr double even_travel_ratio = 4;
+/// The newest is no less than one over this of the others, less a threshold: a spool that slows down more is about to
+/// stop, and friction to fall off its limit.
+inline constexpr double slowing_travel_ratio = 2;
 /// A slip is faster than this [m/s] ...
 inline constexpr double slip_speed_m_per_s = 0.5e-3;
 /// ... and moves by more than so many standard deviations of the noise; ...
@@ -33,6 +38,8 @@ inline constexpr double credible_jump_deviations = 20;
 inline constexpr double credible_jump_m = 20e-6;
 /// A jump that lasts longer than this [s] is believed.
 inline constexpr double longest_position_fault_s = 0.25;
+/// The velocity is smoothed over this [s].
+inline constexpr double velocity_smoothing_s = 0.03;
 /// The size of a travel that tells a direction and nothing else [m].
 inline constexpr double direction_only_m = 1e-6;
 
@@ -89,11 +96,13 @@ struct PositionState {
   T block_s{};
   T per_block_samples{};  ///< 1 / samples in a block
   T last_m{};
-  T step_m{};       ///< last believed change
-  T offset_m{};     ///< what an acquisition fault adds to the signal
-  T fault_s{};      ///< how long the fault has lasted
-  T unsettled_s{};  ///< time until a slip counts as over
-  T travel_m{};     ///< over the last blocks of a motion, sign of the velocity
+  T step_m{};                 ///< last believed change
+  T offset_m{};               ///< what an acquisition fault adds to the signal
+  T fault_s{};                ///< how long the fault has lasted
+  T unsettled_s{};            ///< time until a slip counts as over
+  T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
+  T velocity_m_per_s{};       ///< smoothed
+  T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
   Index<T> samples{};
   Index<T> newest{};
   Index<T> blocks{};
@@ -105,7 +114,9 @@ struct PositionPoint {
   T position_m;  ///< free of drift and faults
   MotionOf<T> motion;
   Mask<T> fault;
-  T travel_m;  ///< sign of the velocity of what `motion` tells
+  T travel_m;          ///< sign of the velocity of what `motion` tells
+  T velocity_m_per_s;  ///< smoothed
+  T acceleration_m_per_s2;
 };
 
 namespace detail {
@@ -138,6 +149,7 @@ constexpr MotionOf<T> even_travel(const PositionState<T>& state, const std::arra
   if (!any(even)) return rest;
   const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
   even = even && !(larger(larger(size_m, middle_m), oldest_m) > T(even_travel_ratio) * least_m + threshold_m);
+  even = even && !(larger(middle_m, oldest_m) > T(slowing_travel_ratio) * size_m + threshold_m);
   return select(even, select(newest_m > T(0), MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
 }
 
@@ -174,6 +186,21 @@ template <class T>
   return motion;
 }
 
+/// Velocity and acceleration over three short windows, after each block.
+template <class T>
+[[gnu::always_inline]] constexpr void follow_velocity(PositionState<T>& state) {
+  constexpr int window = short_window_blocks;
+  const Mask<T> whole = state.blocks > 3 * window;
+  const T now_m = block(state, state.block_m, 0), oldest_m = block(state, state.block_m, 3 * window);
+  const T change_m = now_m - block(state, state.block_m, window) - block(state, state.block_m, 2 * window) + oldest_m;
+  const T per_block_s = T(1) / state.block_s;
+  const T velocity_m_per_s = select(whole, (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window))), T(0));
+  state.acceleration_m_per_s2 =
+      select(whole, change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window))), T(0));
+  state.velocity_m_per_s +=
+      (velocity_m_per_s - state.velocity_m_per_s) * state.block_s / (T(velocity_smoothing_s) + state.block_s);
+}
+
 /// What the spool does, after each block.
 template <class T>
 [[gnu::always_inline]] constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
@@ -197,7 +224,8 @@ template <class T>
 }
 
 /// The position without acquisition faults: a change beyond what the hardest acceleration allows is taken out of the
-/// signal until the signal jumps back, or for `longest_position_fault_s`, after which the signal is believed.
+/// signal until the signal jumps back, or for `longest_position_fault_s` in all, after which the signal is
+/// believed.
 template <class T>
 [[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   T time_step_s, T position_m) {
@@ -208,9 +236,10 @@ template <class T>
   T believed_m = corrected_m;
   const Mask<T> jumps = magnitude(innovation_m) > credible_m;
   if (any(jumps)) {
+    const Mask<T> first = state.offset_m == T(0);
     const T offset_m = state.offset_m + innovation_m;
     state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
-    state.fault_s = select(jumps, T(0), state.fault_s);
+    state.fault_s = select(jumps && first, T(0), state.fault_s);
     believed_m = select(jumps, position_m - state.offset_m, believed_m);
   }
   const Mask<T> faulty = state.offset_m != T(0);
@@ -244,20 +273,24 @@ constexpr void begin(PositionState<T>& state, T position_m) {
 /// One sample.
 template <class T>
 [[gnu::always_inline]] constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                        const Sample<T>& sample, T oil_temperature_K) {
+                                                        const Sample<T>& sample, T oil_temperature_K,
+                                                        const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
   const T position_m =
       detail::without_faults(sensor, state, time_step_s, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
   state.sum_s += time_step_s;
   state.samples = state.samples + 1;
+  const Mask<T> whole = state.sum_s > T(block_length_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
+  const Mask<T> trembles = freed && dither.present && state.sum_s < T(longest_dither_period_s);
   in_valves(
-      state.sum_s > T(block_length_s) - T(0.5) * time_step_s,  // no matter how the sum rounds
-      state, [&]() __attribute__((always_inline)) {
+      whole && (dither.begins || !trembles), state, [&]() __attribute__((always_inline)) {
         detail::close_block(state);
+        detail::follow_velocity(state);
         detail::tell_motion(sensor, state);
       });
-  return {position_m, state.motion, state.offset_m != T(0), state.travel_m};
+  return {position_m,     state.motion,           state.offset_m != T(0),
+          state.travel_m, state.velocity_m_per_s, state.acceleration_m_per_s2};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

@@ -24,9 +24,9 @@ inline constexpr double usual_innovation_squared = 0.3;
 inline constexpr double least_band_factor = 0.35;
 inline constexpr double most_band_factor = 2.5;
 /// Innovations beyond so many standard deviations open the variance: the pressure has changed, ...
-inline constexpr double innovation_gate = 3;
+inline constexpr double innovation_gate = 1.2;
 /// ... at this pace [s].
-inline constexpr double gate_opening_s = 0.05;
+inline constexpr double gate_opening_s = 0.015;
 /// Friction in operation over that on the bench lies between these; dither may all but free the spool.
 inline constexpr double least_friction_ratio = 0.05;
 inline constexpr double most_friction_ratio = 2.5;
@@ -35,6 +35,8 @@ inline constexpr double seen_deviation_share = 0.5;
 /// How fast the process noise follows what an observed change shows, where it is more than thought, and where less.
 inline constexpr double process_noise_rise = 0.8;
 inline constexpr double process_noise_fall = 0.2;
+/// A change tells half of that where its drift variance is so many times the variance of the forces' noise.
+inline constexpr double telling_drift_share = 5;
 /// The variance of unobserved changes falls no lower [Pa2]: it would fade into denormal numbers, which some cores are
 /// slow with.
 inline constexpr double least_unobserved_variance_Pa2 = 1;
@@ -65,6 +67,7 @@ struct PressureState {
   T observed_Pa{};              ///< when last seen
   T drift_variance_Pa2{};       ///< of the resting drift since
   T unobserved_variance_Pa2{};  ///< what of it no force has told of yet
+  T yielded_Pa{};               ///< to forces that friction at rest cannot explain, one way, since last seen
   T innovation_squared{};       ///< normalised, averaged over the last seconds of sliding
 };
 
@@ -91,6 +94,7 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
   state.observed_Pa = T(0);
   state.drift_variance_Pa2 = T(0);
   state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unseen_factor * pressure.first_process_noise);
+  state.yielded_Pa = T(0);
   state.friction_ratio = calibrated_ratio;
   state.ratio_variance = squared(pressure.ratio_deviation);
   state.innovation_squared = T(usual_innovation_squared);
@@ -153,7 +157,8 @@ constexpr void learn_process_noise(const PressureParameters<T>& pressure, Pressu
     const T shown = smaller(
         (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
         T(1));
-    const T pace = select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
+    const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
+    const T pace = weight * select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
     state.process_noise = limited(state.process_noise + pace * (shown - state.process_noise),
                                   squared(pressure.least_process_noise), T(1));
     state.drift_variance_Pa2 = T(0);
@@ -198,6 +203,7 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
 template <class T>
 constexpr void correct_pressure(PressureState<T>& state, const KalmanUpdate<T>& update) {
   state.pressure_difference_Pa += update.gain_Pa_per_N * update.innovation_N;
+  state.yielded_Pa = T(0);
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
   state.unobserved_variance_Pa2 =
@@ -248,7 +254,9 @@ constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state
   const T believed2 = squared(beyond.slope_N_per_Pa) * state.variance_Pa2;
   const T share = believed2 / (believed2 + squared(beyond.noise_N));
   const T force_N = smaller(time_step_s / pressure.yielding_s, T(1)) * beyond.force_N;
-  state.pressure_difference_Pa += share * force_N / beyond.slope_N_per_Pa;
+  const T yields_Pa = share * force_N / beyond.slope_N_per_Pa;
+  state.pressure_difference_Pa += yields_Pa;
+  state.yielded_Pa = yields_Pa + select(yields_Pa * state.yielded_Pa < T(0), T(0), state.yielded_Pa);
   return (T(1) - share) * force_N;
 }
 

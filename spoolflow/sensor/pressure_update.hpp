@@ -32,12 +32,13 @@ template <class T>
                                                                          const ForceBalance<T>& balance,
                                                                          T friction_slope_N_per_Pa) {
   const T aged = ageing(friction, balance.resting.rested_s);
-  const T expected_N = balance.direction * (aged * balance.spool_friction_N + balance.armature_friction_N);
+  const T limit_N = aged * balance.spool_friction_N + balance.armature_friction_N;
+  const T expected_N = balance.direction * larger(limit_N - balance.half_swing_N, T(0));
   return {balance.resting.breakaway_N - expected_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,
                                balance.direction * aged * friction_slope_N_per_Pa),
           balance.direction * (aged * balance.edge.friction_N + balance.actuator.friction_half_width_N),
-          sqrt(squared(balance.noise_N) + squared(friction.breakaway_share * expected_N))};
+          sqrt(squared(balance.noise_N) + squared(friction.breakaway_share * limit_N))};
 }
 
 /// Prediction over one sample: the supply may have moved.
@@ -63,7 +64,7 @@ template <class T>
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
   predict(valve, pressure, balance, time_step_s, highest_Pa);
 
-  in_valves(!balance.closed && balance.sliding, pressure, [&] {
+  in_valves(balance.settled && !balance.closed && balance.sliding, pressure, [&] {
     in_valves(time_step_s > T(0), pressure, [&] {
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s);
     });
@@ -75,8 +76,8 @@ template <class T>
   in_valves(breaks, pressure,
             [&] { update_breakaway(pressure, breakaway_innovation(valve.friction, balance, friction_slope)); });
   const T beyond_N = balance.apparent_friction_N - balance.friction_N;
-  const Mask<T> yields =
-      !balance.closed && !balance.sliding && !breaks && is(position.motion, Motion::rest) && beyond_N != T(0);
+  const Mask<T> yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
+                         is(position.motion, Motion::rest) && beyond_N != T(0);
   in_valves(yields, pressure, [&] {
     const T left_N = yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s);
     const Mask<T> holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;

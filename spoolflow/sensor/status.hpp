@@ -16,6 +16,7 @@ enum class Status : std::uint32_t {
   outside_flow_force_map = 1U << 3,  ///< the flow force left the measured range at this position: answered at its edge
   outside_temperature = 1U << 4,     ///< the oil is colder or warmer than the calibration's recordings
   current_saturated = 1U << 5,       ///< the current sits at the end of its range
+  dithered = 1U << 6,                ///< the current is dithered: friction swings between its limits
   // faults
   position_fault = 1U << 16,  ///< the position signal moved as no spool can: the last credible position is used
   sample_missing = 1U << 17,  ///< an input is missing: the last answer is held
@@ -48,13 +49,14 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit, in the order in which they are listed.
-inline constexpr std::array<StatusName, 10> status_names{{
+inline constexpr std::array<StatusName, 11> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
     {Status::outside_flow_force_map, "outside_flow_force_map"},
     {Status::outside_temperature, "outside_temperature"},
     {Status::current_saturated, "current_saturated"},
+    {Status::dithered, "dithered"},
     {Status::position_fault, "position_fault"},
     {Status::sample_missing, "sample_missing"},
     {Status::time_fault, "time_fault"},

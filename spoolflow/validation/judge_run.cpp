@@ -175,8 +175,12 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
   const Phases phases = run.position_set.empty() ? phases_of_position(run.time_s, run.position_m, valve.stroke_m)
                                                  : phases_of_command(run.time_s, run.position_set);
   result.phases_from_measured_position = phases.from_measured_position;
+  if (result.has_reference) {
+    result.reference_meter = options.reference_lag_s ? numerics::MeterLag{.lag_s = *options.reference_lag_s}
+                                                     : meter_lag(run, run.answers.back());
+  }
   if (result.has_reference && options.apply_reference_lag) {
-    for (Answers& answers : run.answers) apply_lag(run.time_s, answers, options.reference_lag_s);
+    for (Answers& answers : run.answers) apply_lag(run.time_s, answers, result.reference_meter);
   }
   for (const Answers& answers : run.answers) {
     EstimatorResult& each = result.results.emplace_back();
@@ -184,7 +188,7 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
     if (result.has_reference) {
       out.compared.push_back(compare(each, run, phases, answers, valve));
       each.frequency_response = frequency_response({run.time_s, run.reference_m3_per_s, answers.flow_m3_per_s,
-                                                    options.apply_reference_lag ? 0 : options.reference_lag_s});
+                                                    options.apply_reference_lag ? 0 : result.reference_meter.lag_s});
     }
     draw(each, run, answers);
   }

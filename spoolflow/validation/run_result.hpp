@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/validation/direction_profile.hpp"
 #include "spoolflow/validation/error_profile.hpp"
 #include "spoolflow/validation/frequency_response.hpp"
@@ -67,7 +68,8 @@ struct SolenoidPoint {
 };
 
 struct RunResult {
-  std::string name;  ///< file name without its ending
+  numerics::MeterLag reference_meter;  ///< as given, or as the run shows it beside the leading estimator
+  std::string name;                    ///< file name without its ending
   std::string file;
   std::string sha256;            ///< empty for standard input
   bool calibrated_with = false;  ///< the model names this very file among its inputs

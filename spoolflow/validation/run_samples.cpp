@@ -1,6 +1,6 @@
 #include "spoolflow/validation/run_samples.hpp"
 
-#include "spoolflow/validation/first_order_lag.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::validation {
@@ -76,9 +76,15 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
   return run;
 }
 
-void apply_lag(std::span<const double> time_s, Answers& answers, double lag_s) {
+numerics::MeterLag meter_lag(const RunSamples& run, const Answers& answers) {
+  const std::vector<double> flow(answers.flow_m3_per_s.begin(), answers.flow_m3_per_s.end());
+  const std::vector<double> reference(run.reference_m3_per_s.begin(), run.reference_m3_per_s.end());
+  return numerics::find_meter_lag(run.time_s, flow, reference);
+}
+
+void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter) {
   for (std::vector<float>* column : {&answers.flow_m3_per_s, &answers.lower_m3_per_s, &answers.upper_m3_per_s}) {
-    apply_lag<float>(time_s, *column, lag_s);
+    numerics::apply_lag<float>(time_s, *column, meter);
   }
 }
 

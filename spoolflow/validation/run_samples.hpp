@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::validation {
@@ -36,7 +37,10 @@ struct RunSamples {
                                       const std::vector<estimation::Estimator>& estimators,
                                       const std::function<void(double)>& progress);
 
-/// Lags flow and band by a first-order lag, as the reference meter lags the flow.
-void apply_lag(std::span<const double> time_s, Answers& answers, double lag_s);
+/// The reference meter's dead time and lag, as the run shows them beside the answers.
+[[nodiscard]] numerics::MeterLag meter_lag(const RunSamples& run, const Answers& answers);
+
+/// Shows flow and band as the reference meter would.
+void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter);
 
 }  // namespace spoolflow::validation

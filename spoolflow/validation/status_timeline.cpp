@@ -50,6 +50,8 @@ const char* meaning(sensor::Status bit) {
       return "The oil is colder or warmer than in the calibration's recordings.";
     case Status::current_saturated:
       return "The current sits at the end of its range: the force may be larger than it tells.";
+    case Status::dithered:
+      return "The current is dithered: friction swings between its limits, and the extremes of each period tell.";
     case Status::position_fault:
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:

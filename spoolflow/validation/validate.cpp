@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/validation/judge_run.hpp"
 #include "spoolflow/validation/judged_limits.hpp"
 #include "spoolflow/validation/run_samples.hpp"
@@ -39,7 +40,8 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     for (const std::filesystem::path& recording : recordings) runs.push_back(run_name(recording));
     check_names(*options.requirements, runs, options.estimators);
   }
-  Validation out{{}, {}, options.reference_lag_s, options.apply_reference_lag, {}, {}};
+  Validation out{{}, {}, 0, options.apply_reference_lag, {}, {}};
+  std::vector<double> lags_s;
   std::vector<Pool> pools(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
                                                       empty_profiles(model.valve), empty_direction(model.valve)});
   const auto total = static_cast<double>(recordings.size());
@@ -48,6 +50,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     RunSamples samples = estimate_run(model, recording, options.channels, options.estimators,
                                       [&](double share) { progress((before + share) / total); });
     JudgedRun judged = judge_run(model.valve, samples, options, options.traced_values / recordings.size());
+    if (judged.result.has_reference) lags_s.push_back(judged.result.reference_meter.lag_s);
     name_run(judged.result, model, recording);
     for (std::size_t e = 0; e < judged.compared.size(); ++e) {
       pools[e].samples.append(judged.compared[e]);
@@ -58,6 +61,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     }
     out.runs.push_back(std::move(judged.result));
   }
+  if (!lags_s.empty()) out.reference_lag_s = numerics::median(std::move(lags_s));
   for (std::size_t e = 0; e < pools.size(); ++e) {
     PooledResult& pooled = out.pooled.emplace_back();
     pooled.estimator = options.estimators[e];

@@ -13,8 +13,9 @@ namespace spoolflow::validation {
 struct ValidationOptions {
   std::vector<estimation::Estimator> estimators;  ///< the leading one last
   recording::ChannelMap channels;
-  double reference_lag_s = 0.03;     ///< of the reference meter
-  bool apply_reference_lag = false;  ///< lag the estimate likewise before comparing
+  /// Of the reference meter, without dead time; else dead time and lag are found from each run.
+  std::optional<double> reference_lag_s = {};
+  bool apply_reference_lag = true;  ///< lag the estimate likewise before comparing
   /// Numbers that the traces of all runs together may hold: 3.5 million are 9 MiB of the report.
   std::size_t traced_values = 3'500'000;
   std::optional<Requirements> requirements = {};
@@ -31,7 +32,7 @@ struct PooledResult {
 struct Validation {
   std::vector<RunResult> runs;
   std::vector<PooledResult> pooled;  ///< in the order of the options
-  double reference_lag_s = 0;
+  double reference_lag_s = 0;        ///< of the runs, the median
   bool reference_lag_applied = false;
   std::string requirements_file;    ///< empty: nothing was asked
   std::vector<JudgedLimit> limits;  ///< in the file's order

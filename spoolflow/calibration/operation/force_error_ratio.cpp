@@ -3,33 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/operation/replay.hpp"
-
 namespace spoolflow::calibration {
 
-double force_error_ratio(const sensor::ObserverParameters<double>& parameters,
-                         const std::vector<const recording::Recording*>& recordings) {
+double force_error_ratio(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs) {
   double sum = 0;
   std::size_t samples = 0;
-  replay(parameters, recordings, [&](const ReplayedSample& sample) {
-    const auto& [state, time_s, position_m, reference_m3_per_s] = sample;
+  replay(parameters, runs, [&](const ReplayedSample& sample) {
+    const auto& [state, time_s, position_m, reference_m3_per_s, shown] = sample;
     if (state.position.motion != sensor::Motion::rest || sensor::has(state.last.status, sensor::Status::closed)) return;
     const double pressure_Pa = std::max(1e5, state.pressure.pressure_difference_Pa);
     const sensor::EdgePoint<double> edge = parameters.edge.at(state.oil_temperature_K, pressure_Pa, position_m);
     const double flow_per_pressure = edge.conductance / (2 * std::sqrt(pressure_Pa));
-    const double deviation_m3_per_s = flow_per_pressure * state.force_noise_N / edge.flow_force_per_pressure_N_Pa;
-    const double error = (reference_m3_per_s - state.metered_m3_per_s) /
-                         std::hypot(deviation_m3_per_s, 2 * parameters.band.flow_residual_m3_per_s);
+    const double deviation_m3_per_s = flow_per_pressure * sensor::pressure_deviation_Pa(edge, state.force_noise_N);
+    const double error =
+        (reference_m3_per_s - shown.flow) / std::hypot(deviation_m3_per_s, 2 * parameters.band.flow_residual_m3_per_s);
     sum += error * error;
     ++samples;
   });
-  return samples == 0 ? assumed_force_error_ratio : std::sqrt(sum / static_cast<double>(samples));
+  if (samples == 0) return assumed_force_error_ratio;
+  return std::max(least_force_error_ratio, std::sqrt(sum / static_cast<double>(samples)));
 }
 
 void scale_band(sensor::ObserverParameters<double>& parameters, double force_error_ratio) {
   // One proportion for all valves, found on the runs of five of them together (docs/accuracy.md).
-  constexpr double sliding = 0.78;
-  constexpr double resting = 1.75;
+  constexpr double sliding = 1.1;
+  constexpr double resting = 1.4;
   constexpr double tolerance = 0.55;
   parameters.band.force_share = sliding * force_error_ratio;
   parameters.band.rest_share = resting * force_error_ratio;

@@ -3,7 +3,7 @@
 /// valve works shows, beside a reference flow, whether they are as large as the benches' residuals make them.
 #include <vector>
 
-#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
@@ -11,10 +11,14 @@ namespace spoolflow::calibration {
 /// Where no operating recording tells: wider than any of the valves that were tried needs (docs/accuracy.md).
 inline constexpr double assumed_force_error_ratio = 2;
 
+/// One run may agree better with the benches than others will.
+inline constexpr double least_force_error_ratio = 0.4;
+
 /// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise
-/// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open.
+/// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open;
+/// never less than the least.
 [[nodiscard]] double force_error_ratio(const sensor::ObserverParameters<double>& parameters,
-                                       const std::vector<const recording::Recording*>& recordings);
+                                       const std::vector<OperatingRun>& runs);
 
 /// Sets what the band counts in proportion to that ratio.
 void scale_band(sensor::ObserverParameters<double>& parameters, double force_error_ratio);

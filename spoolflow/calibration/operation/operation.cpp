@@ -12,6 +12,9 @@ namespace spoolflow::calibration {
 OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
                            const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
                            const std::function<void(double)>& progress) {
+  OperationFit out{};
+  const std::vector<OperatingRun> runs = with_meters(parameters, recordings);
+  for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
   const std::vector<Dial> all = operation_dials(parameters);
   scale_band(parameters, 0.7);  // as wide as most valves need, for the search
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
@@ -25,11 +28,10 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   const auto cost = [&] {
     double distance2 = 0;
     for (std::size_t k = 0; k < all.size(); ++k) distance2 += std::pow(std::log(*all[k].value / prior[k]), 2);
-    return operation_score(parameters, recordings, full_scale_m3_per_s) * (1 + pull * distance2);
+    return operation_score(parameters, runs, full_scale_m3_per_s) * (1 + pull * distance2);
   };
 
-  OperationFit out{};
-  out.score_before = operation_score(parameters, recordings, full_scale_m3_per_s);
+  out.score_before = operation_score(parameters, runs, full_scale_m3_per_s);
   double best = cost();
   constexpr int rounds = 20;
   constexpr double first_step = 1.35;  // as a factor
@@ -53,13 +55,13 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
     }
   }
 
-  out.score = operation_score(parameters, recordings, full_scale_m3_per_s);
-  out.known = known_of_operation(parameters, recordings, full_scale_m3_per_s, pull * out.score);
+  out.score = operation_score(parameters, runs, full_scale_m3_per_s);
+  out.known = known_of_operation(parameters, runs, full_scale_m3_per_s, pull * out.score);
   parameters.pressure = given_supply;
-  out.force_error_ratio = force_error_ratio(parameters, recordings);
+  out.force_error_ratio = force_error_ratio(parameters, runs);
   scale_band(parameters, out.force_error_ratio);
   const OperationOutcome outcome =
-      together(replay_stretches(parameters, recordings, std::numeric_limits<double>::infinity()));
+      together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
   out.flow_m3_per_s = outcome.error;
   out.samples = outcome.error.samples;
   out.band_coverage = static_cast<double>(outcome.inside) / static_cast<double>(std::max<std::size_t>(1, out.samples));

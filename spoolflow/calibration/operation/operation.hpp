@@ -7,6 +7,7 @@
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -16,11 +17,12 @@ namespace spoolflow::calibration {
 struct OperationFit {
   double score_before;  ///< see operation_score; both with the supply and the band's scale of the search
   double score;
-  model::Fit known;           ///< of the parameters that were searched, see operation_uncertainty.hpp
-  FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
-  double force_error_ratio;   ///< see band.hpp; the band is scaled by it
-  double band_coverage;       ///< share of the samples with the reference inside the band
-  std::size_t samples;        ///< that were used: see replay.hpp
+  std::vector<numerics::MeterLag> meters;  ///< of the recordings, as they show it
+  model::Fit known;                        ///< of the parameters that were searched, see operation_uncertainty.hpp
+  FitResidual flow_m3_per_s;               ///< estimate less reference, with the fitted parameters
+  double force_error_ratio;                ///< see band.hpp; the band is scaled by it
+  double band_coverage;                    ///< share of the samples with the reference inside the band
+  std::size_t samples;                     ///< that were used: see replay.hpp
 };
 
 /// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "spoolflow/calibration/operation/replay.hpp"
-
 namespace spoolflow::calibration {
 
 std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters) {
@@ -28,25 +26,23 @@ double OperationOutcome::score(double full_scale_m3_per_s) const {
 }
 
 std::vector<OperationOutcome> replay_stretches(const sensor::ObserverParameters<double>& parameters,
-                                               const std::vector<const recording::Recording*>& recordings,
-                                               double stretch_s) {
+                                               const std::vector<OperatingRun>& runs, double stretch_s) {
   constexpr double outside_weight = 2 / 0.05;  // of a 95 % interval
   std::vector<OperationOutcome> stretches;
   double ends_s = 0;
   double before_s = std::numeric_limits<double>::infinity();
-  replay(parameters, recordings, [&](const ReplayedSample& sample) {
+  replay(parameters, runs, [&](const ReplayedSample& sample) {
     if (sample.time_s < before_s || sample.time_s >= ends_s) {
       stretches.emplace_back();
       ends_s = sample.time_s + stretch_s;
     }
     before_s = sample.time_s;
     OperationOutcome& outcome = stretches.back();
-    const sensor::Estimate<double>& estimate = sample.state.last;
+    const auto& [flow, lower, upper] = sample.shown;
     const double reference_m3_per_s = sample.reference_m3_per_s;
-    const double outside = std::max(
-        {0.0, estimate.flow_lower_m3_per_s - reference_m3_per_s, reference_m3_per_s - estimate.flow_upper_m3_per_s});
-    outcome.interval_score += estimate.flow_upper_m3_per_s - estimate.flow_lower_m3_per_s + outside_weight * outside;
-    outcome.error.add(estimate.flow_m3_per_s - reference_m3_per_s);
+    const double outside = std::max({0.0, lower - reference_m3_per_s, reference_m3_per_s - upper});
+    outcome.interval_score += upper - lower + outside_weight * outside;
+    outcome.error.add(flow - reference_m3_per_s);
     if (outside == 0) ++outcome.inside;
   });
   return stretches;
@@ -62,10 +58,10 @@ OperationOutcome together(const std::vector<OperationOutcome>& stretches) {
   return out;
 }
 
-double operation_score(const sensor::ObserverParameters<double>& parameters,
-                       const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s) {
+double operation_score(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs,
+                       double full_scale_m3_per_s) {
   constexpr double all_s = std::numeric_limits<double>::infinity();
-  return together(replay_stretches(parameters, recordings, all_s)).score(full_scale_m3_per_s);
+  return together(replay_stretches(parameters, runs, all_s)).score(full_scale_m3_per_s);
 }
 
 }  // namespace spoolflow::calibration

@@ -1,11 +1,11 @@
 #pragma once
-/// How well the observer does on operating recordings, and what of it may be turned to do better.
+/// How well the observer does on operating runs, and what of it may be turned to do better.
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
-#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
@@ -34,15 +34,13 @@ inline constexpr double weight_of_error = 4;
 
 /// In stretches of `stretch_s`, each recording's beginning anew.
 [[nodiscard]] std::vector<OperationOutcome> replay_stretches(const sensor::ObserverParameters<double>& parameters,
-                                                             const std::vector<const recording::Recording*>& recordings,
-                                                             double stretch_s);
+                                                             const std::vector<OperatingRun>& runs, double stretch_s);
 [[nodiscard]] OperationOutcome together(const std::vector<OperationOutcome>& stretches);
 
 /// Mean interval score of the 95 % band (Winkler 1972; Gneiting and Raftery 2007, eq. 43: its width, and 40 times
 /// what the reference lies outside) plus four times the RMS error, as a share of full scale. Small where the estimate
 /// is close and the band as narrow as it may be. Infinite where there is nothing to compare.
 [[nodiscard]] double operation_score(const sensor::ObserverParameters<double>& parameters,
-                                     const std::vector<const recording::Recording*>& recordings,
-                                     double full_scale_m3_per_s);
+                                     const std::vector<OperatingRun>& runs, double full_scale_m3_per_s);
 
 }  // namespace spoolflow::calibration

@@ -79,9 +79,8 @@ Eigen::MatrixXd covariance_from(Curvature score, double pull) {
 
 }  // namespace
 
-model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
-                              const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
-                              double pull) {
+model::Fit known_of_operation(sensor::ObserverParameters<double> parameters, const std::vector<OperatingRun>& runs,
+                              double full_scale_m3_per_s, double pull) {
   const std::vector<Dial> dials = operation_dials(parameters);
   std::vector<std::string> names;
   std::vector<double> values;
@@ -92,7 +91,7 @@ model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
     names.emplace_back(dial.name);
     values.push_back(*dial.value);
   }
-  const std::vector<OperationOutcome> here = replay_stretches(parameters, recordings, stretch_s);
+  const std::vector<OperationOutcome> here = replay_stretches(parameters, runs, stretch_s);
   const double rms_m3_per_s = std::max(1e-9 * full_scale_m3_per_s, together(here).error.rms());
   const auto turned = [&](Eigen::Index a, double log_a, Eigen::Index b, double log_b) {
     double& dial_a = *dials[static_cast<std::size_t>(a)].value;
@@ -100,8 +99,7 @@ model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
     const double before_a = dial_a, before_b = dial_b;
     dial_a *= std::exp(log_a);
     dial_b *= std::exp(log_b);
-    Eigen::VectorXd out =
-        scores(replay_stretches(parameters, recordings, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
+    Eigen::VectorXd out = scores(replay_stretches(parameters, runs, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
     dial_a = before_a;
     dial_b = before_b;
     return out;

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/recording/recording.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::calibration {
@@ -12,7 +12,7 @@ namespace spoolflow::calibration {
 /// stretches of some seconds. `pull` is the curvature's half that the weak pull of the search adds. A parameter at the
 /// end of its range has uncertainty 0. The score's curvature comes from differences of ten percent: two digits at best.
 [[nodiscard]] model::Fit known_of_operation(sensor::ObserverParameters<double> parameters,
-                                            const std::vector<const recording::Recording*>& recordings,
-                                            double full_scale_m3_per_s, double pull);
+                                            const std::vector<OperatingRun>& runs, double full_scale_m3_per_s,
+                                            double pull);
 
 }  // namespace spoolflow::calibration

@@ -72,6 +72,7 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_OUTSIDE_FLOW_FORCE_MAP (UINT32_C(1) << 3) /* flow force beyond what was measured */
 #define SPOOLFLOW_STATUS_OUTSIDE_TEMPERATURE (UINT32_C(1) << 4)    /* oil colder or warmer than calibrated */
 #define SPOOLFLOW_STATUS_CURRENT_SATURATED (UINT32_C(1) << 5)      /* the current is at the end of its range */
+#define SPOOLFLOW_STATUS_DITHERED (UINT32_C(1) << 6)               /* the current is dithered: friction swings */
 /* Faults: an input or the model cannot be trusted. */
 #define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used */
 #define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last answer is held */

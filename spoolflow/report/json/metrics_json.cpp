@@ -158,6 +158,8 @@ Json MetricsJson::run(const validation::RunResult& run) const {
   Json out{{"file", run.file},
            {"sha256", run.sha256},
            {"samples", run.samples},
+           {"reference_lag_s", run.reference_meter.lag_s},
+           {"reference_dead_time_s", run.reference_meter.dead_time_s},
            {"duration_s", run.duration_s},
            {"missing_values", run.missing_values},
            {"duplicate_times", run.duplicate_times},

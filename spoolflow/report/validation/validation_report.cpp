@@ -78,6 +78,18 @@ void show_run(HtmlPage& page, const validation::RunResult& run, double full_scal
   if (!dynamics.empty()) page.pair(dynamics);
 }
 
+/// Each run's meter.
+std::string meters(const validation::Validation& validation) {
+  std::string out = "each run:";
+  for (const validation::RunResult& run : validation.runs) {
+    if (!run.has_reference) continue;
+    out += fmt::format(" {} {} ms after {} ms of dead time,", run.name, fixed(1e3 * run.reference_meter.lag_s, 0),
+                       fixed(1e3 * run.reference_meter.dead_time_s, 0));
+  }
+  out.pop_back();
+  return out;
+}
+
 void show_definitions(HtmlPage& page, const validation::Validation& validation, double full_scale_m3_per_s) {
   page.subsection("How the figures are made");
   page.paragraph(phrase(
@@ -89,10 +101,11 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
   page.paragraph(
       "Moving: commanded faster than 1 % of the stroke a second. At rest: not moving, and more than 1 % open. Around "
       "reversal: within 2 s of a change of direction, or of a start or stop above half of the stroke.");
-  page.paragraph(fmt::format("The reference meter is taken to lag by {} ms (first order). The estimate was {}.",
-                             fixed(1e3 * validation.reference_lag_s, 0),
+  page.paragraph(fmt::format("The reference meter lags by {} ms (first order; {}). The estimate was {}.",
+                             fixed(1e3 * validation.reference_lag_s, 0), meters(validation),
                              validation.reference_lag_applied
-                                 ? "lagged likewise before it was compared"
+                                 ? "delayed and lagged likewise before it was compared: the answer itself is that of "
+                                   "the instant"
                                  : "compared as it is, so that in fast changes the meter's lag counts as error "
                                    "(--apply-reference-lag takes it out)"));
 }

@@ -1,0 +1,77 @@
+#include "spoolflow/numerics/meter_lag.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace spoolflow::numerics {
+namespace {
+
+constexpr double change_s = 0.1;
+constexpr std::size_t least_samples = 1000;
+
+/// Mean size of the changes of `reference` that those of the metered flow do not explain.
+class UnexplainedChanges {
+ public:
+  UnexplainedChanges(std::span<const double> time_s, std::span<const double> flow, std::span<const double> reference)
+      : time_s_(time_s), flow_(flow), reference_(reference) {
+    std::size_t before = 0;
+    for (std::size_t k = 0; k < time_s.size(); ++k) {
+      while (time_s[k] - time_s[before] > change_s) ++before;
+      before_.push_back(before);
+    }
+  }
+
+  double operator()(const MeterLag& meter) {
+    shown_.assign(flow_.begin(), flow_.end());
+    apply_lag<double>(time_s_, shown_, meter);
+    double sum = 0;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      const std::size_t b = before_[k];
+      const double change = (reference_[k] - shown_[k]) - (reference_[b] - shown_[b]);
+      if (std::isfinite(change)) sum += std::abs(change);
+    }
+    return sum;
+  }
+
+ private:
+  std::span<const double> time_s_, flow_, reference_;
+  std::vector<std::size_t> before_;
+  std::vector<double> shown_;
+};
+
+}  // namespace
+
+MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
+                        std::span<const double> reference) {
+  std::size_t both = 0;
+  for (std::size_t k = 0; k < time_s.size(); ++k)
+    both += std::isfinite(flow[k]) && std::isfinite(reference[k]) ? 1U : 0U;
+  if (both < least_samples) return {};
+  UnexplainedChanges unexplained(time_s, flow, reference);
+  MeterLag best;
+  double least = unexplained(best);
+  const auto try_lag = [&](const MeterLag& meter) {
+    const double left = unexplained(meter);
+    if (left >= least) return false;
+    least = left;
+    best = meter;
+    return true;
+  };
+  for (const double dead_time_s : {0.0, 0.01, 0.03})
+    for (const double lag_s : {0.005, 0.01, 0.02, 0.04, 0.08, 0.15, 0.3}) try_lag({dead_time_s, lag_s});
+  double dead_step_s = 0.008;
+  double factor = 1.4;
+  for (int round = 0; round < 6; ++round) {
+    while (try_lag({best.dead_time_s, std::min(best.lag_s * factor, 0.5)}) ||
+           try_lag({best.dead_time_s, best.lag_s / factor})) {
+    }
+    while (try_lag({std::min(best.dead_time_s + dead_step_s, 0.1), best.lag_s}) ||
+           try_lag({std::max(best.dead_time_s - dead_step_s, 0.0), best.lag_s})) {
+    }
+    factor = 1 + 0.5 * (factor - 1);
+    dead_step_s *= 0.5;
+  }
+  return best;
+}
+
+}  // namespace spoolflow::numerics

@@ -1,0 +1,40 @@
+#pragma once
+/// What a meter does to what it measures: it shows it late, and smoothed.
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace spoolflow::numerics {
+
+/// A flow meter: dead time, then a first-order lag.
+struct MeterLag {
+  double dead_time_s = 0;
+  double lag_s = 0;
+};
+
+/// What such a meter shows of `values`, in place: exactly, for values that hold between samples. Before the dead time
+/// is over it shows the first value; a NaN is no value, and the meter shows what it showed before.
+template <class Number>
+void apply_lag(std::span<const double> time_s, std::span<Number> values, const MeterLag& meter) {
+  if (meter.dead_time_s > 0) {
+    std::size_t seen = values.size();
+    for (std::size_t k = values.size(); k-- > 0;) {
+      while (seen > 0 && (seen > k || time_s[seen] > time_s[k] - meter.dead_time_s)) --seen;
+      values[k] = values[seen];
+    }
+  }
+  if (!(meter.lag_s > 0)) return;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double share = -std::expm1(-(time_s[k] - time_s[k - 1]) / meter.lag_s);
+    const double change = values[k] - values[k - 1];
+    values[k] = static_cast<Number>(std::isnan(change) ? values[k - 1] : values[k - 1] + share * change);
+  }
+}
+
+/// The meter that shows `reference` where the flow was `flow`, from samples at the same times. What it is judged by are
+/// changes over a tenth of a second, by their size: an offset, slow errors and a few large ones say nothing of a lag.
+/// Dead time up to 0.1 s, lag up to 0.5 s; both 0 where fewer than 1000 samples have both or the flow never changes.
+MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
+                        std::span<const double> reference);
+
+}  // namespace spoolflow::numerics

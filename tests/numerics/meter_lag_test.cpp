@@ -1,0 +1,67 @@
+#include "spoolflow/numerics/meter_lag.hpp"
+
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace spoolflow::numerics {
+namespace {
+
+/// A flow of steps and ramps, sampled at 1 kHz.
+struct Course {
+  std::vector<double> time_s, flow;
+};
+
+Course course() {
+  Course out;
+  std::minstd_rand random(7);
+  double flow = 0;
+  double rate = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    if (k % 700 == 0) rate = (static_cast<double>(random() % 2001) - 1000) * 1e-5;
+    if (k % 1900 == 0) flow += static_cast<double>(random() % 11) - 5;
+    out.time_s.push_back(1e-3 * k);
+    out.flow.push_back(flow += rate);
+  }
+  return out;
+}
+
+TEST(MeterLag, AStepIsShownAfterTheDeadTimeAndByTwoThirdsOneLagLater) {
+  std::vector<double> time_s, flow;
+  for (int k = 0; k < 200; ++k) {
+    time_s.push_back(1e-3 * k);
+    flow.push_back(k < 50 ? 0 : 1);
+  }
+  apply_lag<double>(time_s, flow, {.dead_time_s = 0.02, .lag_s = 0.03});
+  EXPECT_EQ(flow[69], 0);
+  EXPECT_NEAR(flow[69 + 30], 1 - std::exp(-1.0), 1e-12);
+}
+
+TEST(MeterLag, IsFoundFromWhatTheMeterShowed) {
+  const Course course = numerics::course();
+  for (const MeterLag& meter : {MeterLag{0, 0.03}, MeterLag{0.012, 0.05}, MeterLag{0, 0}}) {
+    std::vector<double> shown = course.flow;
+    apply_lag<double>(course.time_s, shown, meter);
+    std::minstd_rand random(3);
+    for (double& value : shown) value += 0.5 + 1e-3 * static_cast<double>(random() % 200);  // offset and noise
+    const MeterLag found = find_meter_lag(course.time_s, course.flow, shown);
+    EXPECT_NEAR(found.lag_s, meter.lag_s, 0.003) << meter.dead_time_s << ' ' << meter.lag_s;
+    EXPECT_NEAR(found.dead_time_s, meter.dead_time_s, 0.003);
+  }
+}
+
+TEST(MeterLag, AMissingSampleShowsWhatWasShownBefore) {
+  std::vector<double> time_s{0, 0.01, 0.02, 0.03};
+  std::vector<double> flow{1, 1, std::nan(""), 1};
+  apply_lag<double>(time_s, flow, {.lag_s = 0.03});
+  EXPECT_EQ(flow, std::vector<double>({1, 1, 1, 1}));
+}
+
+TEST(MeterLag, TooFewSamplesTellNone) {
+  const std::vector<double> few(10, 1.0);
+  EXPECT_EQ(find_meter_lag(few, few, few).lag_s, 0);
+}
+
+}  // namespace
+}  // namespace spoolflow::numerics
