@@ -17,7 +17,7 @@ friction.breakaway_share position_sensor.backlash_m position_sensor.hardest_acce
 pressure.sliding_drift_Pa_per_sqrt_s pressure.resting_drift_Pa_per_sqrt_s pressure.least_process_noise
 pressure.first_process_noise pressure.yielding_s pressure.force_correlation_s pressure.ratio_deviation
 pressure.ratio_memory_s band.friction_share band.coverage_factor band.force_share band.rest_share band.tolerance_N
-band.creep_per_s band.unseen_factor band.reference_lag_s""".split()
+band.creep_per_s band.unseen_factor moving_mass_kg""".split()
 
 PROGRAM = """
 #include <algorithm>

@@ -86,6 +86,13 @@ void describe_position_constants(Visitor& visitor) {
                     .meaning = "windows travel evenly where the longest is no more than so many times the shortest",
                     .evidence = "fast_10kHz: p95 17.81, 5.00, 3.39 % FS, band 93.0, 93.0, 93.9 %"},
                    sensor::even_travel_ratio);
+  visitor.constant(
+      {.name = "slowing_travel_ratio",
+       .unit = "1",
+       .meaning = "a spool whose newest window travels less than one over this of the others is about to stop"},
+      sensor::slowing_travel_ratio);
+  visitor.constant({.name = "velocity_smoothing_s", .unit = "s", .meaning = "smoothing of the velocity"},
+                   sensor::velocity_smoothing_s);
   visitor.constant({.name = "slip_speed_m_per_s",
                     .unit = "m/s",
                     .meaning = "a slip is faster than this",
@@ -137,6 +144,15 @@ void describe_friction_constants(Visitor& visitor) {
        .meaning = "standard deviations of the smoothed position's noise that the gauge takes for no motion",
        .evidence = "ramps_30_to_70bar: p95 0.40, 0.41, 0.46 % FS, band 97.3, 97.0, 95.7 %"},
       sensor::gauge_slack_deviations);
+  visitor.constant({.name = "doubtful_drag_slacks",
+                    .unit = "1",
+                    .meaning = "a drag of the sensor by so many times what noise may fake is as likely as not noise"},
+                   sensor::doubtful_drag_slacks);
+  visitor.constant(
+      {.name = "drag_memory_s",
+       .unit = "s",
+       .meaning = "for so long after it was dragged the sensor tells at which end of its backlash it lies"},
+      sensor::drag_memory_s);
   visitor.constant({.name = "least_stiffness_share",
                     .unit = "1",
                     .meaning = "what is left of the contact's stiffness at the limit of sticking",
@@ -234,6 +250,11 @@ void describe_pressure_constants(Visitor& visitor) {
                     .meaning = "the same of one that is less",
                     .evidence = "duty_cycle_1: p95 5.19, 5.21, 5.37 % FS, band 98.3, 94.2, 81.6 %"},
                    sensor::process_noise_fall);
+  visitor.constant(
+      {.name = "telling_drift_share",
+       .unit = "1",
+       .meaning = "a change tells half where its drift variance is so many times that of the forces' noise"},
+      sensor::telling_drift_share);
   visitor.constant({.name = "least_unobserved_variance_Pa2",
                     .unit = "Pa2",
                     .meaning = "the variance of unobserved changes falls no lower",
@@ -264,16 +285,59 @@ void describe_answer_constants(Visitor& visitor) {
        .meaning = "half the width that the flow's own residual takes in the band, over its standard deviation",
        .evidence = "ramps_30_to_70bar: p95 0.41, 0.41, 0.41 % FS, band 94.2, 97.0, 99.2 %"},
       sensor::flow_residual_factor);
-  visitor.constant({.name = "slip_smoothing_s",
-                    .unit = "s",
-                    .meaning = "pace at which the flow rate follows a slip and its swings",
-                    .evidence = "fast_10kHz: p95 4.58, 5.00, 5.33 % FS, band 92.9, 93.0, 93.2 %"},
-                   sensor::slip_smoothing_s);
+  visitor.constant(
+      {.name = "unmodelled_drag_N_s_per_m", .unit = "N s/m", .meaning = "drag in motion that the band allows for"},
+      sensor::unmodelled_drag_N_s_per_m);
+  visitor.constant(
+      {.name = "slip_widening", .unit = "1", .meaning = "the band is so many times wider while the spool slips"},
+      sensor::slip_widening);
+  visitor.constant(
+      {.name = "unseen_room_share",
+       .unit = "1",
+       .meaning = "share of what friction leaves by which a supply that moved at rest is taken to have gone on unseen"},
+      sensor::unseen_room_share);
   visitor.constant({.name = "temperature_smoothing_s",
                     .unit = "s",
                     .meaning = "smoothing of the oil temperature",
                     .evidence = "temperature_sweep: p95 0.41, 0.43, 0.47 % FS, band 99.4, 99.1, 98.0 %"},
                    sensor::temperature_smoothing_s);
+}
+
+/// Of dither and of the friction that swings with it.
+template <class Visitor>
+void describe_dither_constants(Visitor& visitor) {
+  visitor.constant(
+      {.name = "least_dither_swing_share",
+       .unit = "1",
+       .meaning = "least swing of the current that is taken for dither, peak to peak over the largest current"},
+      sensor::least_dither_swing_share);
+  visitor.constant({.name = "turning_share",
+                    .unit = "1",
+                    .meaning = "the current has turned where it went back by this share of its last swing"},
+                   sensor::turning_share);
+  visitor.constant({.name = "longest_dither_period_s", .unit = "s", .meaning = "no dither has a longer period"},
+                   sensor::longest_dither_period_s);
+  visitor.constant({.name = "alike_ratio",
+                    .unit = "1",
+                    .meaning = "periods of dither are alike where neither is more than so many times the other"},
+                   sensor::alike_ratio);
+  visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "so many periods alike are dither"},
+                   sensor::periods_of_dither);
+  visitor.constant(
+      {.name = "unlike_weight", .unit = "1", .meaning = "half periods that are not alike count for so many"},
+      sensor::unlike_weight);
+  visitor.constant({.name = "swing_following",
+                    .unit = "1",
+                    .meaning = "share of itself by which half the swing follows that of a period at most"},
+                   sensor::swing_following);
+  visitor.constant({.name = "slip_excess_factor",
+                    .unit = "1",
+                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes"},
+                   sensor::slip_excess_factor);
+  visitor.constant({.name = "swing_deviation_share",
+                    .unit = "1",
+                    .meaning = "half the width that peaks no sample met take in the band, over half the swing"},
+                   sensor::swing_deviation_share);
 }
 
 /// Calls visitor.constant(Constant, value) of each.
@@ -285,6 +349,7 @@ void describe_constants(Visitor&& visitor) {
   describe_friction_constants(visitor);
   describe_pressure_constants(visitor);
   describe_answer_constants(visitor);
+  describe_dither_constants(visitor);
 }
 
 }  // namespace spoolflow::model

@@ -42,7 +42,7 @@ template <class T>
 [[gnu::always_inline]] constexpr FrictionBounds<T> within_swing(const ObserverParameters<T>& valve,
                                                                 const FrictionBounds<T>& bounds, T half_swing_N,
                                                                 T period_s, T velocity_m_per_s) {
-  const T elastic_m = T(2) * half_swing_N / valve.friction.contact_stiffness_N_per_m;
+  const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
   const T excess_N =
       slip_excess_N(valve.moving_mass_kg, half_swing_N, magnitude(velocity_m_per_s) * period_s - elastic_m, period_s);
   return {larger(bounds.sliding_N + excess_N - half_swing_N, T(0)), larger(bounds.sticking_N - half_swing_N, T(0))};
@@ -53,8 +53,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void swing(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                             const Dither<T>& dither, const PositionPoint<T>& position,
                                             ForceBalance<T>& balance) {
-  const FrictionSwing<T> swing =
-      follow_swing(state.swing, dither, balance.apparent_friction_N, is(position.motion, Motion::transient));
+  const FrictionSwing<T> swing = follow_swing(state.swing, dither, balance.apparent_friction_N);
   balance.dithered = dither.present;
   balance.freed = balance.dithered && !balance.dithered;
   balance.settled = swing.settled;

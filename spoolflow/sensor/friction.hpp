@@ -46,10 +46,12 @@ struct FrictionInterval {
 inline constexpr double gauge_smoothing_s = 0.03;
 /// Standard deviations of the smoothed position's noise that the gauge takes for no motion.
 inline constexpr double gauge_slack_deviations = 2;
-/// A drag of the sensor of this size [m] is as likely as not noise's.
-inline constexpr double doubtful_drag_m = 0.1e-6;
+/// A drag of the sensor by so many times what noise may fake is as likely as not noise's.
+inline constexpr double doubtful_drag_slacks = 0.7;
 /// For so long [s] after it was dragged the sensor tells at which end of its backlash it lies.
 inline constexpr double drag_memory_s = 0.02;
+/// So much of the reach to the other side of the gauge is out of question where the sensor is surely dragged.
+inline constexpr double drag_certainty = 0.8;
 /// What is left of the contact's stiffness at the limit of sticking, as a share of it.
 inline constexpr double least_stiffness_share = 0.1;
 /// Standard deviations of the gauge by which friction at rest may exceed the sticking limit.
@@ -114,11 +116,13 @@ struct Contact {
 
 /// Whether the spool drags the sensor along, and which way.
 template <class T>
-[[gnu::always_inline]] constexpr void drag(FrictionState<T>& state, T moved_m, T time_step_s) {
+[[gnu::always_inline]] constexpr void drag(FrictionState<T>& state, T moved_m, T slack_m, T time_step_s) {
   const Mask<T> goes_on = !(moved_m * state.dragged_m < T(0));
   const Mask<T> moves = moved_m != T(0);
   state.dragged_m = select(goes_on, state.dragged_m, T(0)) + moved_m;
-  const T sure = state.dragged_m / (magnitude(state.dragged_m) + T(doubtful_drag_m));
+  const T size2 = squared(state.dragged_m);
+  const T doubtful2 = squared(T(doubtful_drag_slacks) * slack_m);
+  const T sure = select(state.dragged_m < T(0), T(-1), T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
   const T left = T(1) - smaller(time_step_s / T(drag_memory_s), T(1));
   state.dragging = select(moves, sure, left * state.dragging);
 }
@@ -138,7 +142,7 @@ template <class T>
   const T sign = select(moved_m < T(0), T(-1), T(1));
   const T reserve = limited(T(1) - sign * contact.apparent_N / contact.holds_N, T(least_stiffness_share), T(1));
   state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
-  drag(state, moved_m, time_step_s);
+  drag(state, moved_m, contact.slack_m, time_step_s);
   // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
   const T most_N = larger(contact.sticking_N - contact.reach_N, T(0));
   state.gauge_N = limited(state.gauge_N, -most_N, most_N);
@@ -196,8 +200,8 @@ template <class T>
   });
   detail::hold(state, apparent_N, time_step_s);
   // Friction lies on the side of the gauge to which the sensor is dragged.
-  const T below_N = reach_N * (T(1) - larger(state.dragging, T(0)));
-  const T above_N = reach_N * (T(1) + smaller(state.dragging, T(0)));
+  const T below_N = reach_N * (T(1) - T(drag_certainty) * larger(state.dragging, T(0)));
+  const T above_N = reach_N * (T(1) + T(drag_certainty) * smaller(state.dragging, T(0)));
   return {limited(state.gauge_N - below_N, -holds_N, holds_N), limited(state.gauge_N + above_N, -holds_N, holds_N),
           breakaway_N, rested_s};
 }

@@ -5,7 +5,6 @@
 #include "spoolflow/sensor/actuator.hpp"
 #include "spoolflow/sensor/dither.hpp"
 #include "spoolflow/sensor/friction.hpp"
-#include "spoolflow/sensor/friction_swing.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"

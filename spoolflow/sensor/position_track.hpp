@@ -38,6 +38,12 @@ inline constexpr double credible_jump_deviations = 20;
 inline constexpr double credible_jump_m = 20e-6;
 /// A jump that lasts longer than this [s] is believed.
 inline constexpr double longest_position_fault_s = 0.25;
+/// A period of dither that is longer [s] is none any more: the block ends.
+inline constexpr double longest_tremble_block_s = 0.015;
+/// A block is taken for no shorter [s]: velocities divide by it.
+inline constexpr double shortest_block_s = 1e-6;
+/// No spool moves faster [m/s].
+inline constexpr double fastest_m_per_s = 10;
 /// The velocity is smoothed over this [s].
 inline constexpr double velocity_smoothing_s = 0.03;
 /// The size of a travel that tells a direction and nothing else [m].
@@ -114,9 +120,9 @@ struct PositionPoint {
   T position_m;  ///< free of drift and faults
   MotionOf<T> motion;
   Mask<T> fault;
-  T travel_m;          ///< sign of the velocity of what `motion` tells
-  T velocity_m_per_s;  ///< smoothed
-  T acceleration_m_per_s2;
+  T travel_m;            ///< sign of the velocity of what `motion` tells
+  T velocity_m_per_s{};  ///< smoothed
+  T acceleration_m_per_s2{};
 };
 
 namespace detail {
@@ -188,17 +194,19 @@ template <class T>
 
 /// Velocity and acceleration over three short windows, after each block.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_velocity(PositionState<T>& state) {
+[[gnu::always_inline]] constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
   constexpr int window = short_window_blocks;
   const Mask<T> whole = state.blocks > 3 * window;
   const T now_m = block(state, state.block_m, 0), oldest_m = block(state, state.block_m, 3 * window);
   const T change_m = now_m - block(state, state.block_m, window) - block(state, state.block_m, 2 * window) + oldest_m;
-  const T per_block_s = T(1) / state.block_s;
+  const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
   const T velocity_m_per_s = select(whole, (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window))), T(0));
-  state.acceleration_m_per_s2 =
-      select(whole, change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window))), T(0));
-  state.velocity_m_per_s +=
-      (velocity_m_per_s - state.velocity_m_per_s) * state.block_s / (T(velocity_smoothing_s) + state.block_s);
+  const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
+  const T hardest = sensor.hardest_acceleration_m_per_s2;
+  state.acceleration_m_per_s2 = select(whole, limited(acceleration, -hardest, hardest), T(0));
+  const T fastest = T(fastest_m_per_s);
+  state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
+                            (T(velocity_smoothing_s) + state.block_s);
 }
 
 /// What the spool does, after each block.
@@ -282,11 +290,11 @@ template <class T>
   state.sum_s += time_step_s;
   state.samples = state.samples + 1;
   const Mask<T> whole = state.sum_s > T(block_length_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
-  const Mask<T> trembles = freed && dither.present && state.sum_s < T(longest_dither_period_s);
+  const Mask<T> trembles = freed && dither.present && state.sum_s < T(longest_tremble_block_s);
   in_valves(
       whole && (dither.begins || !trembles), state, [&]() __attribute__((always_inline)) {
         detail::close_block(state);
-        detail::follow_velocity(state);
+        detail::follow_velocity(sensor, state);
         detail::tell_motion(sensor, state);
       });
   return {position_m,     state.motion,           state.offset_m != T(0),

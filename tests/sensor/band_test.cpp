@@ -72,11 +72,11 @@ TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
   balance.resting = {-2.5, 1.5, 0, 0};
   const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
   const double uncertain_N = 2 * 0.4 * (1 + 3.0);  // two deviations of the bounds, grown in 3 s
-  const PressureBand<double> band = pressure_band(parameters.band, pressure, balance, 3.0);
+  const PressureBand<double> band = pressure_band(parameters.band, pressure, balance, 3.0, 0.0);
   EXPECT_NEAR(band.below_Pa, (1 + uncertain_N) / slope, 1);
   EXPECT_NEAR(band.above_Pa, (3 + uncertain_N) / slope, 1);
   balance.sliding = true;
-  EXPECT_GT(pressure_band(parameters.band, pressure, balance, 3.0).below_Pa, 60e5);
+  EXPECT_GT(pressure_band(parameters.band, pressure, balance, 3.0, 0.0).below_Pa, 60e5);
 }
 
 }  // namespace

@@ -147,9 +147,10 @@ ObserverParameters<T> closed_form_observer(const ClosedFormValve& valve) {
                   T(0.7),
                   T(0.12),
                   T(1)};
-  out.pressure = {T(1e5), T(1e6), T(0.01), T(0.05), T(0.03), T(2e-3), T(0.03), T(10)};
-  out.band = {T(0.03), T(0.2), static_cast<T>(0.001 * valve.full_scale_m3_per_s()), T(2), T(0.8), T(1.75), T(0.4), T(1),
-              T(4.2),  T(1e-3)};
+  out.pressure = {T(3e5), T(1e6), T(0.01), T(0.05), T(0.03), T(2e-3), T(0.03), T(10)};
+  out.band = {T(0.03), T(0.2), static_cast<T>(0.001 * valve.full_scale_m3_per_s()), T(2), T(0.8), T(1.75), T(0.4),
+              T(1),    T(2.4)};
+  out.moving_mass_kg = T(0.1);
   out.closed_below_m = static_cast<T>(ClosedFormValve::overlap_m + 0.02e-3);
   out.largest_current_A = static_cast<T>(ClosedFormValve::largest_A);
   return out;
@@ -176,7 +177,8 @@ struct ValveSample {
 };
 
 struct Instruments {
-  double position_noise_m = 1e-6;  ///< one standard deviation
+  double position_noise_m = 1e-6;       ///< one standard deviation
+  double position_backlash_m = 0.5e-6;  ///< half width
   double current_noise_A = 0.5e-3;
   double friction_ratio = 1;  ///< in operation over the bench's
 };
@@ -199,19 +201,20 @@ class ClosedFormRun {
       for (int fine = 0; fine < fine_steps; ++fine) {
         now = course_((k + (fine + 1.0) / fine_steps) * sample_step_s);
         advance(now, sample_step_s / fine_steps);
+        const double backlash_m = instruments_.position_backlash_m;
+        dragged_m_ = std::clamp(dragged_m_, now.position_m - backlash_m, now.position_m + backlash_m);
         current_A += coil_A_ / fine_steps;
         voltage_V += (ClosedFormValve::resistance_Ohm * coil_A_ + flux_rate_V_) / fine_steps;
       }
       const double drift_m = ClosedFormValve::drift_m_per_K * (now.oil_temperature_K - ClosedFormValve::drift_free_K);
-      out.push_back(
-          {{sample_step_s, current_A + instruments_.current_noise_A * noise_(generator_), voltage_V,
-            now.position_m + drift_m + instruments_.position_noise_m * noise_(generator_), now.oil_temperature_K},
-           now,
-           valve_.flow_m3_per_s(now.position_m, now.pressure_difference_Pa, now.oil_temperature_K),
-           friction_N_,
-           force_N_,
-           magnetising_A_,
-           flux_Wb_});
+      out.push_back({{sample_step_s, current_A + instruments_.current_noise_A * noise_(generator_), voltage_V,
+                      dragged_m_ + drift_m + instruments_.position_noise_m * noise_(generator_), now.oil_temperature_K},
+                     now,
+                     valve_.flow_m3_per_s(now.position_m, now.pressure_difference_Pa, now.oil_temperature_K),
+                     friction_N_,
+                     force_N_,
+                     magnetising_A_,
+                     flux_Wb_});
     }
     return out;
   }
@@ -265,6 +268,7 @@ class ClosedFormRun {
   std::normal_distribution<double> noise_{0, 1};
   std::array<double, ClosedFormValve::stops> stop_Wb_{};
   double magnetising_A_ = 0, force_N_ = 0, friction_N_ = 0, flux_Wb_ = 0, flux_rate_V_ = 0, coil_A_ = 0;
+  double dragged_m_ = 0;  ///< the position sensor's core
 };
 
 }  // namespace spoolflow::sensor

@@ -33,7 +33,7 @@ class PositionTrack : public testing::TestWithParam<double> {
       Sample<double> sample{};
       sample.time_step_s = step_s();
       sample.position_m = course(time_s) + noise_m(generator) + (fault_m ? fault_m(time_s) : 0);
-      each(time_s, track(signal_of_lvdt, state, sample, 313.0));
+      each(time_s, track(signal_of_lvdt, state, sample, 313.0, {}, false));
     }
   }
   [[nodiscard]] static double step_s() { return GetParam(); }

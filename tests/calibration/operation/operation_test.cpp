@@ -13,6 +13,11 @@
 namespace spoolflow::calibration {
 namespace {
 
+/// One run, whose meter shows the flow itself.
+std::vector<OperatingRun> only(const recording::Recording& run) {
+  return {OperatingRun{&run, {}}};
+}
+
 using recording::Channel;
 
 /// `friction_ratio`: of the valve's friction to that of the tables.
@@ -86,9 +91,9 @@ TEST(Operation, ScoreOfARunWhoseReferenceEndsIsThatOfTheRunCutThere) {
   for (const Channel channel : {Channel::time, Channel::current, Channel::voltage, Channel::position,
                                 Channel::oil_temperature, Channel::flow_reference})
     cut.column(channel).resize(half);
-  const double score = operation_score(parameters, {&missing}, valve.full_scale_m3_per_s());
+  const double score = operation_score(parameters, only(missing), valve.full_scale_m3_per_s());
   EXPECT_TRUE(std::isfinite(score));
-  EXPECT_DOUBLE_EQ(score, operation_score(parameters, {&cut}, valve.full_scale_m3_per_s()));
+  EXPECT_DOUBLE_EQ(score, operation_score(parameters, only(cut), valve.full_scale_m3_per_s()));
 }
 
 /// The observer of that valve with a spring that is wrong by so many standard deviations of what it believes its forces
@@ -98,7 +103,7 @@ sensor::ObserverParameters<double> with_wrong_spring(const sensor::ClosedFormVal
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
   double sum_N = 0;
   double samples = 0;
-  replay(parameters, {&run}, [&](const ReplayedSample& sample) {
+  replay(parameters, only(run), [&](const ReplayedSample& sample) {
     sum_N += sample.state.force_noise_N;
     ++samples;
   });
@@ -110,10 +115,10 @@ TEST(ForceErrorRatio, IsThatOfTheForcesErrorToWhatTheyAreBelievedToBeRightTo) {
   const sensor::ClosedFormValve valve;
   const recording::Recording run = steady(valve);
   // Without an error what is left is noise that the filter averages out.
-  EXPECT_LT(force_error_ratio(with_wrong_spring(valve, run, 0), {&run}), 0.2);
+  EXPECT_LT(force_error_ratio(with_wrong_spring(valve, run, 0), only(run)), 0.2);
   for (const double deviations : {-4, -2, -1, 1, 2, 4}) {
     // 6 to 8 % too small: the residual of the flow's map counts as well, and the believed noise rises with friction.
-    EXPECT_NEAR(force_error_ratio(with_wrong_spring(valve, run, deviations), {&run}), std::abs(deviations),
+    EXPECT_NEAR(force_error_ratio(with_wrong_spring(valve, run, deviations), only(run)), std::abs(deviations),
                 0.12 * std::abs(deviations));
   }
 }
@@ -127,11 +132,11 @@ TEST(ForceErrorRatio, ScalesTheBandSoThatItHoldsTheErrorsOnWhichItWasFound) {
   const recording::Recording run = steady(valve);
   for (const double deviations : {1, 4}) {
     sensor::ObserverParameters<double> parameters = with_wrong_spring(valve, run, deviations);
-    const double found = force_error_ratio(parameters, {&run});
+    const double found = force_error_ratio(parameters, only(run));
     const auto judged = [&](double ratio) {
       scale_band(parameters, ratio);
       Judged out;
-      replay(parameters, {&run}, [&](const ReplayedSample& sample) {
+      replay(parameters, only(run), [&](const ReplayedSample& sample) {
         const bool resting = sample.state.position.motion == sensor::Motion::rest;
         (resting ? out.at_rest : out.sliding)
             .add(sample.state.last, sample.reference_m3_per_s, valve.full_scale_m3_per_s());
@@ -153,7 +158,7 @@ TEST(ForceErrorRatio, IsAssumedWhereTheSpoolNeverRestsOpen) {
   sensor::Course sliding({.position_m = 0});  // which is closed
   sliding.rest(1, 1).slide(2.3e-3, 4);
   const recording::Recording run = recorded(valve, sliding, 1);
-  EXPECT_EQ(force_error_ratio(sensor::closed_form_observer<double>(valve), {&run}), assumed_force_error_ratio);
+  EXPECT_EQ(force_error_ratio(sensor::closed_form_observer<double>(valve), only(run)), assumed_force_error_ratio);
 }
 
 }  // namespace

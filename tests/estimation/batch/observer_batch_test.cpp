@@ -71,7 +71,8 @@ Observer valve(int k) {
   out.position_sensor = {1e-6F, 3e-6F, 1e-7F, 313, 200};
   out.friction = {1.6F, 0.5F, 2e5F, 0.5F, 0.3F, 0.9F};
   out.pressure = {4e6F, 2e6F, 0.05F, 0.3F, 0.5F, 0.05F, 0.3F, 20};
-  out.band = {0.2F, 0.5F, 5e-6F, 2, 0.5F, 0.4F, 0.5F, 0.02F, 1.5F, 0.03F};
+  out.band = {0.2F, 0.5F, 5e-6F, 2, 0.5F, 0.4F, 0.5F, 0.02F, 1.5F};
+  out.moving_mass_kg = 0.1F;
   out.closed_below_m = 0.25e-3F;
   out.largest_current_A = 2.4F;
   return out;
