@@ -120,7 +120,7 @@ constexpr DitherRequest<T> listen(const ListeningParameters<T>& limits, Listenin
                          !(state.pause_s > T(0)) && limits.request_s > T(0);
   state.asked_s = select(begins, T(0), state.asked_s);
   state.asks = begins || (state.asks && !ends);
-  state.given_A = select(spool.closed, T(0), detail::fade(state, step_s));
+  state.given_A = select(spool.closed, T(0), smaller(detail::fade(state, step_s), limits.highest_amplitude_A));
   const Mask<T> active = state.given_A > T(0);
   return {active, state.given_A, select(active, limits.frequency_Hz, T(0))};
 }
