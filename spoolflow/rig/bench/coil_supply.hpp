@@ -14,7 +14,14 @@ class CoilSupply {
  public:
   /// Both must outlive it.
   CoilSupply(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed)
-      : valve_(valve), run_(run), voltage_held_(run.voltage_held), noise_(seed, "current sensing of the electronics") {}
+      : valve_(valve),
+        run_(run),
+        settings_(valve.electronics),
+        voltage_held_(run.voltage_held),
+        noise_(seed, "current sensing of the electronics") {}
+
+  /// Of the valve's electronics, from now on.
+  void set_dither(const Dither& dither) { settings_.dither = dither; }
 
   /// Mean voltages over the period that begins at `time_s`.
   SolenoidVoltages next(double time_s, LvdtReading& lvdt, const PlantState& state) {
@@ -29,7 +36,7 @@ class CoilSupply {
                                  .position_signal_m = lvdt.valve_signal_m(),
                                  .current_a_A = winding_current_A(valve_.plant.solenoid_a, state.solenoid_a),
                                  .current_b_A = current_b_A};
-    return step(valve_.electronics, electronics_, input, noise_);
+    return step(settings_, electronics_, input, noise_);
   }
 
  private:
@@ -44,6 +51,7 @@ class CoilSupply {
 
   const ValveUnderTest& valve_;
   const BenchRun& run_;
+  Electronics settings_;
   SpanReader<bool> voltage_held_;
   Noise noise_;
   ElectronicsState electronics_;

@@ -48,6 +48,20 @@ std::int64_t sample_ticks(double rate_Hz) {
   return std::llround(ticks);
 }
 
+/// The newest row of a recording.
+MeasuredSample measured(const recording::Recording& recording, const BenchRun& run, double time_s) {
+  using recording::Channel;
+  const auto newest = [&](Channel channel) {
+    const bool recorded = std::find(run.channels.begin(), run.channels.end(), channel) != run.channels.end();
+    return recorded ? recording[channel].back() : std::nan("");
+  };
+  return {.time_s = time_s,
+          .current_A = newest(Channel::current),
+          .voltage_V = newest(Channel::voltage),
+          .position_m = newest(Channel::position),
+          .oil_temperature_K = newest(Channel::oil_temperature)};
+}
+
 }  // namespace
 
 Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed,
@@ -87,6 +101,7 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
                    .current_A = run.current_A.at(time_s),
                    .pressure_difference_Pa = input.held_pressure_difference_Pa,
                    .test = test.at(time_s, 0)});
+      if (options.dither) coil_supply.set_dither(options.dither(measured(out.recording, run, time_s)));
       if (options.with_truth) {
         truth.time_s = time_s;
         out.truth.add(truth);

@@ -14,8 +14,20 @@ struct Simulation {
   GroundTruth truth;               ///< empty unless asked for
 };
 
+/// What the electronics have of one recorded sample, as the instruments show it; NaN where the run does not record it.
+struct MeasuredSample {
+  double time_s;
+  double current_A;  ///< mean over the sample period that ends at `time_s`
+  double voltage_V;  ///< likewise
+  double position_m;
+  double oil_temperature_K;
+};
+
 struct SimulationOptions {
   bool with_truth = false;
+  /// Called at each recorded sample: the dither that the valve's electronics lay on the set current until the next one.
+  /// Without it the electronics keep their own.
+  std::function<Dither(const MeasuredSample&)> dither{};
   std::function<void(double share)> progress{};  ///< called some hundred times, 0 to 1
 };
 

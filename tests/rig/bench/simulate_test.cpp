@@ -121,6 +121,29 @@ TEST(Simulate, TemperatureSweepWarmsTheOilAndDriftsThePositionSensor) {
   EXPECT_NEAR(drift_m, valve.instruments.lvdt.zero_drift_per_K * 2.4e-3 * 45, 4e-6);
 }
 
+TEST(Simulate, TheElectronicsLayOnTheCurrentWhatDitherTheyAreToldAtEachSample) {
+  const ValveUnderTest valve;
+  const StepsProtocol steps{.conditions = {}, .positions_percent = {60}, .hold_s = 1.2};
+  const BenchRun run = plan(steps);
+  std::vector<double> told_A;
+  const auto in_the_middle = [&](const MeasuredSample& measured) {
+    told_A.push_back(measured.current_A);
+    EXPECT_FALSE(std::isnan(measured.voltage_V + measured.position_m + measured.oil_temperature_K));
+    return Dither{.amplitude_A = measured.time_s > 0.8 && measured.time_s < 1.1 ? 0.2 : 0.0, .frequency_Hz = 125};
+  };
+  const Simulation simulation = simulate(valve, run, 1, {.dither = in_the_middle});
+  const std::span<const double> current_A = simulation.recording[Channel::current];
+  EXPECT_TRUE(std::equal(told_A.begin(), told_A.end(), current_A.begin(), current_A.end()));
+  const auto ripple_A = [&](std::size_t from, std::size_t to) {
+    const auto [least, most] = std::minmax_element(current_A.begin() + static_cast<std::ptrdiff_t>(from),
+                                                   current_A.begin() + static_cast<std::ptrdiff_t>(to));
+    return *most - *least;
+  };
+  EXPECT_LT(ripple_A(700, 800), 0.1);
+  EXPECT_GT(ripple_A(900, 1100), 0.2);
+  EXPECT_LT(ripple_A(1200, 1350), 0.1);
+}
+
 TEST(Simulate, DitherOfTheElectronicsShowsInTheCurrent) {
   ValveUnderTest valve;
   const StepsProtocol steps{.conditions = {}, .positions_percent = {60}, .hold_s = 0.8};
