@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "spoolflow/analysis/point_analysis.hpp"
 #include "spoolflow/numerics/crossing.hpp"
@@ -15,6 +16,7 @@ using Observer = sensor::ObserverParameters<double>;
 
 constexpr int samples_a_period = 64;  // 62 us at 250 Hz: the actuator is good for 50 us and more
 constexpr int periods_until_settled = 10;
+constexpr int periods_until_still = 20;  // a spool that friction stops from the free mass' speed stands by then
 constexpr int periods_told = 2;
 constexpr double mass_step_s = 1e-5;  // contacts and mass swing at 1 to 3 kHz
 
@@ -55,29 +57,38 @@ std::vector<double> forces_over_period(const Observer& valve, const DitherPoint&
   return out;
 }
 
-/// Half of peak to peak of the mass' way under those forces, from rest until its course repeats.
+/// Friction while the spool moves on, which the bench's slow sliding does not show.
+double moving_friction_N(const DitherPoint& point, double velocity_m_per_s) {
+  const double ratio = velocity_m_per_s / mixed_friction_m_per_s;
+  return point.sliding_N * (moving_friction_share + (1 - moving_friction_share) / (1 + ratio * ratio));
+}
+
+/// Half of peak to peak of the mass' way under those forces. It begins in motion: where force and friction allow both,
+/// rest and motion, the spool moves, since any step of pressure or set position sets it going.
 double tremble_m(const Observer& valve, const DitherPoint& point, const std::vector<double>& forces_N,
                  double half_swing_N, double frequency_Hz) {
   const double contact_N_per_m = valve.friction.contact_stiffness_N_per_m;
-  if (half_swing_N <= point.sliding_N) return half_swing_N / contact_N_per_m;
-  const auto [lowest, highest] = std::minmax_element(forces_N.begin(), forces_N.end());
-  const double middle_N = 0.5 * (*lowest + *highest);
+  if (half_swing_N <= moving_friction_share * point.sliding_N) return half_swing_N / contact_N_per_m;
+  // What the position control holds in the mean.
+  const double mean_N = std::accumulate(forces_N.begin(), forces_N.end(), 0.0) / static_cast<double>(forces_N.size());
   const double mass_kg = valve.moving_mass_kg;
   const double damping_N_s_per_m = 2 * contact_damping_share * std::sqrt(contact_N_per_m * mass_kg);
   const double sample_s = 1 / (frequency_Hz * samples_a_period);
   const int steps = static_cast<int>(std::ceil(sample_s / mass_step_s));
   const double step_s = sample_s / steps;
-  double x_m = 0, v_m_per_s = 0, contact_m = 0, least_m = 0, most_m = 0;
-  const double reach_m = point.sliding_N / contact_N_per_m;
-  for (int k = 0; k < samples_a_period * (periods_until_settled + periods_told); ++k) {
+  double v_m_per_s = half_swing_N / (mass_kg * 2 * std::numbers::pi * frequency_Hz);  // that of the free mass
+  double x_m = 0, contact_m = 0, least_m = 0, most_m = 0;
+  for (int k = 0; k < samples_a_period * (periods_until_still + periods_told); ++k) {
     const double before_N = forces_N[static_cast<std::size_t>(k) % forces_N.size()];
     const double after_N = forces_N[static_cast<std::size_t>(k + 1) % forces_N.size()];
-    if (k == samples_a_period * periods_until_settled) least_m = most_m = x_m;
+    if (k == samples_a_period * periods_until_still) least_m = most_m = x_m;
     for (int s = 0; s < steps; ++s) {
-      const double force_N = before_N + (after_N - before_N) * s / steps - middle_N;
+      const double force_N = before_N + (after_N - before_N) * s / steps - mean_N;
+      const double reach_m = moving_friction_N(point, v_m_per_s) / contact_N_per_m;
       const double yielded_m = contact_m + v_m_per_s * step_s;
       contact_m = std::clamp(yielded_m, -reach_m, reach_m);
-      const double drag_N = contact_m == yielded_m ? damping_N_s_per_m * v_m_per_s : 0;
+      const double drag_N =
+          (contact_m == yielded_m ? damping_N_s_per_m : sensor::unmodelled_drag_N_s_per_m) * v_m_per_s;
       v_m_per_s += step_s / mass_kg *
                    (force_N - contact_N_per_m * contact_m - drag_N - std::max(point.stiffness_N_per_m, 0.0) * x_m);
       x_m += v_m_per_s * step_s;

@@ -18,6 +18,11 @@ inline constexpr double square_edge_s = 1e-3;
 inline constexpr double told_rest_s = 10;
 /// Damping of the contacts in pre-sliding, as a share of the critical: that of dry metal joints, assumed.
 inline constexpr double contact_damping_share = 0.3;
+/// What is left of slow sliding friction at speed, as a share of it: mixed friction goes over into fluid friction. No
+/// bench of the campaign tells it; assumed from the range of Armstrong-Helouvry 1994, on the side of more tremble.
+inline constexpr double moving_friction_share = 0.6;
+/// Half of that fall is reached at this speed [m/s], assumed likewise.
+inline constexpr double mixed_friction_m_per_s = 4e-3;
 /// A smaller amplitude is preferred where its band is wider by no more than this share of the band without dither.
 inline constexpr double small_gain_share = 0.05;
 
@@ -62,9 +67,10 @@ struct DitherPoint {
 
 /// The extremes of the magnetic force come from the model's actuator (force map, hysteresis, eddy currents) driven with
 /// some periods of that current about the holding current; band by the sensor's own bounds of friction under dither.
-/// The tremble is that of the moving mass on springs and contacts (elastic up to sliding friction, Coulomb beyond)
-/// under that force. Leaves out the position control, which works against slow trembles, and the change of the magnetic
-/// force with the tremble beyond its slope at a held current.
+/// The tremble is that of the moving mass on springs and contacts, which give way elastically up to friction that falls
+/// with speed, and with the drag that the sensor's band counts, under that force. Leaves out the position control,
+/// which adds its own current to that of dither where the spool moves, and the change of the magnetic force with the
+/// tremble beyond its slope at a held current.
 [[nodiscard]] DitherEffect dither_effect(const model::Model& model, const DitherPoint& point, double amplitude_A,
                                          double frequency_Hz, DitherShape shape);
 

@@ -88,7 +88,7 @@ TEST(Dither, TheSpoolGivesWayElasticallyUpToFrictionAndMovesBeyond) {
   for (double amplitude_A = 0.05; amplitude_A < 0.6; amplitude_A += 0.05) {
     const DitherEffect effect = dither_effect(dithered_model(), point, amplitude_A, 80, DitherShape::sine);
     const double elastic_m = effect.half_swing_N / stiffness;
-    if (effect.half_swing_N < point.sliding_N) {
+    if (effect.half_swing_N < moving_friction_share * point.sliding_N) {
       held = true;
       EXPECT_NEAR(effect.tremble_m, elastic_m, 1e-12);
     } else if (effect.half_swing_N > 1.3 * point.sliding_N) {

@@ -42,7 +42,7 @@ CaptionedFigure setting_map(const DitherStudy& study, const HeatScale& heat, con
                             const std::string& caption, const Value& percent) {
   const double across_A = study.amplitude_A[1] - study.amplitude_A[0];
   const double up_Hz = study.frequency_Hz[1] - study.frequency_Hz[0];
-  Panel panel{.title = "Frequency [Hz]", .height_px = 330};
+  Panel panel{.title = "Frequency [Hz]", .height_px = 300};
   panel.lowest = study.frequency_Hz.front() - 0.5 * up_Hz;
   panel.highest = study.frequency_Hz.back() + 0.5 * up_Hz;
   Mark limit{.shape = Shape::line, .tone = "ink", .name = "ripple at its limit", .width_px = 2};
@@ -215,11 +215,12 @@ void write_dither_report(std::ostream& out, const model::Model& model, const Dit
   page.section("At the recommended setting");
   page.table(points_table(study, full_scale));
   page.note(fmt::format(
-      "Friction is that of the model in operation; the sticking limit is told after a rest of {} s. Up to sliding "
-      "friction the contacts give way elastically; beyond, the moving mass ({} kg) follows the force on springs and "
-      "contacts. Left out: the position control, which works against slow trembles, and changes of the pressure "
-      "difference that the tremble itself makes.",
-      three_digits(analysis::told_rest_s), three_digits(model.observer->parameters.moving_mass_kg)));
+      "Friction is that of the model in operation; the sticking limit is told after a rest of {} s. Up to friction the "
+      "contacts give way elastically; beyond, the moving mass ({} kg) follows the force on springs and contacts, with "
+      "friction that falls to {} of the bench's at speed (assumed). Left out: what the position control adds to the "
+      "current where the spool moves, and changes of the pressure difference that the tremble itself makes.",
+      three_digits(analysis::told_rest_s), three_digits(model.observer->parameters.moving_mass_kg),
+      three_digits(analysis::moving_friction_share)));
   show_inputs(page, model, {});
   out << page.str();
 }
