@@ -126,6 +126,22 @@ DitherSetting over_all_points(const DitherStudy& study, std::size_t place, doubl
   return out;
 }
 
+/// Whether this amplitude and all up to the reserve above it keep the ripple's limit, over `place`.
+std::vector<bool> kept_with_reserve(const DitherStudy& study) {
+  std::vector<bool> out(study.settings.size(), true);
+  for (std::size_t a = 0; a < study.amplitude_A.size(); ++a) {
+    const double most_A = (1 + amplitude_reserve) * study.amplitude_A[a];
+    for (std::size_t f = 0; f < study.frequency_Hz.size(); ++f) {
+      // Up to the first amplitude that has the whole reserve.
+      for (std::size_t above = a; above < study.amplitude_A.size(); ++above) {
+        if (!study.settings[study.place(above, f)].within_limit) out[study.place(a, f)] = false;
+        if (study.amplitude_A[above] >= most_A) break;
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<DitherPoint> dither_point(const model::Model& model, const uncertainty::WorkingPoint& point) {
@@ -184,10 +200,11 @@ DitherEffect dither_effect(const model::Model& model, const DitherPoint& point, 
 }
 
 std::size_t recommended_setting(const DitherStudy& study) {
+  const std::vector<bool> kept = kept_with_reserve(study);
   const double without = study.settings.front().mean_band_m3_per_s;
   double least = without;
-  for (const DitherSetting& each : study.settings) {
-    if (each.within_limit) least = std::min(least, each.mean_band_m3_per_s);
+  for (std::size_t place = 0; place < study.settings.size(); ++place) {
+    if (kept[place]) least = std::min(least, study.settings[place].mean_band_m3_per_s);
   }
   const double enough = least + small_gain_share * without;
   if (without <= enough) return 0;
@@ -196,7 +213,7 @@ std::size_t recommended_setting(const DitherStudy& study) {
     for (std::size_t f = 0; f < study.frequency_Hz.size(); ++f) {
       const std::size_t place = study.place(a, f);
       const DitherSetting& each = study.settings[place];
-      if (!each.within_limit || each.mean_band_m3_per_s > enough) continue;
+      if (!kept[place] || each.mean_band_m3_per_s > enough) continue;
       if (!best || each.mean_band_m3_per_s < study.settings[*best].mean_band_m3_per_s) best = place;
     }
     if (best) return *best;

@@ -20,9 +20,11 @@ inline constexpr double told_rest_s = 10;
 inline constexpr double contact_damping_share = 0.3;
 /// What is left of slow sliding friction at speed, as a share of it: mixed friction goes over into fluid friction. No
 /// bench of the campaign tells it; assumed from the range of Armstrong-Helouvry 1994, on the side of more tremble.
-inline constexpr double moving_friction_share = 0.6;
+inline constexpr double moving_friction_share = 0.5;
 /// Half of that fall is reached at this speed [m/s], assumed likewise.
 inline constexpr double mixed_friction_m_per_s = 4e-3;
+/// So much more amplitude must keep the limit, too: where friction gives way the spool's motion leaps up.
+inline constexpr double amplitude_reserve = 0.05;
 /// A smaller amplitude is preferred where its band is wider by no more than this share of the band without dither.
 inline constexpr double small_gain_share = 0.05;
 
@@ -79,7 +81,7 @@ struct DitherSetting {
   double mean_band_m3_per_s;
   double largest_tremble_m;
   double largest_ripple_m3_per_s;
-  bool within_limit;
+  bool within_limit;  ///< of the ripple
 };
 
 struct DitherStudy {
@@ -100,7 +102,8 @@ struct DitherStudy {
   }
 };
 
-/// The setting with the smallest mean band among those that keep the ripple's limit at every point; of those that gain
+/// The setting with the smallest mean band among those that keep the ripple's limit at every point, with
+/// `amplitude_reserve` as well; of those that gain
 /// nearly as much the one with the smallest amplitude, and of these the one with the smallest band.
 [[nodiscard]] std::size_t recommended_setting(const DitherStudy& study);
 

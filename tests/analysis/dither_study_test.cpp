@@ -122,7 +122,11 @@ TEST(Dither, TheRecommendationKeepsTheRipplesLimitAndPrefersTheSmallerAmplitude)
     band_before = best.mean_band_m3_per_s;
     for (std::size_t place = 0; place < study.settings.size(); ++place) {
       const DitherSetting& other = study.settings[place];
-      if (!other.within_limit) continue;
+      bool leaps = false;  // with a little more amplitude
+      for (std::size_t above = place; above < study.settings.size(); above += study.frequency_Hz.size()) {
+        leaps = leaps || !study.settings[above].within_limit;
+      }
+      if (leaps) continue;
       EXPECT_LE(best.mean_band_m3_per_s,
                 other.mean_band_m3_per_s + small_gain_share * study.settings.front().mean_band_m3_per_s);
       if (study.amplitude_at_A(place) == study.amplitude_at_A(study.recommended)) {
