@@ -20,7 +20,7 @@ inline constexpr double told_rest_s = 10;
 inline constexpr double contact_damping_share = 0.3;
 /// What is left of slow sliding friction at speed, as a share of it: mixed friction goes over into fluid friction. No
 /// bench of the campaign tells it; assumed from the range of Armstrong-Helouvry 1994, on the side of more tremble.
-inline constexpr double moving_friction_share = 0.5;
+inline constexpr double moving_friction_share = 0.6;
 /// Half of that fall is reached at this speed [m/s], assumed likewise.
 inline constexpr double mixed_friction_m_per_s = 4e-3;
 /// So much more amplitude must keep the limit, too: where friction gives way the spool's motion leaps up.

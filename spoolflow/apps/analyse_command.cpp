@@ -213,6 +213,27 @@ void analyse(const AnalyseArguments& arguments) {
   }
 }
 
+/// `of_the_budget`: options that have no meaning beside --dither.
+void add_dither_options(CLI::App& command, AnalyseArguments& arguments,
+                        const std::vector<CLI::Option*>& of_the_budget) {
+  CLI::Option* const dither = command.add_flag(
+      "--dither", arguments.dither,
+      "how to dither instead: band at rest, tremble and flow ripple over amplitude and frequency, and what to set");
+  for (CLI::Option* const other : of_the_budget) dither->excludes(other);
+  command
+      .add_option("--ripple-limit", arguments.ripple_limit_percent,
+                  "of the flow that dither may make, half of peak to peak in % of full scale")
+      ->type_name("PERCENT")
+      ->check(CLI::Range(0.001, 100.0))
+      ->capture_default_str()
+      ->needs(dither);
+  command.add_option("--dither-shape", arguments.dither_shape, "course of the dither's current")
+      ->type_name("SHAPE")
+      ->check(CLI::IsMember({"sine", "square"}))
+      ->capture_default_str()
+      ->needs(dither);
+}
+
 }  // namespace
 
 void add_analyse_command(CLI::App& program) {
@@ -246,22 +267,7 @@ void add_analyse_command(CLI::App& program) {
   command->add_option("--jobs", arguments->jobs, "threads; all cores where not given; the result is the same")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U));
-  CLI::Option* const dither = command->add_flag(
-      "--dither", arguments->dither,
-      "how to dither instead: band at rest, tremble and flow ripple over amplitude and frequency, and what to set");
-  dither->excludes(recording)->excludes(samples);
-  command
-      ->add_option("--ripple-limit", arguments->ripple_limit_percent,
-                   "of the flow that dither may make, half of peak to peak in % of full scale")
-      ->type_name("PERCENT")
-      ->check(CLI::Range(0.001, 100.0))
-      ->capture_default_str()
-      ->needs(dither);
-  command->add_option("--dither-shape", arguments->dither_shape, "course of the dither's current")
-      ->type_name("SHAPE")
-      ->check(CLI::IsMember({"sine", "square"}))
-      ->capture_default_str()
-      ->needs(dither);
+  add_dither_options(*command, *arguments, {recording, samples});
   command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
   command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")
       ->type_name("NAME")
