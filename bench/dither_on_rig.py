@@ -1,6 +1,6 @@
 """dither_on_rig.py SPOOLFLOW MODEL.json PRESET FOLDER [-v]: the tremble and the flow ripple that `analyse --dither` tells
 beside those of the virtual rig's truth, while the spool rests under random steps of the pressure difference. Runs
-SPOOLFLOW; its files go to FOLDER. Settings: the recommended one, half its amplitude, and its amplitude at 100 Hz. Printed:
+SPOOLFLOW; its files go to FOLDER. Settings: the recommended one, and half and one and a half times its amplitude. Printed:
 medians over all rests of half of peak to peak, the rig's at the dither's frequency; the spool "holds" where it gives way
 elastically only. -v prints every rest."""
 
@@ -99,8 +99,7 @@ levels = [round(draw.uniform(*((8, 30) if preset == "size_10" else (15, 70))), 1
 study = told(sorted(set(levels)))
 best = study["recommended"]
 print(f"{preset}: recommended {best['amplitude_A']:.3f} A at {best['frequency_Hz']:.0f} Hz; levels {levels} bar")
-settings = [(best["amplitude_A"], best["frequency_Hz"]), (0.5 * best["amplitude_A"], best["frequency_Hz"]),
-            (best["amplitude_A"], 100)]
+settings = [(share * best["amplitude_A"], best["frequency_Hz"]) for share in (1, 0.5, 1.5)]
 for k, (wanted_A, frequency_Hz) in enumerate(settings):
     # The coil gets less than what is set: set so that it gets what is wanted, once around.
     truth = simulated(f"first_{k}", wanted_A, frequency_Hz, levels[:1])
