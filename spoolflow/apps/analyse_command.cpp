@@ -216,9 +216,8 @@ void analyse(const AnalyseArguments& arguments) {
 /// `of_the_budget`: options that have no meaning beside --dither.
 void add_dither_options(CLI::App& command, AnalyseArguments& arguments,
                         const std::vector<CLI::Option*>& of_the_budget) {
-  CLI::Option* const dither = command.add_flag(
-      "--dither", arguments.dither,
-      "how to dither instead: band at rest, tremble and flow ripple over amplitude and frequency, and what to set");
+  CLI::Option* const dither = command.add_flag("--dither", arguments.dither,
+                                               "how to dither instead: band at rest and flow ripple, and what to set");
   for (CLI::Option* const other : of_the_budget) dither->excludes(other);
   command
       .add_option("--ripple-limit", arguments.ripple_limit_percent,

@@ -125,29 +125,28 @@ CaptionedFigure curves(const DitherStudy& study, double full_scale_m3_per_s) {
 HtmlTable points_table(const DitherStudy& study, double full_scale_m3_per_s) {
   using units::Kind;
   HtmlTable table({{"Position", Set::number, Kind::length},
-                   {"Pressure difference", Set::number, Kind::pressure},
+                   {"Difference", Set::number, Kind::pressure},
                    {"Flow rate", Set::number, Kind::flow},
-                   {"Holding current", Set::number, Kind::current},
-                   {"Sliding friction", Set::number, Kind::force},
-                   {"Sticking limit", Set::number, Kind::force},
-                   {"Half swing of the magnetic force", Set::number, Kind::force},
-                   {"Band without dither [% FS]"},
+                   {"Current", Set::number, Kind::current},
+                   {"Sliding", Set::number, Kind::force},
+                   {"Sticking", Set::number, Kind::force},
+                   {"Half swing", Set::number, Kind::force},
+                   {"Band without [% FS]"},
                    {"Band [% FS]"},
-                   {"Band", Set::number, Kind::flow},
                    {"Tremble [µm]"},
-                   {"Flow ripple", Set::number, Kind::flow},
-                   {"Frees the spool", Set::text}});
+                   {"Ripple [% FS]"},
+                   {"Freed", Set::text}});
   for (std::size_t p = 0; p < study.points.size(); ++p) {
     const DitherPoint& point = study.points[p];
     const DitherEffect& effect = study.effects[p][study.recommended];
     const auto percent = [&](double flow) { return fixed(100 * flow / full_scale_m3_per_s, 2); };
-    table.row(
-        {fixed(units::length(point.point.position_m), 2), fixed(units::pressure(point.point.pressure_difference_Pa), 0),
-         fixed(units::flow(point.flow_m3_per_s), 1), fixed(units::current(point.current_A), 2),
-         fixed(units::force(point.sliding_N), 2), fixed(units::force(point.sticking_N), 2),
-         fixed(units::force(effect.half_swing_N), 2), percent(study.effects[p].front().band_m3_per_s),
-         percent(effect.band_m3_per_s), fixed(units::flow(effect.band_m3_per_s), 2), fixed(1e6 * effect.tremble_m, 2),
-         three_digits(units::flow(effect.flow_ripple_m3_per_s)), effect.frees ? "yes" : "no"});
+    table.row({fixed(units::length(point.point.position_m), 2),
+               fixed(units::pressure(point.point.pressure_difference_Pa), 0),
+               fixed(units::flow(point.flow_m3_per_s), 1), fixed(units::current(point.current_A), 2),
+               fixed(units::force(point.sliding_N), 2), fixed(units::force(point.sticking_N), 2),
+               fixed(units::force(effect.half_swing_N), 2), percent(study.effects[p].front().band_m3_per_s),
+               percent(effect.band_m3_per_s), fixed(1e6 * effect.tremble_m, 2), percent(effect.flow_ripple_m3_per_s),
+               effect.frees ? "yes" : "no"});
   }
   return table;
 }
@@ -215,12 +214,13 @@ void write_dither_report(std::ostream& out, const model::Model& model, const Dit
   page.section("At the recommended setting");
   page.table(points_table(study, full_scale));
   page.note(fmt::format(
-      "Friction is that of the model in operation; the sticking limit is told after a rest of {} s. Up to friction the "
+      "Current holds the spool; sliding and sticking are the limits of friction of the model in operation, the half "
+      "swing is that of the magnetic force. The sticking limit is told after a rest of {} s. Up to friction the "
       "contacts give way elastically; beyond, the moving mass ({} kg) follows the force on springs and contacts, with "
       "friction that falls to {} of the bench's at speed (assumed). Left out: what the position control adds to the "
       "current where the spool moves, and changes of the pressure difference that the tremble itself makes.",
-      three_digits(analysis::told_rest_s), three_digits(model.observer->parameters.moving_mass_kg),
-      three_digits(analysis::moving_friction_share)));
+      fixed(analysis::told_rest_s, 0), three_digits(model.observer->parameters.moving_mass_kg),
+      fixed(analysis::moving_friction_share, 1)));
   show_inputs(page, model, {});
   out << page.str();
 }
