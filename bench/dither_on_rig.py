@@ -27,12 +27,14 @@ def columns(file):
         return dict(zip(names, zip(*[[float(x) if x else math.nan for x in row] for row in rows])))
 
 
-def told(points_bar):
-    scenario = folder / "points.toml"
-    scenario.write_text(f"[points]\npositions_percent = {POSITIONS}\npressure_differences_bar = {points_bar}\n")
+def told(points_bar=None):
     out = folder / "told.json"
-    subprocess.run([spoolflow, "analyse", model, "--dither", "--scenario", scenario, "--json", out], check=True,
-                   stdout=subprocess.DEVNULL)
+    command = [spoolflow, "analyse", model, "--dither", "--json", out]
+    if points_bar:
+        scenario = folder / "points.toml"
+        scenario.write_text(f"[points]\npositions_percent = {POSITIONS}\npressure_differences_bar = {points_bar}\n")
+        command += ["--scenario", scenario]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return json.load(open(out))
 
 
@@ -97,7 +99,7 @@ def median(values):
 draw = random.Random(5)
 levels = [round(draw.uniform(*((8, 30) if preset == "size_10" else (15, 70))), 1) for _ in range(6)]
 study = told(sorted(set(levels)))
-best = study["recommended"]
+best = told()["recommended"]
 print(f"{preset}: recommended {best['amplitude_A']:.3f} A at {best['frequency_Hz']:.0f} Hz; levels {levels} bar")
 settings = [(share * best["amplitude_A"], best["frequency_Hz"]) for share in (1, 0.5, 1.5)]
 for k, (wanted_A, frequency_Hz) in enumerate(settings):

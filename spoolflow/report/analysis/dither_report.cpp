@@ -187,7 +187,7 @@ DitherVerdict dither_verdict(const model::Model& model, const DitherStudy& study
       three_digits(units::flow(best.largest_ripple_m3_per_s)), limit, freed, study.points.size()));
   out.remarks.emplace_back(
       "The amplitude is that of the measured coil current; the current control leaves out a part of what it is asked "
-      "for.");
+      "for, and the position control adds to it where the spool moves. Begin with less, and measure the ripple.");
   return out;
 }
 
