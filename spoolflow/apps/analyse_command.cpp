@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/analysis/analysis.hpp"
+#include "spoolflow/analysis/dither_study.hpp"
 #include "spoolflow/analysis/ishigami.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
@@ -14,7 +15,9 @@
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
+#include "spoolflow/report/analysis/dither_report.hpp"
 #include "spoolflow/report/json/analysis_json.hpp"
+#include "spoolflow/report/json/dither_json.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
@@ -32,6 +35,9 @@ struct AnalyseArguments {
   std::uint32_t samples = 0;  ///< 0: as the scenario says
   std::uint64_t seed = 0;     ///< 0: as the scenario says
   unsigned jobs = 0;          ///< 0: all cores
+  std::string dither_shape = "sine";
+  double ripple_limit_percent = 0.5;
+  bool dither = false;
   bool print_scenario = false;
   bool quiet = false;
 };
@@ -125,10 +131,39 @@ analysis::Study study(const model::Model& model, const analysis::Scenario& scena
   return analysis::global_study(model, scenario, valve, work);
 }
 
+void analyse_dither(const AnalyseArguments& arguments) {
+  const report::ReaderUnits units(arguments.units);
+  const model::Model model = model::read_model(arguments.model);
+  analysis::DitherQuestion question;
+  question.points = scenario_of(arguments).points;
+  question.shape = arguments.dither_shape == "sine" ? analysis::DitherShape::sine : analysis::DitherShape::square;
+  question.ripple_limit_share = 0.01 * arguments.ripple_limit_percent;
+  std::vector<std::filesystem::path> inputs{arguments.model};
+  if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
+  std::optional<OutputFile> page;
+  std::optional<OutputFile> figures;
+  if (!arguments.report.empty()) page.emplace(arguments.report, inputs);
+  if (!arguments.report.empty()) inputs.emplace_back(arguments.report);
+  if (!arguments.json.empty()) figures.emplace(arguments.json, inputs);
+  const analysis::DitherStudy results = [&] {
+    Progress progress("dither", arguments.quiet);
+    return analysis::dither_study(model, question, workers(arguments));
+  }();
+  if (page) report::write_dither_report(page->stream(), model, results, units);
+  if (figures) report::write_dither_json(figures->stream(), model, results);
+  commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
+  if (arguments.json == "-" || arguments.report == "-") return;
+  const report::DitherVerdict verdict = report::dither_verdict(model, results);
+  std::string text = verdict.sentence.in(units) + "\n";
+  for (const report::Text& remark : verdict.remarks) text += "- " + remark.in(units) + "\n";
+  print_text(text);
+}
+
 void analyse(const AnalyseArguments& arguments) {
   if (arguments.print_scenario) return print_text(analysis::scenario_template());
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
+  if (arguments.dither) return analyse_dither(arguments);
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model::read_model(arguments.model);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
@@ -178,6 +213,26 @@ void analyse(const AnalyseArguments& arguments) {
   }
 }
 
+/// `of_the_budget`: options that have no meaning beside --dither.
+void add_dither_options(CLI::App& command, AnalyseArguments& arguments,
+                        const std::vector<CLI::Option*>& of_the_budget) {
+  CLI::Option* const dither = command.add_flag("--dither", arguments.dither,
+                                               "how to dither instead: band at rest and flow ripple, and what to set");
+  for (CLI::Option* const other : of_the_budget) dither->excludes(other);
+  command
+      .add_option("--ripple-limit", arguments.ripple_limit_percent,
+                  "of the flow that dither may make, half of peak to peak in % of full scale")
+      ->type_name("PERCENT")
+      ->check(CLI::Range(0.001, 100.0))
+      ->capture_default_str()
+      ->needs(dither);
+  command.add_option("--dither-shape", arguments.dither_shape, "course of the dither's current")
+      ->type_name("SHAPE")
+      ->check(CLI::IsMember({"sine", "square"}))
+      ->capture_default_str()
+      ->needs(dither);
+}
+
 }  // namespace
 
 void add_analyse_command(CLI::App& program) {
@@ -189,26 +244,29 @@ void add_analyse_command(CLI::App& program) {
        "MODEL.json; a scenario (TOML) may name working points, instruments and spreads, --print-scenario prints one",
        "the uncertainty budget with its check by Monte Carlo and the sensitivities as JSON; the verdict on standard "
        "output",
-       {"spoolflow analyse valve_a.json --json analysis.json"}});
+       {"spoolflow analyse valve_a.json --json analysis.json",
+        "spoolflow analyse valve_a.json --dither --ripple-limit 0.3 --report dither.html"}});
   command->add_option("model", arguments->model, "model file");
   command->add_option("--scenario", arguments->scenario, "what to analyse; every key has a default")
       ->type_name("S.toml");
-  command->add_option("--recording", arguments->recording, "a run along which the budget is made up as well")
-      ->type_name("RECORDING");
+  CLI::Option* const recording =
+      command->add_option("--recording", arguments->recording, "a run along which the budget is made up as well")
+          ->type_name("RECORDING");
   command->add_option("--channels", arguments->channels, "channel map (TOML) of a recording with other column names")
       ->type_name("MAP.toml");
   command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "figures to write as JSON; - for standard output")
       ->type_name("OUT.json");
-  command->add_option("--samples", arguments->samples, "base samples of the global study")
-      ->type_name("N")
-      ->check(CLI::Range(2U, 65536U));
+  CLI::Option* const samples = command->add_option("--samples", arguments->samples, "base samples of the global study")
+                                   ->type_name("N")
+                                   ->check(CLI::Range(2U, 65536U));
   command->add_option("--seed", arguments->seed, "of all random numbers, instead of the scenario's")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command->add_option("--jobs", arguments->jobs, "threads; all cores where not given; the result is the same")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U));
+  add_dither_options(*command, *arguments, {recording, samples});
   command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
   command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")
       ->type_name("NAME")

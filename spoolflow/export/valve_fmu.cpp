@@ -21,6 +21,8 @@ const char* load_name(rig::LoadKind kind) {
       return "an orifice between the ports";
     case rig::LoadKind::cylinder:
       return "a differential cylinder";
+    case rig::LoadKind::motor:
+      return "a hydraulic motor with its inertia";
   }
   return "";
 }

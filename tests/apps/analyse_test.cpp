@@ -110,5 +110,35 @@ TEST_F(Analyse, SaysWhereNoPointLiesInsideTheMaps) {
   EXPECT_TRUE(content("o.json").find("\"inside_maps\": true") == std::string::npos);
 }
 
+TEST_F(Analyse, TellsHowToDither) {
+  write("s.toml", "[points]\npositions_percent = [50]\npressure_differences_bar = [40]\n");
+  const std::string command = "analyse " + analysed_model + " --scenario s.toml --dither ";
+  const Answer answer = run(command + "--json o.json --report r.html --units psi");
+  ASSERT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output, HasSubstr("Dither at "));
+  EXPECT_THAT(content("o.json"), HasSubstr("\"format\": \"spoolflow dither\""));
+  EXPECT_THAT(content("r.html"), HasSubstr("How to dither"));
+  EXPECT_THAT(content("r.html"), HasSubstr("580"));
+  const Answer strict = run(command + "--ripple-limit 0.001");
+  EXPECT_EQ(strict.status, 0);
+  EXPECT_THAT(strict.output, HasSubstr("No dither"));
+}
+
+TEST_F(Analyse, RefusesAWrongQuestionAboutDither) {
+  const auto refused = [&](const std::string& arguments) {
+    const Answer answer = run("analyse " + analysed_model + " " + arguments);
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_EQ(std::count(answer.message.begin(), answer.message.end(), '\n'), 1) << answer.message;
+    EXPECT_EQ(files(), (std::vector<std::string>{"s.toml"})) << "an output was left behind";
+    return answer.message;
+  };
+  write("s.toml", "[points]\npressure_differences_bar = [340]\n");
+  EXPECT_THAT(refused("--dither --scenario s.toml --json o.json"), HasSubstr("none of the working points"));
+  EXPECT_THAT(refused("--dither --ripple-limit 0"), HasSubstr("--ripple-limit"));
+  EXPECT_THAT(refused("--dither --dither-shape round"), HasSubstr("sine"));
+  EXPECT_THAT(refused("--ripple-limit 1"), HasSubstr("--dither"));
+  EXPECT_THAT(refused("--dither --samples 8"), HasSubstr("--samples"));
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

@@ -49,5 +49,12 @@ TEST(PlantAgainstCvode, AgreesWithACylinderAndItsMass) {
   expect_within_a_ten_thousandth(distance_from_cvode(p, 0.15));
 }
 
+TEST(PlantAgainstCvode, AgreesWithAMotorWhoseReturnGoesToTank) {
+  PlantParameters p = smooth_plant();
+  p.load.kind = LoadKind::motor;
+  p.load.return_to_tank = true;
+  expect_within_a_ten_thousandth(distance_from_cvode(p, 0.15));
+}
+
 }  // namespace
 }  // namespace spoolflow::rig::reference

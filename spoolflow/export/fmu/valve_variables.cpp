@@ -38,7 +38,7 @@ std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_fl
       input("position_set", "set position of the spool, > 0 opens P to B, < 0 opens P to A", "m", "mm", 0, stroke_m),
       pressure("pressure_difference_set", "difference that the bench holds over the open edge (load: held difference)",
                5e6),
-      pressure("supply_pressure", "set pressure of the supply, gauge (loads: orifice, cylinder)", 1e7),
+      pressure("supply_pressure", "set pressure of the supply, gauge (loads: orifice, cylinder, motor)", 1e7),
       within(-1e6, 1e6,
              input("load_force", "force on the cylinder, > 0 against moving out (load: cylinder)", "N", "", 0, 1000)),
       temperature("oil_temperature_set", "temperature of the oil at the supply", 323.15),

@@ -23,7 +23,7 @@ struct OperationConditions {
     visit(Parameter{"oil_temperature_end_C", "degC", -20, 100, "as at the start: constant"},
           self.oil_temperature_end_C);
     visit(Parameter{"supply_pressure_bar", "bar", 1, 350,
-                    "of loads orifice and cylinder; unused where the pressure "
+                    "of loads orifice, cylinder and motor; unused where the pressure "
                     "difference is held"},
           self.supply_pressure_bar);
     visit(Parameter{"position_faults_per_s", "1/s", 0, 10,

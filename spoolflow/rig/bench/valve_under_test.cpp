@@ -65,9 +65,13 @@ void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
   settings.add_choice("hysteresis", {"jiles_atherton", "preisach"}, [&plant = valve.plant](std::size_t kind) {
     plant.solenoid_a.hysteresis.kind = plant.solenoid_b.hysteresis.kind = static_cast<HysteresisKind>(kind);
   });
-  settings.add_choice("plant.load.kind", {"held_difference", "orifice", "cylinder"},
+  settings.add_choice("plant.load.kind", {"held_difference", "orifice", "cylinder", "motor"},
                       [&load = valve.plant.load](std::size_t kind) { load.kind = static_cast<LoadKind>(kind); });
   settings.add_flag("plant.load.ideal_hold", valve.plant.load.ideal_hold);
+  settings.add_flag("plant.load.return_to_tank", valve.plant.load.return_to_tank);
+  settings.add_choice(
+      "electronics.dither.shape", {"sine", "square", "triangle"},
+      [&dither = valve.electronics.dither](std::size_t shape) { dither.shape = static_cast<DitherShape>(shape); });
 }
 
 ValveUnderTest as_built(ValveUnderTest valve) {

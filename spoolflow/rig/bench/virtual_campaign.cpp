@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 
@@ -55,6 +56,50 @@ void add_calibration(Items& items, const CampaignSettings& settings) {
             RampsProtocol{.conditions = {}, .pressure_differences_bar = {settings.ramp_pressure_bar}});
 }
 
+/// As the campaign dithers it, where its electronics have no dither of their own.
+ValveUnderTest dithered(ValveUnderTest valve, const CampaignSettings& settings) {
+  if (valve.electronics.dither.amplitude_A == 0) {
+    valve.electronics.dither.amplitude_A = settings.dither_amplitude_A;
+    valve.electronics.dither.frequency_Hz = settings.dither_frequency_Hz;
+  }
+  return valve;
+}
+
+/// A load that a valve of this rating can feed: fully open, a quarter of the supply pressure is left over its edge.
+/// What comes back from the load goes straight to tank: the bench has measured the edge P to B alone.
+ValveUnderTest loaded(ValveUnderTest valve, LoadKind kind, double supply_bar) {
+  constexpr double turned_rad_per_s = 105;  // 1000 turns a minute at rated flow
+  constexpr double torque_share = 0.4;      // of what the supply pressure could hold
+  constexpr double run_up_s = 0.1;          // with what is left of it
+  constexpr double discharge = 0.7;         // that of load.hpp
+  const double supply_Pa = units::Pa_from_bar(supply_bar);
+  const double rated_m3_per_s = units::m3_per_s_from_L_per_min(valve.rating.flow_L_per_min);
+  const double edge = rated_m3_per_s / std::sqrt(units::Pa_from_bar(valve.rating.pressure_difference_bar));
+  Load& load = valve.plant.load;
+  load.kind = kind;
+  load.return_to_tank = true;
+  load.orifice_area_m2 = edge / std::sqrt(3.0) / discharge * std::sqrt(0.5 * valve.plant.oil.density_15C_kg_per_m3);
+  load.motor_displacement_m3_per_rad = rated_m3_per_s / turned_rad_per_s;
+  load.motor_torque_N_m = torque_share * supply_Pa * load.motor_displacement_m3_per_rad;
+  load.motor_inertia_kg_m2 =
+      (1 - torque_share) * supply_Pa * load.motor_displacement_m3_per_rad * run_up_s / turned_rad_per_s;
+  load.motor_drag_N_m_s = 0.05 * load.motor_torque_N_m / turned_rad_per_s;
+  return valve;
+}
+
+/// One dithered duty cycle under each kind of load.
+void add_dithered_duty(Items& items, const CampaignSettings& settings) {
+  const ValveUnderTest valve = dithered(items.valve(), settings);
+  const double supply_bar =
+      *std::max_element(settings.pressure_differences_bar.begin(), settings.pressure_differences_bar.end());
+  const DutyCycleProtocol held{.conditions = {}, .duration_s = settings.dithered_duty_s};
+  DutyCycleProtocol fed = held;
+  fed.conditions.supply_pressure_bar = supply_bar;  // the difference never leaves the calibrated range
+  items.add_with(valve, "duty_dither.csv", "", held);
+  items.add_with(loaded(valve, LoadKind::orifice, supply_bar), "orifice_duty_dither.csv", "", fed);
+  items.add_with(loaded(valve, LoadKind::motor, supply_bar), "motor_duty_dither.csv", "", fed);
+}
+
 }  // namespace
 
 ValveAndCampaign read_valve_and_campaign(const std::string& valve) {
@@ -87,14 +132,10 @@ std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const Camp
             SineProtocol{.conditions = {},
                          .frequency_end_Hz = settings.sweep_frequency_Hz,
                          .pressure_difference_bar = settings.sweep_pressure_bar});
-  ValveUnderTest dithered = items.valve();
-  if (dithered.electronics.dither.amplitude_A == 0) {
-    dithered.electronics.dither = {.amplitude_A = settings.dither_amplitude_A,
-                                   .frequency_Hz = settings.dither_frequency_Hz};
-  }
-  items.add_with(std::move(dithered), "dither.csv", "",
+  items.add_with(dithered(items.valve(), settings), "dither.csv", "",
                  RampsProtocol{.conditions = {}, .pressure_differences_bar = {settings.ramp_pressure_bar}});
   items.add("fast_motion.csv", "", protocol_named("fast_motion"));
+  add_dithered_duty(items, settings);
   return items.take();
 }
 

@@ -23,6 +23,7 @@ struct CampaignSettings {
   double duty_cycle_s = 180.0;
   double dither_amplitude_A = 0.2;
   double dither_frequency_Hz = 160.0;
+  double dithered_duty_s = 40.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -39,9 +40,11 @@ struct CampaignSettings {
     visit(Parameter{"sweep_frequency_Hz", "Hz", 0.2, 100, "reached by the sine sweep from 0.1 Hz"},
           self.sweep_frequency_Hz);
     visit(Parameter{"duty_cycle_s", "s", 1, 3600, "of the random duty cycle"}, self.duty_cycle_s);
-    visit(Parameter{"dither_amplitude_A", "A", 0, 1, "of the dither run, where the electronics have none of their own"},
+    visit(Parameter{"dither_amplitude_A", "A", 0, 1, "of dithered runs, where the electronics have none of their own"},
           self.dither_amplitude_A);
-    visit(Parameter{"dither_frequency_Hz", "Hz", 20, 500, "of the dither run"}, self.dither_frequency_Hz);
+    visit(Parameter{"dither_frequency_Hz", "Hz", 20, 500, "of dithered runs"}, self.dither_frequency_Hz);
+    visit(Parameter{"dithered_duty_s", "s", 1, 3600, "of the dithered duty cycle under each load"},
+          self.dithered_duty_s);
   }
 };
 

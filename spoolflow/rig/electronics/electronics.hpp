@@ -13,10 +13,14 @@ namespace spoolflow::rig {
 
 inline constexpr double electronics_period_s = 1e-4;  ///< 10 kHz
 
-/// Sine on the set current that keeps spool and armature from sticking.
+/// Course of one period, all with the same amplitude and phase.
+enum class DitherShape { sine, square, triangle };
+
+/// Tremble of the set current that keeps spool and armature from sticking.
 struct Dither {
   double amplitude_A = 0.0;
   double frequency_Hz = 160.0;
+  DitherShape shape = DitherShape::sine;  ///< key `shape`: "sine", "square" or "triangle"
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -25,9 +29,17 @@ struct Dither {
   }
 };
 
+/// Course of a period over its turns: -1 to 1, rising through 0 at whole turns. A square is 1 in the first half.
+inline double dither_wave(DitherShape shape, double turns) {
+  if (shape == DitherShape::sine) return sine_of_turns(turns);
+  const double phase = turns - std::floor(turns);
+  if (shape == DitherShape::square) return phase < 0.5 ? 1.0 : -1.0;
+  return phase < 0.25 ? 4.0 * phase : phase < 0.75 ? 2.0 - 4.0 * phase : 4.0 * phase - 4.0;
+}
+
 /// The dither's share of the set current [A].
 inline double dither_A(const Dither& dither, double time_s) {
-  return dither.amplitude_A * sine_of_turns(dither.frequency_Hz * time_s);
+  return dither.amplitude_A * dither_wave(dither.shape, dither.frequency_Hz * time_s);
 }
 
 struct Electronics {

@@ -6,8 +6,9 @@
 ///     m dv_c/dt   = p_B A_B - p_A A_A - d v_c - F_cushion - F_ext,   Q_L from B to A: orifice or piston leakage
 ///     C = V/K_eff(p)
 ///
-/// With the held difference, A, B and T all drain to the back pressure. Below the cavitation pressure a volume stays
-/// there.
+/// A motor is a cylinder whose areas are its displacement, with turns and torques for ways and forces, and no end.
+/// Where the load returns straight to tank, dp_A/dt = 0 and p_A is the tank's. With the held difference, A, B and T all
+/// drain to the back pressure. Below the cavitation pressure a volume stays there.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -58,10 +59,45 @@ struct LoadFlow {
   double conductance_m3_per_s_Pa;
 };
 
-/// Fixed orifice: turbulent, laminar below 0.1 bar; or leakage past the piston.
+/// What the pressures move: a piston, or the shaft of a motor in turns [rad] and torques [N m].
+struct MovedLoad {
+  bool moves;
+  double area_A, area_B;  ///< [m2], or displacement [m3/rad]
+  double mass;            ///< [kg], or inertia [kg m2]
+  double drag;            ///< [N s/m], or [N m s]
+  double leakage_m3_per_s_Pa;
+  double force;  ///< against moving under flow from B [N], or [N m]
+};
+
+inline MovedLoad moved_load(const Load& load, double load_force_N) {
+  switch (load.kind) {
+    case LoadKind::cylinder:
+      return {true,
+              load.piston_area_A_m2,
+              load.piston_area_B_m2,
+              load.cylinder_mass_kg,
+              load.cylinder_drag_N_s_per_m,
+              load.cylinder_leakage_m3_per_s_Pa,
+              load_force_N};
+    case LoadKind::motor:
+      return {true,
+              load.motor_displacement_m3_per_rad,
+              load.motor_displacement_m3_per_rad,
+              load.motor_inertia_kg_m2,
+              load.motor_drag_N_m_s,
+              load.motor_leakage_m3_per_s_Pa,
+              load.motor_torque_N_m};
+    case LoadKind::held_difference:
+    case LoadKind::orifice:
+      break;
+  }
+  return {false, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+}
+
+/// Fixed orifice: turbulent, laminar below 0.1 bar; or leakage past piston or motor.
 inline LoadFlow load_flow(const Load& load, double density_kg_per_m3, double pressure_difference_Pa) {
-  if (load.kind == LoadKind::cylinder) {
-    return {load.cylinder_leakage_m3_per_s_Pa * pressure_difference_Pa, load.cylinder_leakage_m3_per_s_Pa};
+  if (const MovedLoad moved = moved_load(load, 0.0); moved.moves) {
+    return {moved.leakage_m3_per_s_Pa * pressure_difference_Pa, moved.leakage_m3_per_s_Pa};
   }
   constexpr double laminar_Pa = 1e4;
   constexpr double discharge = 0.7;
@@ -133,14 +169,14 @@ inline void hydraulic_rates(const std::array<const MeteringEdge*, 4>& edges,
     out.elastance_B = 1.0 / ((load.port_volume_m3 + swept_B) * compressibility_per_Pa(oil, oil_state, p_B));
     double into_A = out.edges[edge_PA].flow_m3_per_s - out.edges[edge_AT].flow_m3_per_s + out.load.flow_m3_per_s;
     double into_B = out.edges[edge_PB].flow_m3_per_s - out.edges[edge_BT].flow_m3_per_s - out.load.flow_m3_per_s;
-    if (cylinder) {
-      into_A += load.piston_area_A_m2 * v_c;
-      into_B -= load.piston_area_B_m2 * v_c;
-      out.cushion = cushion_force(load, x_c, v_c);
+    if (load.return_to_tank) out.elastance_A = 0.0;
+    if (const MovedLoad moved = moved_load(load, boundary.load_force_N); moved.moves) {
+      into_A += moved.area_A * v_c;
+      into_B -= moved.area_B * v_c;
+      if (cylinder) out.cushion = cushion_force(load, x_c, v_c);
       rate[state_x_c] = v_c;
-      rate[state_v_c] = (p_B * load.piston_area_B_m2 - p_A * load.piston_area_A_m2 -
-                         load.cylinder_drag_N_s_per_m * v_c - out.cushion.force_N - boundary.load_force_N) /
-                        load.cylinder_mass_kg;
+      rate[state_v_c] =
+          (p_B * moved.area_B - p_A * moved.area_A - moved.drag * v_c - out.cushion.force_N - moved.force) / moved.mass;
     }
     rate[state_p_A] = out.elastance_A * into_A;
     rate[state_p_B] = out.elastance_B * into_B;
@@ -172,14 +208,14 @@ class HydraulicSolver {
            {-wA * g_PA, 1.0 + wA * g_A, -wA * g_L, 0.0},
            {-wB * g_PB, -wB * g_L, 1.0 + wB * g_B, 0.0},
            {0.0, 0.0, 0.0, 1.0}}};
-    if (kind_ == LoadKind::cylinder) {
-      const double w_m = weight_s / load.cylinder_mass_kg;
-      m_[1][3] = -wA * load.piston_area_A_m2;
-      m_[2][3] = wB * load.piston_area_B_m2;
-      m_[3][1] = w_m * load.piston_area_A_m2;
-      m_[3][2] = -w_m * load.piston_area_B_m2;
+    if (const MovedLoad moved = moved_load(load, 0.0); moved.moves) {
+      const double w_m = weight_s / moved.mass;
+      m_[1][3] = -wA * moved.area_A;
+      m_[2][3] = wB * moved.area_B;
+      m_[3][1] = w_m * moved.area_A;
+      m_[3][2] = -w_m * moved.area_B;
       position_ = w_m * point.cushion.stiffness_N_per_m;
-      m_[3][3] = 1.0 + w_m * (load.cylinder_drag_N_s_per_m + point.cushion.damping_N_s_per_m) + weight_s * position_;
+      m_[3][3] = 1.0 + w_m * (moved.drag + point.cushion.damping_N_s_per_m) + weight_s * position_;
     }
     for (std::size_t k = 0; k < 4; ++k) {  // no pivoting: pressures are an M-matrix, the cylinder couples skew to them
       pivot_[k] = 1.0 / m_[k][k];

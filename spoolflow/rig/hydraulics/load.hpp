@@ -6,15 +6,23 @@
 /// cylinder         a differential cylinder with mass, line volumes, leakage, friction and end cushions; B moves it
 /// out:
 ///                  m dv_c/dt = p_B A_B - p_A A_A - d v_c - F_ext,  port volumes change with v_c
+/// motor            a hydraulic motor that turns an inertia against a constant torque, such as a winch; B drives it:
+///                  J dw/dt = D (p_B - p_A) - d w - M
+///
+/// With `return_to_tank` what comes back from the load goes straight to tank through a line of its own instead of
+/// through port A: A then stays at tank pressure, and only the edge P to B meters. A sensor of one metering edge is
+/// tested so; through port A the return flow also pulls on the spool, at the edge A to T, which a campaign of one edge
+/// does not see. Made for x > 0.
 #include "spoolflow/rig/numerics/parameter.hpp"
 
 namespace spoolflow::rig {
 
-enum class LoadKind { held_difference, orifice, cylinder };
+enum class LoadKind { held_difference, orifice, cylinder, motor };
 
 struct Load {
   LoadKind kind = LoadKind::held_difference;
-  bool ideal_hold = false;  ///< the held difference follows its set value at once
+  bool ideal_hold = false;      ///< the held difference follows its set value at once
+  bool return_to_tank = false;  ///< not of the held difference, whose ports drain anyway
   double port_volume_m3 = 5.0e-5;
   double orifice_area_m2 = 1.2e-5;
   double piston_area_B_m2 = 1.26e-3;
@@ -23,6 +31,11 @@ struct Load {
   double cylinder_mass_kg = 200.0;
   double cylinder_drag_N_s_per_m = 2000.0;
   double cylinder_leakage_m3_per_s_Pa = 2.0e-13;
+  double motor_displacement_m3_per_rad = 1.3e-5;
+  double motor_inertia_kg_m2 = 0.05;
+  double motor_torque_N_m = 35.0;
+  double motor_drag_N_m_s = 0.05;
+  double motor_leakage_m3_per_s_Pa = 1.0e-12;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -37,6 +50,15 @@ struct Load {
           self.cylinder_drag_N_s_per_m);
     visit(Parameter{"cylinder_leakage_m3_per_s_Pa", "m3/(s Pa)", 0, 1e-10, "past the piston; 0.12 L/min at 100 bar"},
           self.cylinder_leakage_m3_per_s_Pa);
+    visit(Parameter{"motor_displacement_m3_per_rad", "m3/rad", 1e-7, 1e-3, "80 cm3 a turn"},
+          self.motor_displacement_m3_per_rad);
+    visit(Parameter{"motor_inertia_kg_m2", "kg m2", 1e-4, 100, "with what it turns"}, self.motor_inertia_kg_m2);
+    visit(
+        Parameter{"motor_torque_N_m", "N m", 0, 1e4, "against turning under flow from B; 27 bar at this displacement"},
+        self.motor_torque_N_m);
+    visit(Parameter{"motor_drag_N_m_s", "N m s", 0, 1e3, "bearings and gear, viscous part"}, self.motor_drag_N_m_s);
+    visit(Parameter{"motor_leakage_m3_per_s_Pa", "m3/(s Pa)", 0, 1e-10, "past the pistons; 0.6 L/min at 100 bar"},
+          self.motor_leakage_m3_per_s_Pa);
   }
 };
 

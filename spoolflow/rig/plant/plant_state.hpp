@@ -19,7 +19,7 @@ struct PrescribedMotion {
 struct PlantInput {
   double voltage_a_V = 0.0;  ///< over the winding's terminals, mean over the step
   double voltage_b_V = 0.0;
-  double supply_pressure_Pa = 100e5;         ///< set value, gauge; loads orifice and cylinder
+  double supply_pressure_Pa = 100e5;         ///< set value, gauge; all loads but the held difference
   double held_pressure_difference_Pa = 0.0;  ///< set value; load held_difference
   double load_force_N = 0.0;                 ///< on the cylinder, > 0 against moving out
   double oil_temperature_C = 50.0;           ///< at the supply

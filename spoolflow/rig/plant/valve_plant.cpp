@@ -116,6 +116,7 @@ PlantState plant_at_rest(const PlantParameters& p, const PlantInput& input) {
   state.pressure_P_Pa = source_pressure_Pa(p, input, 0.0);
   state.pressure_A_Pa = state.pressure_B_Pa =
       held ? p.supply.back_pressure_Pa : 0.5 * (state.pressure_P_Pa + p.supply.tank_pressure_Pa);
+  if (!held && p.load.return_to_tank) state.pressure_A_Pa = state.pressure_B_Pa = p.supply.tank_pressure_Pa;
   for (auto [solenoid, heat] :
        {std::pair{&p.solenoid_a, &state.solenoid_a.heat}, {&p.solenoid_b, &state.solenoid_b.heat}}) {
     const double to_ambient = solenoid->heat.housing_to_ambient_W_per_K;

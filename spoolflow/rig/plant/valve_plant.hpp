@@ -76,8 +76,8 @@ struct PlantOutput {
   double flow_m3_per_s = 0.0;           ///< through that edge
   double oil_density_kg_per_m3 = 0.0;
   double oil_viscosity_m2_per_s = 0.0;
-  double cylinder_position_m = 0.0;
-  double cylinder_velocity_m_per_s = 0.0;
+  double cylinder_position_m = 0.0;        ///< turns of a motor [rad]
+  double cylinder_velocity_m_per_s = 0.0;  ///< of a motor [rad/s]
 };
 
 /// The plant at rest at spool centre (or the prescribed position), unmagnetised, contacts relaxed, in thermal and

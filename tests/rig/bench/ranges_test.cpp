@@ -49,7 +49,9 @@ ValveUnderTest any_valve(Draw& draw) {
   draw.all(valve.electronics);
   draw.all(valve.bench_amplifier);
   draw.all(valve.instruments);
-  valve.plant.load.kind = static_cast<LoadKind>(draw.below(3));
+  valve.plant.load.kind = static_cast<LoadKind>(draw.below(4));
+  valve.plant.load.return_to_tank = draw.below(2) == 1;
+  valve.electronics.dither.shape = static_cast<DitherShape>(draw.below(3));
   valve.plant.load.ideal_hold = draw.below(2) == 1;
   for (Solenoid* solenoid : {&valve.plant.solenoid_a, &valve.plant.solenoid_b}) {
     solenoid->hysteresis.kind = draw.below(2) == 1 ? HysteresisKind::preisach : HysteresisKind::jiles_atherton;

@@ -48,9 +48,9 @@ TEST(VirtualCampaign, HoldsTheBenchTestsOneOperatingRunAndTheValidationRuns) {
   EXPECT_THAT(listed,
               testing::ElementsAre("spring.csv", "solenoid_map.csv", "solenoid_dynamic.csv", "axial_force_map_30.csv",
                                    "axial_force_map_50.csv", "axial_force_map_70.csv", "ramp_60bar.csv"));
-  EXPECT_THAT(validation,
-              testing::ElementsAre("ramps_30_to_70bar.csv", "duty_cycle_1.csv", "temperature_sweep.csv",
-                                   "pressure_steps.csv", "sine_sweep.csv", "dither.csv", "fast_motion.csv"));
+  EXPECT_THAT(validation, testing::ElementsAre("ramps_30_to_70bar.csv", "duty_cycle_1.csv", "temperature_sweep.csv",
+                                               "pressure_steps.csv", "sine_sweep.csv", "dither.csv", "fast_motion.csv",
+                                               "duty_dither.csv", "orifice_duty_dither.csv", "motor_duty_dither.csv"));
   const std::string text = campaign_text(valve_preset("size_6"), default_items());
   for (const std::string& file : listed) EXPECT_THAT(text, testing::HasSubstr("file = \"" + file + "\""));
   for (const std::string& file : validation) EXPECT_THAT(text, testing::Not(testing::HasSubstr(file)));

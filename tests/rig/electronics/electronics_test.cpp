@@ -94,6 +94,29 @@ TEST(PositionControl, WindsUpWhileTheSpoolSticksUntilItsLimit) {
   EXPECT_NEAR(state.integral_A, control.integral_limit_A, 1e-12);
 }
 
+TEST(Electronics, EveryShapeOfDitherSwingsBetweenItsAmplitudesAboutZero) {
+  constexpr int steps = 1000;
+  for (const auto& [shape, mean_size] : {std::pair{DitherShape::sine, 0.6366}, std::pair{DitherShape::square, 1.0},
+                                         std::pair{DitherShape::triangle, 0.5}}) {
+    const Dither dither{.amplitude_A = 0.2, .frequency_Hz = 100, .shape = shape};
+    double lowest_A = 1, highest_A = -1, sum_A = 0, size_A = 0;
+    for (int k = 0; k < steps; ++k) {
+      const double time_s = (k + 0.5) / (steps * dither.frequency_Hz);
+      const double current_A = dither_A(dither, time_s);
+      EXPECT_NEAR(current_A, dither_A(dither, time_s + 3 / dither.frequency_Hz), 1e-9) << "it repeats";
+      EXPECT_GE(current_A * (k < steps / 2 ? 1 : -1), 0) << "all shapes have one phase";
+      lowest_A = std::min(lowest_A, current_A);
+      highest_A = std::max(highest_A, current_A);
+      sum_A += current_A;
+      size_A += std::abs(current_A);
+    }
+    EXPECT_NEAR(highest_A, 0.2, 1e-3);
+    EXPECT_NEAR(lowest_A, -0.2, 1e-3);
+    EXPECT_NEAR(sum_A / steps, 0, 1e-9);
+    EXPECT_NEAR(size_A / steps, 0.2 * mean_size, 1e-4);
+  }
+}
+
 TEST(Electronics, DitherSwingsTheCurrentAtItsFrequencyOnlyWhileTheValveIsDriven) {
   Electronics electronics;
   electronics.dither = {.amplitude_A = 0.2, .frequency_Hz = 100};

@@ -191,6 +191,39 @@ TEST(PlantAnalytic, CylinderMovesAtFlowOverArea) {
               2000 + p.load.cylinder_drag_N_s_per_m * out.cylinder_velocity_m_per_s, 5);
 }
 
+TEST(PlantAnalytic, MotorTurnsAtFlowOverDisplacement) {
+  PlantParameters p = reference::smooth_plant();
+  p.arrangement = Arrangement::axial_force_bench;  // which holds the spool
+  p.load.kind = LoadKind::motor;
+  p.load.motor_leakage_m3_per_s_Pa = 0;
+  PlantInput input;
+  input.motion = PrescribedMotion{.position_m = 1e-3};
+  const PlantOutput out = settled(p, input, 1.5);
+  const double speed_rad_per_s = out.cylinder_velocity_m_per_s;
+  EXPECT_GT(speed_rad_per_s, 5);
+  const double into_B = out.edge_PB.flow_m3_per_s - out.edge_BT.flow_m3_per_s;
+  EXPECT_NEAR(into_B / p.load.motor_displacement_m3_per_rad, speed_rad_per_s, 2e-3 * speed_rad_per_s);
+  // Balance of torques on the shaft.
+  EXPECT_NEAR((out.pressure_B_Pa - out.pressure_A_Pa) * p.load.motor_displacement_m3_per_rad,
+              p.load.motor_torque_N_m + p.load.motor_drag_N_m_s * speed_rad_per_s, 0.1);
+}
+
+TEST(PlantAnalytic, AReturnLineToTankKeepsTheReturnFlowsForceOffTheSpool) {
+  for (const LoadKind kind : {LoadKind::orifice, LoadKind::motor}) {
+    PlantParameters p = reference::smooth_plant();
+    p.load.kind = kind;
+    PlantInput input;
+    input.voltage_b_V = 5;
+    const PlantOutput through_valve = settled(p, input, 1.0);
+    p.load.return_to_tank = true;
+    const PlantOutput to_tank = settled(p, input, 1.0);
+    EXPECT_GT(through_valve.edge_AT.flow_m3_per_s, 1e-4);
+    EXPECT_EQ(to_tank.edge_AT.flow_m3_per_s, 0);
+    EXPECT_EQ(to_tank.pressure_A_Pa, p.supply.tank_pressure_Pa);
+    EXPECT_GT(to_tank.flow_m3_per_s, through_valve.flow_m3_per_s) << "one resistance less in the way";
+  }
+}
+
 TEST(Plant, BothSolenoidsPullAlikeIntoTheirOwnDirection) {
   const PlantParameters p;
   PlantInput to_b, to_a;
