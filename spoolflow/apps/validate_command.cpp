@@ -114,11 +114,10 @@ void add_validate_command(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--reference-lag-ms", arguments->reference_lag_ms,
-                   "lag of the reference meter; without it dead time and lag are found from each recording")
+                   "lag of the reference meter, without dead time; else both are found in each run")
       ->check(CLI::Range(0.0, 10000.0));
   command->add_flag("--apply-reference-lag,!--no-reference-lag", arguments->apply_reference_lag,
-                    "lag the estimate as the meter does before comparing (default); --no-reference-lag compares the "
-                    "answer of the instant with what the meter still shows");
+                    "delay and lag the estimate as the meter does before comparing (default)");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { validate(*arguments); });
 }

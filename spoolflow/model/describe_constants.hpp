@@ -1,5 +1,6 @@
 #pragma once
 /// The sensor's constants that are the same for all valves; see parameter.hpp. Their values stand where they are used.
+#include "spoolflow/model/describe_dither_constants.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
@@ -64,6 +65,7 @@ void describe_coil_constants(Visitor& visitor) {
 }
 
 template <class Visitor>
+// long: a list, one entry a constant
 void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "block_length_s",
                     .unit = "s",
@@ -91,6 +93,16 @@ void describe_position_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "a spool whose newest window travels less than one over this of the others is about to stop"},
       sensor::slowing_travel_ratio);
+  visitor.constant({.name = "longest_tremble_block_s",
+                    .unit = "s",
+                    .meaning = "a block of positions under dither ends after so long at the latest"},
+                   sensor::longest_tremble_block_s);
+  visitor.constant({.name = "shortest_block_s",
+                    .unit = "s",
+                    .meaning = "a block of positions is taken for no shorter: velocities divide by it"},
+                   sensor::shortest_block_s);
+  visitor.constant({.name = "fastest_m_per_s", .unit = "m/s", .meaning = "no spool moves faster"},
+                   sensor::fastest_m_per_s);
   visitor.constant({.name = "velocity_smoothing_s", .unit = "s", .meaning = "smoothing of the velocity"},
                    sensor::velocity_smoothing_s);
   visitor.constant({.name = "slip_speed_m_per_s",
@@ -132,6 +144,7 @@ void describe_position_constants(Visitor& visitor) {
 }
 
 template <class Visitor>
+// long: a list, one entry a constant
 void describe_friction_constants(Visitor& visitor) {
   visitor.constant({.name = "gauge_smoothing_s",
                     .unit = "s",
@@ -148,6 +161,11 @@ void describe_friction_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "a drag of the sensor by so many times what noise may fake is as likely as not noise"},
                    sensor::doubtful_drag_slacks);
+  visitor.constant({.name = "drag_certainty",
+                    .unit = "1",
+                    .meaning = "share of the reach to the other side of the gauge that is out of question where the "
+                               "sensor is surely dragged"},
+                   sensor::drag_certainty);
   visitor.constant(
       {.name = "drag_memory_s",
        .unit = "s",
@@ -268,6 +286,7 @@ void describe_pressure_constants(Visitor& visitor) {
 }
 
 template <class Visitor>
+// long: a list, one entry a constant
 void describe_answer_constants(Visitor& visitor) {
   visitor.constant({.name = "least_band_factor",
                     .unit = "1",
@@ -303,43 +322,6 @@ void describe_answer_constants(Visitor& visitor) {
                    sensor::temperature_smoothing_s);
 }
 
-/// Of dither and of the friction that swings with it.
-template <class Visitor>
-void describe_dither_constants(Visitor& visitor) {
-  visitor.constant(
-      {.name = "least_dither_swing_share",
-       .unit = "1",
-       .meaning = "least swing of the current that is taken for dither, peak to peak over the largest current"},
-      sensor::least_dither_swing_share);
-  visitor.constant({.name = "turning_share",
-                    .unit = "1",
-                    .meaning = "the current has turned where it went back by this share of its last swing"},
-                   sensor::turning_share);
-  visitor.constant({.name = "longest_dither_period_s", .unit = "s", .meaning = "no dither has a longer period"},
-                   sensor::longest_dither_period_s);
-  visitor.constant({.name = "alike_ratio",
-                    .unit = "1",
-                    .meaning = "periods of dither are alike where neither is more than so many times the other"},
-                   sensor::alike_ratio);
-  visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "so many periods alike are dither"},
-                   sensor::periods_of_dither);
-  visitor.constant(
-      {.name = "unlike_weight", .unit = "1", .meaning = "half periods that are not alike count for so many"},
-      sensor::unlike_weight);
-  visitor.constant({.name = "swing_following",
-                    .unit = "1",
-                    .meaning = "share of itself by which half the swing follows that of a period at most"},
-                   sensor::swing_following);
-  visitor.constant({.name = "slip_excess_factor",
-                    .unit = "1",
-                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes"},
-                   sensor::slip_excess_factor);
-  visitor.constant({.name = "swing_deviation_share",
-                    .unit = "1",
-                    .meaning = "half the width that peaks no sample met take in the band, over half the swing"},
-                   sensor::swing_deviation_share);
-}
-
 /// Calls visitor.constant(Constant, value) of each.
 template <class Visitor>
 void describe_constants(Visitor&& visitor) {
@@ -350,6 +332,7 @@ void describe_constants(Visitor&& visitor) {
   describe_pressure_constants(visitor);
   describe_answer_constants(visitor);
   describe_dither_constants(visitor);
+  describe_listening_constants(visitor);
 }
 
 }  // namespace spoolflow::model

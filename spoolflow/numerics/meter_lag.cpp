@@ -8,6 +8,9 @@ namespace {
 
 constexpr double change_s = 0.1;
 constexpr std::size_t least_samples = 1000;
+/// Where more than this share of the reference's changes stays unexplained, a lag would but smooth the flow's own
+/// errors.
+constexpr double most_unexplained_share = 0.25;
 
 /// Mean size of the changes of `reference` that those of the metered flow do not explain.
 class UnexplainedChanges {
@@ -28,6 +31,16 @@ class UnexplainedChanges {
     for (std::size_t k = 0; k < shown_.size(); ++k) {
       const std::size_t b = before_[k];
       const double change = (reference_[k] - shown_[k]) - (reference_[b] - shown_[b]);
+      if (std::isfinite(change)) sum += std::abs(change);
+    }
+    return sum;
+  }
+
+  /// Of a flow that never changes.
+  [[nodiscard]] double of_reference() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < reference_.size(); ++k) {
+      const double change = reference_[k] - reference_[before_[k]];
       if (std::isfinite(change)) sum += std::abs(change);
     }
     return sum;
@@ -71,7 +84,7 @@ MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> 
     factor = 1 + 0.5 * (factor - 1);
     dead_step_s *= 0.5;
   }
-  return best;
+  return least < most_unexplained_share * unexplained.of_reference() ? best : MeterLag{};
 }
 
 }  // namespace spoolflow::numerics

@@ -26,7 +26,7 @@ inline constexpr double periods_of_dither = 3;
 /// ... which may last for as many more without them, each half that is not alike counting for so many.
 inline constexpr double unlike_weight = 1.5;
 
-/// Memory of the current's turning points; {} before the first sample.
+/// Memory of the current's turning points; {} before `begin`.
 template <class T>
 struct DitherState {
   T extreme_A{};  ///< furthest since the last turning point
@@ -35,7 +35,7 @@ struct DitherState {
   T since_s{};    ///< since the last period began
   T period_s{};   ///< length of the last period
   T alike{};      ///< periods that were alike, up to twice `periods_of_dither`
-  T falling{};    ///< 1 where the current falls since the last turning point, else 0
+  T direction{};  ///< of the current since the last turning point: 1 rises, -1 falls
 };
 
 static_assert(std::is_trivially_copyable_v<DitherState<float>>);
@@ -73,25 +73,30 @@ constexpr void turn(DitherState<T>& state, T swing_A, Mask<T> regular, T current
   state.swing_A = swing_A;
   state.turned_A = state.extreme_A;
   state.extreme_A = current_A;
-  state.falling = T(1) - state.falling;
+  state.direction = -state.direction;
 }
 
 }  // namespace detail
+
+/// To be called before the first sample, with its current.
+template <class T>
+constexpr void begin(DitherState<T>& state, T current_A) {
+  state.extreme_A = state.turned_A = current_A;
+  state.direction = T(1);
+}
 
 /// One sample of the coil current.
 template <class T>
 [[gnu::always_inline]] constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
                                                          T time_step_s) {
   state.since_s += time_step_s;
-  const Mask<T> falls = state.falling > T(0.5);
-  const T sign = select(falls, T(-1), T(1));
-  state.extreme_A = select(sign * current_A > sign * state.extreme_A, current_A, state.extreme_A);
+  const T back_A = state.direction * (state.extreme_A - current_A);
+  state.extreme_A = select(back_A < T(0), current_A, state.extreme_A);
   const T least_A = T(least_dither_swing_share) * largest_current_A;
-  const T back_A = sign * (state.extreme_A - current_A);
   const Mask<T> turns = back_A > larger(T(turning_share) * state.swing_A, T(0.5) * least_A);
-  const Mask<T> begins = turns && falls;
+  const Mask<T> begins = turns && state.direction < T(0);
   in_valves(turns, state, [&] {
-    const T swing_A = sign * (state.extreme_A - state.turned_A);
+    const T swing_A = state.direction * (state.extreme_A - state.turned_A);
     const Mask<T> regular = swing_A > least_A && detail::alike(swing_A, state.swing_A, T(0)) &&
                             (!begins || detail::alike(state.since_s, state.period_s, time_step_s));
     detail::turn(state, swing_A, regular, current_A);

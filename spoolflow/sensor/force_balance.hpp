@@ -32,8 +32,8 @@ struct ForceBalance {
 /// One standard deviation of all forces together [N], as the parts tell it.
 template <class T>
 [[gnu::always_inline]] constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
-                                                 const FrictionBounds<T>& bounds) {
-  return sqrt(squared(band.force_residual_N) + squared(actuator.uncertainty_N) +
+                                                 const FrictionBounds<T>& bounds, T inertia_N) {
+  return sqrt(squared(inertia_N) + squared(band.force_residual_N) + squared(actuator.uncertainty_N) +
               squared(band.friction_share * bounds.sliding_N));
 }
 
@@ -107,7 +107,7 @@ template <class T>
   // Paper (1): the mass takes a part of the force; position tells it late, so that it is no surer than its size.
   const T inertia_N = select(travels && !out.dithered, valve.moving_mass_kg * position.acceleration_m_per_s2, T(0));
   out.apparent_friction_N -= inertia_N;
-  out.noise_N = sqrt(squared(force_noise_N(valve.band, out.actuator, out.bounds)) + squared(inertia_N));
+  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, inertia_N);
   return out;
 }
 

@@ -21,6 +21,7 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
       select(is_number(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
   sensor::begin(state.position, position_m);
+  sensor::begin(state.dither, sample.current_A);
   sensor::begin(valve.friction, state.friction, position_m);
   sensor::begin(valve.pressure, state.pressure, valve.edge.highest_pressure_difference_Pa(),
                 valve.friction.operation_ratio, valve.band.unseen_factor);
@@ -102,10 +103,12 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
   believe(valve, state, balance, position, sample.time_step_s);
-  shift_swing(state.swing,
-              balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
+  if (any(balance.dithered))
+    shift_swing(state.swing,
+                balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
   // The coil is slow enough to be followed in those samples that have least else to do.
-  in_valves(!balance.sliding && balance.resting.breakaway_N == T(0), state.actuator,
+  const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
+  in_valves(!balance.sliding && !busy && balance.resting.breakaway_N == T(0), state.actuator,
             [&] { follow_coil(valve.actuator, state.actuator, sample); });
   detail::answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = detail::status(valve, state, sample, position, balance);

@@ -109,6 +109,7 @@ struct PositionState {
   T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
   T velocity_m_per_s{};       ///< smoothed
   T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
+  Mask<T> velocity_due{};     ///< with the next sample, which has less else to do
   Index<T> samples{};
   Index<T> newest{};
   Index<T> blocks{};
@@ -284,6 +285,10 @@ template <class T>
                                                         const Sample<T>& sample, T oil_temperature_K,
                                                         const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
+  in_valves(state.velocity_due, state, [&] {
+    detail::follow_velocity(sensor, state);
+    state.velocity_due = Mask<T>(false);
+  });
   const T position_m =
       detail::without_faults(sensor, state, time_step_s, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
@@ -294,7 +299,7 @@ template <class T>
   in_valves(
       whole && (dither.begins || !trembles), state, [&]() __attribute__((always_inline)) {
         detail::close_block(state);
-        detail::follow_velocity(sensor, state);
+        state.velocity_due = Mask<T>(true);
         detail::tell_motion(sensor, state);
       });
   return {position_m,     state.motion,           state.offset_m != T(0),

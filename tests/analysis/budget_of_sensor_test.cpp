@@ -254,7 +254,7 @@ TEST(BudgetAlongARun, PredictsTheShareInTheBandThatAReferenceShowsWhoseErrorsAre
                                }).shares;
     // 134 references know a share to 4 % at worst (one standard deviation), and so do 60 trials at each of them.
     EXPECT_NEAR(shares.in_band_by_budget, shares.in_band, 0.06) << width;
-    EXPECT_NEAR(shares.in_band_by_trials, shares.in_band, 0.06) << width;
+    EXPECT_NEAR(shares.in_band_by_trials, shares.in_band, 0.07) << width;
     EXPECT_NEAR(shares.in_budget_interval, 0.95, 0.04) << width;
     EXPECT_GT(shares.in_band, share_before + 0.04) << "a wider band holds more";
     share_before = shares.in_band;

@@ -58,6 +58,13 @@ TEST(MeterLag, AMissingSampleShowsWhatWasShownBefore) {
   EXPECT_EQ(flow, std::vector<double>({1, 1, 1, 1}));
 }
 
+TEST(MeterLag, IsNotFoundWhereItWouldButSmoothTheFlowsOwnErrors) {
+  const Course course = numerics::course();
+  std::vector<double> wrong = course.flow;
+  for (std::size_t k = 0; k < wrong.size(); ++k) wrong[k] += (k / 150) % 2 == 0 ? 2.0 : -2.0;
+  EXPECT_EQ(find_meter_lag(course.time_s, wrong, course.flow).lag_s, 0);
+}
+
 TEST(MeterLag, TooFewSamplesTellNone) {
   const std::vector<double> few(10, 1.0);
   EXPECT_EQ(find_meter_lag(few, few, few).lag_s, 0);

@@ -5,8 +5,8 @@
 #include "spoolflow/calibration/fits/flux_evidence.hpp"
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/coil_resistance.hpp"
-#include "spoolflow/sensor/flux_linkage.hpp"
 
 namespace spoolflow::calibration {
 

@@ -1,0 +1,79 @@
+#pragma once
+/// The sensor's constants of dither and of asking for it, each described once; see parameter.hpp.
+#include "spoolflow/model/parameter.hpp"
+#include "spoolflow/sensor/listening.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::model {
+
+/// Of dither and of the friction that swings with it.
+template <class Visitor>
+void describe_dither_constants(Visitor& visitor) {
+  visitor.constant(
+      {.name = "least_dither_swing_share",
+       .unit = "1",
+       .meaning = "least swing of the current that is taken for dither, peak to peak over the largest current"},
+      sensor::least_dither_swing_share);
+  visitor.constant({.name = "turning_share",
+                    .unit = "1",
+                    .meaning = "the current has turned where it went back by this share of its last swing"},
+                   sensor::turning_share);
+  visitor.constant({.name = "longest_dither_period_s", .unit = "s", .meaning = "no dither has a longer period"},
+                   sensor::longest_dither_period_s);
+  visitor.constant({.name = "alike_ratio",
+                    .unit = "1",
+                    .meaning = "periods of dither are alike where neither is more than so many times the other"},
+                   sensor::alike_ratio);
+  visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "so many periods alike are dither"},
+                   sensor::periods_of_dither);
+  visitor.constant(
+      {.name = "unlike_weight", .unit = "1", .meaning = "half periods that are not alike count for so many"},
+      sensor::unlike_weight);
+  visitor.constant({.name = "swing_following",
+                    .unit = "1",
+                    .meaning = "share of itself by which half the swing follows that of a period at most"},
+                   sensor::swing_following);
+  visitor.constant({.name = "slip_excess_factor",
+                    .unit = "1",
+                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes"},
+                   sensor::slip_excess_factor);
+  visitor.constant({.name = "swing_deviation_share",
+                    .unit = "1",
+                    .meaning = "half the width that peaks no sample met take in the band, over half the swing"},
+                   sensor::swing_deviation_share);
+}
+
+/// Of asking for dither.
+template <class Visitor>
+void describe_listening_constants(Visitor& visitor) {
+  visitor.constant(
+      {.name = "amplitude_raise",
+       .unit = "1",
+       .meaning = "by so much the amplitude is raised after a request that did not bring the wanted band, as a ratio"},
+      sensor::amplitude_raise);
+  visitor.constant({.name = "amplitude_lowering",
+                    .unit = "1",
+                    .meaning = "by so much it is lowered after one that did, as a ratio: too little shows soon, too "
+                               "much does not show at all"},
+                   sensor::amplitude_lowering);
+  visitor.constant(
+      {.name = "rest_before_listening_s",
+       .unit = "s",
+       .meaning = "the spool must have rested so long before dither is asked for: shorter rests are part of a motion"},
+      sensor::rest_before_listening_s);
+  visitor.constant(
+      {.name = "longest_tremble_s",
+       .unit = "s",
+       .meaning =
+           "motion that lasts no longer than this is the tremble, or dither freeing the spool: it ends no request"},
+      sensor::longest_tremble_s);
+  visitor.constant({.name = "dither_rise_s",
+                    .unit = "s",
+                    .meaning = "in which dither rises from nothing to its amplitude, and falls to nothing again"},
+                   sensor::dither_rise_s);
+  visitor.constant(
+      {.name = "dither_fall_s", .unit = "s", .meaning = "in which dither falls to nothing after a request"},
+      sensor::dither_fall_s);
+}
+
+}  // namespace spoolflow::model
