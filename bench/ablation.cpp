@@ -1,6 +1,6 @@
 /// What each part of the observer brings: the same runs with one part at a time taken away, and at other sampling
-/// rates. Run: ablation MODEL.json RECORDING…   Prints 95th percentile and largest error [% FS], and the share inside
-/// the band.
+/// rates. Run: ablation MODEL.json RECORDING TRUTH…   Prints 95th percentile and largest error [% FS] against the true
+/// flow, and the share inside the band. TRUTH has time and flow at the same instants.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -45,6 +45,8 @@ std::vector<Variant> variants() {
              valve.actuator.coil.eddy_currents.classical_A_per_V = 0;
              valve.actuator.coil.eddy_currents.excess_A_per_rootV = 0;
            }},
+      {.name = "dither not told", .change = [](Parameters& valve) { valve.largest_current_A = 1e3; }},
+      {.name = "no moving mass", .change = [](Parameters& valve) { valve.moving_mass_kg = 1e-3; }},
       {.name = "no voltage", .voltage = false},
       {.name = "no oil temperature", .temperature = false},
       {.name = "no drift of the position sensor",
@@ -74,15 +76,24 @@ std::vector<double> thinned(const recording::Recording& recording, Channel chann
   return out;
 }
 
-validation::GroupFigures run(const model::Model& model, const recording::Recording& recording, const Variant& variant) {
+/// A recording and the flow itself.
+struct Run {
+  recording::Recording recording;
+  std::vector<double> true_m3_per_s;
+};
+
+validation::GroupFigures run(const model::Model& model, const Run& judged, const Variant& variant) {
+  const recording::Recording& recording = judged.recording;
   Parameters valve = model.observer->parameters;
   variant.change(valve);
   const auto column = [&](Channel channel, bool used = true) { return thinned(recording, channel, variant, used); };
   const std::vector<double> time_s = column(Channel::time), current_A = column(Channel::current),
                             voltage_V = column(Channel::voltage, variant.voltage),
                             position_m = column(Channel::position),
-                            temperature_K = column(Channel::oil_temperature, variant.temperature),
-                            reference = column(Channel::flow_reference);
+                            temperature_K = column(Channel::oil_temperature, variant.temperature);
+  std::vector<double> reference;
+  for (std::size_t k = 0; k < judged.true_m3_per_s.size(); k += variant.every)
+    reference.push_back(judged.true_m3_per_s[k]);
   validation::ComparedSamples compared(model.valve.rated_flow_m3_per_s);
   estimation::RunningSensor sensor(&valve, model.valve.rated_flow_m3_per_s);
   estimation::run(sensor, estimation::Columns{time_s, current_A, voltage_V, position_m, temperature_K},
@@ -97,8 +108,8 @@ validation::GroupFigures run(const model::Model& model, const recording::Recordi
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: ablation MODEL.json RECORDING…\n");
+  if (argc < 4 || argc % 2 != 0) {
+    fmt::print(stderr, "usage: ablation MODEL.json RECORDING TRUTH…\n");
     return 2;
   }
   const model::Model model = model::read_model(argv[1]);
@@ -106,19 +117,21 @@ int main(int argc, char** argv) try {
     fmt::print(stderr, "{}: the model is not calibrated for the observer\n", argv[1]);
     return 2;
   }
-  std::vector<recording::Recording> recordings;
+  std::vector<Run> runs;
   fmt::print("{:<46}", "p95 / max [% FS], inside the band [%]");
-  for (int k = 2; k < argc; ++k) {
+  for (int k = 2; k < argc; k += 2) {
     recording::ReadOptions options = validation::sensor_channels(model, {});
-    options.required.push_back(Channel::flow_reference);
-    recordings.push_back(recording::read_recording(argv[k], options));
+    recording::ReadOptions of_truth;
+    of_truth.required = {Channel::time, Channel::flow};
+    const recording::Recording truth = recording::read_recording(argv[k + 1], of_truth);
+    runs.push_back({recording::read_recording(argv[k], options), truth.column(Channel::flow)});
     fmt::print("{:>22}", std::filesystem::path(argv[k]).stem().string());
   }
   fmt::print("\n");
   for (const Variant& variant : variants()) {
     fmt::print("{:<46}", variant.name);
-    for (const recording::Recording& recording : recordings) {
-      const validation::GroupFigures figures = run(model, recording, variant);
+    for (const Run& judged : runs) {
+      const validation::GroupFigures figures = run(model, judged, variant);
       const double percent = 100 / model.valve.rated_flow_m3_per_s;
       fmt::print("{:>10.2f} /{:5.1f} {:5.1f}", figures.error.p95 * percent, figures.error.largest * percent,
                  100 * figures.band_coverage);

@@ -16,13 +16,15 @@ void describe_dither_constants(Visitor& visitor) {
       sensor::least_dither_swing_share);
   visitor.constant({.name = "turning_share",
                     .unit = "1",
-                    .meaning = "the current has turned where it went back by this share of its last swing"},
+                    .meaning = "the current has turned where it went back by this share of its last swing",
+                    .evidence = "orifice_duty_dither: p95 0.95, 0.94, 0.94 % FS, band 97.8, 97.6, 97.2 %"},
                    sensor::turning_share);
   visitor.constant({.name = "longest_dither_period_s", .unit = "s", .meaning = "no dither has a longer period"},
                    sensor::longest_dither_period_s);
   visitor.constant({.name = "alike_ratio",
                     .unit = "1",
-                    .meaning = "periods of dither are alike where neither is more than so many times the other"},
+                    .meaning = "periods of dither are alike where neither is more than so many times the other",
+                    .evidence = "ramp_60bar_dither: p95 8.93, 0.37, 0.37 % FS, band 59.1, 98.7, 98.7 %"},
                    sensor::alike_ratio);
   visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "so many periods alike are dither"},
                    sensor::periods_of_dither);
@@ -31,15 +33,18 @@ void describe_dither_constants(Visitor& visitor) {
       sensor::unlike_weight);
   visitor.constant({.name = "swing_following",
                     .unit = "1",
-                    .meaning = "share of itself by which half the swing follows that of a period at most"},
+                    .meaning = "share of itself by which half the swing follows that of a period at most",
+                    .evidence = "orifice_duty_dither: p95 0.97, 0.94, 0.94 % FS, band 96.3, 97.6, 97.8 %"},
                    sensor::swing_following);
   visitor.constant({.name = "slip_excess_factor",
                     .unit = "1",
-                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes"},
+                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes",
+                    .evidence = "orifice_duty_dither: p95 1.13, 0.94, 0.91 % FS, band 92.3, 97.6, 99.0 %"},
                    sensor::slip_excess_factor);
   visitor.constant({.name = "swing_deviation_share",
                     .unit = "1",
-                    .meaning = "half the width that peaks no sample met take in the band, over half the swing"},
+                    .meaning = "half the width that peaks no sample met take in the band, over half the swing",
+                    .evidence = "orifice_duty_dither: p95 0.94, 0.94, 0.94 % FS, band 97.0, 97.6, 98.6 %"},
                    sensor::swing_deviation_share);
 }
 

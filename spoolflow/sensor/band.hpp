@@ -6,17 +6,17 @@
 namespace spoolflow::sensor {
 
 /// Half the width that the flow's own residual takes in the band, over its standard deviation.
-inline constexpr double flow_residual_factor = 1.2;
+inline constexpr double flow_residual_factor = 1.5;
 
 /// Half the width that the swing of friction under dither takes, as a share of half of it: peaks that no sample met.
-inline constexpr double swing_deviation_share = 0.03;
+inline constexpr double swing_deviation_share = 0.02;
 /// Drag of spool and armature in motion, which no bench shows [N s/m].
 inline constexpr double unmodelled_drag_N_s_per_m = 15;
 /// While the spool slips the pressure difference may move with it: the band is so many times wider.
 inline constexpr double slip_widening = 2;
 /// A supply that moved while the spool rested, told by friction at its bound, may go on unseen: it is taken to have
 /// gone on by as much as it was seen to move, but by no more than this share of what friction's other bound leaves.
-inline constexpr double unseen_room_share = 0.3;
+inline constexpr double unseen_room_share = 0.4;
 
 /// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a
 /// supply that leaps, narrower where every sample confirms the one before. The root of the normalised innovation's
