@@ -114,7 +114,7 @@ void add_validate_command(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--reference-lag-ms", arguments->reference_lag_ms,
-                   "lag of the reference meter, without dead time; else both are found in each run")
+                   "lag of the reference meter; else lag and dead time are found in each run")
       ->check(CLI::Range(0.0, 10000.0));
   command->add_flag("--apply-reference-lag,!--no-reference-lag", arguments->apply_reference_lag,
                     "delay and lag the estimate as the meter does before comparing (default)");

@@ -57,7 +57,9 @@ class LaggedAnswer {
 template <class Each>
 void replay(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs, Each&& each) {
   using recording::Channel;
-  for (const auto& [recording, meter] : runs) {
+  for (const OperatingRun& run : runs) {
+    const recording::Recording* recording = run.recording;
+    const numerics::MeterLag meter = run.meter;
     const auto reference_m3_per_s = (*recording)[Channel::flow_reference];
     const estimation::Columns all{.time_s = (*recording)[Channel::time],
                                   .current_A = (*recording)[Channel::current],
