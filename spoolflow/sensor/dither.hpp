@@ -142,6 +142,7 @@ template <class T>
   const Mask<T> anew = !dither.present;
   if (!any(dither.present)) {
     state.periods = state.half_swing_N = T(0);
+    state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = apparent_N;
     return {apparent_N, T(0), !dither.present};
   }
   const Mask<T> turns = dither.begins && !anew;

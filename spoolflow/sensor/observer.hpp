@@ -103,9 +103,10 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
   believe(valve, state, balance, position, sample.time_step_s);
-  if (any(balance.dithered))
+  in_valves(balance.dithered, state.swing, [&] {
     shift_swing(state.swing,
                 balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
+  });
   // The coil is slow enough to be followed in those samples that have least else to do.
   const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
   in_valves(!balance.sliding && !busy && balance.resting.breakaway_N == T(0), state.actuator,

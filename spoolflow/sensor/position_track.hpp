@@ -285,7 +285,8 @@ template <class T>
                                                         const Sample<T>& sample, T oil_temperature_K,
                                                         const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
-  in_valves(state.velocity_due, state, [&] {
+  const Mask<T> due = state.velocity_due;
+  in_valves(due, state, [&] {
     detail::follow_velocity(sensor, state);
     state.velocity_due = Mask<T>(false);
   });
