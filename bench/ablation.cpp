@@ -68,11 +68,10 @@ std::vector<Variant> variants() {
   };
 }
 
-/// Every so many samples of a channel; none of one that is not used.
-std::vector<double> thinned(const recording::Recording& recording, Channel channel, const Variant& variant, bool used) {
+/// Every so many samples of a column; none of one that is not used.
+std::vector<double> thinned(const std::vector<double>& column, const Variant& variant, bool used = true) {
   std::vector<double> out;
-  for (std::size_t k = 0; used && k < recording.column(channel).size(); k += variant.every)
-    out.push_back(recording.column(channel)[k]);
+  for (std::size_t k = 0; used && k < column.size(); k += variant.every) out.push_back(column[k]);
   return out;
 }
 
@@ -86,14 +85,14 @@ validation::GroupFigures run(const model::Model& model, const Run& judged, const
   const recording::Recording& recording = judged.recording;
   Parameters valve = model.observer->parameters;
   variant.change(valve);
-  const auto column = [&](Channel channel, bool used = true) { return thinned(recording, channel, variant, used); };
+  const auto column = [&](Channel channel, bool used = true) {
+    return thinned(recording.column(channel), variant, used);
+  };
   const std::vector<double> time_s = column(Channel::time), current_A = column(Channel::current),
                             voltage_V = column(Channel::voltage, variant.voltage),
                             position_m = column(Channel::position),
                             temperature_K = column(Channel::oil_temperature, variant.temperature);
-  std::vector<double> reference;
-  for (std::size_t k = 0; k < judged.true_m3_per_s.size(); k += variant.every)
-    reference.push_back(judged.true_m3_per_s[k]);
+  const std::vector<double> reference = thinned(judged.true_m3_per_s, variant);
   validation::ComparedSamples compared(model.valve.rated_flow_m3_per_s);
   estimation::RunningSensor sensor(&valve, model.valve.rated_flow_m3_per_s);
   estimation::run(sensor, estimation::Columns{time_s, current_A, voltage_V, position_m, temperature_K},

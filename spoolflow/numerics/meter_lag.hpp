@@ -12,6 +12,11 @@ struct MeterLag {
   double lag_s = 0;
 };
 
+/// How much of a change that holds for a step a first-order lag, > 0, shows at the step's end.
+inline double lag_share(double step_s, double lag_s) {
+  return -std::expm1(-step_s / lag_s);
+}
+
 /// What such a meter shows of `values`, in place: exactly, for values that hold between samples. Before the dead time
 /// is over it shows the first value; a NaN is no value, and the meter shows what it showed before.
 template <class Number>
@@ -25,7 +30,7 @@ void apply_lag(std::span<const double> time_s, std::span<Number> values, const M
   }
   if (!(meter.lag_s > 0)) return;
   for (std::size_t k = 1; k < values.size(); ++k) {
-    const double share = -std::expm1(-(time_s[k] - time_s[k - 1]) / meter.lag_s);
+    const double share = lag_share(time_s[k] - time_s[k - 1], meter.lag_s);
     const double change = values[k] - values[k - 1];
     values[k] = static_cast<Number>(std::isnan(change) ? values[k - 1] : values[k - 1] + share * change);
   }

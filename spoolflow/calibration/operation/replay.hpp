@@ -38,7 +38,7 @@ class LaggedAnswer {
   explicit LaggedAnswer(double lag_s) : lag_s_(lag_s) {}
   const Shown& show(const sensor::Estimate<double>& answer, double time_s) {
     const bool first = std::isnan(shown_.flow);
-    const double share = first || !(lag_s_ > 0) ? 1 : -std::expm1(-(time_s - last_s_) / lag_s_);
+    const double share = first || !(lag_s_ > 0) ? 1 : numerics::lag_share(time_s - last_s_, lag_s_);
     if (first) shown_ = {0, 0, 0};
     last_s_ = time_s;
     shown_.flow += share * (answer.flow_m3_per_s - shown_.flow);
