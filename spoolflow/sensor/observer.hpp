@@ -36,6 +36,13 @@ constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& samp
                                     T(0));
 }
 
+/// What a coil shows whose armature does not move.
+template <class T>
+constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
+  return {T(quiet_current_share) * valve.largest_current_A,
+          T(quiet_voltage_share) * valve.largest_current_A * valve.actuator.coil_resistance.resistance_Ohm};
+}
+
 /// What the sample and its answer must be taken with.
 template <class T>
 [[gnu::always_inline]] constexpr auto status(const ObserverParameters<T>& valve, const ObserverState<T>& state,
@@ -97,8 +104,8 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   detail::follow_temperature(state, sample);
 
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position =
-      track(valve.position_sensor, state.position, sample, state.oil_temperature_K, dither, state.swing.frees);
+  const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
+                                          state.oil_temperature_K, dither, state.swing.frees);
   const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, begins);
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
