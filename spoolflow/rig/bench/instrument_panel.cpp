@@ -68,6 +68,15 @@ double InstrumentPanel::reading(Channel channel, const SetValues& set, double no
       return flow_meter_.reading_m3_per_s();
     case Channel::test:
       return set.test;
+    case Channel::current_a:
+    case Channel::current_b:
+    case Channel::voltage_a:
+    case Channel::voltage_b:
+    case Channel::pressure_p:
+    case Channel::pressure_a:
+    case Channel::pressure_b:
+    case Channel::pressure_t:
+      break;
   }
   return std::nan("");
 }

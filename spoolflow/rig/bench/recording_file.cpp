@@ -55,6 +55,22 @@ Column column(Channel channel, bool several_rates) {
       return {"flow_reference_L_min", 3, per_m3_per_s, 0};
     case Channel::test:
       return {"test", 0, 1, 0};
+    case Channel::current_a:
+      return {"current_a_A", 5, 1, 0};
+    case Channel::current_b:
+      return {"current_b_A", 5, 1, 0};
+    case Channel::voltage_a:
+      return {"voltage_a_V", 3, 1, 0};
+    case Channel::voltage_b:
+      return {"voltage_b_V", 3, 1, 0};
+    case Channel::pressure_p:
+      return {"pressure_p_bar", 3, per_Pa, 0};
+    case Channel::pressure_a:
+      return {"pressure_a_bar", 3, per_Pa, 0};
+    case Channel::pressure_b:
+      return {"pressure_b_bar", 3, per_Pa, 0};
+    case Channel::pressure_t:
+      return {"pressure_t_bar", 3, per_Pa, 0};
   }
   return {"", 0, 1, 0};
 }
