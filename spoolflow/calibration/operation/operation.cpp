@@ -7,6 +7,7 @@
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
+#include "spoolflow/calibration/operation/told_dials.hpp"
 
 namespace spoolflow::calibration {
 OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
@@ -15,12 +16,18 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   OperationFit out{};
   const std::vector<OperatingRun> runs = with_meters(parameters, recordings);
   for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
-  const std::vector<Dial> all = operation_dials(parameters);
+  const bool rests = undithered_rest_s(parameters, runs) >= least_rest_s;
+  if (!rests) assume_rest(parameters);
   scale_band(parameters, 0.7);  // as wide as most valves need, for the search
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
   const sensor::PressureParameters<double> given_supply = parameters.pressure;
   constexpr double restless = 0.3;
   parameters.pressure.least_process_noise = parameters.pressure.first_process_noise = restless;
+  const std::vector<Dial> all = told_dials(parameters, runs, full_scale_m3_per_s);
+  for (const Dial& dial : operation_dials(parameters)) {
+    if (std::ranges::none_of(all, [&](const Dial& told) { return told.value == dial.value; }))
+      out.not_told.emplace_back(dial.name);
+  }
   std::vector<double> prior;
   for (const Dial& dial : all) prior.push_back(*dial.value);
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
@@ -56,9 +63,10 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   }
 
   out.score = operation_score(parameters, runs, full_scale_m3_per_s);
-  out.known = known_of_operation(parameters, runs, full_scale_m3_per_s, pull * out.score);
+  out.known = known_of_operation(all, parameters, runs, full_scale_m3_per_s, pull * out.score);
   parameters.pressure = given_supply;
   out.force_error_ratio = force_error_ratio(parameters, runs);
+  if (!rests) out.force_error_ratio = std::max(out.force_error_ratio, least_dithered_force_error_ratio);
   scale_band(parameters, out.force_error_ratio);
   const OperationOutcome outcome =
       together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
