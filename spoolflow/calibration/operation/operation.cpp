@@ -57,7 +57,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   OperationFit out{};
   const std::vector<OperatingRun> runs = with_meters(parameters, recordings);
   for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
-  const bool rests = undithered_rest_s(parameters, runs) >= least_rest_s;
+  const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
   if (!rests) assume_rest(parameters);
   scale_band(parameters, 0.7);  // as wide as most valves need, for the search
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.

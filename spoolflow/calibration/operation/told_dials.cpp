@@ -44,7 +44,7 @@ void assume_rest(sensor::ObserverParameters<double>& parameters) {
 
 std::vector<Dial> told_dials(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs,
                              double full_scale_m3_per_s) {
-  const bool rests = undithered_rest_s(parameters, runs) >= least_rest_s;
+  const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
   std::vector<Dial> out;
   for (const Dial& dial : operation_dials(parameters)) {
     const bool told = dial.shown_by == ShownBy::any_run || (dial.shown_by == ShownBy::undithered_rest && rests) ||

@@ -8,7 +8,7 @@
 namespace spoolflow::calibration {
 
 /// Rest without dither, the valve open, that tells of friction at rest [s], all recordings together.
-inline constexpr double least_rest_s = 2;
+inline constexpr double least_undithered_rest_s = 2;
 /// A parameter is told where half or twice its value makes the score worse or better by this share of it.
 inline constexpr double telling_score_share = 0.01;
 
