@@ -13,10 +13,13 @@ namespace spoolflow::calibration {
 /// Samples of all operating recordings together that are used, from the beginning of each.
 inline constexpr std::size_t operation_samples = 120'000;
 
-/// An operating recording and the meter beside it.
+/// An operating recording and the meter beside it. A run of a whole valve goes through the centre: its samples are
+/// those on the side whose parameters are asked, in that direction's signs.
 struct OperatingRun {
   const recording::Recording* recording;
-  numerics::MeterLag meter;
+  numerics::MeterLag meter{};
+  const sensor::ObserverParameters<double>* other = nullptr;  ///< of the other direction of a whole valve, or none
+  bool asks_a = false;                                        ///< whether the asked direction is P to A
 };
 
 /// A flow and its band [m3/s].
@@ -53,7 +56,17 @@ class LaggedAnswer {
   Shown shown_{std::nan(""), 0, 0};
 };
 
-/// Calls `each(ReplayedSample)` after every sample that has a reference.
+/// What the sensor reads of an operating recording.
+[[nodiscard]] estimation::Columns operating_columns(const recording::Recording& recording);
+/// The sensor for it, of the direction that is asked or of the whole valve.
+[[nodiscard]] estimation::RunningSensor operating_sensor(const sensor::ObserverParameters<double>& parameters,
+                                                         const OperatingRun& run);
+/// The same flow in the signs of the asked direction.
+[[nodiscard]] inline Shown of_asked(const Shown& shown, const OperatingRun& run) {
+  return run.asks_a ? Shown{-shown.flow, -shown.upper, -shown.lower} : shown;
+}
+
+/// Calls `each(ReplayedSample)` after every sample that has a reference, and of a whole valve stands on the side asked.
 template <class Each>
 void replay(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs, Each&& each) {
   using recording::Channel;
@@ -61,14 +74,9 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
     const recording::Recording* recording = run.recording;
     const numerics::MeterLag meter = run.meter;
     const auto reference_m3_per_s = (*recording)[Channel::flow_reference];
-    const estimation::Columns all{.time_s = (*recording)[Channel::time],
-                                  .current_A = (*recording)[Channel::current],
-                                  .voltage_V = recording->column(Channel::voltage),
-                                  .position_m = (*recording)[Channel::position],
-                                  .oil_temperature_K = recording->column(Channel::oil_temperature)};
+    const estimation::Columns all = operating_columns(*recording);
     const estimation::Columns used = all.first(std::min(all.size(), operation_samples / runs.size()));
-    constexpr double rated_flow_m3_per_s = 0;  // told before the first complete sample only, which nobody looks at
-    estimation::RunningSensor sensor(&parameters, rated_flow_m3_per_s);
+    estimation::RunningSensor sensor = operating_sensor(parameters, run);
     LaggedAnswer lagged(meter.lag_s);
     std::size_t late = 0;
     estimation::run(sensor, used, [&](std::size_t k, const sensor::Estimate<double>& told) {
@@ -76,14 +84,17 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
       late = std::max(late, k);
       while (late + 1 < used.size() && used.time_s[late] < used.time_s[k] + meter.dead_time_s) ++late;
       if (!std::isfinite(reference_m3_per_s[late])) return;
-      each(
-          ReplayedSample{sensor.state().observer, used.time_s[k], used.position_m[k], reference_m3_per_s[late], shown});
+      const estimation::RunningState& state = sensor.state();
+      if (run.other != nullptr && state.whole_valve.opens_a != run.asks_a) return;
+      const double sign = run.asks_a ? -1 : 1;
+      each(ReplayedSample{run.other != nullptr ? state.whole_valve.open : state.observer, used.time_s[k],
+                          sign * used.position_m[k], sign * reference_m3_per_s[late], of_asked(shown, run)});
     });
   }
 }
 
-/// The recordings with the meters that they show beside the observer with these parameters.
+/// The runs with the meters that they show beside the observer with these parameters.
 [[nodiscard]] std::vector<OperatingRun> with_meters(const sensor::ObserverParameters<double>& parameters,
-                                                    const std::vector<const recording::Recording*>& recordings);
+                                                    std::vector<OperatingRun> runs);
 
 }  // namespace spoolflow::calibration
