@@ -9,13 +9,10 @@
 namespace spoolflow::calibration {
 namespace {
 
-std::vector<OperatingRun> runs_of(const Recordings& one_direction, const Recordings& through_centre,
-                                  const sensor::ObserverParameters<double>* other, bool asks_a) {
-  std::vector<OperatingRun> out;
-  for (const recording::Recording* recording : one_direction) out.push_back({.recording = recording});
-  for (const recording::Recording* recording : through_centre)
-    out.push_back({.recording = recording, .other = other, .asks_a = asks_a});
-  return out;
+void add_runs(std::vector<OperatingRun>& to, const Recordings& recordings, RunOf of,
+              sensor::ObserverParameters<double>* other) {
+  for (const recording::Recording* recording : recordings)
+    to.push_back({.recording = recording, .of = of, .other = other});
 }
 
 /// Condensed sensor and what the benches tell of the observer.
@@ -40,9 +37,11 @@ model::Model calibrate_valve(const CampaignRecordings& recordings, const model::
   progress("condensed model and benches", 0);
   model::Direction fitted = calibrate_benches(recordings, valve);
   constexpr double bench_share = 0.3;
-  calibrate_in_operation(
-      *fitted.observer, runs_of(recordings.operation, {}, nullptr, false), valve.rated_flow_m3_per_s,
-      [&](double share) { progress("full sensor in operation", bench_share + (1 - bench_share) * share); });
+  std::vector<OperatingRun> runs;
+  add_runs(runs, recordings.operation, RunOf::one, nullptr);
+  calibrate_in_operation(*fitted.observer, runs, valve.rated_flow_m3_per_s, [&](double share) {
+    progress("full sensor in operation", bench_share + (1 - bench_share) * share);
+  });
   model::Model out;
   out.valve = valve;
   out.condensed = std::move(fitted.condensed);
@@ -59,13 +58,15 @@ model::Model calibrate_whole_valve(const CampaignRecordings& p_to_b, const Campa
   constexpr double bench_share = 0.15;
   progress("benches of flow P to A", bench_share);
   model::Direction a = calibrate_benches(p_to_a, valve);
-  constexpr double direction_share = (1 - 2 * bench_share) / 2;
-  calibrate_in_operation(
-      *b.observer, runs_of(p_to_b.operation, through_centre, &a.observer->parameters, false), valve.rated_flow_m3_per_s,
-      [&](double share) { progress("flow P to B in operation", 2 * bench_share + direction_share * share); });
-  calibrate_in_operation(
-      *a.observer, runs_of(p_to_a.operation, through_centre, &b.observer->parameters, true), valve.rated_flow_m3_per_s,
-      [&](double share) { progress("flow P to A in operation", 1 - direction_share + direction_share * share); });
+  std::vector<OperatingRun> runs;
+  sensor::ObserverParameters<double>* other = &a.observer->parameters;
+  add_runs(runs, p_to_b.operation, RunOf::one, other);
+  add_runs(runs, p_to_a.operation, RunOf::other, other);
+  add_runs(runs, through_centre, RunOf::both, other);
+  calibrate_in_operation(*b.observer, runs, valve.rated_flow_m3_per_s, [&](double share) {
+    progress("full sensor in operation", 2 * bench_share + (1 - 2 * bench_share) * share);
+  });
+  take_over_operation(*b.observer, *a.observer);
   model::Model out;
   out.valve = valve;
   out.valve.direction = "both";

@@ -14,6 +14,7 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
+#include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 #include "spoolflow/calibration/operation/told_dials.hpp"
 #include "spoolflow/model/residual_of.hpp"
 
@@ -41,6 +42,8 @@ constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s
                                                     .ratio_deviation = 0.03,
                                                     .ratio_memory_s = 10};
 constexpr double coverage_factor = 2;
+
+constexpr const char* of_operation = "flow rate in operation";
 
 FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
   FitResidual out;
@@ -193,12 +196,22 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
     const OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
     observer.fits.push_back(fit.known);
     observer.defaults = fit.not_told;
-    observer.residuals.push_back(
-        {"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
+    observer.residuals.push_back({of_operation, "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
   } else {
     assume_operation(observer);
   }
   observer.defaults.insert(observer.defaults.end(), of_bench.begin(), of_bench.end());
+}
+
+void take_over_operation(const model::Observer& one, model::Observer& other) {
+  share_operation(one.parameters, other.parameters);
+  other.defaults = one.defaults;
+  for (const model::Residual& residual : one.residuals) {
+    if (residual.of == of_operation) other.residuals.push_back(residual);
+  }
+  for (const model::Fit& fit : one.fits) {
+    if (fit.of == fit_of_operation) other.fits.push_back(fit);
+  }
 }
 
 }  // namespace spoolflow::calibration

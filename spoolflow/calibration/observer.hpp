@@ -31,4 +31,7 @@ struct ObserverCalibration {
 void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
                             double rated_flow_m3_per_s, const std::function<void(double)>& progress);
 
+/// The other direction of a whole valve takes over what operation showed of the one.
+void take_over_operation(const model::Observer& one, model::Observer& other);
+
 }  // namespace spoolflow::calibration

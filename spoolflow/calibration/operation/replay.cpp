@@ -19,10 +19,28 @@ estimation::Columns operating_columns(const recording::Recording& recording) {
 estimation::RunningSensor operating_sensor(const sensor::ObserverParameters<double>& parameters,
                                            const OperatingRun& run) {
   constexpr double rated_flow_m3_per_s = 0;  // told before the first complete sample only, which nobody looks at
-  if (run.other == nullptr) return {&parameters, rated_flow_m3_per_s};
-  sensor::WholeValveParameters<double> whole{&parameters, run.other};
-  if (run.asks_a) std::swap(whole.b, whole.a);
-  return {whole, rated_flow_m3_per_s};
+  switch (run.of) {
+    case RunOf::one:
+      break;
+    case RunOf::other:
+      return {run.other, rated_flow_m3_per_s};
+    case RunOf::both:
+      return {sensor::WholeValveParameters<double>{&parameters, run.other}, rated_flow_m3_per_s};
+  }
+  return {&parameters, rated_flow_m3_per_s};
+}
+
+void share_operation(const sensor::ObserverParameters<double>& from, sensor::ObserverParameters<double>& to) {
+  const double operation_ratio = to.friction.operation_ratio;
+  to.friction = from.friction;
+  to.friction.operation_ratio = operation_ratio;
+  to.pressure = from.pressure;
+  to.position_sensor.backlash_m = from.position_sensor.backlash_m;
+  to.moving_mass_kg = from.moving_mass_kg;
+  const sensor::BandParameters<double> maps = to.band;
+  to.band = from.band;
+  to.band.force_residual_N = maps.force_residual_N;
+  to.band.flow_residual_m3_per_s = maps.flow_residual_m3_per_s;
 }
 
 std::vector<OperatingRun> with_meters(const sensor::ObserverParameters<double>& parameters,

@@ -13,22 +13,31 @@ namespace spoolflow::calibration {
 /// Samples of all operating recordings together that are used, from the beginning of each.
 inline constexpr std::size_t operation_samples = 120'000;
 
-/// An operating recording and the meter beside it. A run of a whole valve goes through the centre: its samples are
-/// those on the side whose parameters are asked, in that direction's signs.
+/// Of a whole valve, which direction of flow an operating recording shows. `one` is that whose parameters are searched;
+/// for both it is P to B.
+enum class RunOf { one, other, both };
+
+/// An operating recording and the meter beside it.
 struct OperatingRun {
   const recording::Recording* recording;
   numerics::MeterLag meter{};
-  const sensor::ObserverParameters<double>* other = nullptr;  ///< of the other direction of a whole valve, or none
-  bool asks_a = false;                                        ///< whether the asked direction is P to A
+  RunOf of = RunOf::one;
+  sensor::ObserverParameters<double>* other = nullptr;  ///< of a whole valve's other direction; see share_operation
 };
+
+/// What operation shows is of one spool, its friction and its position sensor: both directions of a whole valve have it
+/// alike, but for friction over that on their benches.
+void share_operation(const sensor::ObserverParameters<double>& from, sensor::ObserverParameters<double>& to);
 
 /// A flow and its band [m3/s].
 struct Shown {
   double flow, lower, upper;
 };
 
+/// In the signs of the direction on whose side the spool stands.
 struct ReplayedSample {
-  const sensor::ObserverState<double>& state;  ///< after the sample
+  const sensor::ObserverParameters<double>& valve;  ///< of that direction
+  const sensor::ObserverState<double>& state;       ///< after the sample
   double time_s;
   double position_m;
   double reference_m3_per_s;  ///< what the meter shows of this sample, its dead time taken out
@@ -58,19 +67,16 @@ class LaggedAnswer {
 
 /// What the sensor reads of an operating recording.
 [[nodiscard]] estimation::Columns operating_columns(const recording::Recording& recording);
-/// The sensor for it, of the direction that is asked or of the whole valve.
+/// The sensor for it.
 [[nodiscard]] estimation::RunningSensor operating_sensor(const sensor::ObserverParameters<double>& parameters,
                                                          const OperatingRun& run);
-/// The same flow in the signs of the asked direction.
-[[nodiscard]] inline Shown of_asked(const Shown& shown, const OperatingRun& run) {
-  return run.asks_a ? Shown{-shown.flow, -shown.upper, -shown.lower} : shown;
-}
-
-/// Calls `each(ReplayedSample)` after every sample that has a reference, and of a whole valve stands on the side asked.
+/// Calls `each(ReplayedSample)` after every sample that has a reference. What the search turned in `parameters` is
+/// taken over by the other direction of a whole valve first.
 template <class Each>
 void replay(const sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs, Each&& each) {
   using recording::Channel;
   for (const OperatingRun& run : runs) {
+    if (run.other != nullptr) share_operation(parameters, *run.other);
     const recording::Recording* recording = run.recording;
     const numerics::MeterLag meter = run.meter;
     const auto reference_m3_per_s = (*recording)[Channel::flow_reference];
@@ -85,10 +91,12 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
       while (late + 1 < used.size() && used.time_s[late] < used.time_s[k] + meter.dead_time_s) ++late;
       if (!std::isfinite(reference_m3_per_s[late])) return;
       const estimation::RunningState& state = sensor.state();
-      if (run.other != nullptr && state.whole_valve.opens_a != run.asks_a) return;
-      const double sign = run.asks_a ? -1 : 1;
-      each(ReplayedSample{run.other != nullptr ? state.whole_valve.open : state.observer, used.time_s[k],
-                          sign * used.position_m[k], sign * reference_m3_per_s[late], of_asked(shown, run)});
+      const bool both = run.of == RunOf::both;
+      const bool is_other = run.of == RunOf::other || (both && state.whole_valve.opens_a);
+      const double sign = both && is_other ? -1 : 1;
+      each(ReplayedSample{is_other ? *run.other : parameters, both ? state.whole_valve.open : state.observer,
+                          used.time_s[k], sign * used.position_m[k], sign * reference_m3_per_s[late],
+                          sign > 0 ? shown : Shown{-shown.flow, -shown.upper, -shown.lower}});
     });
   }
 }
