@@ -12,8 +12,8 @@ namespace spoolflow::recording {
 
 /// A measured or commanded quantity. Values are kept in SI: s, A, V, m, N, Pa, K, m3/s.
 /// `position_set` is the share of the stroke, 0 (closed) to 1 (fully open); below 0 a whole valve opens P to A. `test`
-/// numbers the parts of a protocol. `current` and `voltage` are of the only or the active coil, `current_a` and so on of
-/// the coils that open P to A and P to B; `pressure_p` to `pressure_t` are those at the valve's ports.
+/// numbers the parts of a protocol. `current` and `voltage` are of the only or the active coil, `current_a` and so on
+/// of the coils that open P to A and P to B; `pressure_p` to `pressure_t` are those at the valve's ports.
 enum class Channel : std::uint8_t {
   time,
   current,
