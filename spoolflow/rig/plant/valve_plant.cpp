@@ -83,6 +83,23 @@ PathOutput open_path(const PlantParameters& p, const PlantOutput& out) {
           .upstream_pressure_Pa = return_alone ? out.pressure_A_Pa : out.pressure_P_Pa};
 }
 
+/// Every edge, the one that the spool opens, and the path; `out` has position and pressures.
+void observe_edges(const PlantParameters& p, const PlantRates& r, PlantOutput& out) {
+  out.edge_PA = edge_output(r, edge_PA);
+  out.edge_PB = edge_output(r, edge_PB);
+  out.edge_AT = edge_output(r, edge_AT);
+  out.edge_BT = edge_output(r, edge_BT);
+  const EdgeOutput& opened = out.position_m >= 0.0 ? out.edge_PB : out.edge_PA;
+  out.pressure_difference_Pa = opened.pressure_difference_Pa;
+  out.flow_m3_per_s = opened.flow_m3_per_s;
+  out.path = open_path(p, out);
+  if (p.load.kind == LoadKind::held_path || p.load.kind == LoadKind::held_return) {
+    out.pressure_difference_Pa = out.path.pressure_difference_Pa;
+    const bool opens_to_A = p.load.kind == LoadKind::held_path && out.position_m < 0.0;
+    out.flow_m3_per_s = opens_to_A ? -out.path.flow_m3_per_s : out.path.flow_m3_per_s;
+  }
+}
+
 }  // namespace
 
 PlantConstants plant_constants(const PlantParameters& p, const PlantState& state, const PlantInput& input) {
@@ -237,20 +254,7 @@ PlantOutput observe(const PlantParameters& p, const PlantState& state_now, const
   out.pressure_A_Pa = state.pressure_A_Pa;
   out.pressure_B_Pa = state.pressure_B_Pa;
   out.pressure_T_Pa = held ? p.supply.back_pressure_Pa : p.supply.tank_pressure_Pa;
-  if (c.hydraulics) {
-    out.edge_PA = edge_output(r, edge_PA);
-    out.edge_PB = edge_output(r, edge_PB);
-    out.edge_AT = edge_output(r, edge_AT);
-    out.edge_BT = edge_output(r, edge_BT);
-    const EdgeOutput& opened = state.position_m >= 0.0 ? out.edge_PB : out.edge_PA;
-    out.pressure_difference_Pa = opened.pressure_difference_Pa;
-    out.flow_m3_per_s = opened.flow_m3_per_s;
-    out.path = open_path(p, out);
-    if (p.load.kind == LoadKind::held_path || p.load.kind == LoadKind::held_return) {
-      out.pressure_difference_Pa = out.path.pressure_difference_Pa;
-      out.flow_m3_per_s = state.position_m >= 0.0 ? out.path.flow_m3_per_s : -out.path.flow_m3_per_s;
-    }
-  }
+  if (c.hydraulics) observe_edges(p, r, out);
   out.oil_density_kg_per_m3 = c.density_kg_per_m3;
   out.oil_viscosity_m2_per_s = c.viscosity_m2_per_s;
   out.cylinder_position_m = state.cylinder_position_m;
