@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/condensed.hpp"
+#include "spoolflow/calibration/fits/bench_dither.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/recording/reader.hpp"
@@ -79,15 +80,16 @@ model::Model calibrate_valve(const CampaignRecordings& recordings, const model::
   model::Model out;
   out.valve = valve;
   progress("condensed model", 0);
+  for (const recording::Recording* recording : recordings.solenoid_dynamic) require_resolved_dither(*recording);
+  const recording::Recording force_map = without_dither(recordings.solenoid_force_map);
   CondensedCalibration condensed =
-      calibrate_condensed({recordings.spring, recordings.solenoid_force_map, recordings.axial_force_maps}, valve);
+      calibrate_condensed({recordings.spring, force_map, recordings.axial_force_maps}, valve);
   out.condensed = std::move(condensed.condensed);
   out.evidence = std::move(condensed.evidence);
   constexpr double condensed_share = 0.15;
   progress("full sensor", condensed_share);
   ObserverCalibration full = calibrate_observer(
-      {recordings.spring, recordings.solenoid_force_map, recordings.solenoid_dynamic, recordings.axial_force_maps,
-       recordings.operation},
+      {recordings.spring, force_map, recordings.solenoid_dynamic, recordings.axial_force_maps, recordings.operation},
       valve, out.condensed.parameters.closed_below_m,
       [&](double share) { progress("full sensor in operation", condensed_share + (1 - condensed_share) * share); });
   out.observer = std::move(full.observer);

@@ -14,6 +14,7 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
+#include "spoolflow/calibration/operation/told_dials.hpp"
 #include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
@@ -28,9 +29,6 @@ constexpr sensor::FrictionParameters<double> assumed_friction{.ageing_ratio = 4,
                                                               .breakaway_share = 0.12,
                                                               .operation_ratio = 1};
 constexpr double assumed_backlash_m = 0.45e-6;
-/// Without an operating recording these two are taken larger: what they are too small, the sensor takes for pressure.
-constexpr double unknown_tolerance_N = 1.2;
-constexpr double unknown_backlash_m = 0.55e-6;
 constexpr double assumed_moving_mass_kg = 0.11;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 /// Of the supply, which may be any: the same for every valve.
@@ -160,9 +158,8 @@ void assume_operation(model::Observer& observer) {
   observer.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
                        "contact_stiffness_N_per_m", "friction_tolerance_N",  "breakaway_share",
                        "position_backlash_m",       "band_friction_share",   "band_force_share",
-                       "band_rest_share",           "band_tolerance_N"};
-  observer.parameters.friction.tolerance_N = unknown_tolerance_N;
-  observer.parameters.position_sensor.backlash_m = unknown_backlash_m;
+                       "band_rest_share",           "band_tolerance_N",      "moving_mass_kg"};
+  assume_rest(observer.parameters);
   scale_band(observer.parameters, assumed_force_error_ratio);
 }
 
@@ -183,12 +180,13 @@ ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, con
   if (!operation.empty()) {
     const OperationFit fit = fit_operation(out.parameters, operation, valve.rated_flow_m3_per_s, progress);
     out.fits.push_back(fit.known);
+    out.defaults = fit.not_told;
     out.residuals.push_back({"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
   } else {
     assume_operation(out);
   }
   for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
-                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "moving_mass_kg"})
+                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s"})
     out.defaults.emplace_back(assumed);
   if (!fits.actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");

@@ -20,8 +20,6 @@ struct FluxLinkage {
   Map<T, flux_map_currents, flux_map_positions> map;
 };
 
-/// Steps towards the magnetising current in each sample; what they leave is taken up by the next.
-inline constexpr int newton_steps = 2;
 /// A step of time [s] is taken for no shorter: the flux rate divides by it.
 inline constexpr double shortest_step_s = 1e-6;
 /// The time [s] in which the coil is taken to have been brought to its first current: no eddy currents are left.
@@ -68,40 +66,43 @@ struct CoilGuess {
   MapPoint<T> flux;
 };
 
+/// Where the step leads to first order, from `guess` at the last magnetising current and the new position. The time
+/// constant is the last one; the flux that the position alone has moved counts as a change, too. Close enough for
+/// hysteresis to be asked there, also where dither has turned the current round between two samples.
+template <class T>
+[[gnu::always_inline]] constexpr T predicted_change_A(const CoilState<T>& state, const CoilGuess<T>& guess, T current_A,
+                                                      T weight, T time_constant_per_step) {
+  const T moved_A = (guess.flux.value - state.hysteresis.flux) / guess.flux.row_slope;
+  return (current_A - state.static_current_A - time_constant_per_step * moved_A) / (weight + time_constant_per_step);
+}
+
 /// Finds the magnetising current i_m at the step's end at which
 ///
 ///     i_m + hysteresis(flux) + eddy(d flux/dt) = i,   flux = flux_linkage(i_m, x),
 ///
-/// in the mean over the step. Newton steps from `guess`; what they leave is taken up by the next sample. Only the first
-/// asks every stop of the hysteresis, what follows goes along its slope.
+/// in the mean over the step: one Newton step from the prediction. What it leaves is taken up by the next sample. Where
+/// a coil begins, `guess` is the prediction.
 template <class T>
 [[gnu::always_inline]] constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                                                    const Cell<T>& position, const CoilGuess<T>& guess) {
-  const auto& flux_map = coil.flux_linkage.map;
+                                                    const CoilGuess<T>& guess, Mask<T> begins) {
   const T per_step = T(1) / larger(step.time_step_s, T(shortest_step_s));
-  const T weight = end_weight(state.time_constant_s * per_step);
+  const T time_constant_per_step = state.time_constant_s * per_step;
+  const T weight = end_weight(time_constant_per_step);
   const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
-  T current_A = guess.current_A;
-  MapPoint<T> flux = guess.flux;
-  T flux_Wb{}, asked_Wb{};
-  HysteresisPoint<T> hysteresis{};
-  for (int pass = 0; pass < newton_steps; ++pass) {
-    if (pass > 0) flux = flux_map.at(locate<flux_map_currents>(flux_map.row_axis, current_A), position);
-    if (pass == 0) {
-      asked_Wb = flux.value;
-      hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, flux.value);
-    }
-    const T hysteresis_A = hysteresis.value + hysteresis.slope * (flux.value - asked_Wb);
-    const EddyCurrent<T> eddy = coil.eddy_currents.at((flux.value - state.hysteresis.flux) * per_step);
-    state.time_constant_s = eddy.slope_A_per_V * flux.row_slope;
-    const T slope = weight * (T(1) + hysteresis.slope * flux.row_slope) + state.time_constant_s * per_step;
-    const T change_A = (target_A - weight * (current_A + hysteresis_A) - eddy.current_A) / slope;
-    current_A += change_A;
-    flux_Wb = flux.value + flux.row_slope * change_A;  // exact within a cell of the map
-  }
+  const T predicted_A =
+      select(begins, T(0), predicted_change_A(state, guess, step.current_A, weight, time_constant_per_step));
+  const T guessed_A = guess.current_A + predicted_A;
+  const T guessed_Wb = guess.flux.value + guess.flux.row_slope * predicted_A;
+  const HysteresisPoint<T> hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, guessed_Wb);
+  const EddyCurrent<T> eddy = coil.eddy_currents.at((guessed_Wb - state.hysteresis.flux) * per_step);
+  state.time_constant_s = eddy.slope_A_per_V * guess.flux.row_slope;
+  const T slope = weight * (T(1) + hysteresis.slope * guess.flux.row_slope) + state.time_constant_s * per_step;
+  const T change_A = (target_A - weight * (guessed_A + hysteresis.value) - eddy.current_A) / slope;
+  const T change_Wb = guess.flux.row_slope * change_A;
+  const T flux_Wb = guessed_Wb + change_Wb;  // exact within a cell of the map
   state.flux_rate_V = (flux_Wb - state.hysteresis.flux) * per_step;
-  state.magnetising_current_A = current_A;
-  state.static_current_A = current_A + hysteresis.value + hysteresis.slope * (flux_Wb - asked_Wb);
+  state.magnetising_current_A = guessed_A + change_A;
+  state.static_current_A = state.magnetising_current_A + hysteresis.value + hysteresis.slope * change_Wb;
   advance(coil.hysteresis, state.hysteresis, flux_Wb);
 }
 
@@ -119,17 +120,10 @@ template <class T>
                                                      const Cell<T>& position, Mask<T> begins) {
   const auto& flux_map = coil.flux_linkage.map;
   const T last_A = select(begins, step.current_A, state.magnetising_current_A);
-  CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
-  if (any(!begins)) {
-    // Where the last flux rate would lead, along the map's line: exact within its cell.
-    const T predicted_Wb = state.hysteresis.flux + state.flux_rate_V * step.time_step_s;
-    const T predicted_A = guess.current_A + (predicted_Wb - guess.flux.value) / guess.flux.row_slope;
-    guess.current_A = select(begins, guess.current_A, predicted_A);
-    guess.flux.value = select(begins, guess.flux.value, predicted_Wb);
-  }
+  const CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
   in_valves(begins, state, [&] { demagnetise(state); });
   step.time_step_s = select(begins, T(slow_magnetisation_s), step.time_step_s);
-  solve_current(coil, state, step, position, guess);
+  solve_current(coil, state, step, guess, begins);
   state.flux_rate_V = select(begins, T(0), state.flux_rate_V);
 }
 

@@ -85,6 +85,28 @@ template <class T>
   out.friction_force_N = balance.friction_N;
 }
 
+/// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
+/// solenoid holds against this one's.
+template <class T>
+[[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                              const Sample<T>& sample, const PositionPoint<T>& position,
+                                              const Dither<T>& dither, T opposing_N, Mask<T> begins) {
+  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
+  state.force_noise_N = balance.noise_N;
+  const T believed_Pa = state.pressure.pressure_difference_Pa;
+  believe(valve, state, balance, position, sample.time_step_s);
+  in_valves(balance.dithered, state.swing, [&] {
+    shift_swing(state.swing,
+                balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
+  });
+  // The coil is slow enough to be followed in those samples that have least else to do.
+  const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
+  in_valves(!balance.sliding && !busy && balance.resting.breakaway_N == T(0), state.actuator,
+            [&] { follow_coil(valve.actuator, state.actuator, sample); });
+  answer(valve, state, balance, position.velocity_m_per_s);
+  state.last.status = status(valve, state, sample, position, balance);
+}
+
 }  // namespace detail
 
 /// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
@@ -106,20 +128,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
-  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, begins);
-  state.force_noise_N = balance.noise_N;
-  const T believed_Pa = state.pressure.pressure_difference_Pa;
-  believe(valve, state, balance, position, sample.time_step_s);
-  in_valves(balance.dithered, state.swing, [&] {
-    shift_swing(state.swing,
-                balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
-  });
-  // The coil is slow enough to be followed in those samples that have least else to do.
-  const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
-  in_valves(!balance.sliding && !busy && balance.resting.breakaway_N == T(0), state.actuator,
-            [&] { follow_coil(valve.actuator, state.actuator, sample); });
-  detail::answer(valve, state, balance, position.velocity_m_per_s);
-  state.last.status = detail::status(valve, state, sample, position, balance);
+  detail::observe(valve, state, sample, position, dither, T(0), begins);
   return state.last;
 }
 

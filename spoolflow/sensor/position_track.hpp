@@ -254,7 +254,8 @@ constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T
                           const QuietCoil<T>& coil) {
   const T hardest_m = sensor.hardest_acceleration_m_per_s2 * sample.time_step_s * sample.time_step_s;
   const Mask<T> quiet = magnitude(sample.current_A - state.current_A) < coil.current_A &&
-                        magnitude(sample.voltage_V - state.voltage_V) < coil.voltage_V;  // not of a missing voltage
+                        magnitude(sample.voltage_V - state.voltage_V) < coil.voltage_V &&  // not of a missing voltage
+                        magnitude(state.step_m) < T(quiet_jump_m);  // a spool under way passes the current's peak
   return select(quiet, smaller(hardest_m, T(quiet_jump_m)), hardest_m);
 }
 

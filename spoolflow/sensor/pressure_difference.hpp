@@ -11,7 +11,7 @@
 namespace spoolflow::sensor {
 
 /// Belief before the first sample, and its standard deviation, as shares of the highest pressure difference.
-inline constexpr double first_pressure_share = 0.5;
+inline constexpr double first_pressure_share = 0.35;
 inline constexpr double first_deviation_share = 0.3;
 /// The standard deviation grows by drift up to this share of the highest pressure difference: more says no more.
 inline constexpr double most_deviation_share = 0.4;

@@ -56,6 +56,44 @@ TEST(Coil, FollowsAFluxThatEddyCurrentsHoldBack) {
   EXPECT_LT(errors(100, 1e-3, 0.05).magnetising_A, 0.05);
 }
 
+/// The magnetising current that meets the current balance of a step from `before`, by bisection.
+double balanced_current_A(const Coil<double>& coil, const CoilState<double>& before, const CoilStep<double>& step,
+                          const Cell<double>& position) {
+  const double weight = end_weight(before.time_constant_s / step.time_step_s);
+  double low_A = -1, high_A = 4;
+  for (int k = 0; k < 60; ++k) {
+    const double middle_A = (low_A + high_A) / 2;
+    const auto& map = coil.flux_linkage.map;
+    const double flux_Wb = map.at(locate<flux_map_currents>(map.row_axis, middle_A), position).value;
+    const double static_A = middle_A + hysteresis_at(coil.hysteresis, before.hysteresis, flux_Wb).value;
+    const double eddy_A = coil.eddy_currents.at((flux_Wb - before.hysteresis.flux) / step.time_step_s).current_A;
+    const bool more = weight * static_A + (1 - weight) * before.static_current_A + eddy_A < step.current_A;
+    (more ? low_A : high_A) = middle_A;
+  }
+  return (low_A + high_A) / 2;
+}
+
+TEST(Coil, MeetsTheBalanceOfItsCurrentsThoughDitherTurnsRoundBetweenTwoSamples) {
+  Coil<double> coil = closed_form_actuator<double>(closed_form).coil;
+  coil.eddy_currents = {.classical_A_per_V = 0.005, .excess_A_per_rootV = 0.015, .smallest_rate_V = 0.01};
+  const Cell<double> position = locate<flux_map_positions>(coil.flux_linkage.map.column_axis, 1.2e-3);
+  for (const double frequency_Hz : {90.0, 140.0, 210.0}) {
+    CoilState<double> state{};
+    double square_A2 = 0;
+    int samples = 0;
+    for (double time_s = 0; time_s < 1; time_s += 2e-3, ++samples) {
+      const double turns = frequency_Hz * time_s;
+      const CoilStep<double> step{2e-3, 1.2 + (turns - std::floor(turns) < 0.5 ? 0.1 : -0.1)};
+      const CoilState<double> before = state;
+      follow_current(coil, state, step, position, samples == 0);
+      if (samples == 0) continue;
+      const double wrong_A = state.magnetising_current_A - balanced_current_A(coil, before, step, position);
+      square_A2 += wrong_A * wrong_A;
+    }
+    EXPECT_LT(std::sqrt(square_A2 / samples), 0.05 * 0.1) << frequency_Hz;
+  }
+}
+
 TEST(Coil, KnowsNothingOfItsHistoryAtFirst) {
   // Demagnetised and brought slowly to its first current: where the truth began likewise nothing is wrong, and what a
   // reversal before the start would have left is within the coercive current.

@@ -3,6 +3,7 @@
 /// compares with that on the bench, its growth at rest, the contacts' stiffness, the backlash of the position sensor,
 /// and how wide the band must be. These recordings are then no independent test any more.
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
@@ -19,6 +20,7 @@ struct OperationFit {
   double score;
   std::vector<numerics::MeterLag> meters;  ///< of the recordings, as they show it
   model::Fit known;                        ///< of the parameters that were searched, see operation_uncertainty.hpp
+  std::vector<std::string> not_told;       ///< parameters of which these recordings tell nothing, see told_dials.hpp
   FitResidual flow_m3_per_s;               ///< estimate less reference, with the fitted parameters
   double force_error_ratio;                ///< see band.hpp; the band is scaled by it
   double band_coverage;                    ///< share of the samples with the reference inside the band
