@@ -75,8 +75,7 @@ template <class T>
 [[gnu::always_inline]] constexpr ForceBalance<T> balance_forces(const ObserverParameters<T>& valve,
                                                                 ObserverState<T>& state, const Sample<T>& sample,
                                                                 const PositionPoint<T>& position,
-                                                                const Dither<T>& dither, T opposing_N,
-                                                                Mask<T> begins) {
+                                                                const Dither<T>& dither, T opposing_N, Mask<T> begins) {
   Sample<T> actuated = sample;
   actuated.position_m = position.position_m;
   ForceBalance<T> out;

@@ -19,12 +19,12 @@ enum class Status : std::uint32_t {
   dithered = 1U << 6,                ///< the current is dithered: friction swings between its limits
   sign_undetermined = 1U << 7,       ///< the spool is so near the centre that the flow may go either way
   // faults
-  position_fault = 1U << 16,  ///< the position signal moved as no spool can: the last credible position is used
-  sample_missing = 1U << 17,  ///< an input is missing: the last answer is held
+  position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used
+  sample_missing = 1U << 17,   ///< an input is missing: the last answer is held
   other_direction = 1U << 18,  ///< the spool opens the direction of flow that the model does not know: the band is all
                                ///< that may flow there
-  time_fault = 1U << 19,      ///< the time does not advance: where it runs backwards the last answer is held
-  coil_fault = 1U << 20,      ///< voltage and current give a resistance that no sound coil has
+  time_fault = 1U << 19,       ///< the time does not advance: where it runs backwards the last answer is held
+  coil_fault = 1U << 20,       ///< voltage and current give a resistance that no sound coil has
 };
 
 inline constexpr std::uint32_t fault_bits = 0xFFFF0000U;

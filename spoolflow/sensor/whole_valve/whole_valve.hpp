@@ -122,13 +122,11 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
   signed_sample.position_m = sample.position_m - state.zero_m;
-  const Dither<T> dither =
-      follow_dither(state.open.dither, own.current_A, detail::sides(valve, state.opens_a).open.largest_current_A,
-                    sample.time_step_s);
-  PositionPoint<T> position =
-      track(position_sensor, state.open.position, signed_sample,
-            detail::quiet_coil(detail::sides(valve, state.opens_a).open), state.open.oil_temperature_K, dither,
-            state.open.swing.frees);
+  const Dither<T> dither = follow_dither(
+      state.open.dither, own.current_A, detail::sides(valve, state.opens_a).open.largest_current_A, sample.time_step_s);
+  PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample,
+                                    detail::quiet_coil(detail::sides(valve, state.opens_a).open),
+                                    state.open.oil_temperature_K, dither, state.open.swing.frees);
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
   if (from_centre_m < T(-centre_hysteresis_m)) {
     detail::change_sides(valve, state);

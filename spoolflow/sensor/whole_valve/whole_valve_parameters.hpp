@@ -43,10 +43,10 @@ struct WholeValveState {
   ObserverState<T> open;  ///< of the side on which the spool stands, in that direction's signs, but for the position
                           ///< track, which keeps the valve's
   IdleSide<T> idle;
-  T zero_m{};            ///< of the position sensor, found at rest in the centre
-  T centred_s{};         ///< for how long the spool has rested there
-  Mask<T> opens_a{};     ///< it stands on the side that opens P to A
-  Estimate<T> last{};    ///< flow and forces in the valve's signs: P to B > 0
+  T zero_m{};          ///< of the position sensor, found at rest in the centre
+  T centred_s{};       ///< for how long the spool has rested there
+  Mask<T> opens_a{};   ///< it stands on the side that opens P to A
+  Estimate<T> last{};  ///< flow and forces in the valve's signs: P to B > 0
 };
 
 static_assert(std::is_trivially_copyable_v<WholeValveParameters<float>>);
