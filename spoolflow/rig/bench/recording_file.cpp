@@ -101,13 +101,13 @@ void write_recording(std::ostream& stream, const recording::Recording& recording
 
 void write_truth(std::ostream& stream, const GroundTruth& truth) {
   recording::CsvWriter rows(stream);
-  for (const TruthQuantity& quantity : truth_quantities()) {
+  for (const TruthQuantity& quantity : truth.quantities) {
     rows.text(quantity.header);
   }
   rows.end_row();
   for (std::size_t row = 0; row < truth.size(); ++row) {
-    for (std::size_t k = 0; k < truth_quantity_count; ++k) {
-      rows.number(truth.columns[k][row], truth_quantities()[k].decimals);
+    for (std::size_t k = 0; k < truth.columns.size(); ++k) {
+      rows.number(truth.columns[k][row], truth.quantities[k].decimals);
     }
     rows.end_row();
   }
