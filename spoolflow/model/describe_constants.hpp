@@ -36,6 +36,10 @@ void describe_coil_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "share of the flux rate that its model may be wrong by, where the coil's resistance is followed"},
       sensor::flux_rate_error_share);
+  visitor.constant({.name = "coil_averaging_s",
+                    .unit = "s",
+                    .meaning = "voltage, current and flux rate are averaged over this before they tell the resistance"},
+                   sensor::coil_averaging_s);
   visitor.constant({.name = "least_voltage_variance_V2s",
                     .unit = "V2 s",
                     .meaning = "variance density of the voltage that is always assumed"},

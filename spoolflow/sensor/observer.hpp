@@ -105,8 +105,8 @@ template <class T>
   });
   // The coil is slow enough to be followed in those samples that have least else to do.
   const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
-  in_valves(!balance.sliding && !busy && balance.resting.breakaway_N == T(0), state.actuator,
-            [&] { follow_coil(valve.actuator, state.actuator, sample); });
+  const Mask<T> has_time = !balance.sliding && !busy && balance.resting.breakaway_N == T(0);
+  follow_coil(valve.actuator, state.actuator, sample, has_time);
   answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = status(valve, state, sample, position, balance);
 }
