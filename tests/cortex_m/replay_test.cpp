@@ -49,6 +49,27 @@ TEST_P(CortexM, CondensedSensorAnswersAsTheHostOverAMinuteOfOperation) {
   expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {120, 4});
 }
 
+/// The example's valve in both directions.
+model::Model whole(model::Model model) {
+  model.p_to_a = model::Direction{model.condensed, model.observer, model.evidence};
+  model.valve.direction = "both";
+  return model;
+}
+
+TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
+  const Replay valve = replay(whole(model), Estimator::observer, minute, GetParam());
+  expect_fit_for_a_valve(valve, {1875, 9});
+  EXPECT_LE(valve.state_bytes, 1536U);
+  for (const Status status : {Status::closed, Status::spool_at_rest, Status::sign_undetermined,
+                              Status::outside_temperature, Status::position_fault, Status::sample_missing}) {
+    EXPECT_TRUE(has(valve.statuses, status)) << static_cast<std::uint32_t>(status);
+  }
+}
+
+TEST_P(CortexM, CondensedSensorOfAWholeValveAnswersAsTheHost) {
+  expect_fit_for_a_valve(replay(whole(model), Estimator::condensed, minute, GetParam()), {150, 4});
+}
+
 INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),
                          [](const auto& core) { return std::string(core.param.machine).substr(5); });
 
