@@ -126,12 +126,14 @@ DitherSetting over_all_points(const DitherStudy& study, std::size_t place, doubl
   return out;
 }
 
-/// Whether this amplitude and all up to the reserve above it keep the ripple's limit, over `place`.
+/// Whether this amplitude and all up to the reserve above it keep the ripple's limit, over `place`; no amplitude is
+/// kept whose reserve goes beyond those that were looked at.
 std::vector<bool> kept_with_reserve(const DitherStudy& study) {
   std::vector<bool> out(study.settings.size(), true);
   for (std::size_t a = 0; a < study.amplitude_A.size(); ++a) {
-    const double most_A = (1 + amplitude_reserve) * study.amplitude_A[a];
     for (std::size_t f = 0; f < study.frequency_Hz.size(); ++f) {
+      const double most_A = (1 + amplitude_reserve(study.frequency_Hz[f])) * study.amplitude_A[a];
+      if (study.amplitude_A.back() < most_A) out[study.place(a, f)] = false;
       // Up to the first amplitude that has the whole reserve.
       for (std::size_t above = a; above < study.amplitude_A.size(); ++above) {
         if (!study.settings[study.place(above, f)].within_limit) out[study.place(a, f)] = false;

@@ -27,7 +27,9 @@ std::string nearest_preset(const model::Model& model) {
   std::string nearest;
   double least = INFINITY;
   for (const std::string& preset : rig::valve_presets()) {
-    const double rated_L_min = rig::read_valve_and_campaign(preset).valve.rating.flow_L_per_min;
+    const rig::ValveUnderTest valve = rig::read_valve_and_campaign(preset).valve;
+    if (valve.whole) continue;  // a study is of one direction
+    const double rated_L_min = valve.rating.flow_L_per_min;
     const double distance =
         std::abs(std::log(rated_L_min / units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s)));
     if (distance < least) {

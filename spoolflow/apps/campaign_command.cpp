@@ -57,7 +57,9 @@ void add_campaign_command(CLI::App& program) {
   CLI::App* command = add_command(
       program, {.name = "campaign",
                 .purpose = "make a whole measuring campaign of a valve on the virtual test rig",
-                .reads = "a valve file (TOML), or the name of a built-in valve: size_6, size_10, fast_dither",
+                .reads = "a valve file (TOML), or the name of a built-in valve: size_6, size_10, fast_dither, and with "
+                         "both directions "
+                         "whole_size_6, whole_differential",
                 .writes = "a folder: bench tests, operating runs and campaign.toml, which spoolflow calibrate reads",
                 .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign"}});
   auto arguments = std::make_shared<CampaignArguments>();

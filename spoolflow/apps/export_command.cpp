@@ -115,7 +115,7 @@ void add_export_command(CLI::App& program) {
       {"export",
        "turn a model into something that other programs and controllers run",
        "MODEL.json from `spoolflow calibrate`; for fmu also a valve of the virtual rig: a valve file (TOML), or "
-       "size_6, size_10, fast_dither",
+       "size_6, size_10, fast_dither, whole_size_6, whole_differential",
        "fmu: a co-simulation FMU of the sensor, or of the virtual valve, for Linux and Windows (64 bit), with sources. "
        "cpp: a folder "
        "with the sensor's headers, the model as constexpr numbers in single precision, an "

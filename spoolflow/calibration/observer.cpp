@@ -14,6 +14,8 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
+#include "spoolflow/calibration/operation/operation_uncertainty.hpp"
+#include "spoolflow/calibration/operation/told_dials.hpp"
 #include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
@@ -28,9 +30,6 @@ constexpr sensor::FrictionParameters<double> assumed_friction{.ageing_ratio = 4,
                                                               .breakaway_share = 0.12,
                                                               .operation_ratio = 1};
 constexpr double assumed_backlash_m = 0.45e-6;
-/// Without an operating recording these two are taken larger: what they are too small, the sensor takes for pressure.
-constexpr double unknown_tolerance_N = 1.2;
-constexpr double unknown_backlash_m = 0.55e-6;
 constexpr double assumed_moving_mass_kg = 0.11;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
 /// Of the supply, which may be any: the same for every valve.
@@ -44,16 +43,18 @@ constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s
                                                     .ratio_memory_s = 10};
 constexpr double coverage_factor = 2;
 
+constexpr const char* of_operation = "flow rate in operation";
+
 FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
   FitResidual out;
   for (const AxialForceFit& fit : fits) out += fit.*residual;
   return out;
 }
 
-std::vector<const recording::Recording*> with_reference(const std::vector<const recording::Recording*>& operation) {
-  std::vector<const recording::Recording*> out;
-  for (const recording::Recording* recording : operation) {
-    if (recording->has(recording::Channel::flow_reference) && recording->size() > 0) out.push_back(recording);
+std::vector<OperatingRun> with_reference(const std::vector<OperatingRun>& runs) {
+  std::vector<OperatingRun> out;
+  for (const OperatingRun& run : runs) {
+    if (run.recording->has(recording::Channel::flow_reference) && run.recording->size() > 0) out.push_back(run);
   }
   return out;
 }
@@ -160,16 +161,15 @@ void assume_operation(model::Observer& observer) {
   observer.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
                        "contact_stiffness_N_per_m", "friction_tolerance_N",  "breakaway_share",
                        "position_backlash_m",       "band_friction_share",   "band_force_share",
-                       "band_rest_share",           "band_tolerance_N"};
-  observer.parameters.friction.tolerance_N = unknown_tolerance_N;
-  observer.parameters.position_sensor.backlash_m = unknown_backlash_m;
+                       "band_rest_share",           "band_tolerance_N",      "moving_mass_kg"};
+  assume_rest(observer.parameters);
   scale_band(observer.parameters, assumed_force_error_ratio);
 }
 
 }  // namespace
 
-ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                       double closed_below_m, const std::function<void(double)>& progress) {
+ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
+                                       double closed_below_m) {
   const BenchFits fits = fit_bench(recordings, valve.stroke_m);
   ObserverCalibration calibration{};
   calibration.bench = residuals_on_bench(fits, valve.stroke_m);
@@ -179,22 +179,39 @@ ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, con
   out.oil_temperature_K = {temperature_K.at(0), temperature_K.at(sensor::edge_temperatures - 1)};
   out.residuals = residuals_of_fits(fits);
   out.fits = known_of_bench(fits);
-  const std::vector<const recording::Recording*> operation = with_reference(recordings.operation);
-  if (!operation.empty()) {
-    const OperationFit fit = fit_operation(out.parameters, operation, valve.rated_flow_m3_per_s, progress);
-    out.fits.push_back(fit.known);
-    out.residuals.push_back({"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
-  } else {
-    assume_operation(out);
-  }
-  for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
-                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s", "moving_mass_kg"})
-    out.defaults.emplace_back(assumed);
+  out.defaults = {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure", "band_coverage_factor",
+                  "band_unseen_factor", "band_creep_per_s"};
   if (!fits.actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");
   }
   return calibration;
+}
+
+void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
+                            double rated_flow_m3_per_s, const std::function<void(double)>& progress) {
+  const std::vector<std::string> of_bench = std::move(observer.defaults);
+  const std::vector<OperatingRun> used = with_reference(runs);
+  if (!used.empty()) {
+    const OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
+    observer.fits.push_back(fit.known);
+    observer.defaults = fit.not_told;
+    observer.residuals.push_back({of_operation, "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
+  } else {
+    assume_operation(observer);
+  }
+  observer.defaults.insert(observer.defaults.end(), of_bench.begin(), of_bench.end());
+}
+
+void take_over_operation(const model::Observer& one, model::Observer& other) {
+  share_operation(one.parameters, other.parameters);
+  other.defaults = one.defaults;
+  for (const model::Residual& residual : one.residuals) {
+    if (residual.of == of_operation) other.residuals.push_back(residual);
+  }
+  for (const model::Fit& fit : one.fits) {
+    if (fit.of == fit_of_operation) other.fits.push_back(fit);
+  }
 }
 
 }  // namespace spoolflow::calibration

@@ -17,6 +17,10 @@ const char* load_name(rig::LoadKind kind) {
   switch (kind) {
     case rig::LoadKind::held_difference:
       return "a bench that holds the pressure difference over the open edge";
+    case rig::LoadKind::held_path:
+      return "a bench that joins the ports and holds the pressure difference over the open path";
+    case rig::LoadKind::held_return:
+      return "a bench that feeds port A and holds the pressure difference over the edge to tank";
     case rig::LoadKind::orifice:
       return "an orifice between the ports";
     case rig::LoadKind::cylinder:

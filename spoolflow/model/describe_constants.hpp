@@ -129,6 +129,19 @@ void describe_position_constants(Visitor& visitor) {
                     .meaning = "and so much more",
                     .evidence = "ramps_30_to_70bar: p95 0.38, 0.38, 0.53 % FS, band 93.2, 93.2, 93.8 %"},
                    sensor::credible_jump_m);
+  visitor.constant(
+      {.name = "quiet_current_share",
+       .unit = "1",
+       .meaning = "share of the largest current: a smaller change from sample to sample tells of no motion"},
+      sensor::quiet_current_share);
+  visitor.constant({.name = "quiet_voltage_share",
+                    .unit = "1",
+                    .meaning = "the same for the voltage, as a share of what holds the largest current"},
+                   sensor::quiet_voltage_share);
+  visitor.constant({.name = "quiet_jump_m",
+                    .unit = "m",
+                    .meaning = "no acceleration is credible for more than this where neither changed"},
+                   sensor::quiet_jump_m);
   visitor.constant({.name = "longest_position_fault_s",
                     .unit = "s",
                     .meaning = "a jump of the position signal that lasts longer is believed"},

@@ -20,11 +20,15 @@ struct Words {
   Channel channel;
   std::array<std::string_view, 9> words;
 };
-constexpr std::array<Words, 15> vocabulary{{
+constexpr std::array<Words, 19> vocabulary{{
     {Channel::time, {"time", "t", "zeit", "timestamp", "seconds"}},
     {Channel::current, {"current", "i", "strom", "isol", "icoil", "coilcurrent"}},
     {Channel::current_set, {"currentset", "iset", "icmd", "sollstrom", "isoll", "currentcommand"}},
     {Channel::voltage, {"voltage", "u", "v", "spannung", "usol", "ucoil", "coilvoltage"}},
+    {Channel::current_a, {"currenta", "ia", "stroma", "isola", "icoila", "coilcurrenta"}},
+    {Channel::current_b, {"currentb", "ib", "stromb", "isolb", "icoilb", "coilcurrentb"}},
+    {Channel::voltage_a, {"voltagea", "ua", "va", "spannunga", "usola", "ucoila", "coilvoltagea"}},
+    {Channel::voltage_b, {"voltageb", "ub", "vb", "spannungb", "usolb", "ucoilb", "coilvoltageb"}},
     {Channel::position, {"position", "x", "lvdt", "weg", "stroke", "spool", "spoolposition", "pos", "xist"}},
     {Channel::position_set, {"positionset", "xset", "xsoll", "xcmd", "setpoint", "sollwert", "positioncommand", "xs"}},
     {Channel::force, {"force", "f", "kraft", "loadcell", "fmag", "magneticforce"}},

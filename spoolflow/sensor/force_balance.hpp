@@ -60,15 +60,13 @@ template <class T>
                                             ForceBalance<T>& balance) {
   const FrictionSwing<T> swing = follow_swing(state.swing, dither, balance.apparent_friction_N);
   balance.dithered = dither.present;
-  balance.freed = balance.dithered && !balance.dithered;
+  // Where dither frees the spool altogether, no contact grows old.
+  balance.freed = dither.present && swing.half_swing_N > balance.bounds.sliding_N;
   balance.settled = swing.settled;
   balance.apparent_friction_N = swing.middle_N;
   balance.half_swing_N = swing.half_swing_N;
   state.swing.frees = balance.freed;
   if (!any(dither.present)) return;
-  // Where dither frees the spool altogether, no contact grows old.
-  balance.freed = dither.present && swing.half_swing_N > balance.bounds.sliding_N;
-  state.swing.frees = balance.freed;
   state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
   const Mask<T> moves = balance.freed || !is(position.motion, Motion::rest);
   const FrictionBounds<T> bounds =
@@ -77,16 +75,18 @@ template <class T>
   balance.bounds.sticking_N = select(dither.present, bounds.sticking_N, balance.bounds.sticking_N);
 }
 
-/// From coil current and position to friction; moves the memory of solenoid and friction. `begins` at the first sample.
+/// From coil current and position to friction; moves the memory of solenoid and friction. `opposing_N` is what another
+/// solenoid holds against this one's; `begins` at the first sample.
 template <class T>
 [[gnu::always_inline]] constexpr ForceBalance<T> balance_forces(const ObserverParameters<T>& valve,
                                                                 ObserverState<T>& state, const Sample<T>& sample,
                                                                 const PositionPoint<T>& position,
-                                                                const Dither<T>& dither, Mask<T> begins) {
+                                                                const Dither<T>& dither, T opposing_N, Mask<T> begins) {
   Sample<T> actuated = sample;
   actuated.position_m = position.position_m;
   ForceBalance<T> out;
   out.actuator = step(valve.actuator, state.actuator, actuated, begins);
+  out.actuator.magnetic_force_N -= opposing_N;
   out.spring_N = valve.spring.at(position.position_m).value;
   const T net_N = out.actuator.magnetic_force_N - out.spring_N;  // carries flow force and friction; paper (1)
 

@@ -8,6 +8,10 @@
 
 namespace spoolflow::sensor {
 
+/// A spool that reads so far beyond half the overlap on the closed side [m] opens the other direction of flow: no zero
+/// drifts as far.
+inline constexpr double other_direction_m = 50e-6;
+
 /// The oil warms slowly and its sensor is noisy [s].
 inline constexpr double temperature_smoothing_s = 2;
 
@@ -34,6 +38,13 @@ constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& samp
                                     (sample.oil_temperature_K - state.oil_temperature_K) *
                                         smaller(sample.time_step_s / T(temperature_smoothing_s), T(1)),
                                     T(0));
+}
+
+/// What a coil shows whose armature does not move.
+template <class T>
+constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
+  return {T(quiet_current_share) * valve.largest_current_A,
+          T(quiet_voltage_share) * valve.largest_current_A * valve.actuator.coil_resistance.resistance_Ohm};
 }
 
 /// What the sample and its answer must be taken with.
@@ -78,6 +89,41 @@ template <class T>
   out.friction_force_N = balance.friction_N;
 }
 
+/// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
+/// solenoid holds against this one's.
+template <class T>
+[[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                              const Sample<T>& sample, const PositionPoint<T>& position,
+                                              const Dither<T>& dither, T opposing_N, Mask<T> begins) {
+  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
+  state.force_noise_N = balance.noise_N;
+  const T believed_Pa = state.pressure.pressure_difference_Pa;
+  believe(valve, state, balance, position, sample.time_step_s);
+  in_valves(balance.dithered, state.swing, [&] {
+    shift_swing(state.swing,
+                balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
+  });
+  // The coil is slow enough to be followed in those samples that have least else to do.
+  const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
+  const Mask<T> has_time = !balance.sliding && !busy && balance.resting.breakaway_N == T(0);
+  follow_coil(valve.actuator, state.actuator, sample, has_time);
+  answer(valve, state, balance, position.velocity_m_per_s);
+  state.last.status = status(valve, state, sample, position, balance);
+}
+
+/// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
+template <class T>
+[[gnu::always_inline]] constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                            T position_m) {
+  const Mask<T> opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
+  if (!any(opens)) return;
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  Estimate<T>& out = state.last;
+  out.flow_lower_m3_per_s = select(opens, -most, out.flow_lower_m3_per_s);
+  mark(out.status, opens, Status::other_direction);
+}
+
 }  // namespace detail
 
 /// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
@@ -97,22 +143,10 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   detail::follow_temperature(state, sample);
 
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position =
-      track(valve.position_sensor, state.position, sample, state.oil_temperature_K, dither, state.swing.frees);
-  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, begins);
-  state.force_noise_N = balance.noise_N;
-  const T believed_Pa = state.pressure.pressure_difference_Pa;
-  believe(valve, state, balance, position, sample.time_step_s);
-  in_valves(balance.dithered, state.swing, [&] {
-    shift_swing(state.swing,
-                balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
-  });
-  // The coil is slow enough to be followed in those samples that have least else to do.
-  const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
-  const Mask<T> has_time = !balance.sliding && !busy && balance.resting.breakaway_N == T(0);
-  follow_coil(valve.actuator, state.actuator, sample, has_time);
-  detail::answer(valve, state, balance, position.velocity_m_per_s);
-  state.last.status = detail::status(valve, state, sample, position, balance);
+  const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
+                                          state.oil_temperature_K, dither, state.swing.frees);
+  detail::observe(valve, state, sample, position, dither, T(0), begins);
+  detail::admit_other_direction(valve, state, position.position_m);
   return state.last;
 }
 

@@ -36,6 +36,12 @@ inline constexpr double slip_settling_s = 0.03;
 /// what the hardest acceleration allows.
 inline constexpr double credible_jump_deviations = 20;
 inline constexpr double credible_jump_m = 20e-6;
+/// An armature that moves changes current or voltage of its coil, by more than this share of the largest current, and
+/// of the voltage that holds it: where neither changed, ...
+inline constexpr double quiet_current_share = 0.005;
+inline constexpr double quiet_voltage_share = 0.03;
+/// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
+inline constexpr double quiet_jump_m = 60e-6;
 /// A jump that lasts longer than this [s] is believed.
 inline constexpr double longest_position_fault_s = 0.25;
 /// A period of dither that is longer [s] is none any more: the block ends.
@@ -57,6 +63,13 @@ struct PositionSensor {
   T drift_m_per_K{};                  ///< of the zero point over the oil temperature
   T drift_free_K{};                   ///< oil temperature at which the zero point is right
   T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
+};
+
+/// Changes of the coil's current and voltage from one sample to the next, >= 0, that tell of no motion.
+template <class T>
+struct QuietCoil {
+  T current_A;
+  T voltage_V;
 };
 
 enum class Motion : std::uint8_t {
@@ -102,7 +115,9 @@ struct PositionState {
   T block_s{};
   T per_block_samples{};  ///< 1 / samples in a block
   T last_m{};
-  T step_m{};                 ///< last believed change
+  T step_m{};     ///< last believed change
+  T current_A{};  ///< of the coil, in the last sample
+  T voltage_V{};
   T offset_m{};               ///< what an acquisition fault adds to the signal
   T fault_s{};                ///< how long the fault has lasted
   T unsettled_s{};            ///< time until a slip counts as over
@@ -232,35 +247,54 @@ template <class T>
   state.motion = select(even, motion, select(unsettled, Motions(Motion::transient), Motions(Motion::rest)));
 }
 
-/// The position without acquisition faults: a change beyond what the hardest acceleration allows is taken out of the
-/// signal until the signal jumps back, or for `longest_position_fault_s` in all, after which the signal is
-/// believed.
+/// How much more than its noise the signal's step [m] may credibly change: what the hardest acceleration allows, or
+/// less where the coil tells of no motion.
+template <class T>
+constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T>& state, const Sample<T>& sample,
+                          const QuietCoil<T>& coil) {
+  const T hardest_m = sensor.hardest_acceleration_m_per_s2 * sample.time_step_s * sample.time_step_s;
+  const Mask<T> quiet = magnitude(sample.current_A - state.current_A) < coil.current_A &&
+                        magnitude(sample.voltage_V - state.voltage_V) < coil.voltage_V &&  // not of a missing voltage
+                        magnitude(state.step_m) < T(quiet_jump_m);  // a spool under way passes the current's peak
+  return select(quiet, smaller(hardest_m, T(quiet_jump_m)), hardest_m);
+}
+
+/// A change of the signal's step beyond its noise: what is not credible goes into the offset.
+template <class T>
+constexpr void judge_jump(PositionState<T>& state, Mask<T> unusual, T change_m, T credible_m) {
+  // A spool may stop in no time, at an end stop or by friction.
+  const T innovation_m = change_m - limited(change_m, smaller(state.step_m, T(0)), larger(state.step_m, T(0)));
+  const Mask<T> jumps = unusual && magnitude(innovation_m) > credible_m;
+  const Mask<T> first = state.offset_m == T(0);
+  const T offset_m = state.offset_m + innovation_m;
+  state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
+  state.fault_s = select(jumps && first, T(0), state.fault_s);
+}
+
+/// The position without acquisition faults: a change beyond what is credible is taken out of the signal until the
+/// signal jumps back, or for `longest_position_fault_s` in all, after which the signal is believed.
 template <class T>
 [[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                  T time_step_s, T position_m) {
-  const T corrected_m = position_m - state.offset_m;
-  const T innovation_m = corrected_m - state.last_m - state.step_m;
-  const T credible_m = T(credible_jump_deviations) * sensor.noise_m + T(credible_jump_m) +
-                       sensor.hardest_acceleration_m_per_s2 * time_step_s * time_step_s;
-  T believed_m = corrected_m;
-  const Mask<T> jumps = magnitude(innovation_m) > credible_m;
-  if (any(jumps)) {
-    const Mask<T> first = state.offset_m == T(0);
-    const T offset_m = state.offset_m + innovation_m;
-    state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
-    state.fault_s = select(jumps && first, T(0), state.fault_s);
-    believed_m = select(jumps, position_m - state.offset_m, believed_m);
+                                                  const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
+  const T noise_m = T(credible_jump_deviations) * sensor.noise_m + T(credible_jump_m);
+  const T change_m = position_m - state.offset_m - state.last_m;
+  const Mask<T> unusual = magnitude(change_m - state.step_m) > noise_m;
+  if (any(unusual)) {
+    judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil));
   }
+  T believed_m = position_m - state.offset_m;
   const Mask<T> faulty = state.offset_m != T(0);
   if (any(faulty)) {
-    state.fault_s = select(faulty, state.fault_s + time_step_s, state.fault_s);
-    const Mask<T> believes = faulty && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s;
+    state.fault_s = select(faulty, state.fault_s + sample.time_step_s, state.fault_s);
+    const Mask<T> believes = faulty && state.fault_s > T(longest_position_fault_s) + T(0.5) * sample.time_step_s;
     state.offset_m = select(believes, T(0), state.offset_m);
     believed_m = select(believes, position_m, believed_m);
-    state.last_m =
-        select(believes, position_m, state.last_m);  // the spool did not move: the next step starts from here
+    // The spool did not move: the next step starts from here.
+    state.last_m = select(believes, position_m, state.last_m);
   }
-  state.step_m = limited(believed_m - state.last_m, -credible_m, credible_m);
+  state.current_A = sample.current_A;
+  state.voltage_V = sample.voltage_V;
+  state.step_m = believed_m - state.last_m;
   state.last_m = believed_m;
   return believed_m;
 }
@@ -282,8 +316,8 @@ constexpr void begin(PositionState<T>& state, T position_m) {
 /// One sample.
 template <class T>
 [[gnu::always_inline]] constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                        const Sample<T>& sample, T oil_temperature_K,
-                                                        const Dither<T>& dither, Mask<T> freed) {
+                                                        const Sample<T>& sample, const QuietCoil<T>& coil,
+                                                        T oil_temperature_K, const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
   const Mask<T> due = state.velocity_due;
   in_valves(due, state, [&] {
@@ -291,7 +325,7 @@ template <class T>
     state.velocity_due = Mask<T>(false);
   });
   const T position_m =
-      detail::without_faults(sensor, state, time_step_s, drift_free_m(sensor, sample.position_m, oil_temperature_K));
+      detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
   state.sum_s += time_step_s;
   state.samples = state.samples + 1;

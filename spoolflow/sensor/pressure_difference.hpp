@@ -11,7 +11,7 @@
 namespace spoolflow::sensor {
 
 /// Belief before the first sample, and its standard deviation, as shares of the highest pressure difference.
-inline constexpr double first_pressure_share = 0.5;
+inline constexpr double first_pressure_share = 0.35;
 inline constexpr double first_deviation_share = 0.3;
 /// The standard deviation grows by drift up to this share of the highest pressure difference: more says no more.
 inline constexpr double most_deviation_share = 0.4;
@@ -36,7 +36,7 @@ inline constexpr double seen_deviation_share = 0.5;
 inline constexpr double process_noise_rise = 0.8;
 inline constexpr double process_noise_fall = 0.2;
 /// A change tells half of that where its drift variance is so many times the variance of the forces' noise.
-inline constexpr double telling_drift_share = 5;
+inline constexpr double telling_drift_share = 20;
 /// The forces tell of a change of the pressure difference so much later [s]: what it did since is unobserved at any
 /// time.
 inline constexpr double told_late_s = 0.006;
@@ -154,9 +154,7 @@ template <class T>
 constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
   in_valves(state.drift_variance_Pa2 > squared(noise_Pa), state, [&] {
     const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
-    const T shown = smaller(
-        (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
-        T(1));
+    const T shown = smaller((change2 - squared(noise_Pa)) / state.drift_variance_Pa2, T(1));
     const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
     const T pace = weight * select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
     state.process_noise = limited(state.process_noise + pace * (shown - state.process_noise),

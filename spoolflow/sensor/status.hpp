@@ -17,11 +17,14 @@ enum class Status : std::uint32_t {
   outside_temperature = 1U << 4,     ///< the oil is colder or warmer than the calibration's recordings
   current_saturated = 1U << 5,       ///< the current sits at the end of its range
   dithered = 1U << 6,                ///< the current is dithered: friction swings between its limits
+  sign_undetermined = 1U << 7,       ///< the spool is so near the centre that the flow may go either way
   // faults
-  position_fault = 1U << 16,  ///< the position signal moved as no spool can: the last credible position is used
-  sample_missing = 1U << 17,  ///< an input is missing: the last answer is held
-  time_fault = 1U << 19,      ///< the time does not advance: where it runs backwards the last answer is held
-  coil_fault = 1U << 20,      ///< voltage and current give a resistance that no sound coil has
+  position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used
+  sample_missing = 1U << 17,   ///< an input is missing: the last answer is held
+  other_direction = 1U << 18,  ///< the spool opens the direction of flow that the model does not know: the band is all
+                               ///< that may flow there
+  time_fault = 1U << 19,       ///< the time does not advance: where it runs backwards the last answer is held
+  coil_fault = 1U << 20,       ///< voltage and current give a resistance that no sound coil has
 };
 
 inline constexpr std::uint32_t fault_bits = 0xFFFF0000U;
@@ -49,7 +52,7 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit, in the order in which they are listed.
-inline constexpr std::array<StatusName, 11> status_names{{
+inline constexpr std::array<StatusName, 13> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
@@ -57,8 +60,10 @@ inline constexpr std::array<StatusName, 11> status_names{{
     {Status::outside_temperature, "outside_temperature"},
     {Status::current_saturated, "current_saturated"},
     {Status::dithered, "dithered"},
+    {Status::sign_undetermined, "sign_undetermined"},
     {Status::position_fault, "position_fault"},
     {Status::sample_missing, "sample_missing"},
+    {Status::other_direction, "other_direction"},
     {Status::time_fault, "time_fault"},
     {Status::coil_fault, "coil_fault"},
 }};

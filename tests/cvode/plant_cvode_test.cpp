@@ -56,5 +56,13 @@ TEST(PlantAgainstCvode, AgreesWithAMotorWhoseReturnGoesToTank) {
   expect_within_a_ten_thousandth(distance_from_cvode(p, 0.15));
 }
 
+TEST(PlantAgainstCvode, AgreesWhereTheBenchJoinsThePortsOrFeedsTheReturn) {
+  for (const LoadKind kind : {LoadKind::held_path, LoadKind::held_return}) {
+    PlantParameters p = smooth_plant();
+    p.load.kind = kind;
+    expect_within_a_ten_thousandth(distance_from_cvode(p, 0.15));
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::rig::reference

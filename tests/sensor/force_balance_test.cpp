@@ -24,9 +24,9 @@ void balance_along(const Course& course, double step_s, double wrong_Pa, const E
     if (begins) begin(state.position, now.measured.position_m);
     const Dither<double> dither =
         follow_dither(state.dither, now.measured.current_A, parameters.largest_current_A, step_s);
-    const PositionPoint<double> position = track(parameters.position_sensor, state.position, now.measured,
+    const PositionPoint<double> position = track(parameters.position_sensor, state.position, now.measured, {},
                                                  state.oil_temperature_K, dither, state.swing.frees);
-    each(time_s, now, balance_forces(parameters, state, now.measured, position, dither, begins));
+    each(time_s, now, balance_forces(parameters, state, now.measured, position, dither, 0.0, begins));
     begins = false;
   }
 }

@@ -22,8 +22,10 @@ class PositionTrack : public testing::TestWithParam<double> {
   using Course = std::function<double(double time_s)>;
   using Each = std::function<void(double time_s, const PositionPoint<double>& point)>;
 
-  /// The track over the signal of a course; `fault_m` adds to the signal.
-  void follow(double duration_s, const Course& course, const Each& each, const Course& fault_m = nullptr) const {
+  /// The track over the signal of a course; `fault_m` adds to the signal. The coil's current tells of no motion where
+  /// it is steady, and the voltage with it where there is one.
+  void follow(double duration_s, const Course& course, const Each& each, const Course& fault_m = nullptr,
+              const Course& voltage_V = nullptr) const {
     std::mt19937 generator(3);
     std::normal_distribution<double> noise_m(0, signal_of_lvdt.noise_m);
     PositionState<double> state{};
@@ -33,7 +35,8 @@ class PositionTrack : public testing::TestWithParam<double> {
       Sample<double> sample{};
       sample.time_step_s = step_s();
       sample.position_m = course(time_s) + noise_m(generator) + (fault_m ? fault_m(time_s) : 0);
-      each(time_s, track(signal_of_lvdt, state, sample, 313.0, {}, false));
+      sample.voltage_V = voltage_V ? voltage_V(time_s) : std::nan("");
+      each(time_s, track(signal_of_lvdt, state, sample, {.current_A = 0.01, .voltage_V = 0.2}, 313.0, {}, false));
     }
   }
   [[nodiscard]] static double step_s() { return GetParam(); }
@@ -100,6 +103,33 @@ TEST_P(PositionTrack, TakesAFaultOutOfTheSignalUntilItIsOver) {
         EXPECT_EQ(point.fault, time_s >= 0.4 && time_s < 0.45) << time_s;
       },
       [](double time_s) { return time_s >= 0.4 && time_s < 0.45 - 1e-9 ? 0.24e-3 + step_s() : 0; });
+}
+
+TEST_P(PositionTrack, TakesAFaultOutThatTheCoilKnowsNothingOfHoweverLongTheStep) {
+  const double until_s = 0.45;
+  follow(
+      1, [](double time_s) { return 0.5e-3 + 0.1e-3 * time_s; },
+      [&](double time_s, const PositionPoint<double>& point) {
+        EXPECT_NEAR(point.position_m, 0.5e-3 + 0.1e-3 * time_s, 5e-6) << time_s;
+        EXPECT_EQ(point.fault, time_s >= 0.4 && time_s < until_s) << time_s;
+      },
+      [&](double time_s) { return time_s >= 0.4 && time_s < until_s - 1e-9 ? 0.15e-3 : 0; }, [](double) { return 5; });
+}
+
+TEST_P(PositionTrack, BelievesASlipThatTheVoltageTellsOf) {
+  if (step_s() < 2e-3) GTEST_SKIP() << "no spool slips by 0.15 mm within one sample";
+  follow(
+      1, [](double time_s) { return time_s < 0.4 ? 1e-3 : 1.15e-3; },
+      [&](double time_s, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
+      [](double time_s) { return time_s < 0.4 ? 5 : 5.5; });
+}
+
+TEST_P(PositionTrack, BelievesASpoolThatStopsInNoTime) {
+  const auto speeds_up_m = [](double for_s) { return 0.5 * 80 * for_s * for_s; };  // to 0.4 m/s
+  follow(
+      1, [&](double time_s) { return 0.2e-3 + speeds_up_m(std::clamp(time_s - 0.4, 0.0, 5e-3)); },
+      [&](double time_s, const PositionPoint<double>& point) { EXPECT_FALSE(point.fault) << time_s; }, nullptr,
+      [](double time_s) { return 5 + 1000 * time_s; });
 }
 
 TEST_P(PositionTrack, BelievesAJumpThatLasts) {

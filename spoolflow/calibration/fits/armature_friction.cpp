@@ -132,6 +132,7 @@ ArmatureFrictionFit fit_armature_friction(const SolenoidSamples& samples, const 
       half_width_N.back().push_back(std::max(0.0, -opening_less_closing));
   }
   over_rows(fit.friction_N, currents_A, half_width_N);
+  for (double& node_N : fit.friction_N.values) node_N = std::max(0.0, node_N);  // the trend below the first current
   FrictionMap correction = fit.friction_N;
   over_rows(correction, currents_A, mean_N);
   for (int row = 1; row < rows; ++row)

@@ -7,20 +7,64 @@
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
+#include "spoolflow/calibration/operation/told_dials.hpp"
 
 namespace spoolflow::calibration {
-OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
-                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
-                           const std::function<void(double)>& progress) {
+namespace {
+
+/// Pattern search: one dial after the other, by a factor that grows where it helps and shrinks where it does not.
+void search(const std::vector<Dial>& dials, const std::function<double()>& cost,
+            const std::function<void(double)>& progress) {
+  double best = cost();
+  constexpr int rounds = 20;
+  constexpr double first_step = 1.35;  // as a factor
+  std::vector<double> step(dials.size(), first_step);
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < dials.size(); ++k) {
+      progress((round + static_cast<double>(k) / static_cast<double>(dials.size())) / rounds);
+      const double before = *dials[k].value;
+      bool better = false;
+      for (const double factor : {step[k], 1 / step[k]}) {
+        *dials[k].value = std::clamp(before * factor, dials[k].lowest, dials[k].highest);
+        const double tried = cost();
+        better = tried < best;
+        if (better) {
+          best = tried;
+          break;
+        }
+        *dials[k].value = before;
+      }
+      step[k] = better ? std::min(2.0, 1 + 1.3 * (step[k] - 1)) : 1 + 0.6 * (step[k] - 1);
+    }
+  }
+}
+
+/// Names of those of all dials that are not among the told.
+std::vector<std::string> not_told(sensor::ObserverParameters<double>& parameters, const std::vector<Dial>& told) {
+  std::vector<std::string> out;
+  for (const Dial& dial : operation_dials(parameters)) {
+    if (std::ranges::none_of(told, [&](const Dial& each) { return each.value == dial.value; }))
+      out.emplace_back(dial.name);
+  }
+  return out;
+}
+
+}  // namespace
+
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
+                           double full_scale_m3_per_s, const std::function<void(double)>& progress) {
   OperationFit out{};
-  const std::vector<OperatingRun> runs = with_meters(parameters, recordings);
+  const std::vector<OperatingRun> runs = with_meters(parameters, recorded);
   for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
-  const std::vector<Dial> all = operation_dials(parameters);
+  const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
+  if (!rests) assume_rest(parameters);
   scale_band(parameters, 0.7);  // as wide as most valves need, for the search
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
   const sensor::PressureParameters<double> given_supply = parameters.pressure;
   constexpr double restless = 0.3;
   parameters.pressure.least_process_noise = parameters.pressure.first_process_noise = restless;
+  const std::vector<Dial> all = told_dials(parameters, runs, full_scale_m3_per_s);
+  out.not_told = not_told(parameters, all);
   std::vector<double> prior;
   for (const Dial& dial : all) prior.push_back(*dial.value);
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
@@ -32,33 +76,12 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
   };
 
   out.score_before = operation_score(parameters, runs, full_scale_m3_per_s);
-  double best = cost();
-  constexpr int rounds = 20;
-  constexpr double first_step = 1.35;  // as a factor
-  std::vector<double> step(all.size(), first_step);
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      progress((round + static_cast<double>(k) / static_cast<double>(all.size())) / rounds);
-      const double before = *all[k].value;
-      bool better = false;
-      for (const double factor : {step[k], 1 / step[k]}) {
-        *all[k].value = std::clamp(before * factor, all[k].lowest, all[k].highest);
-        const double tried = cost();
-        better = tried < best;
-        if (better) {
-          best = tried;
-          break;
-        }
-        *all[k].value = before;
-      }
-      step[k] = better ? std::min(2.0, 1 + 1.3 * (step[k] - 1)) : 1 + 0.6 * (step[k] - 1);
-    }
-  }
-
+  search(all, cost, progress);
   out.score = operation_score(parameters, runs, full_scale_m3_per_s);
-  out.known = known_of_operation(parameters, runs, full_scale_m3_per_s, pull * out.score);
+  out.known = known_of_operation(all, parameters, runs, full_scale_m3_per_s, pull * out.score);
   parameters.pressure = given_supply;
   out.force_error_ratio = force_error_ratio(parameters, runs);
+  if (!rests) out.force_error_ratio = std::max(out.force_error_ratio, least_dithered_force_error_ratio);
   scale_band(parameters, out.force_error_ratio);
   const OperationOutcome outcome =
       together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));

@@ -3,9 +3,11 @@
 /// compares with that on the bench, its growth at rest, the contacts' stiffness, the backlash of the position sensor,
 /// and how wide the band must be. These recordings are then no independent test any more.
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -19,6 +21,7 @@ struct OperationFit {
   double score;
   std::vector<numerics::MeterLag> meters;  ///< of the recordings, as they show it
   model::Fit known;                        ///< of the parameters that were searched, see operation_uncertainty.hpp
+  std::vector<std::string> not_told;       ///< parameters of which these recordings tell nothing, see told_dials.hpp
   FitResidual flow_m3_per_s;               ///< estimate less reference, with the fitted parameters
   double force_error_ratio;                ///< see band.hpp; the band is scaled by it
   double band_coverage;                    ///< share of the samples with the reference inside the band
@@ -26,10 +29,9 @@ struct OperationFit {
 };
 
 /// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
-/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference;
-/// `progress` is told the share done.
-OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
-                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
-                           const std::function<void(double)>& progress);
+/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference; their
+/// meters are found. `progress` is told the share done.
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
+                           double full_scale_m3_per_s, const std::function<void(double)>& progress);
 
 }  // namespace spoolflow::calibration

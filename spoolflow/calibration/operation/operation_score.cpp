@@ -9,14 +9,15 @@ namespace spoolflow::calibration {
 std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters) {
   sensor::FrictionParameters<double>& friction = parameters.friction;
   return {
-      {"operation_friction_ratio", &friction.operation_ratio, 0.5, 2.5},
-      {"friction_ageing_ratio", &friction.ageing_ratio, 1.01, 12},
-      {"friction_ageing_s", &friction.ageing_s, 0.1, 20},
-      {"contact_stiffness_N_per_m", &friction.contact_stiffness_N_per_m, 5e5, 5e7},
-      {"friction_tolerance_N", &friction.tolerance_N, 0.3, 2.5},
-      {"breakaway_share", &friction.breakaway_share, 0.05, 0.4},
-      {"band_friction_share", &parameters.band.friction_share, 0.01, 0.2},
-      {"position_backlash_m", &parameters.position_sensor.backlash_m, 5e-8, 4e-6},
+      {"operation_friction_ratio", &friction.operation_ratio, 0.5, 2.5, ShownBy::any_run},
+      {"friction_ageing_ratio", &friction.ageing_ratio, 1.01, 12, ShownBy::undithered_rest},
+      {"friction_ageing_s", &friction.ageing_s, 0.1, 20, ShownBy::undithered_rest},
+      {"contact_stiffness_N_per_m", &friction.contact_stiffness_N_per_m, 5e5, 5e7, ShownBy::undithered_rest},
+      {"friction_tolerance_N", &friction.tolerance_N, 0.3, 2.5, ShownBy::undithered_rest},
+      {"breakaway_share", &friction.breakaway_share, 0.05, 0.4, ShownBy::undithered_rest},
+      {"band_friction_share", &parameters.band.friction_share, 0.01, 0.2, ShownBy::any_run},
+      {"position_backlash_m", &parameters.position_sensor.backlash_m, 5e-8, 4e-6, ShownBy::undithered_rest},
+      {"moving_mass_kg", &parameters.moving_mass_kg, 0.02, 2, ShownBy::score},
   };
 }
 

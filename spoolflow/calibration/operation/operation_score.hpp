@@ -10,11 +10,19 @@
 
 namespace spoolflow::calibration {
 
+/// What of an operating recording shows a parameter.
+enum class ShownBy {
+  any_run,
+  undithered_rest,  ///< rest without dither
+  score,            ///< it shows where the score depends on it
+};
+
 /// A parameter that operation shows, with the range that is searched.
 struct Dial {
   const char* name;  ///< with its SI unit as suffix
   double* value;
   double lowest, highest;
+  ShownBy shown_by;
 };
 
 [[nodiscard]] std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double stretch_s = 2;  // friction in one is hardly that in the next
 constexpr double log_step = 0.1;
+const double pulled_to_deviation = std::log(2.0);  // of a valve's parameters from those assumed: a factor of two
 
 /// The score as a sum over stretches: the RMS error stands for its linear part about `rms_m3_per_s`, so that the sum
 /// has the score's slope.
@@ -67,21 +68,23 @@ Curvature curvature_about(const Eigen::VectorXd& middle, const std::vector<Eigen
   return out;
 }
 
-/// Huber's sandwich: how much the slope differs between stretches, between inverse curvatures.
+/// Huber's sandwich: how much the slope differs between stretches, between inverse curvatures. Where the pull holds a
+/// parameter, it is off by what the valve's differs from the one pulled to.
 Eigen::MatrixXd covariance_from(Curvature score, double pull) {
   score.slopes.rowwise() -= score.slopes.colwise().mean();
   const double stretches = static_cast<double>(score.slopes.rows());
   const Eigen::MatrixXd scatter =
       stretches / std::max(1.0, stretches - 1) * score.slopes.transpose().lazyProduct(score.slopes);
   const Eigen::MatrixXd inverse = inverse_of(std::move(score.curvature), 2 * pull);
-  return inverse.lazyProduct(scatter).eval().lazyProduct(inverse);
+  const Eigen::MatrixXd told =
+      scatter + std::pow(2 * pull * pulled_to_deviation, 2) * Eigen::MatrixXd::Identity(scatter.rows(), scatter.cols());
+  return inverse.lazyProduct(told).eval().lazyProduct(inverse);
 }
 
 }  // namespace
 
-model::Fit known_of_operation(sensor::ObserverParameters<double> parameters, const std::vector<OperatingRun>& runs,
-                              double full_scale_m3_per_s, double pull) {
-  const std::vector<Dial> dials = operation_dials(parameters);
+model::Fit known_of_operation(const std::vector<Dial>& dials, const sensor::ObserverParameters<double>& parameters,
+                              const std::vector<OperatingRun>& runs, double full_scale_m3_per_s, double pull) {
   std::vector<std::string> names;
   std::vector<double> values;
   std::vector<Eigen::Index> free;
@@ -109,7 +112,7 @@ model::Fit known_of_operation(sensor::ObserverParameters<double> parameters, con
   const Eigen::Map<const Eigen::VectorXd> scale(values.data(), static_cast<Eigen::Index>(values.size()));
   const Eigen::MatrixXd covariance =
       scale.asDiagonal() * spread_over(scale.size(), free, on_log_scale) * scale.asDiagonal();
-  return known_from("friction and position sensor in operation", names, values, covariance);
+  return known_from(fit_of_operation, names, values, covariance);
 }
 
 }  // namespace spoolflow::calibration

@@ -29,15 +29,16 @@ struct VirtualValve {
 };
 
 /// Choices that are no described numbers come first: kind of load, ideal hold, kind of the solenoids' hysteresis,
-/// return line of the load, shape of the dither.
-inline constexpr std::size_t valve_choices = 6;
+/// return line of the load, shape of the dither, what chooses the solenoid.
+inline constexpr std::size_t valve_choices = 7;
 inline std::vector<double> numbers_of(const VirtualValve& valve) {
   std::vector<double> out{static_cast<double>(valve.plant.load.kind),
                           valve.plant.load.ideal_hold ? 1.0 : 0.0,
                           static_cast<double>(valve.plant.solenoid_a.hysteresis.kind),
                           static_cast<double>(valve.plant.solenoid_b.hysteresis.kind),
                           valve.plant.load.return_to_tank ? 1.0 : 0.0,
-                          static_cast<double>(valve.electronics.dither.shape)};
+                          static_cast<double>(valve.electronics.dither.shape),
+                          valve.electronics.sign_chooses ? 1.0 : 0.0};
   rig::for_each_parameter(valve, [&](std::string_view, const rig::Parameter&, double value) { out.push_back(value); });
   return out;
 }
@@ -59,7 +60,7 @@ inline void take_numbers(std::span<const double> numbers, VirtualValve& valve) {
     ++next;
   });
   const auto is_hysteresis = [](double number) { return number >= 0 && number <= 1; };
-  if (next != numbers.size() || !(numbers[0] >= 0 && numbers[0] <= 3) || !is_hysteresis(numbers[2]) ||
+  if (next != numbers.size() || !(numbers[0] >= 0 && numbers[0] <= 5) || !is_hysteresis(numbers[2]) ||
       !is_hysteresis(numbers[3]) || !(numbers[5] >= 0 && numbers[5] <= 2)) {
     throw ResourceError("the resource holds other numbers than this valve has; export the FMU again");
   }
@@ -69,6 +70,7 @@ inline void take_numbers(std::span<const double> numbers, VirtualValve& valve) {
   valve.plant.solenoid_b.hysteresis.kind = static_cast<rig::HysteresisKind>(static_cast<int>(numbers[3]));
   valve.plant.load.return_to_tank = numbers[4] != 0;
   valve.electronics.dither.shape = static_cast<rig::DitherShape>(static_cast<int>(numbers[5]));
+  valve.electronics.sign_chooses = numbers[6] != 0;
 }
 
 }  // namespace spoolflow::exports::fmu

@@ -28,6 +28,14 @@ constexpr std::array<Description, channel_count> descriptions{{
     {Channel::flow, "flow", Dimension::volume_flow},
     {Channel::flow_reference, "flow_reference", Dimension::volume_flow},
     {Channel::test, "test", Dimension::ratio},
+    {Channel::current_a, "current_a", Dimension::current},
+    {Channel::current_b, "current_b", Dimension::current},
+    {Channel::voltage_a, "voltage_a", Dimension::voltage},
+    {Channel::voltage_b, "voltage_b", Dimension::voltage},
+    {Channel::pressure_p, "pressure_p", Dimension::pressure},
+    {Channel::pressure_a, "pressure_a", Dimension::pressure},
+    {Channel::pressure_b, "pressure_b", Dimension::pressure},
+    {Channel::pressure_t, "pressure_t", Dimension::pressure},
 }};
 
 constexpr bool in_order_of_the_enumeration() {

@@ -11,7 +11,9 @@
 namespace spoolflow::recording {
 
 /// A measured or commanded quantity. Values are kept in SI: s, A, V, m, N, Pa, K, m3/s.
-/// `position_set` is the share of the stroke, 0 (closed) to 1 (fully open). `test` numbers the parts of a protocol.
+/// `position_set` is the share of the stroke, 0 (closed) to 1 (fully open); below 0 a whole valve opens P to A. `test`
+/// numbers the parts of a protocol. `current` and `voltage` are of the only or the active coil, `current_a` and so on
+/// of the coils that open P to A and P to B; `pressure_p` to `pressure_t` are those at the valve's ports.
 enum class Channel : std::uint8_t {
   time,
   current,
@@ -29,8 +31,16 @@ enum class Channel : std::uint8_t {
   flow,
   flow_reference,
   test,
+  current_a,
+  current_b,
+  voltage_a,
+  voltage_b,
+  pressure_p,
+  pressure_a,
+  pressure_b,
+  pressure_t,
 };
-inline constexpr std::size_t channel_count = 16;
+inline constexpr std::size_t channel_count = 24;
 
 /// The name used in file headers and channel maps, such as "oil_temperature".
 [[nodiscard]] std::string_view name(Channel channel);

@@ -1,12 +1,20 @@
 #pragma once
 /// The axial-force bench (paper section 3, Fig 5): solenoids removed, an external drive opens and closes the spool at
 /// each held pressure difference. At zero pressure it is the spring test.
+#include <optional>
 #include <vector>
 
 #include "spoolflow/rig/bench/bench_run.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
 
 namespace spoolflow::rig {
+
+/// Which of the edges that x > 0 opens the bench feeds.
+enum class BenchEdges {
+  inlet,   ///< P to B; A, B and T drain to the back pressure
+  path,    ///< P to B and A to T, one behind the other: A and B are joined
+  outlet,  ///< A to T: port A is fed instead of P
+};
 
 struct AxialForceProtocol {
   std::vector<double> pressure_differences_bar{5, 10, 20, 30, 40, 50, 60, 70};
@@ -15,6 +23,7 @@ struct AxialForceProtocol {
   double rate_percent_per_s = 5.0;
   double hold_s = 1.0;
   double sample_rate_Hz = 100.0;
+  std::optional<BenchEdges> edges{};  ///< absent: the path of a whole valve, else as the valve's load has it
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {

@@ -1,5 +1,6 @@
 #pragma once
 /// What is planned for one recording: arrangement, the course of every set value, what is stored and how often.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,14 +46,18 @@ class SpanReader {
 struct BenchRun {
   Arrangement arrangement = Arrangement::valve;
   CoilFeed coil_feed = CoilFeed::valve_electronics;
-  Course position_set;  ///< share of the stroke, > 0 opens P to B; valve electronics
-  Course motion_m;      ///< carriage or external drive; solenoid and axial-force bench
-  Course current_A;     ///< bench amplifier
-  Course voltage_V;     ///< bench amplifier, in the spans below where it holds the voltage
+  std::optional<LoadKind> load;  ///< what the bench hangs on the ports; absent: the valve's own load
+  bool whole_valve = false;      ///< flow is signed, > 0 for P to B, and the pressure difference that of the open path
+  Course position_set;           ///< share of the stroke, > 0 opens P to B; valve electronics
+  Course motion_m;               ///< carriage or external drive; solenoid and axial-force bench
+  Course current_A;              ///< bench amplifier
+  Course voltage_V;              ///< bench amplifier, in the spans below where it holds the voltage
   std::vector<Span<bool>> voltage_held;
   Dither dither;  ///< on the bench amplifier's current; the valve's electronics have their own
   Course pressure_difference_Pa;
-  Course supply_pressure_Pa{100e5};  ///< loads orifice and cylinder
+  Course supply_pressure_Pa{100e5};        ///< loads orifice, cylinder and motor
+  bool supply_follows_difference = false;  ///< then it is the course of the difference above the tank's pressure
+  Course load_force_N;                     ///< on the cylinder, > 0 against moving out under flow from B
   Course oil_temperature_C{50};
   std::vector<Span<double>> sample_rate_Hz;
   std::vector<Span<double>> test;            ///< numbers of the parts; empty: none

@@ -1,7 +1,7 @@
 #pragma once
 /// What really happened during a run, sample by sample beside the recording: what no instrument shows.
-#include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -16,17 +16,22 @@ struct TruthQuantity {
   double (*of)(const PlantOutput&);
 };
 
-inline constexpr std::size_t truth_quantity_count = 22;
-/// In the order of the file's columns; time first. Signs as in valve_plant.hpp.
-[[nodiscard]] const std::array<TruthQuantity, truth_quantity_count>& truth_quantities();
+/// In the order of the file's columns; time first. Signs as in valve_plant.hpp. Of a whole valve's operation: the flow
+/// is signed, > 0 for P to B, the pressure difference is that of the open path, and each edge, port and solenoid has
+/// its own columns.
+[[nodiscard]] std::span<const TruthQuantity> truth_quantities(bool whole_valve = false);
 
 /// One row a sample of the recording, at the same time stamps; instantaneous, never averaged.
 struct GroundTruth {
-  std::array<std::vector<double>, truth_quantity_count> columns;
+  explicit GroundTruth(bool whole_valve = false)
+      : quantities(truth_quantities(whole_valve)), columns(quantities.size()) {}
+
+  std::span<const TruthQuantity> quantities;
+  std::vector<std::vector<double>> columns;
 
   void add(const PlantOutput& plant) {
-    for (std::size_t k = 0; k < truth_quantity_count; ++k) {
-      columns[k].push_back(truth_quantities()[k].of(plant));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      columns[k].push_back(quantities[k].of(plant));
     }
   }
   [[nodiscard]] std::size_t size() const { return columns.front().size(); }

@@ -11,29 +11,56 @@ using recording::Channel;
 
 namespace {
 
-double downstream_Pa(const PlantOutput& plant) {
-  return plant.pressure_P_Pa - plant.pressure_difference_Pa;
+double downstream_Pa(const PlantOutput& plant, bool whole_valve) {
+  return plant.path.upstream_pressure_Pa -
+         (whole_valve ? plant.path.pressure_difference_Pa : plant.pressure_difference_Pa);
+}
+
+double flow_m3_per_s(const PlantOutput& plant, bool whole_valve) {
+  return whole_valve ? plant.path.flow_m3_per_s : plant.flow_m3_per_s;
+}
+
+bool records(const BenchRun& run, Channel channel) {
+  return std::find(run.channels.begin(), run.channels.end(), channel) != run.channels.end();
 }
 
 }  // namespace
 
-InstrumentPanel::InstrumentPanel(const Instruments& instruments, std::uint64_t seed, const PlantOutput& plant,
-                                 double oil_temperature_C)
+InstrumentPanel::InstrumentPanel(const Instruments& instruments, std::uint64_t seed, const BenchRun& run,
+                                 const PlantOutput& plant, double oil_temperature_C)
     : lvdt(instruments.lvdt, seed, plant.position_m, oil_temperature_C),
+      whole_valve_(run.whole_valve),
       shunt_(errors(instruments.shunt), seed, "shunt", 0),
       voltage_(errors(instruments.voltage), seed, "voltage", 0),
       load_cell_(errors(instruments.load_cell), seed, "load cell", plant.load_cell_force_N),
-      upstream_(errors(instruments.upstream), seed, "upstream pressure", plant.pressure_P_Pa),
-      downstream_(errors(instruments.downstream), seed, "downstream pressure", downstream_Pa(plant)),
+      upstream_(errors(instruments.upstream), seed, "upstream pressure", plant.path.upstream_pressure_Pa),
+      downstream_(errors(instruments.downstream), seed, "downstream pressure", downstream_Pa(plant, run.whole_valve)),
       thermometer_(errors(instruments.thermometer), seed, "thermometer", oil_temperature_C),
-      flow_meter_(instruments.flow_meter, seed, plant.flow_m3_per_s) {}
+      coil_a_(instruments, seed, "a"),
+      coil_b_(instruments, seed, "b"),
+      flow_meter_(instruments.flow_meter, seed, flow_m3_per_s(plant, run.whole_valve)) {
+  if (records(run, Channel::pressure_p) || records(run, Channel::pressure_a) || records(run, Channel::pressure_b) ||
+      records(run, Channel::pressure_t)) {
+    const TransducerErrors sensor = errors(instruments.upstream);
+    ports_ = Ports{.P = Transducer(sensor, seed, "pressure P", plant.pressure_P_Pa),
+                   .A = Transducer(sensor, seed, "pressure A", plant.pressure_A_Pa),
+                   .B = Transducer(sensor, seed, "pressure B", plant.pressure_B_Pa),
+                   .T = Transducer(sensor, seed, "pressure T", plant.pressure_T_Pa)};
+  }
+}
 
 void InstrumentPanel::follow_plant(const PlantOutput& plant, double oil_temperature_C, double dt_s) {
   load_cell_.follow(plant.load_cell_force_N, dt_s);
-  upstream_.follow(plant.pressure_P_Pa, dt_s);
-  downstream_.follow(downstream_Pa(plant), dt_s);
+  upstream_.follow(plant.path.upstream_pressure_Pa, dt_s);
+  downstream_.follow(downstream_Pa(plant, whole_valve_), dt_s);
   thermometer_.follow(oil_temperature_C, dt_s);
-  flow_meter_.follow(plant.flow_m3_per_s, dt_s);
+  flow_meter_.follow(flow_m3_per_s(plant, whole_valve_), dt_s);
+  if (ports_) {
+    ports_->P.follow(plant.pressure_P_Pa, dt_s);
+    ports_->A.follow(plant.pressure_A_Pa, dt_s);
+    ports_->B.follow(plant.pressure_B_Pa, dt_s);
+    ports_->T.follow(plant.pressure_T_Pa, dt_s);
+  }
 }
 
 double InstrumentPanel::reading(Channel channel, const SetValues& set, double noise_share) {
@@ -46,6 +73,14 @@ double InstrumentPanel::reading(Channel channel, const SetValues& set, double no
       return set.current_A;
     case Channel::voltage:
       return voltage_.reading(noise_share);
+    case Channel::current_a:
+      return coil_a_.current_A();
+    case Channel::current_b:
+      return coil_b_.current_A();
+    case Channel::voltage_a:
+      return coil_a_.voltage_V();
+    case Channel::voltage_b:
+      return coil_b_.voltage_V();
     case Channel::position:
       return lvdt.acquired_m(set.time_s);
     case Channel::position_set:
@@ -57,6 +92,14 @@ double InstrumentPanel::reading(Channel channel, const SetValues& set, double no
       return upstream_.reading();
     case Channel::pressure_downstream:
       return downstream_.reading();
+    case Channel::pressure_p:
+      return ports_->P.reading();
+    case Channel::pressure_a:
+      return ports_->A.reading();
+    case Channel::pressure_b:
+      return ports_->B.reading();
+    case Channel::pressure_t:
+      return ports_->T.reading();
     case Channel::pressure_difference:
       return upstream_.reading() - downstream_.reading();
     case Channel::pressure_difference_set:
@@ -78,6 +121,8 @@ void InstrumentPanel::store(recording::Recording& recording, const std::vector<C
   const double conversions = static_cast<double>(std::max<std::int64_t>(1, conversions_));
   shunt_.follow(current_sum_A_ / conversions, 0);
   voltage_.follow(voltage_sum_V_ / conversions, 0);
+  coil_a_.end_period(conversions);
+  coil_b_.end_period(conversions);
   current_sum_A_ = voltage_sum_V_ = 0;
   conversions_ = 0;
   for (const Channel channel : channels) {

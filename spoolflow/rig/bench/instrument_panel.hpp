@@ -1,9 +1,12 @@
 #pragma once
 /// Every instrument of the rig, following one plant and filling one recording.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "spoolflow/recording/recording.hpp"
+#include "spoolflow/rig/bench/bench_run.hpp"
+#include "spoolflow/rig/bench/coil_panel.hpp"
 #include "spoolflow/rig/instruments/instruments.hpp"
 #include "spoolflow/rig/plant/valve_plant.hpp"
 
@@ -18,18 +21,27 @@ struct SetValues {
   double test = 0;
 };
 
+/// Current and mean voltage of both coils.
+struct CoilSignals {
+  double current_a_A, current_b_A;
+  double voltage_a_V, voltage_b_V;
+};
+
 class InstrumentPanel {
  public:
-  /// Settled on the plant as it stands; the oil has `oil_temperature_C`.
-  InstrumentPanel(const Instruments& instruments, std::uint64_t seed, const PlantOutput& plant,
+  /// What that run records, settled on the plant as it stands; the oil has `oil_temperature_C`.
+  InstrumentPanel(const Instruments& instruments, std::uint64_t seed, const BenchRun& run, const PlantOutput& plant,
                   double oil_temperature_C);
 
   LvdtReading lvdt;
 
-  /// One period of the electronics went by with this mean voltage and this current at its end.
-  void follow_coil(double current_A, double voltage_V) {
-    current_sum_A_ += current_A;
-    voltage_sum_V_ += voltage_V;
+  /// One period of the electronics went by with these mean voltages and these currents at its end. The channels current
+  /// and voltage show the driven solenoid; a is negative, as its direction.
+  void follow_coils(const CoilSignals& coils) {
+    current_sum_A_ += coils.current_b_A - coils.current_a_A;
+    voltage_sum_V_ += coils.voltage_b_V - coils.voltage_a_V;
+    coil_a_.follow(coils.current_a_A, coils.voltage_a_V);
+    coil_b_.follow(coils.current_b_A, coils.voltage_b_V);
     ++conversions_;
   }
   /// The instruments for force, pressures, flow and temperature follow the plant for `dt_s`.
@@ -40,7 +52,13 @@ class InstrumentPanel {
  private:
   [[nodiscard]] double reading(recording::Channel channel, const SetValues& set, double noise_share);
 
+  struct Ports {
+    Transducer P, A, B, T;
+  };
+  bool whole_valve_;
   Transducer shunt_, voltage_, load_cell_, upstream_, downstream_, thermometer_;
+  CoilPanel coil_a_, coil_b_;
+  std::optional<Ports> ports_;  ///< where the run records them
   FlowMeterReading flow_meter_;
   double current_sum_A_ = 0;
   double voltage_sum_V_ = 0;

@@ -17,6 +17,7 @@ BenchRun under(const OperationConditions& conditions, BenchRun run) {
   run.oil_temperature_C = Course(conditions.oil_temperature_start_C);
   run.oil_temperature_C.ramp_for(conditions.oil_temperature_end_C, duration_s);
   run.supply_pressure_Pa = Course(units::Pa_from_bar(conditions.supply_pressure_bar));
+  run.supply_follows_difference = conditions.supply_follows_difference;
   run.position_faults_per_s = conditions.position_faults_per_s;
   run.sample_rate_Hz = {{duration_s, conditions.sample_rate_Hz}};
   run.channels = {Channel::time,
@@ -27,6 +28,10 @@ BenchRun under(const OperationConditions& conditions, BenchRun run) {
                   Channel::oil_temperature,
                   Channel::pressure_difference,
                   Channel::flow_reference};
+  if (conditions.port_pressures) {
+    run.channels.insert(run.channels.end(),
+                        {Channel::pressure_p, Channel::pressure_a, Channel::pressure_b, Channel::pressure_t});
+  }
   return run;
 }
 
@@ -41,11 +46,15 @@ BenchRun plan(const RampsProtocol& protocol) {
   const double rate_per_s = share(protocol.rate_percent_per_s);
   for (const double level_bar : protocol.pressure_differences_bar) {
     const double from_s = run.position_set.duration_s();
-    run.position_set.hold(protocol.pause_s)
-        .ramp_at(share(protocol.peak_percent), rate_per_s)
-        .hold(protocol.hold_s)
-        .ramp_at(0, rate_per_s)
-        .hold(protocol.pause_s);
+    std::vector<double> peaks_percent{protocol.peak_percent};
+    if (protocol.second_peak_percent != 0) peaks_percent.push_back(protocol.second_peak_percent);
+    for (const double peak_percent : peaks_percent) {
+      run.position_set.hold(protocol.pause_s)
+          .ramp_at(share(peak_percent), rate_per_s)
+          .hold(protocol.hold_s)
+          .ramp_at(0, rate_per_s)
+          .hold(protocol.pause_s);
+    }
     run.pressure_difference_Pa.step_to(units::Pa_from_bar(level_bar)).hold(run.position_set.duration_s() - from_s);
   }
   return under(protocol.conditions, std::move(run));
@@ -94,6 +103,15 @@ BenchRun plan(const DutyCycleProtocol& protocol, std::uint64_t seed) {
     run.pressure_difference_Pa.ramp_for(units::Pa_from_bar(to_bar), pressures.uniform(0.05, 0.8));
     run.pressure_difference_Pa.hold(
         pressures.uniform(0.1 * protocol.longest_pressure_hold_s, protocol.longest_pressure_hold_s));
+  }
+  if (protocol.lowest_load_N != 0 || protocol.highest_load_N != 0) {
+    Noise loads(seed, "duty cycle loads");
+    run.load_force_N.hold(0.5);
+    while (run.load_force_N.duration_s() < protocol.duration_s) {
+      run.load_force_N.ramp_for(loads.uniform(protocol.lowest_load_N, protocol.highest_load_N),
+                                loads.uniform(0.2, 1.0));
+      run.load_force_N.hold(loads.uniform(0.1 * protocol.longest_pressure_hold_s, protocol.longest_pressure_hold_s));
+    }
   }
   run = under(protocol.conditions, std::move(run));
   run.sample_rate_Hz = {{protocol.duration_s, protocol.conditions.sample_rate_Hz}};

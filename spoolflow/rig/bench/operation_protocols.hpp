@@ -15,6 +15,9 @@ struct OperationConditions {
   double supply_pressure_bar = 100.0;
   double position_faults_per_s = 0.0;
   double sample_rate_Hz = 1000.0;
+  bool supply_follows_difference = false;  ///< loads orifice, cylinder and motor: the pressure differences are the
+                                           ///< supply's, above tank
+  bool port_pressures = false;             ///< the pressures of ports P, A, B and T are recorded as well
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -41,6 +44,7 @@ struct RampsProtocol {
   std::vector<double> pressure_differences_bar{60};
   double rate_percent_per_s = 5.0;
   double peak_percent = 100.0;
+  double second_peak_percent = 0.0;
   double hold_s = 5.0;
   double pause_s = 1.0;
 
@@ -51,6 +55,9 @@ struct RampsProtocol {
     visit(Parameter{"rate_percent_per_s", "%/s", 0.1, 10000, "of the set position; 5 %/s in the paper"},
           self.rate_percent_per_s);
     visit(Parameter{"peak_percent", "%", -100, 100, "of the stroke; negative opens P to A"}, self.peak_percent);
+    visit(Parameter{"second_peak_percent", "%", -100, 100,
+                    "of a second triangle at each pressure difference, as to the other side; 0: none"},
+          self.second_peak_percent);
     visit(Parameter{"hold_s", "s", 0, 600, "at the peak"}, self.hold_s);
     visit(Parameter{"pause_s", "s", 0, 600, "closed, before and after each triangle"}, self.pause_s);
   }
@@ -99,7 +106,7 @@ struct SineProtocol {
 };
 [[nodiscard]] BenchRun plan(const SineProtocol& protocol);
 
-/// Random ramps and holds of the position, random steps of the pressure difference.
+/// Random ramps and holds of the position, random steps of the pressure difference, and of the cylinder's load.
 struct DutyCycleProtocol {
   OperationConditions conditions;
   double duration_s = 180.0;
@@ -111,6 +118,8 @@ struct DutyCycleProtocol {
   double lowest_pressure_bar = 8.0;
   double highest_pressure_bar = 70.0;
   double longest_pressure_hold_s = 6.0;
+  double lowest_load_N = 0.0;
+  double highest_load_N = 0.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -127,6 +136,10 @@ struct DutyCycleProtocol {
     visit(Parameter{"highest_pressure_bar", "bar", 0, 350, "levels are uniform between"}, self.highest_pressure_bar);
     visit(Parameter{"longest_pressure_hold_s", "s", 0.1, 600, "holds are uniform from a tenth of it"},
           self.longest_pressure_hold_s);
+    visit(Parameter{"lowest_load_N", "N", -1e6, 1e6,
+                    "force on the cylinder against moving out; levels are uniform between, held as the pressures"},
+          self.lowest_load_N);
+    visit(Parameter{"highest_load_N", "N", -1e6, 1e6, "levels are uniform between"}, self.highest_load_N);
   }
 };
 [[nodiscard]] BenchRun plan(const DutyCycleProtocol& protocol, std::uint64_t seed);

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace spoolflow::rig {
 namespace {
@@ -29,6 +30,23 @@ SolenoidRating solenoid_rating(const ValveUnderTest& valve) {
   return {.rated_current_A = valve.rating.current_A,
           .rated_voltage_V = valve.rating.current_A * valve.electronics.current.feed_forward_ohm,
           .stroke_m = valve.plant.spool.stroke_m};
+}
+
+/// A whole valve's operation: signed flow, the difference of the open path, both coils.
+void make_whole(BenchRun& run) {
+  using recording::Channel;
+  run.whole_valve = true;
+  std::vector<Channel> channels;
+  for (const Channel channel : run.channels) {
+    if (channel == Channel::current) {
+      channels.insert(channels.end(), {Channel::current_a, Channel::current_b});
+    } else if (channel == Channel::voltage) {
+      channels.insert(channels.end(), {Channel::voltage_a, Channel::voltage_b});
+    } else {
+      channels.push_back(channel);
+    }
+  }
+  run.channels = std::move(channels);
 }
 
 }  // namespace
@@ -61,11 +79,20 @@ Protocol protocol_named(std::string_view name) {
   throw std::out_of_range("no protocol is named " + std::string(name));
 }
 
+bool is_bench_test(const Protocol& protocol) {
+  return std::holds_alternative<AxialForceProtocol>(protocol) ||
+         std::holds_alternative<SolenoidForceMapProtocol>(protocol) ||
+         std::holds_alternative<SolenoidDynamicProtocol>(protocol);
+}
+
 BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64_t seed) {
   struct Plan {
     const ValveUnderTest& valve;
     std::uint64_t seed;
-    BenchRun operator()(const AxialForceProtocol& settings) const { return plan(settings, valve.plant.spool.stroke_m); }
+    BenchRun operator()(AxialForceProtocol settings) const {
+      if (valve.whole && !settings.edges) settings.edges = BenchEdges::path;
+      return plan(settings, valve.plant.spool.stroke_m);
+    }
     BenchRun operator()(const SolenoidForceMapProtocol& settings) const {
       return plan(settings, solenoid_rating(valve));
     }
@@ -78,7 +105,9 @@ BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64
     BenchRun operator()(const DutyCycleProtocol& settings) const { return plan(settings, seed); }
     BenchRun operator()(const PressureStepsProtocol& settings) const { return plan(settings); }
   };
-  return std::visit(Plan{valve, seed}, protocol);
+  BenchRun run = std::visit(Plan{valve, seed}, protocol);
+  if (valve.whole && run.arrangement == Arrangement::valve) make_whole(run);
+  return run;
 }
 
 }  // namespace spoolflow::rig

@@ -26,7 +26,11 @@ struct NamedProtocol {
 /// Throws std::out_of_range for an unknown name.
 [[nodiscard]] Protocol protocol_named(std::string_view name);
 
-/// The run that the settings describe, on that valve; random courses follow from `seed`.
+/// Of one solenoid or one direction of flow alone, not of the valve at work.
+[[nodiscard]] bool is_bench_test(const Protocol& protocol);
+
+/// The run that the settings describe, on that valve; random courses follow from `seed`. Operation of a whole valve
+/// records both coils, signed flow and the pressure difference of the open path.
 [[nodiscard]] BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64_t seed);
 
 }  // namespace spoolflow::rig

@@ -55,6 +55,22 @@ Column column(Channel channel, bool several_rates) {
       return {"flow_reference_L_min", 3, per_m3_per_s, 0};
     case Channel::test:
       return {"test", 0, 1, 0};
+    case Channel::current_a:
+      return {"current_a_A", 5, 1, 0};
+    case Channel::current_b:
+      return {"current_b_A", 5, 1, 0};
+    case Channel::voltage_a:
+      return {"voltage_a_V", 3, 1, 0};
+    case Channel::voltage_b:
+      return {"voltage_b_V", 3, 1, 0};
+    case Channel::pressure_p:
+      return {"pressure_p_bar", 3, per_Pa, 0};
+    case Channel::pressure_a:
+      return {"pressure_a_bar", 3, per_Pa, 0};
+    case Channel::pressure_b:
+      return {"pressure_b_bar", 3, per_Pa, 0};
+    case Channel::pressure_t:
+      return {"pressure_t_bar", 3, per_Pa, 0};
   }
   return {"", 0, 1, 0};
 }
@@ -85,13 +101,13 @@ void write_recording(std::ostream& stream, const recording::Recording& recording
 
 void write_truth(std::ostream& stream, const GroundTruth& truth) {
   recording::CsvWriter rows(stream);
-  for (const TruthQuantity& quantity : truth_quantities()) {
+  for (const TruthQuantity& quantity : truth.quantities) {
     rows.text(quantity.header);
   }
   rows.end_row();
   for (std::size_t row = 0; row < truth.size(); ++row) {
-    for (std::size_t k = 0; k < truth_quantity_count; ++k) {
-      rows.number(truth.columns[k][row], truth_quantities()[k].decimals);
+    for (std::size_t k = 0; k < truth.columns.size(); ++k) {
+      rows.number(truth.columns[k][row], truth.quantities[k].decimals);
     }
     rows.end_row();
   }

@@ -1,5 +1,7 @@
 #include "spoolflow/rig/bench/scenario.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,54 @@ std::vector<std::string> protocol_names() {
     names.emplace_back(protocol.name);
   }
   return names;
+}
+
+/// What bench tests have beside the protocol's numbers.
+struct BenchChoices {
+  bool direction_given = false;
+  std::optional<std::size_t> edge;  ///< index of `edges`
+};
+struct NamedEdge {
+  const char* name;
+  BenchEdges edges;
+  std::optional<bool> direction_a;  ///< what it opens with
+};
+constexpr std::array<NamedEdge, 5> edges{{{"path", BenchEdges::path, std::nullopt},
+                                          {"PB", BenchEdges::inlet, false},
+                                          {"AT", BenchEdges::outlet, false},
+                                          {"PA", BenchEdges::inlet, true},
+                                          {"BT", BenchEdges::outlet, true}}};
+
+void add_bench_choices(Settings& settings, Scenario& scenario, BenchChoices& choices) {
+  settings.add_choice("direction", {"b", "a"}, [&](std::size_t index) {
+    scenario.direction_a = index == 1;
+    choices.direction_given = true;
+  });
+  std::vector<std::string> names;
+  for (const NamedEdge& edge : edges) names.emplace_back(edge.name);
+  settings.add_choice("edge", names, [&](std::size_t index) { choices.edge = index; });
+}
+
+/// Throws SettingsError where the choices do not fit the protocol or each other.
+void take(const BenchChoices& choices, const std::string& file, Scenario& scenario) {
+  if (choices.direction_given && !is_bench_test(scenario.protocol)) {
+    throw SettingsError(
+        fmt::format("{}: direction is of bench tests; this protocol drives the valve both ways by the sign of its "
+                    "positions, so remove direction",
+                    file));
+  }
+  if (!choices.edge) return;
+  AxialForceProtocol* axial = std::get_if<AxialForceProtocol>(&scenario.protocol);
+  if (axial == nullptr) {
+    throw SettingsError(fmt::format("{}: edge is of the protocols axial_force_map and spring; remove it here", file));
+  }
+  const NamedEdge& edge = edges[*choices.edge];
+  if (edge.direction_a && choices.direction_given && *edge.direction_a != scenario.direction_a) {
+    throw SettingsError(fmt::format("{}: edge = \"{}\" opens in direction {}; correct direction or remove it", file,
+                                    edge.name, *edge.direction_a ? "a" : "b"));
+  }
+  axial->edges = edge.edges;
+  if (edge.direction_a) scenario.direction_a = *edge.direction_a;
 }
 
 /// The protocol alone, read first: it decides which keys [run] may hold.
@@ -54,13 +104,25 @@ Scenario read_scenario(const std::filesystem::path& file) {
   Settings settings;
   settings.add_text("valve", valve).add_choice("protocol", protocol_names(), [](std::size_t) {});
   add_valve_settings(settings, scenario.valve);
-  std::visit([&](auto& its) { settings.add("run", its); }, scenario.protocol);
+  std::visit(
+      [&](auto& its) {
+        settings.add("run", its);
+        if constexpr (requires { its.conditions; }) {
+          settings.add_flag("run.conditions.port_pressures", its.conditions.port_pressures);
+          settings.add_flag("run.conditions.supply_follows_difference", its.conditions.supply_follows_difference);
+        }
+      },
+      scenario.protocol);
+  BenchChoices choices;
+  add_bench_choices(settings, scenario, choices);
   apply(source, settings);
+  take(choices, source.name, scenario);
   return scenario;
 }
 
 PlannedScenario plan(const Scenario& scenario) {
   ValveUnderTest valve = as_built(scenario.valve);
+  if (scenario.direction_a) valve = turned_round(std::move(valve));
   BenchRun run = plan(scenario.protocol, valve, valve.seed);
   return {.valve = std::move(valve), .run = std::move(run)};
 }

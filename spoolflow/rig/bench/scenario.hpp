@@ -4,6 +4,9 @@
 ///     protocol = "ramps"               # required; the protocols of protocol.hpp
 ///     valve = "size_6"                 # a preset, or the path of a valve file beside this one
 ///     seed = 3
+///     direction = "b"                  # bench tests: b opens P to B, a opens P to A
+///     edge = "path"                    # axial_force_map and spring: P to B and A to T together (or their mirror
+///                                      # images), or one edge of "PB", "AT", "PA", "BT"
 ///     [run]                            # settings of the protocol
 ///     pressure_differences_bar = [60]
 ///     [plant.spool_friction]           # anything a valve file may hold
@@ -17,6 +20,7 @@ namespace spoolflow::rig {
 struct Scenario {
   ValveUnderTest valve;  ///< before spread and wear
   Protocol protocol;
+  bool direction_a = false;  ///< a bench test of direction a, P to A
 };
 
 /// Throws SettingsError with file, line, value, range and the nearest key.

@@ -16,9 +16,11 @@ namespace {
 constexpr std::int64_t ticks_per_slow_update = 10;
 
 /// Surroundings over the period that begins at `time_s`.
-void surround(PlantInput& input, const BenchRun& run, double time_s) {
+void surround(PlantInput& input, const BenchRun& run, const Supply& supply, double time_s) {
   input.held_pressure_difference_Pa = run.pressure_difference_Pa.at(time_s);
-  input.supply_pressure_Pa = run.supply_pressure_Pa.at(time_s);
+  input.supply_pressure_Pa = run.supply_follows_difference ? supply.tank_pressure_Pa + input.held_pressure_difference_Pa
+                                                           : run.supply_pressure_Pa.at(time_s);
+  input.load_force_N = run.load_force_N.at(time_s);
   if (run.arrangement != Arrangement::valve) {
     const double to_m = run.motion_m.at(time_s + electronics_period_s);
     const double speed_m_per_s = (to_m - run.motion_m.at(time_s)) / electronics_period_s;
@@ -26,9 +28,9 @@ void surround(PlantInput& input, const BenchRun& run, double time_s) {
   }
 }
 
-PlantInput surroundings_at_start(const BenchRun& run) {
+PlantInput surroundings_at_start(const BenchRun& run, const Supply& supply) {
   PlantInput input;
-  surround(input, run, 0);
+  surround(input, run, supply, 0);
   input.oil_temperature_C = run.oil_temperature_C.at(0);
   if (input.motion) {
     input.motion = PrescribedMotion{.position_m = run.motion_m.at(0)};
@@ -58,6 +60,10 @@ MeasuredSample measured(const recording::Recording& recording, const BenchRun& r
   return {.time_s = time_s,
           .current_A = newest(Channel::current),
           .voltage_V = newest(Channel::voltage),
+          .current_a_A = newest(Channel::current_a),
+          .current_b_A = newest(Channel::current_b),
+          .voltage_a_V = newest(Channel::voltage_a),
+          .voltage_b_V = newest(Channel::voltage_b),
           .position_m = newest(Channel::position),
           .oil_temperature_K = newest(Channel::oil_temperature)};
 }
@@ -68,18 +74,19 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
                     const SimulationOptions& options) {
   PlantParameters plant = valve.plant;
   plant.arrangement = run.arrangement;
+  if (run.load) plant.load.kind = *run.load;
   Instruments instruments = valve.instruments;
   instruments.lvdt.fault_rate_per_s += run.position_faults_per_s;
 
-  PlantInput input = surroundings_at_start(run);
+  PlantInput input = surroundings_at_start(run, plant.supply);
   PlantState state = plant_at_rest(plant, input);
   PlantOutput truth = observe(plant, state, input);
-  InstrumentPanel panel(instruments, seed, truth, input.oil_temperature_C);
+  InstrumentPanel panel(instruments, seed, run, truth, input.oil_temperature_C);
   CoilSupply coil_supply(valve, run, seed);
   SpanReader<double> sample_rate(run.sample_rate_Hz);
   SpanReader<double> test(run.test);
 
-  Simulation out;
+  Simulation out{.recording = {}, .truth = GroundTruth(run.whole_valve)};
   const std::int64_t end = std::llround(run.duration_s() / electronics_period_s);
   const std::int64_t ticks_per_report = std::max<std::int64_t>(1, end / 200);
   std::int64_t next_sample = 0;
@@ -93,7 +100,7 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
       observed = tick;
       input.oil_temperature_C = run.oil_temperature_C.at(time_s);
     }
-    surround(input, run, time_s);
+    surround(input, run, plant.supply, time_s);
     if (samples) {
       panel.store(out.recording, run.channels,
                   {.time_s = time_s,
@@ -116,10 +123,10 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
     input.voltage_b_V = voltages.b_V;
     step(plant, state, input, electronics_period_s);
     panel.lvdt.follow(state.position_m, input.oil_temperature_C, electronics_period_s);
-    // The recorder shows the driven solenoid; a is negative, as its direction.
-    panel.follow_coil(
-        winding_current_A(plant.solenoid_b, state.solenoid_b) - winding_current_A(plant.solenoid_a, state.solenoid_a),
-        voltages.b_V - voltages.a_V);
+    panel.follow_coils({.current_a_A = winding_current_A(plant.solenoid_a, state.solenoid_a),
+                        .current_b_A = winding_current_A(plant.solenoid_b, state.solenoid_b),
+                        .voltage_a_V = voltages.a_V,
+                        .voltage_b_V = voltages.b_V});
   }
   return out;
 }

@@ -17,8 +17,10 @@ struct Simulation {
 /// What the electronics have of one recorded sample, as the instruments show it; NaN where the run does not record it.
 struct MeasuredSample {
   double time_s;
-  double current_A;  ///< mean over the sample period that ends at `time_s`
-  double voltage_V;  ///< likewise
+  double current_A;                 ///< mean over the sample period that ends at `time_s`
+  double voltage_V;                 ///< likewise
+  double current_a_A, current_b_A;  ///< likewise, of a whole valve
+  double voltage_a_V, voltage_b_V;
   double position_m;
   double oil_temperature_K;
 };

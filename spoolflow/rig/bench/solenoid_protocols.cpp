@@ -46,7 +46,7 @@ class DynamicPlan {
 };
 
 void slow_loops(DynamicPlan& plan, const SolenoidDynamicProtocol& protocol) {
-  const double slow_rate_Hz = 200;
+  const double slow_rate_Hz = protocol.slow_rate_Hz;
   plan.current().ramp_for(plan.amperes(protocol.major_loop_percent), 6).ramp_for(0, 6);
   plan.close(1, slow_rate_Hz);
   for (const double share : {0.25, 0.5, 0.75}) {
@@ -118,8 +118,10 @@ BenchRun plan(const SolenoidDynamicProtocol& protocol, const SolenoidRating& rat
     // Currentless until the next whole multiple of 0.1 s, so that files read well.
     const double rest_s = 0.1 + std::ceil(run.current_A.duration_s() * 10 - 1e-6) / 10 - run.current_A.duration_s();
     run.current_A.hold(rest_s);
-    plan.close(6, 200);
+    plan.close(6, protocol.slow_rate_Hz);
   }
+  run.dither = {.amplitude_A = rating.rated_current_A * protocol.dither_percent / 100,
+                .frequency_Hz = protocol.dither_frequency_Hz};
   run.channels = {Channel::time, Channel::test, Channel::current, Channel::voltage, Channel::position, Channel::force};
   return run;
 }

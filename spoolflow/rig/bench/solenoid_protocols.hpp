@@ -57,6 +57,9 @@ struct SolenoidDynamicProtocol {
   double upper_voltage_percent = 51.0;
   double lower_voltage_percent = 19.0;
   double ambient_temperature_C = 25.0;
+  double slow_rate_Hz = 200.0;
+  double dither_percent = 0.0;
+  double dither_frequency_Hz = 160.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -72,6 +75,11 @@ struct SolenoidDynamicProtocol {
     visit(Parameter{"upper_voltage_percent", "%", 5, 100, "of test 5, of rated current times warm resistance"},
           self.upper_voltage_percent);
     visit(Parameter{"lower_voltage_percent", "%", 0, 100, "of test 5"}, self.lower_voltage_percent);
+    visit(Parameter{"slow_rate_Hz", "Hz", 10, 10000, "of the recorder in tests 1, 2, 3, 6; a divisor of 10 kHz"},
+          self.slow_rate_Hz);
+    visit(Parameter{"dither_percent", "%", 0, 40, "amplitude on set currents, of the rated current; 0: none"},
+          self.dither_percent);
+    visit(Parameter{"dither_frequency_Hz", "Hz", 20, 500, "as the valve's electronics"}, self.dither_frequency_Hz);
     visit(Parameter{"ambient_temperature_C", "degC", -20, 60, "of the laboratory"}, self.ambient_temperature_C);
   }
 };

@@ -1,5 +1,7 @@
 #include "spoolflow/rig/bench/valve_under_test.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -65,7 +67,9 @@ void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
   settings.add_choice("hysteresis", {"jiles_atherton", "preisach"}, [&plant = valve.plant](std::size_t kind) {
     plant.solenoid_a.hysteresis.kind = plant.solenoid_b.hysteresis.kind = static_cast<HysteresisKind>(kind);
   });
-  settings.add_choice("plant.load.kind", {"held_difference", "orifice", "cylinder", "motor"},
+  settings.add_flag("whole", valve.whole);
+  settings.add_choice("plant.load.kind",
+                      {"held_difference", "orifice", "cylinder", "motor", "held_path", "held_return"},
                       [&load = valve.plant.load](std::size_t kind) { load.kind = static_cast<LoadKind>(kind); });
   settings.add_flag("plant.load.ideal_hold", valve.plant.load.ideal_hold);
   settings.add_flag("plant.load.return_to_tank", valve.plant.load.return_to_tank);
@@ -77,8 +81,23 @@ void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
 ValveUnderTest as_built(ValveUnderTest valve) {
   draw(valve.spread, valve.seed, valve.plant, valve.instruments.lvdt);
   valve.plant = worn(valve.plant, valve.wear);
+  valve.electronics.sign_chooses = valve.whole;
+  if (valve.whole && valve.plant.load.kind == LoadKind::held_difference) valve.plant.load.kind = LoadKind::held_path;
   check_ranges(valve.plant);
   check_ranges(valve.instruments);
+  return valve;
+}
+
+ValveUnderTest turned_round(ValveUnderTest valve) {
+  PlantParameters& plant = valve.plant;
+  std::swap(plant.solenoid_a, plant.solenoid_b);
+  std::swap(plant.spring_a, plant.spring_b);
+  std::swap(plant.edge_PA, plant.edge_PB);
+  std::swap(plant.edge_AT, plant.edge_BT);
+  std::swap(plant.load.piston_area_A_m2, plant.load.piston_area_B_m2);
+  Lvdt& lvdt = valve.instruments.lvdt;
+  lvdt.zero_offset_m = -lvdt.zero_offset_m;
+  lvdt.zero_drift_per_K = -lvdt.zero_drift_per_K;
   return valve;
 }
 

@@ -37,6 +37,7 @@ struct ValveUnderTest {
   std::string name = "NG6 4/3 proportional, virtual";
   std::string fluid = "HLP46";
   std::uint64_t seed = 1;  ///< of spread, instruments and random courses
+  bool whole = false;      ///< measured and driven in both directions; else it is the valve of one, P to B
   Rating rating;
   PlantParameters plant;
   Electronics electronics;
@@ -61,7 +62,12 @@ struct ValveUnderTest {
 /// Every key of a valve but `preset`; scenario files hold them as well.
 void add_valve_settings(Settings& settings, ValveUnderTest& valve);
 
-/// With spread and wear applied to plant and LVDT; inside every range.
+/// With spread and wear applied to plant and LVDT; inside every range. Electronics of a whole valve choose the solenoid
+/// by the sign of their controller's output, and a held difference is one over its whole path.
 [[nodiscard]] ValveUnderTest as_built(ValveUnderTest valve);
+
+/// The same valve turned end for end, as it lies on a bench of direction a: solenoids, springs and edges change places,
+/// x and the LVDT's signal change sign, so that x > 0 opens P to A of the valve.
+[[nodiscard]] ValveUnderTest turned_round(ValveUnderTest valve);
 
 }  // namespace spoolflow::rig

@@ -9,41 +9,15 @@
 #include <fmt/format.h>
 
 #include "spoolflow/parallel/for_each.hpp"
+#include "spoolflow/rig/bench/campaign_loads.hpp"
+#include "spoolflow/rig/bench/whole_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
 namespace {
 
-/// Each recording has its own noise, whatever else the campaign holds.
-std::uint64_t seed_of(const ValveUnderTest& valve, std::string_view file) {
-  Noise noise(valve.seed, std::string("recording ").append(file));
-  return static_cast<std::uint64_t>(noise.uniform() * 0x1p52);
-}
-
-class Items {
- public:
-  explicit Items(const ValveUnderTest& valve) : valve_(as_built(valve)) {}
-
-  void add(std::string file, std::string protocol, Protocol settings) {
-    add_with(valve_, std::move(file), std::move(protocol), std::move(settings));
-  }
-  void add_with(ValveUnderTest valve, std::string file, std::string protocol, Protocol settings) {
-    const std::uint64_t seed = seed_of(valve_, file);
-    items_.push_back({.file = std::move(file),
-                      .protocol = std::move(protocol),
-                      .settings = std::move(settings),
-                      .valve = std::move(valve),
-                      .seed = seed});
-  }
-  [[nodiscard]] const ValveUnderTest& valve() const { return valve_; }
-  std::vector<CampaignItem> take() { return std::move(items_); }
-
- private:
-  ValveUnderTest valve_;
-  std::vector<CampaignItem> items_;
-};
-
-void add_calibration(Items& items, const CampaignSettings& settings) {
+void add_calibration(CampaignItems& items, const CampaignSettings& settings) {
+  if (items.valve().whole) return add_whole_calibration(items, settings);
   items.add("spring.csv", "spring", protocol_named("spring"));
   items.add("solenoid_map.csv", "solenoid_force_map", protocol_named("solenoid_force_map"));
   items.add("solenoid_dynamic.csv", "solenoid_dynamic", protocol_named("solenoid_dynamic"));
@@ -56,39 +30,8 @@ void add_calibration(Items& items, const CampaignSettings& settings) {
             RampsProtocol{.conditions = {}, .pressure_differences_bar = {settings.ramp_pressure_bar}});
 }
 
-/// As the campaign dithers it, where its electronics have no dither of their own.
-ValveUnderTest dithered(ValveUnderTest valve, const CampaignSettings& settings) {
-  if (valve.electronics.dither.amplitude_A == 0) {
-    valve.electronics.dither.amplitude_A = settings.dither_amplitude_A;
-    valve.electronics.dither.frequency_Hz = settings.dither_frequency_Hz;
-  }
-  return valve;
-}
-
-/// A load that a valve of this rating can feed: fully open, a quarter of the supply pressure is left over its edge.
-/// What comes back from the load goes straight to tank: the bench has measured the edge P to B alone.
-ValveUnderTest loaded(ValveUnderTest valve, LoadKind kind, double supply_bar) {
-  constexpr double turned_rad_per_s = 105;  // 1000 turns a minute at rated flow
-  constexpr double torque_share = 0.4;      // of what the supply pressure could hold
-  constexpr double run_up_s = 0.1;          // with what is left of it
-  constexpr double discharge = 0.7;         // that of load.hpp
-  const double supply_Pa = units::Pa_from_bar(supply_bar);
-  const double rated_m3_per_s = units::m3_per_s_from_L_per_min(valve.rating.flow_L_per_min);
-  const double edge = rated_m3_per_s / std::sqrt(units::Pa_from_bar(valve.rating.pressure_difference_bar));
-  Load& load = valve.plant.load;
-  load.kind = kind;
-  load.return_to_tank = true;
-  load.orifice_area_m2 = edge / std::sqrt(3.0) / discharge * std::sqrt(0.5 * valve.plant.oil.density_15C_kg_per_m3);
-  load.motor_displacement_m3_per_rad = rated_m3_per_s / turned_rad_per_s;
-  load.motor_torque_N_m = torque_share * supply_Pa * load.motor_displacement_m3_per_rad;
-  load.motor_inertia_kg_m2 =
-      (1 - torque_share) * supply_Pa * load.motor_displacement_m3_per_rad * run_up_s / turned_rad_per_s;
-  load.motor_drag_N_m_s = 0.05 * load.motor_torque_N_m / turned_rad_per_s;
-  return valve;
-}
-
 /// One dithered duty cycle under each kind of load.
-void add_dithered_duty(Items& items, const CampaignSettings& settings) {
+void add_dithered_duty(CampaignItems& items, const CampaignSettings& settings) {
   const ValveUnderTest valve = dithered(items.valve(), settings);
   const double supply_bar =
       *std::max_element(settings.pressure_differences_bar.begin(), settings.pressure_differences_bar.end());
@@ -100,25 +43,46 @@ void add_dithered_duty(Items& items, const CampaignSettings& settings) {
   items.add_with(loaded(valve, LoadKind::motor, supply_bar), "motor_duty_dither.csv", "", fed);
 }
 
+/// What campaign.toml says of a whole valve beside its recordings.
+std::string of_whole_valve(const ValveUnderTest& valve) {
+  std::string text;
+  const Load& load = valve.plant.load;
+  if (load.kind == LoadKind::cylinder) {
+    text += fmt::format("\n[load]\narea_ratio = {:g}             # piston area of port A over that of port B\n",
+                        load.piston_area_A_m2 / load.piston_area_B_m2);
+  }
+  return text +
+         "\n# Both directions: b opens P to B, a opens P to A. In bench tests position counts from the centre, opening "
+         "> 0;"
+         "\n# in operation position and flow > 0 are P to B, and the pressure difference is that of both open edges, "
+         "added.\n";
+}
+
 }  // namespace
 
 ValveAndCampaign read_valve_and_campaign(const std::string& valve) {
   ValveAndCampaign asked;
   Settings campaign;
   campaign.add("campaign", asked.campaign);
+  campaign.add_choice("campaign.edges", {"joined", "one_at_a_time"},
+                      [&](std::size_t choice) { asked.campaign.one_edge_at_a_time = choice == 1; });
   asked.valve = valve.ends_with(".toml") ? read_valve(valve, campaign) : valve_preset(valve, campaign);
   return asked;
 }
 
 std::vector<CampaignItem> calibration_items(const ValveUnderTest& valve, const CampaignSettings& settings) {
-  Items items(valve);
+  CampaignItems items(valve);
   add_calibration(items, settings);
   return items.take();
 }
 
 std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const CampaignSettings& settings) {
-  Items items(valve);
+  CampaignItems items(valve);
   add_calibration(items, settings);
+  if (valve.whole) {
+    add_whole_validation(items, settings);
+    return items.take();
+  }
   const auto& ramps_bar = settings.ramps_pressures_bar;
   items.add(fmt::format("ramps_{:g}_to_{:g}bar.csv", ramps_bar.front(), ramps_bar.back()), "",
             RampsProtocol{.conditions = {.position_faults_per_s = settings.ramps_position_faults_per_s},
@@ -159,6 +123,7 @@ viscosity_100C_mm2_per_s = {viscosity_100:.1f}
       fmt::arg("stroke", units::mm_from_m(valve.plant.spool.stroke_m)), fmt::arg("fluid", valve.fluid),
       fmt::arg("density", oil.density_15C_kg_per_m3), fmt::arg("viscosity_40", 1e6 * oil.viscosity_40C_m2_per_s),
       fmt::arg("viscosity_100", 1e6 * oil.viscosity_100C_m2_per_s));
+  if (valve.whole) text += of_whole_valve(valve);
   for (const CampaignItem& item : items) {
     if (item.protocol.empty()) {
       continue;
@@ -169,7 +134,10 @@ viscosity_100C_mm2_per_s = {viscosity_100:.1f}
           "so\n"
           "# figures on this run are not held-out figures.";
     }
-    text += fmt::format("\n[[recording]]\nprotocol = \"{}\"\nfile = \"{}\"\n", item.protocol, item.file);
+    text += fmt::format("\n[[recording]]\nprotocol = \"{}\"\n", item.protocol);
+    if (!item.direction.empty()) text += fmt::format("direction = \"{}\"\n", item.direction);
+    if (!item.edge.empty()) text += fmt::format("edge = \"{}\"\n", item.edge);
+    text += fmt::format("file = \"{}\"\n", item.file);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// The valve's on-board electronics: position control, dither, and a current-controlled output stage for each of the
-/// two solenoids, all at one period.
+/// two solenoids, all at one period. Where `sign_chooses`, the sign of the position controller's output chooses the
+/// solenoid, with the dither on it alone, and the other stage lets its current go and switches off.
 #include <cmath>
 
 #include "spoolflow/rig/electronics/current_control.hpp"
@@ -47,6 +48,7 @@ struct Electronics {
   CurrentControl current;
   Dither dither;
   double current_noise_A = 2.0e-3;
+  bool sign_chooses = false;  ///< of the whole valve, both directions; else the side of the set position chooses
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -77,9 +79,36 @@ struct SolenoidVoltages {
   double b_V = 0;
 };
 
+/// A stage without a set current: pulls what is left of the current down, then is off, so that noise does not drive it.
+inline double release(const CurrentControl& control, CurrentControlState& state, double signal_A) {
+  constexpr double off_below_A = 0.02;
+  state = {};
+  if (signal_A < off_below_A) return 0.0;
+  return quantised(std::max(-control.proportional_V_per_A * signal_A, -control.supply_V),
+                   control.supply_V / control.duty_steps);
+}
+
+/// One period of electronics where the sign of the controller's output chooses.
+inline SolenoidVoltages step_of_both(const Electronics& electronics, ElectronicsState& state,
+                                     const ElectronicsInput& input, Noise& noise) {
+  const double set_A = step_of_both(electronics.position, state.position, input.position_set_m, input.position_signal_m,
+                                    electronics_period_s);
+  state.time_s += electronics_period_s;
+  const double tremble_A = dither_A(electronics.dither, state.time_s);
+  const auto drive = [&](CurrentControlState& stage, double stage_set_A, double current_A) {
+    const double signal_A = current_A + electronics.current_noise_A * noise.normal();
+    return state.position.on && stage_set_A > 0
+               ? step(electronics.current, stage, stage_set_A + tremble_A, signal_A, electronics_period_s)
+               : release(electronics.current, stage, signal_A);
+  };
+  return {.a_V = drive(state.current_a, -set_A, input.current_a_A),
+          .b_V = drive(state.current_b, set_A, input.current_b_A)};
+}
+
 /// One period. Each solenoid's current signal carries the stage's own noise.
 inline SolenoidVoltages step(const Electronics& electronics, ElectronicsState& state, const ElectronicsInput& input,
                              Noise& noise) {
+  if (electronics.sign_chooses) return step_of_both(electronics, state, input, noise);
   double set_A =
       step(electronics.position, state.position, input.position_set_m, input.position_signal_m, electronics_period_s);
   state.time_s += electronics_period_s;

@@ -5,7 +5,8 @@
 ///
 /// The feed-forward carries the springs' share; the integrator carries flow force and friction, and that is what makes
 /// the spool hunt at rest: it winds up until the spool breaks away, overshoots and sticks on the other side. Inside the
-/// dead band about zero the stage is off. Only the solenoid on the side of the set value pulls; the springs pull back.
+/// dead band about zero the stage is off. Only the solenoid on the side of the set value pulls (`step`), and the
+/// springs pull back; or the sign of i chooses (`step_of_both`), and the other solenoid brakes and closes a fast spool.
 #include <algorithm>
 #include <cmath>
 
@@ -45,9 +46,9 @@ struct PositionControlState {
   bool on = false;
 };
 
-/// Set current [A], > 0 for solenoid b.
-inline double step(const PositionControl& control, PositionControlState& state, double set_m, double measured_m,
-                   double period_s) {
+/// Set current [A], > 0 for solenoid b; its sign chooses the solenoid.
+inline double step_of_both(const PositionControl& control, PositionControlState& state, double set_m, double measured_m,
+                           double period_s) {
   const double before_m = state.lagged_position_m;
   state.lagged_position_m = lagged(before_m, measured_m, period_s, control.derivative_time_s);
   if (std::abs(set_m) <= control.off_below_m) {
@@ -62,9 +63,16 @@ inline double step(const PositionControl& control, PositionControlState& state, 
   state.integral_A = std::clamp(state.integral_A + control.integral_A_per_m_s * error_m * period_s,
                                 -control.integral_limit_A, control.integral_limit_A);
   const double feed_forward_A = direction * control.feed_forward_A + control.feed_forward_A_per_m * set_m;
-  const double wanted_A = feed_forward_A + control.proportional_A_per_m * error_m + state.integral_A -
-                          control.derivative_A_s_per_m * velocity_m_per_s;
-  return direction > 0 ? std::max(wanted_A, 0.0) : std::min(wanted_A, 0.0);
+  return feed_forward_A + control.proportional_A_per_m * error_m + state.integral_A -
+         control.derivative_A_s_per_m * velocity_m_per_s;
+}
+
+/// Set current [A], > 0 for solenoid b; only the solenoid on the side of the set value pulls.
+inline double step(const PositionControl& control, PositionControlState& state, double set_m, double measured_m,
+                   double period_s) {
+  const double wanted_A = step_of_both(control, state, set_m, measured_m, period_s);
+  if (!state.on) return 0;
+  return set_m > 0 ? std::max(wanted_A, 0.0) : std::min(wanted_A, 0.0);
 }
 
 }  // namespace spoolflow::rig

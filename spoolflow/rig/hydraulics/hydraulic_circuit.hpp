@@ -8,7 +8,9 @@
 ///
 /// A motor is a cylinder whose areas are its displacement, with turns and torques for ways and forces, and no end.
 /// Where the load returns straight to tank, dp_A/dt = 0 and p_A is the tank's. With the held difference, A, B and T all
-/// drain to the back pressure. Below the cavitation pressure a volume stays there.
+/// drain to the back pressure. With the held path, A and B are one volume, C dp_AB/dt = Q_PA + Q_PB - Q_AT - Q_BT; with
+/// the held return, the source feeds A, and P, B and T are at the back pressure. Below the cavitation pressure a volume
+/// stays there.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -47,7 +49,7 @@ inline double parabolic_wave(double periods) {
 
 inline HydraulicBoundary hydraulic_boundary(const Supply& supply, const Load& load, double supply_pressure_Pa,
                                             double held_difference_Pa, double load_force_N, double time_s) {
-  const bool held = load.kind == LoadKind::held_difference;
+  const bool held = holds_difference(load.kind);
   return {.source_pressure_Pa = (held ? supply.back_pressure_Pa + held_difference_Pa : supply_pressure_Pa) +
                                 supply.ripple_Pa * parabolic_wave(supply.ripple_Hz * time_s),
           .tank_pressure_Pa = held ? supply.back_pressure_Pa : supply.tank_pressure_Pa,
@@ -88,6 +90,8 @@ inline MovedLoad moved_load(const Load& load, double load_force_N) {
               load.motor_leakage_m3_per_s_Pa,
               load.motor_torque_N_m};
     case LoadKind::held_difference:
+    case LoadKind::held_path:
+    case LoadKind::held_return:
     case LoadKind::orifice:
       break;
   }
@@ -135,6 +139,26 @@ struct HydraulicRates {
   double elastance_P, elastance_A, elastance_B;  ///< 1/C [Pa/m3]
 };
 
+/// Source and volumes of the benches that hold a difference over the valve; `error_Pa` of the source's pressure.
+inline void held_rates(const Supply& supply, const Load& load, const Oil& oil, const OilState& oil_state,
+                       double error_Pa, HydraulicVector states, HydraulicRates& out, HydraulicRate rate) {
+  const double G = supply.source_conductance_m3_per_s_Pa;
+  const double Q_PA = out.edges[edge_PA].flow_m3_per_s, Q_PB = out.edges[edge_PB].flow_m3_per_s;
+  const double Q_AT = out.edges[edge_AT].flow_m3_per_s, Q_BT = out.edges[edge_BT].flow_m3_per_s;
+  rate[state_Q_i] = G / supply.hold_integral_time_s * error_Pa;
+  if (load.kind == LoadKind::held_return) {
+    out.elastance_A = 1.0 / (supply.line_volume_m3 * compressibility_per_Pa(oil, oil_state, states[state_p_A]));
+    rate[state_p_A] = out.elastance_A * (G * error_Pa + states[state_Q_i] + Q_PA - Q_AT);
+    return;
+  }
+  rate[state_p_P] = out.elastance_P * (G * error_Pa + states[state_Q_i] - Q_PA - Q_PB);
+  if (load.ideal_hold) rate[state_p_P] = rate[state_Q_i] = 0.0;
+  if (load.kind == LoadKind::held_path) {
+    out.elastance_A = 1.0 / (2.0 * load.port_volume_m3 * compressibility_per_Pa(oil, oil_state, states[state_p_A]));
+    rate[state_p_A] = rate[state_p_B] = out.elastance_A * (Q_PA + Q_PB - Q_AT - Q_BT);
+  }
+}
+
 inline void hydraulic_rates(const std::array<const MeteringEdge*, 4>& edges,
                             const std::array<EdgeConstants, 4>& constants, const Supply& supply, const Load& load,
                             const Oil& oil, const OilState& oil_state, double density_kg_per_m3,
@@ -147,19 +171,18 @@ inline void hydraulic_rates(const std::array<const MeteringEdge*, 4>& edges,
   for (std::size_t i = 0; i < 4; ++i) {
     out.edges[i] = edge_flow(*edges[i], constants[i], edge_side[i] * position_m, out.difference_Pa[i]);
   }
-  const double error = boundary.source_pressure_Pa - p_P;
+  const double error = boundary.source_pressure_Pa - (load.kind == LoadKind::held_return ? p_A : p_P);
   const double G = supply.source_conductance_m3_per_s_Pa;
   out.elastance_P = 1.0 / (supply.line_volume_m3 * compressibility_per_Pa(oil, oil_state, p_P));
   std::fill(rate.begin(), rate.end(), 0.0);
-  rate[state_p_P] = out.elastance_P * (G * error + states[state_Q_i] - out.edges[edge_PA].flow_m3_per_s -
-                                       out.edges[edge_PB].flow_m3_per_s);
   out.load = {0.0, 0.0};
   out.cushion = {0.0, 0.0, 0.0};
   out.elastance_A = out.elastance_B = 0.0;
-  if (load.kind == LoadKind::held_difference) {
-    rate[state_Q_i] = G / supply.hold_integral_time_s * error;
-    if (load.ideal_hold) rate[state_p_P] = rate[state_Q_i] = 0.0;
+  if (holds_difference(load.kind)) {
+    held_rates(supply, load, oil, oil_state, error, states, out, rate);
   } else {
+    rate[state_p_P] = out.elastance_P * (G * error + states[state_Q_i] - out.edges[edge_PA].flow_m3_per_s -
+                                         out.edges[edge_PB].flow_m3_per_s);
     out.load = load_flow(load, density_kg_per_m3, p_B - p_A);
     const bool cylinder = load.kind == LoadKind::cylinder;
     const double half = 0.5 * load.cylinder_stroke_m;
@@ -193,10 +216,26 @@ class HydraulicSolver {
       : kind_(load.kind), weight_s_(weight_s) {
     const double g_PA = point.edges[edge_PA].conductance_m3_per_s_Pa;
     const double g_PB = point.edges[edge_PB].conductance_m3_per_s_Pa;
+    const double G = supply.source_conductance_m3_per_s_Pa;
     const double wP = weight_s * point.elastance_P;
-    const double diagonal = 1.0 + wP * (supply.source_conductance_m3_per_s_Pa + g_PA + g_PB);
+    const double diagonal = 1.0 + wP * (G + g_PA + g_PB);
     if (kind_ == LoadKind::held_difference) {
       pivot_[0] = 1.0 / diagonal;
+      return;
+    }
+    if (kind_ == LoadKind::held_return) {
+      pivot_[0] =
+          1.0 / (1.0 + weight_s * point.elastance_A * (G + g_PA + point.edges[edge_AT].conductance_m3_per_s_Pa));
+      return;
+    }
+    if (kind_ == LoadKind::held_path) {  // two unknowns, the source and the joined ports
+      const double wJ = weight_s * point.elastance_A;
+      const double g_P = load.ideal_hold ? 0.0 : g_PA + g_PB;
+      const double g_T = point.edges[edge_AT].conductance_m3_per_s_Pa + point.edges[edge_BT].conductance_m3_per_s_Pa;
+      pivot_[0] = 1.0 / diagonal;
+      m_[0][1] = -wP * g_P;
+      m_[1][0] = -wJ * (g_PA + g_PB) * pivot_[0];
+      pivot_[1] = 1.0 / (1.0 + wJ * (g_PA + g_PB + g_T) - m_[1][0] * m_[0][1]);
       return;
     }
     const double wA = weight_s * point.elastance_A;
@@ -227,10 +266,17 @@ class HydraulicSolver {
   }
 
   void operator()(HydraulicVector right, HydraulicRate k) const {
-    if (kind_ == LoadKind::held_difference) {
+    if (holds_difference(kind_)) {
       std::fill(k.begin(), k.end(), 0.0);
-      k[state_p_P] = right[state_p_P] * pivot_[0];
       k[state_Q_i] = right[state_Q_i];
+      if (kind_ == LoadKind::held_return) {
+        k[state_p_A] = right[state_p_A] * pivot_[0];
+      } else if (kind_ == LoadKind::held_path) {
+        k[state_p_A] = k[state_p_B] = (right[state_p_A] - m_[1][0] * right[state_p_P]) * pivot_[1];
+        k[state_p_P] = (right[state_p_P] - m_[0][1] * k[state_p_A]) * pivot_[0];
+      } else {
+        k[state_p_P] = right[state_p_P] * pivot_[0];
+      }
       return;
     }
     std::array<double, 4> r{right[state_p_P], right[state_p_A], right[state_p_B],

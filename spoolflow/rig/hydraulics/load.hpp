@@ -2,6 +2,10 @@
 /// What hangs between ports A and B.
 ///
 /// held_difference  bench: both ports drain to the back pressure, the supply holds the difference over the open edge
+/// held_path        bench: A and B are joined by a short hose, so both edges of the open path pass the same flow; the
+///                  supply holds the difference from P to T over the whole path
+/// held_return      bench: port A is fed instead of P, the supply holds the difference over the edge A to T; P, B and T
+///                  are at the back pressure
 /// orifice          a fixed turbulent orifice from port to port, with two line volumes
 /// cylinder         a differential cylinder with mass, line volumes, leakage, friction and end cushions; B moves it
 /// out:
@@ -17,12 +21,17 @@
 
 namespace spoolflow::rig {
 
-enum class LoadKind { held_difference, orifice, cylinder, motor };
+enum class LoadKind { held_difference, orifice, cylinder, motor, held_path, held_return };
+
+/// A bench whose supply holds a pressure difference over the valve itself.
+inline bool holds_difference(LoadKind kind) {
+  return kind == LoadKind::held_difference || kind == LoadKind::held_path || kind == LoadKind::held_return;
+}
 
 struct Load {
   LoadKind kind = LoadKind::held_difference;
-  bool ideal_hold = false;      ///< the held difference follows its set value at once
-  bool return_to_tank = false;  ///< not of the held difference, whose ports drain anyway
+  bool ideal_hold = false;      ///< the held difference follows its set value at once; not of held_return
+  bool return_to_tank = false;  ///< of orifice, cylinder and motor
   double port_volume_m3 = 5.0e-5;
   double orifice_area_m2 = 1.2e-5;
   double piston_area_B_m2 = 1.26e-3;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "spoolflow/rig/plant/plant_integrator.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -27,7 +28,7 @@ double source_pressure_Pa(const PlantParameters& p, const PlantInput& input, dou
 }
 
 bool holds_ideally(const PlantParameters& p) {
-  return p.load.kind == LoadKind::held_difference && p.load.ideal_hold;
+  return p.load.ideal_hold && (p.load.kind == LoadKind::held_difference || p.load.kind == LoadKind::held_path);
 }
 
 [[noreturn]] void diverged(const PlantState& state, double h) {
@@ -67,6 +68,36 @@ SolenoidOutput solenoid_output(const SolenoidState& state, const SolenoidConstan
           .resistance_ohm = constants.resistance_ohm,
           .winding_temperature_C = state.heat.winding_temperature_C,
           .housing_temperature_C = state.heat.housing_temperature_C};
+}
+
+/// The edges that the spool opens, as one path.
+PathOutput open_path(const PlantParameters& p, const PlantOutput& out) {
+  const bool right = out.position_m >= 0.0;
+  const EdgeOutput& inlet = right ? out.edge_PB : out.edge_PA;
+  const EdgeOutput& outlet = right ? out.edge_AT : out.edge_BT;
+  const double from_B_m3_per_s = out.edge_PB.flow_m3_per_s - out.edge_BT.flow_m3_per_s;
+  const double into_A_m3_per_s = out.edge_AT.flow_m3_per_s - out.edge_PA.flow_m3_per_s;
+  const bool return_alone = p.load.kind == LoadKind::held_return;
+  return {.flow_m3_per_s = right && !return_alone ? from_B_m3_per_s : into_A_m3_per_s,
+          .pressure_difference_Pa = inlet.pressure_difference_Pa + outlet.pressure_difference_Pa,
+          .upstream_pressure_Pa = return_alone ? out.pressure_A_Pa : out.pressure_P_Pa};
+}
+
+/// Every edge, the one that the spool opens, and the path; `out` has position and pressures.
+void observe_edges(const PlantParameters& p, const PlantRates& r, PlantOutput& out) {
+  out.edge_PA = edge_output(r, edge_PA);
+  out.edge_PB = edge_output(r, edge_PB);
+  out.edge_AT = edge_output(r, edge_AT);
+  out.edge_BT = edge_output(r, edge_BT);
+  const EdgeOutput& opened = out.position_m >= 0.0 ? out.edge_PB : out.edge_PA;
+  out.pressure_difference_Pa = opened.pressure_difference_Pa;
+  out.flow_m3_per_s = opened.flow_m3_per_s;
+  out.path = open_path(p, out);
+  if (p.load.kind == LoadKind::held_path || p.load.kind == LoadKind::held_return) {
+    out.pressure_difference_Pa = out.path.pressure_difference_Pa;
+    const bool opens_to_A = p.load.kind == LoadKind::held_path && out.position_m < 0.0;
+    out.flow_m3_per_s = opens_to_A ? -out.path.flow_m3_per_s : out.path.flow_m3_per_s;
+  }
 }
 
 }  // namespace
@@ -112,10 +143,14 @@ PlantState plant_at_rest(const PlantParameters& p, const PlantInput& input) {
   PlantState state;
   refresh_oil(p, state, input.oil_temperature_C);
   if (input.motion) state.position_m = input.motion->position_m;
-  const bool held = p.load.kind == LoadKind::held_difference;
+  const bool held = holds_difference(p.load.kind);
   state.pressure_P_Pa = source_pressure_Pa(p, input, 0.0);
   state.pressure_A_Pa = state.pressure_B_Pa =
       held ? p.supply.back_pressure_Pa : 0.5 * (state.pressure_P_Pa + p.supply.tank_pressure_Pa);
+  if (p.load.kind == LoadKind::held_return) std::swap(state.pressure_P_Pa, state.pressure_A_Pa);
+  if (p.load.kind == LoadKind::held_path) {  // leakage over both lands of the closed valve
+    state.pressure_A_Pa = state.pressure_B_Pa = 0.5 * (state.pressure_P_Pa + p.supply.back_pressure_Pa);
+  }
   if (!held && p.load.return_to_tank) state.pressure_A_Pa = state.pressure_B_Pa = p.supply.tank_pressure_Pa;
   for (auto [solenoid, heat] :
        {std::pair{&p.solenoid_a, &state.solenoid_a.heat}, {&p.solenoid_b, &state.solenoid_b.heat}}) {
@@ -214,20 +249,12 @@ PlantOutput observe(const PlantParameters& p, const PlantState& state_now, const
                             out.end_stop_force_N + c.mass_kg * out.acceleration_m_per_s2;
   }
 
-  const bool held = p.load.kind == LoadKind::held_difference;
-  out.pressure_P_Pa = state.pressure_P_Pa;
+  const bool held = holds_difference(p.load.kind);
+  out.pressure_P_Pa = out.path.upstream_pressure_Pa = state.pressure_P_Pa;
   out.pressure_A_Pa = state.pressure_A_Pa;
   out.pressure_B_Pa = state.pressure_B_Pa;
   out.pressure_T_Pa = held ? p.supply.back_pressure_Pa : p.supply.tank_pressure_Pa;
-  if (c.hydraulics) {
-    out.edge_PA = edge_output(r, edge_PA);
-    out.edge_PB = edge_output(r, edge_PB);
-    out.edge_AT = edge_output(r, edge_AT);
-    out.edge_BT = edge_output(r, edge_BT);
-    const EdgeOutput& opened = state.position_m >= 0.0 ? out.edge_PB : out.edge_PA;
-    out.pressure_difference_Pa = opened.pressure_difference_Pa;
-    out.flow_m3_per_s = opened.flow_m3_per_s;
-  }
+  if (c.hydraulics) observe_edges(p, r, out);
   out.oil_density_kg_per_m3 = c.density_kg_per_m3;
   out.oil_viscosity_m2_per_s = c.viscosity_m2_per_s;
   out.cylinder_position_m = state.cylinder_position_m;

@@ -46,6 +46,16 @@ struct EdgeOutput {
   double lateral_force_N = 0.0;
 };
 
+/// Ground truth of the open path, of both edges that the spool opens: P to B and A to T for x >= 0, P to A and B to T
+/// below.
+struct PathOutput {
+  /// What the valve sends through the load, > 0 out of port B: of port B for x >= 0, of port A below (a differential
+  /// cylinder's ports differ), each less what leaks past the closed edge. On the bench of the return edge, of port A.
+  double flow_m3_per_s = 0.0;
+  double pressure_difference_Pa = 0.0;  ///< over both edges, added: P to T less what the load takes
+  double upstream_pressure_Pa = 0.0;    ///< of the port that is fed
+};
+
 /// Everything true at one instant.
 struct PlantOutput {
   double time_s = 0.0;
@@ -72,8 +82,10 @@ struct PlantOutput {
   double pressure_A_Pa = 0.0;
   double pressure_B_Pa = 0.0;
   double pressure_T_Pa = 0.0;
-  double pressure_difference_Pa = 0.0;  ///< over the edge the spool opens: P to B for x >= 0, P to A below
-  double flow_m3_per_s = 0.0;           ///< through that edge
+  double pressure_difference_Pa = 0.0;  ///< over the edge the spool opens: P to B for x >= 0, P to A below; where the
+                                        ///< bench joins A and B or feeds A, that of the path
+  double flow_m3_per_s = 0.0;           ///< through that edge or path, > 0 as it opens
+  PathOutput path;
   double oil_density_kg_per_m3 = 0.0;
   double oil_viscosity_m2_per_s = 0.0;
   double cylinder_position_m = 0.0;        ///< turns of a motor [rad]

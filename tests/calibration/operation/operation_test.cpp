@@ -1,7 +1,9 @@
 /// What only operation shows comes out of a recording whose friction is known.
 #include "spoolflow/calibration/operation/operation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -20,14 +22,11 @@ std::vector<OperatingRun> only(const recording::Recording& run) {
 
 using recording::Channel;
 
-/// `friction_ratio`: of the valve's friction to that of the tables.
-recording::Recording recorded(const sensor::ClosedFormValve& valve, const sensor::Course& course,
-                              double friction_ratio) {
+recording::Recording recorded(sensor::ClosedFormRun run, double end_s) {
   constexpr double sample_step_s = 2e-3;
   recording::Recording out;
   double time_s = 0;
-  for (const sensor::ValveSample& sample : sensor::ClosedFormRun(valve, course, {.friction_ratio = friction_ratio})
-                                               .sampled(course.end_s(), sample_step_s)) {
+  for (const sensor::ValveSample& sample : run.sampled(end_s, sample_step_s)) {
     out.column(Channel::time).push_back(time_s += sample_step_s);
     out.column(Channel::current).push_back(sample.measured.current_A);
     out.column(Channel::voltage).push_back(sample.measured.voltage_V);
@@ -36,6 +35,24 @@ recording::Recording recorded(const sensor::ClosedFormValve& valve, const sensor
     out.column(Channel::flow_reference).push_back(sample.flow_m3_per_s);
   }
   return out;
+}
+
+/// `friction_ratio`: of the valve's friction to that of the tables.
+recording::Recording recorded(const sensor::ClosedFormValve& valve, const sensor::Course& course,
+                              double friction_ratio) {
+  return recorded(sensor::ClosedFormRun(valve, course, {.friction_ratio = friction_ratio}), course.end_s());
+}
+
+/// Friction swings by nine tenths of its limits, within them.
+recording::Recording recorded_under_dither(const sensor::ClosedFormValve& valve, const sensor::Course& course) {
+  const auto dithered = [&](double time_s) {
+    constexpr double half_swing = 0.9;
+    sensor::ValveInstant now = course(time_s);
+    const double middle = std::clamp(now.friction_share, half_swing - 1, 1 - half_swing);
+    now.friction_share = middle + half_swing * std::sin(2 * std::numbers::pi * 110 * time_s);
+    return now;
+  };
+  return recorded(sensor::ClosedFormRun(valve, dithered), course.end_s());
 }
 
 /// 39 s of a valve in closed form at work: slides, and rests in which friction turns and the pressure difference moves.
@@ -64,6 +81,48 @@ TEST(Operation, FindsTheFrictionRatioThatTheValveHas) {
     EXPECT_EQ(fit.samples, run.size());
     EXPECT_GT(shown, 0.9);
   }
+}
+
+TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
+  const sensor::ClosedFormValve valve;
+  const recording::Recording dithered = recorded_under_dither(valve, work()), plain = recorded(valve, work(), 1);
+  const auto fitted = [&](const std::vector<const recording::Recording*>& runs) {
+    sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+    return fit_operation(parameters, runs, valve.full_scale_m3_per_s(), [](double) {});
+  };
+  const OperationFit blind = fitted({&dithered}), both = fitted({&dithered, &plain});
+  const auto tells = [](const OperationFit& fit, const char* name) {
+    return std::ranges::find(fit.not_told, name) == fit.not_told.end();
+  };
+  for (const char* of_rest : {"friction_ageing_ratio", "friction_tolerance_N", "position_backlash_m"}) {
+    EXPECT_FALSE(tells(blind, of_rest)) << of_rest;
+    EXPECT_TRUE(tells(both, of_rest)) << of_rest;
+  }
+  EXPECT_TRUE(tells(blind, "operation_friction_ratio"));
+  EXPECT_GE(blind.force_error_ratio, least_dithered_force_error_ratio);
+}
+
+TEST(Operation, BandFromADitheredRecordingHoldsTheFlowWithoutDither) {
+  const sensor::ClosedFormValve valve;
+  const recording::Recording dithered = recorded_under_dither(valve, work()), plain = recorded(valve, work(), 1);
+  sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+  fit_operation(parameters, {&dithered}, valve.full_scale_m3_per_s(), [](double) {});
+  sensor::Judgement judged;
+  replay(parameters, only(plain), [&](const ReplayedSample& sample) {
+    judged.add(sample.state.last, sample.reference_m3_per_s, valve.full_scale_m3_per_s());
+  });
+  EXPECT_GT(judged.coverage(), 0.93);
+}
+
+/// A mass leaves no trace in slow strokes without dither.
+TEST(Operation, LeavesTheMassWhereNothingTellsIt) {
+  const sensor::ClosedFormValve valve;
+  const recording::Recording plain = recorded(valve, work(), 1);
+  sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
+  const double mass_kg = parameters.moving_mass_kg;
+  const OperationFit fit = fit_operation(parameters, {&plain}, valve.full_scale_m3_per_s(), [](double) {});
+  EXPECT_EQ(parameters.moving_mass_kg, mass_kg);
+  EXPECT_NE(std::ranges::find(fit.not_told, "moving_mass_kg"), fit.not_told.end());
 }
 
 /// 24 s of a valve in closed form at a steady pressure difference: slides, and rests under the friction they ended

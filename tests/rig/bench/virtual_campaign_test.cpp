@@ -57,6 +57,54 @@ TEST(VirtualCampaign, HoldsTheBenchTestsOneOperatingRunAndTheValidationRuns) {
   EXPECT_THAT(text, testing::HasSubstr("protocol = \"operation\"\nfile = \"ramp_60bar.csv\""));
 }
 
+TEST(VirtualCampaign, OfAWholeValveMeasuresBothDirectionsAndThenRunsThroughTheCentre) {
+  const ValveAndCampaign whole = read_valve_and_campaign("whole_size_6");
+  const std::vector<CampaignItem> items = campaign_items(whole.valve, whole.campaign);
+  std::vector<std::string> listed, validation;
+  for (const CampaignItem& item : items) (item.protocol.empty() ? validation : listed).push_back(item.file);
+  EXPECT_THAT(listed, testing::ElementsAre(
+                          "spring_b.csv", "solenoid_map_b.csv", "solenoid_dynamic_b.csv", "axial_force_map_30_b.csv",
+                          "axial_force_map_50_b.csv", "axial_force_map_70_b.csv", "spring_a.csv", "solenoid_map_a.csv",
+                          "solenoid_dynamic_a.csv", "axial_force_map_30_a.csv", "axial_force_map_50_a.csv",
+                          "axial_force_map_70_a.csv", "both_ramps_60bar.csv"));
+  EXPECT_THAT(validation,
+              testing::ElementsAre("both_ramps_30_to_70bar.csv", "both_duty_1.csv", "both_temperature_sweep.csv",
+                                   "both_pressure_steps.csv", "both_sine_sweep.csv", "both_fast_motion.csv",
+                                   "both_duty_dither.csv", "both_orifice_dither.csv", "both_overrunning.csv",
+                                   "both_regenerative.csv"));
+  const std::string text = campaign_text(whole.valve, items);
+  EXPECT_THAT(text, testing::HasSubstr("protocol = \"spring\"\ndirection = \"a\"\nfile = \"spring_a.csv\""));
+  EXPECT_THAT(text, testing::HasSubstr("protocol = \"operation\"\nfile = \"both_ramps_60bar.csv\""));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("area_ratio")));
+
+  const std::string operation =
+      "time_s,position_set_percent,position_mm,current_a_A,current_b_A,voltage_a_V,voltage_b_V,oil_temperature_C,"
+      "pressure_difference_bar,flow_reference_L_min";
+  for (const CampaignItem& item : items) {
+    if (item.file == "both_ramps_60bar.csv") {
+      EXPECT_EQ(header_of(item), operation);
+    }
+    if (item.file == "both_overrunning.csv") {
+      EXPECT_EQ(header_of(item), operation + ",pressure_p_bar,pressure_a_bar,pressure_b_bar,pressure_t_bar");
+    }
+    if (item.file == "spring_a.csv") {
+      EXPECT_EQ(item.valve.plant.spring_b.preload_N, whole.valve.plant.spring_a.preload_N);
+    }
+  }
+}
+
+TEST(VirtualCampaign, OfAWholeValveNamesItsCylinderAndTheEdgesMeasuredOneAtATime) {
+  ValveAndCampaign whole = read_valve_and_campaign("whole_differential");
+  whole.campaign.one_edge_at_a_time = true;
+  const std::vector<CampaignItem> items = calibration_items(whole.valve, whole.campaign);
+  const std::string text = campaign_text(whole.valve, items);
+  EXPECT_THAT(text, testing::HasSubstr("[load]\narea_ratio = 0.6"));
+  for (const auto& [edge, direction] : {std::pair{"PB", "b"}, {"AT", "b"}, {"PA", "a"}, {"BT", "a"}}) {
+    EXPECT_THAT(text, testing::HasSubstr(std::string("direction = \"") + direction + "\"\nedge = \"" + edge +
+                                         "\"\nfile = \"axial_force_map_50_" + edge + ".csv\""));
+  }
+}
+
 /// Two short recordings with different noise.
 std::vector<CampaignItem> short_items() {
   CampaignItem item{.file = "steps.csv",

@@ -152,5 +152,32 @@ TEST(Electronics, DitherSwingsTheCurrentAtItsFrequencyOnlyWhileTheValveIsDriven)
   }
 }
 
+TEST(Electronics, WhereTheSignOfTheOutputChoosesTheOtherSolenoidBrakesAFastSpool) {
+  Electronics electronics;
+  electronics.sign_chooses = true;
+  electronics.current_noise_A = 0;
+  Noise noise(1, "test");
+  const auto voltages = [&](double position_m, double before_m, double current_b_A) {
+    ElectronicsState state;
+    state.position.lagged_position_m = before_m;
+    return step(electronics, state,
+                {.position_set_m = 0.5e-3, .position_signal_m = position_m, .current_b_A = current_b_A}, noise);
+  };
+  const SolenoidVoltages opening = voltages(0.4e-3, 0.4e-3, 0);
+  EXPECT_GT(opening.b_V, 0);
+  EXPECT_EQ(opening.a_V, 0);
+  const SolenoidVoltages braking = voltages(1.4e-3, 1.3e-3, 0.8);
+  EXPECT_GT(braking.a_V, 0);
+  EXPECT_LT(braking.b_V, 0) << "what is left of the current is pulled down";
+}
+
+TEST(Electronics, AStageWithoutASetCurrentLetsGoAndThenIsOff) {
+  const CurrentControl control;
+  CurrentControlState state{.integral_V = 3};
+  EXPECT_EQ(release(control, state, 1.0), -control.supply_V);
+  EXPECT_EQ(state.integral_V, 0);
+  EXPECT_EQ(release(control, state, 2e-3), 0);
+}
+
 }  // namespace
 }  // namespace spoolflow::rig

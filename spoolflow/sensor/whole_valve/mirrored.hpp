@@ -1,0 +1,48 @@
+#pragma once
+/// The same valve seen from its other end: what opens to one side closes to the other.
+#include "spoolflow/sensor/friction.hpp"
+#include "spoolflow/sensor/position_track.hpp"
+#include "spoolflow/sensor/sample.hpp"
+
+namespace spoolflow::sensor {
+
+template <class T>
+constexpr PositionPoint<T> mirrored(PositionPoint<T> point) {
+  using Motions = MotionOf<T>;
+  const Mask<T> opening = is(point.motion, Motion::opening);
+  const Mask<T> closing = is(point.motion, Motion::closing);
+  point.motion = select(opening, Motions(Motion::closing), select(closing, Motions(Motion::opening), point.motion));
+  point.position_m = -point.position_m;
+  point.travel_m = -point.travel_m;
+  point.velocity_m_per_s = -point.velocity_m_per_s;
+  point.acceleration_m_per_s2 = -point.acceleration_m_per_s2;
+  return point;
+}
+
+/// What the contacts remember.
+template <class T>
+constexpr void mirror(FrictionState<T>& state) {
+  state.gauge_N = -state.gauge_N;
+  state.smooth_m = -state.smooth_m;
+  state.followed_m = -state.followed_m;
+  state.dragged_m = -state.dragged_m;
+  state.dragging = -state.dragging;
+  state.held_N = -state.held_N;
+  state.earlier_N = -state.earlier_N;
+}
+
+/// Flow and forces; the pressure difference stays that of the open path.
+template <class T>
+constexpr Estimate<T> mirrored(const Estimate<T>& estimate) {
+  Estimate<T> out = estimate;
+  out.flow_m3_per_s = -estimate.flow_m3_per_s;
+  out.flow_lower_m3_per_s = -estimate.flow_upper_m3_per_s;
+  out.flow_upper_m3_per_s = -estimate.flow_lower_m3_per_s;
+  out.magnetic_force_N = -estimate.magnetic_force_N;
+  out.spring_force_N = -estimate.spring_force_N;
+  out.flow_force_N = -estimate.flow_force_N;
+  out.friction_force_N = -estimate.friction_force_N;
+  return out;
+}
+
+}  // namespace spoolflow::sensor

@@ -1,0 +1,138 @@
+#pragma once
+/// The whole 4/3 valve: one spool between two solenoids, which opens P to B on one side of the centre and P to A on the
+/// other. Whichever side the spool stands on, the chain is that of one direction (observer.hpp) with the net force of
+/// both solenoids; what is believed of the other path waits, and grows uncertain, until the spool comes back.
+#include <utility>
+
+#include "spoolflow/sensor/observer.hpp"
+#include "spoolflow/sensor/whole_valve/mirrored.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve_parameters.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"
+
+namespace spoolflow::sensor {
+
+/// The spool has changed sides where it stands so far beyond the centre [m].
+inline constexpr double centre_hysteresis_m = 10e-6;
+/// A reading nearer to the centre than this [m] may be of a spool that the springs centre: zero drift, play, ...
+inline constexpr double centring_m = 60e-6;
+/// ... and is, when both coils have been silent and the spool has rested there for so long [s]; ...
+inline constexpr double centring_rest_s = 0.2;
+/// ... the zero follows it at this pace [s].
+inline constexpr double zero_following_s = 2;
+/// How far from the centre the sign of the flow is not sure [m], beyond so many standard deviations of the noise.
+inline constexpr double sign_margin_m = 5e-6;
+inline constexpr double sign_deviations = 5;
+/// The iron of a coil has come to rest where its current has been silent for so long [s].
+inline constexpr double idle_settling_s = 0.1;
+
+namespace detail {
+
+template <class T>
+struct Sides {
+  const ObserverParameters<T>& open;
+  const ObserverParameters<T>& idle;
+};
+
+template <class T>
+constexpr Sides<T> sides(const WholeValveParameters<T>& valve, bool opens_a) {
+  return opens_a ? Sides<T>{*valve.a, *valve.b} : Sides<T>{*valve.b, *valve.a};
+}
+
+/// To be called before the first sample: nothing is known of either path.
+template <class T>
+constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
+                     const WholeValveSample<T>& sample) {
+  state.opens_a = sample.position_m < T(0);
+  const Sides<T> now = sides(valve, state.opens_a);
+  begin(now.open, state.open, sample_of(sample, state.opens_a));
+  sensor::begin(state.open.position,
+                drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil_temperature_K));
+  sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.edge.highest_pressure_difference_Pa(),
+                now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
+  sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
+}
+
+/// The spool went through the centre: the other solenoid and the other path are at work. What the supply did to it
+/// meanwhile nobody saw.
+template <class T>
+constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveState<T>& state) {
+  state.opens_a = !state.opens_a;
+  const ObserverParameters<T>& open = sides(valve, state.opens_a).open;
+  std::swap(state.open.actuator, state.idle.actuator);
+  std::swap(state.open.pressure, state.idle.pressure);
+  std::swap(state.open.dither, state.idle.dither);
+  mirror(state.open.friction);
+  state.open.swing = {};
+  PressureState<T>& pressure = state.open.pressure;
+  expect_change(open.pressure, pressure);
+  drift_unseen(open.pressure, pressure, state.idle.closed_s, open.edge.highest_pressure_difference_Pa());
+  state.idle.closed_s = state.idle.quiet_s = T(0);
+}
+
+/// What the solenoid on the other side holds [N, >= 0]: its iron keeps some of it when the current is gone.
+template <class T>
+constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle, const Sample<T>& sample,
+                           bool begins) {
+  idle.closed_s += sample.time_step_s;
+  const bool silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
+  idle.quiet_s = silent ? idle.quiet_s + sample.time_step_s : T(0);
+  if (!begins && idle.quiet_s > T(idle_settling_s)) return;
+  idle.magnetic_force_N = step(valve.actuator, idle.actuator, sample, begins).magnetic_force_N;
+}
+
+/// Both coils silent and the spool at rest near zero: the springs have centred it.
+template <class T>
+constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, bool silent, T time_step_s) {
+  const bool centred = silent && is(position.motion, Motion::rest) && magnitude(position.position_m) < T(centring_m);
+  state.centred_s = centred ? state.centred_s + time_step_s : T(0);
+  if (state.centred_s < T(centring_rest_s)) return;
+  state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
+}
+
+}  // namespace detail
+
+/// One sample of the whole valve. Needs both currents and the position, and a time that does not run backwards:
+/// otherwise the last answer is held. The answer, in the valve's signs, stays in the state.
+template <class T>
+constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
+                                  const WholeValveSample<T>& sample) {
+  if (const Status held = unusable(sample); held != Status::none) {
+    state.last.status = held;
+    return state.last;
+  }
+  const bool begins = !state.open.started;
+  if (begins) detail::begin(valve, state, sample);
+  const PositionSensor<T>& position_sensor = valve.b->position_sensor;
+  Sample<T> own = sample_of(sample, state.opens_a);
+  detail::follow_temperature(state.open, own);
+
+  // Where the spool is, in the valve's signs, and on which side of the centre.
+  Sample<T> signed_sample = own;
+  signed_sample.position_m = sample.position_m - state.zero_m;
+  const Dither<T> dither = follow_dither(
+      state.open.dither, own.current_A, detail::sides(valve, state.opens_a).open.largest_current_A, sample.time_step_s);
+  PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample,
+                                    detail::quiet_coil(detail::sides(valve, state.opens_a).open),
+                                    state.open.oil_temperature_K, dither, state.open.swing.frees);
+  const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
+  if (from_centre_m < T(-centre_hysteresis_m)) {
+    detail::change_sides(valve, state);
+    own = sample_of(sample, state.opens_a);
+  }
+  const detail::Sides<T> now = detail::sides(valve, state.opens_a);
+  const bool near = magnitude(position.position_m) <
+                    T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
+  const Sample<T> other = sample_of(sample, !state.opens_a);
+  const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
+                      magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
+  detail::follow_zero(state, position, silent, sample.time_step_s);
+  if (state.opens_a) position = mirrored(position);
+
+  detail::follow_idle(now.idle, state.idle, other, begins);
+  detail::observe(now.open, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+  state.last = state.opens_a ? mirrored(state.open.last) : state.open.last;
+  if (near && !(position.position_m < now.open.closed_below_m)) state.last.status |= Status::sign_undetermined;
+  return state.last;
+}
+
+}  // namespace spoolflow::sensor

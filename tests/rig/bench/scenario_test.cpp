@@ -1,0 +1,64 @@
+#include "spoolflow/rig/bench/scenario.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace spoolflow::rig {
+namespace {
+
+Scenario scenario_of(const std::string& text) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "scenario_test.toml";
+  std::ofstream(file) << text;
+  return read_scenario(file);
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    static_cast<void>(scenario_of(text));
+  } catch (const SettingsError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(Scenario, ABenchTestOfDirectionAHasTheValveTurnedRound) {
+  const PlannedScenario b = plan(scenario_of("protocol = \"spring\"\nvalve = \"whole_size_6\"\n"));
+  const PlannedScenario a = plan(scenario_of("protocol = \"spring\"\nvalve = \"whole_size_6\"\ndirection = \"a\"\n"));
+  EXPECT_EQ(a.valve.plant.spring_b.preload_N, b.valve.plant.spring_a.preload_N);
+  EXPECT_EQ(a.valve.plant.solenoid_b.coil.resistance_20C_ohm, b.valve.plant.solenoid_a.coil.resistance_20C_ohm);
+  EXPECT_EQ(a.valve.instruments.lvdt.zero_offset_m, -b.valve.instruments.lvdt.zero_offset_m);
+  EXPECT_EQ(b.run.load, LoadKind::held_path);
+}
+
+TEST(Scenario, AnEdgeSaysWhichPortIsFedAndWhichWayTheValveLies) {
+  const std::string map = "protocol = \"axial_force_map\"\nvalve = \"whole_size_6\"\nedge = ";
+  EXPECT_EQ(scenario_of(map + "\"AT\"\n").direction_a, false);
+  EXPECT_EQ(scenario_of(map + "\"BT\"\n").direction_a, true);
+  EXPECT_EQ(plan(scenario_of(map + "\"BT\"\n")).run.load, LoadKind::held_return);
+  EXPECT_EQ(plan(scenario_of(map + "\"PA\"\n")).run.load, LoadKind::held_difference);
+}
+
+TEST(Scenario, OperationOfAWholeValveTakesNegativePositionsAndPortPressures) {
+  const PlannedScenario planned =
+      plan(scenario_of("protocol = \"steps\"\nvalve = \"whole_size_6\"\n[run]\npositions_percent = [-60]\n"
+                       "[run.conditions]\nport_pressures = true\n"));
+  EXPECT_TRUE(planned.run.whole_valve);
+  EXPECT_DOUBLE_EQ(planned.run.position_set.last(), -0.6);
+  EXPECT_THAT(planned.run.channels,
+              testing::IsSupersetOf({recording::Channel::current_a, recording::Channel::pressure_t}));
+}
+
+TEST(Scenario, RefusesDirectionsAndEdgesThatDoNotFit) {
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\ndirection = \"a\"\n"), HasSubstr("direction is of bench tests"));
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\nedge = \"PB\"\n"), HasSubstr("edge is of the protocols"));
+  EXPECT_THAT(refusal_of("protocol = \"spring\"\ndirection = \"a\"\nedge = \"AT\"\n"),
+              HasSubstr("\"AT\" opens in direction b"));
+  EXPECT_THAT(refusal_of("protocol = \"spring\"\nedge = \"TB\"\n"), HasSubstr("path, PB, AT, PA, BT"));
+}
+
+}  // namespace
+}  // namespace spoolflow::rig
