@@ -126,12 +126,14 @@ DitherSetting over_all_points(const DitherStudy& study, std::size_t place, doubl
   return out;
 }
 
-/// Whether this amplitude and all up to the reserve above it keep the ripple's limit, over `place`.
+/// Whether this amplitude and all up to the reserve above it keep the ripple's limit, over `place`; no amplitude is
+/// kept whose reserve goes beyond those that were looked at.
 std::vector<bool> kept_with_reserve(const DitherStudy& study) {
   std::vector<bool> out(study.settings.size(), true);
   for (std::size_t a = 0; a < study.amplitude_A.size(); ++a) {
-    const double most_A = (1 + amplitude_reserve) * study.amplitude_A[a];
     for (std::size_t f = 0; f < study.frequency_Hz.size(); ++f) {
+      const double most_A = (1 + amplitude_reserve(study.frequency_Hz[f])) * study.amplitude_A[a];
+      if (study.amplitude_A.back() < most_A) out[study.place(a, f)] = false;
       // Up to the first amplitude that has the whole reserve.
       for (std::size_t above = a; above < study.amplitude_A.size(); ++above) {
         if (!study.settings[study.place(above, f)].within_limit) out[study.place(a, f)] = false;
@@ -191,7 +193,7 @@ DitherEffect dither_effect(const model::Model& model, const DitherPoint& point, 
   out.frees = told && out.half_swing_N > point.sliding_N;
   // Where dither frees the spool altogether, no contact grows old, and half the swing exceeds what is left.
   const sensor::FrictionBounds<double> aged{point.sliding_N, out.frees ? point.sliding_N : point.sticking_N};
-  const auto left = sensor::within_swing(valve, aged, told ? out.half_swing_N : 0.0, 1 / frequency_Hz, 0.0);
+  const auto left = sensor::within_swing(valve, aged, told ? out.half_swing_N : 0.0, 1 / frequency_Hz, 0.0, false);
   out.band_N = left.sticking_N + point.maps_N;
   out.band_m3_per_s = flow_band_m3_per_s(valve, point.point, out.band_N);
   out.tremble_m = tremble_m(valve, point, forces_N, out.half_swing_N, frequency_Hz);

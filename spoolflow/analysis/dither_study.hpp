@@ -23,8 +23,20 @@ inline constexpr double contact_damping_share = 0.3;
 inline constexpr double moving_friction_share = 0.6;
 /// Half of that fall is reached at this speed [m/s], assumed likewise.
 inline constexpr double mixed_friction_m_per_s = 4e-3;
-/// So much more amplitude must keep the limit, too: where friction gives way the spool's motion leaps up.
-inline constexpr double amplitude_reserve = 0.05;
+/// As a share of an amplitude, so much more must keep the limit, too. Where friction gives way the spool's motion leaps
+/// up, and the position control answers the tremble: the faster that is, the later its answer comes, and from some
+/// hundred hertz on it feeds the motion instead of damping it. Measured on the rig's presets, both shapes, 80 to 240 Hz
+/// (bench/dither_limit_on_rig.py, docs/rig.md): the least below the first frequency, the most above the second, evenly
+/// between.
+inline constexpr double least_amplitude_reserve = 0.15;
+inline constexpr double most_amplitude_reserve = 1;
+inline constexpr double least_reserve_Hz = 120;
+inline constexpr double most_reserve_Hz = 200;
+[[nodiscard]] constexpr double amplitude_reserve(double frequency_Hz) {
+  const double share = (frequency_Hz - least_reserve_Hz) / (most_reserve_Hz - least_reserve_Hz);
+  const double within = share < 0 ? 0 : share > 1 ? 1 : share;
+  return least_amplitude_reserve + within * (most_amplitude_reserve - least_amplitude_reserve);
+}
 /// A smaller amplitude is preferred where its band is wider by no more than this share of the band without dither.
 inline constexpr double small_gain_share = 0.05;
 
@@ -103,8 +115,8 @@ struct DitherStudy {
 };
 
 /// The setting with the smallest mean band among those that keep the ripple's limit at every point, with
-/// `amplitude_reserve` as well; of those that gain
-/// nearly as much the one with the smallest amplitude, and of these the one with the smallest band.
+/// `amplitude_reserve` as well, which must have been looked at; of those that gain nearly as much the one with the
+/// smallest amplitude, and of these the one with the smallest band.
 [[nodiscard]] std::size_t recommended_setting(const DitherStudy& study);
 
 /// All amplitudes and frequencies at all points of the question that the maps hold.

@@ -95,7 +95,8 @@ Task task_of(const EstimateArguments& arguments) {
 /// `beside`: whether reading, estimating and writing may have a thread each.
 recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target,
                                   bool beside) {
-  const auto reader = recording::open_reader(recording, validation::sensor_channels(task.model, task.channels));
+  const auto reader =
+      validation::open_sensor_channels(recording, validation::sensor_channels(task.model, task.channels));
   estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
   OutputFile output(target, task.inputs);
   recording::ReadNotes notes;

@@ -14,6 +14,7 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
+#include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 #include "spoolflow/calibration/operation/told_dials.hpp"
 #include "spoolflow/model/residual_of.hpp"
 
@@ -42,16 +43,18 @@ constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s
                                                     .ratio_memory_s = 10};
 constexpr double coverage_factor = 2;
 
+constexpr const char* of_operation = "flow rate in operation";
+
 FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
   FitResidual out;
   for (const AxialForceFit& fit : fits) out += fit.*residual;
   return out;
 }
 
-std::vector<const recording::Recording*> with_reference(const std::vector<const recording::Recording*>& operation) {
-  std::vector<const recording::Recording*> out;
-  for (const recording::Recording* recording : operation) {
-    if (recording->has(recording::Channel::flow_reference) && recording->size() > 0) out.push_back(recording);
+std::vector<OperatingRun> with_reference(const std::vector<OperatingRun>& runs) {
+  std::vector<OperatingRun> out;
+  for (const OperatingRun& run : runs) {
+    if (run.recording->has(recording::Channel::flow_reference) && run.recording->size() > 0) out.push_back(run);
   }
   return out;
 }
@@ -117,7 +120,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .flow_residual_m3_per_s = together(fits.axial, &AxialForceFit::flow_residual).rms(),
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
-              .unseen_factor = 2.0};
+              .unseen_factor = 1.8};
   out.moving_mass_kg = assumed_moving_mass_kg;
   out.closed_below_m = closed_below_m;
   out.largest_current_A = fits.magnetic.largest_current_A;
@@ -165,8 +168,8 @@ void assume_operation(model::Observer& observer) {
 
 }  // namespace
 
-ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                       double closed_below_m, const std::function<void(double)>& progress) {
+ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
+                                       double closed_below_m) {
   const BenchFits fits = fit_bench(recordings, valve.stroke_m);
   ObserverCalibration calibration{};
   calibration.bench = residuals_on_bench(fits, valve.stroke_m);
@@ -176,23 +179,39 @@ ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, con
   out.oil_temperature_K = {temperature_K.at(0), temperature_K.at(sensor::edge_temperatures - 1)};
   out.residuals = residuals_of_fits(fits);
   out.fits = known_of_bench(fits);
-  const std::vector<const recording::Recording*> operation = with_reference(recordings.operation);
-  if (!operation.empty()) {
-    const OperationFit fit = fit_operation(out.parameters, operation, valve.rated_flow_m3_per_s, progress);
-    out.fits.push_back(fit.known);
-    out.defaults = fit.not_told;
-    out.residuals.push_back({"flow rate in operation", "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
-  } else {
-    assume_operation(out);
-  }
-  for (const char* assumed : {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure",
-                              "band_coverage_factor", "band_unseen_factor", "band_creep_per_s"})
-    out.defaults.emplace_back(assumed);
+  out.defaults = {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure", "band_coverage_factor",
+                  "band_unseen_factor", "band_creep_per_s"};
   if (!fits.actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");
   }
   return calibration;
+}
+
+void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
+                            double rated_flow_m3_per_s, const std::function<void(double)>& progress) {
+  const std::vector<std::string> of_bench = std::move(observer.defaults);
+  const std::vector<OperatingRun> used = with_reference(runs);
+  if (!used.empty()) {
+    const OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
+    observer.fits.push_back(fit.known);
+    observer.defaults = fit.not_told;
+    observer.residuals.push_back({of_operation, "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
+  } else {
+    assume_operation(observer);
+  }
+  observer.defaults.insert(observer.defaults.end(), of_bench.begin(), of_bench.end());
+}
+
+void take_over_operation(const model::Observer& one, model::Observer& other) {
+  share_operation(one.parameters, other.parameters);
+  other.defaults = one.defaults;
+  for (const model::Residual& residual : one.residuals) {
+    if (residual.of == of_operation) other.residuals.push_back(residual);
+  }
+  for (const model::Fit& fit : one.fits) {
+    if (fit.of == fit_of_operation) other.fits.push_back(fit);
+  }
 }
 
 }  // namespace spoolflow::calibration

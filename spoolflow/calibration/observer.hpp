@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -13,7 +14,6 @@ struct ObserverRecordings {
   const recording::Recording& solenoid_force_map;
   std::vector<const recording::Recording*> solenoid_dynamic;  ///< none or one
   std::vector<const recording::Recording*> axial_force_maps;  ///< one an oil temperature
-  std::vector<const recording::Recording*> operation;  ///< none, or runs with pressure difference or flow reference
 };
 
 struct ObserverCalibration {
@@ -21,11 +21,17 @@ struct ObserverCalibration {
   model::BenchResiduals bench;
 };
 
-/// Bench maps free of position drift, then what only operation shows; what no recording shows is assumed, and said so
-/// in `defaults`. `closed_below_m` is the condensed model's; `progress` is told the share done. Throws
-/// CalibrationError.
-[[nodiscard]] ObserverCalibration calibrate_observer(const ObserverRecordings& recordings, const model::Valve& valve,
-                                                     double closed_below_m,
-                                                     const std::function<void(double)>& progress);
+/// Bench maps free of position drift; what only operation shows is taken as assumed. `closed_below_m` is the condensed
+/// model's. Throws CalibrationError.
+[[nodiscard]] ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, const model::Valve& valve,
+                                                     double closed_below_m);
+
+/// What only operation shows, from runs of which those without a reference flow are left out; what no run shows is
+/// assumed, and said so in `defaults`. `progress` is told the share done. Throws CalibrationError.
+void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
+                            double rated_flow_m3_per_s, const std::function<void(double)>& progress);
+
+/// The other direction of a whole valve takes over what operation showed of the one.
+void take_over_operation(const model::Observer& one, model::Observer& other);
 
 }  // namespace spoolflow::calibration

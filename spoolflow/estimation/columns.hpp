@@ -9,20 +9,22 @@
 namespace spoolflow::estimation {
 
 /// What a sensor reads, in SI units, one entry a sample; a missing value is NaN. Time, current and position are equally
-/// long; voltage and oil temperature are as long, or empty where they were not measured.
+/// long; all others are as long, or empty where they were not measured. See TimedSample.
 struct Columns {
   std::span<const double> time_s, current_A, voltage_V, position_m, oil_temperature_K;
+  std::span<const double> current_a_A{}, voltage_a_V{};  ///< of a whole valve's solenoid a
 
   [[nodiscard]] std::size_t size() const { return time_s.size(); }
   /// The same of the first samples.
   [[nodiscard]] Columns first(std::size_t count) const {
     const auto of = [&](std::span<const double> column) { return column.empty() ? column : column.first(count); };
-    return {of(time_s), of(current_A), of(voltage_V), of(position_m), of(oil_temperature_K)};
+    return {of(time_s),      of(current_A),  of(voltage_V), of(position_m), of(oil_temperature_K),
+            of(current_a_A), of(voltage_a_V)};
   }
   [[nodiscard]] TimedSample operator[](std::size_t k) const {
-    constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
-    return {time_s[k], current_A[k], voltage_V.empty() ? not_measured : voltage_V[k], position_m[k],
-            oil_temperature_K.empty() ? not_measured : oil_temperature_K[k]};
+    const auto of = [k](std::span<const double> column) { return column.empty() ? not_measured : column[k]; };
+    return {time_s[k],       current_A[k],   of(voltage_V), position_m[k], of(oil_temperature_K),
+            of(current_a_A), of(voltage_a_V)};
   }
 };
 

@@ -4,13 +4,17 @@ namespace spoolflow::estimation {
 namespace {
 
 RunningSensor::Parameters parameters_of(const model::Model& model, Estimator estimator) {
-  if (estimator == Estimator::condensed) return &model.condensed.parameters;
-  if (!model.observer) {
+  if (estimator == Estimator::condensed) {
+    if (!model.whole()) return &model.condensed.parameters;
+    return RunningSensor::WholeCondensed{&model.condensed.parameters, &model.p_to_a->condensed.parameters};
+  }
+  if (!model.has_observer()) {
     throw model::ModelError("the model of " + model.valve.name +
                             " is not calibrated for the observer; calibrate it again with this program, or use "
                             "--estimator condensed");
   }
-  return &model.observer->parameters;
+  if (!model.whole()) return &model.observer->parameters;
+  return sensor::WholeValveParameters<double>{&model.observer->parameters, &model.p_to_a->observer->parameters};
 }
 
 }  // namespace
@@ -20,11 +24,11 @@ std::string_view name(Estimator estimator) {
 }
 
 Estimator best_estimator(const model::Model& model) {
-  return model.observer ? Estimator::observer : Estimator::condensed;
+  return model.has_observer() ? Estimator::observer : Estimator::condensed;
 }
 
 std::vector<Estimator> all_estimators(const model::Model& model) {
-  if (!model.observer) return {Estimator::condensed};
+  if (!model.has_observer()) return {Estimator::condensed};
   return {Estimator::condensed, Estimator::observer};
 }
 

@@ -9,16 +9,22 @@
 
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
+#include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
 namespace spoolflow::estimation {
+
+inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// What is measured at one instant. NaN means not measured.
 struct TimedSample {
   double time_s;
-  double current_A;
+  double current_A;  ///< of a whole valve that of solenoid b, or where that of a is not measured of the active one
   double voltage_V;
   double position_m;
   double oil_temperature_K;
+  double current_a_A = not_measured;  ///< of a whole valve's solenoid a
+  double voltage_a_V = not_measured;
 };
 
 /// The same as the sensor takes it.
@@ -58,19 +64,40 @@ struct SampleTimes {
   }
 };
 
+/// The same as a whole valve's sensor takes it: without the current of solenoid a there is but the active coil's, and
+/// the other is taken to carry none.
+inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<double>& b, const TimedSample& sample) {
+  sensor::WholeValveSample<double> out{b.time_step_s, sample.current_a_A, b.current_A,        sample.voltage_a_V,
+                                       b.voltage_V,   b.position_m,       b.oil_temperature_K};
+  if (!std::isnan(sample.current_a_A)) return out;
+  out.current_a_A = 0;
+  if (b.position_m < 0) {
+    std::swap(out.current_a_A, out.current_b_A);
+    std::swap(out.voltage_a_V, out.voltage_b_V);
+  }
+  return out;
+}
+
 /// What a running sensor remembers; trivially copyable, and so are its bytes.
 struct RunningState {
-  sensor::CondensedState<double> condensed;  ///< of the two, that of the estimator that runs
+  sensor::CondensedState<double> condensed;  ///< of these, that of the estimator that runs
   sensor::ObserverState<double> observer;
+  sensor::WholeCondensedState<double> whole_condensed;
+  sensor::WholeValveState<double> whole_valve;
   SampleTimes times;
 };
 static_assert(std::is_trivially_copyable_v<RunningState>);
 
 class RunningSensor {
  public:
+  /// A whole valve's condensed parameters.
+  struct WholeCondensed {
+    const sensor::CondensedParameters<double>* b;  ///< flow P to B
+    const sensor::CondensedParameters<double>* a;  ///< flow P to A
+  };
   /// Parameters of the estimator that runs; kept by reference.
-  using Parameters =
-      std::variant<const sensor::CondensedParameters<double>*, const sensor::ObserverParameters<double>*>;
+  using Parameters = std::variant<const sensor::CondensedParameters<double>*, const sensor::ObserverParameters<double>*,
+                                  WholeCondensed, sensor::WholeValveParameters<double>>;
 
   RunningSensor(Parameters parameters, double rated_flow_m3_per_s)
       : parameters_(parameters), rated_flow_m3_per_s_(rated_flow_m3_per_s) {
@@ -79,10 +106,12 @@ class RunningSensor {
 
   /// To be called after the parameters were written to.
   void parameters_changed() {
-    if (!runs_condensed()) return;
-    const auto tables = std::make_shared<sensor::CondensedTables<double>>();
-    sensor::lay_out(*std::get<0>(parameters_), *tables);
-    condensed_ = tables;
+    if (const auto* condensed = std::get_if<const sensor::CondensedParameters<double>*>(&parameters_)) {
+      condensed_ = laid_out(**condensed);
+    } else if (const auto* whole = std::get_if<WholeCondensed>(&parameters_)) {
+      condensed_ = laid_out(*whole->b);
+      condensed_a_ = laid_out(*whole->a);
+    }
   }
 
   /// One sample. A repeated time is a second look at the same instant, a time that runs backwards holds the last
@@ -90,9 +119,7 @@ class RunningSensor {
   /// flow is zero with a band over the whole rated flow.
   sensor::Estimate<double> step(const TimedSample& sample) {
     const auto given = state_.times.next<double>(sample);
-    sensor::Estimate<double> out = std::holds_alternative<const sensor::ObserverParameters<double>*>(parameters_)
-                                       ? sensor::step(*std::get<1>(parameters_), state_.observer, given.sample)
-                                       : sensor::step(*condensed_, state_.condensed, given.sample);
+    sensor::Estimate<double> out = answer(given.sample, sample);
     state_.times.finish(out, given, rated_flow_m3_per_s_);
     return out;
   }
@@ -100,14 +127,36 @@ class RunningSensor {
   /// As new.
   void reset() { state_ = RunningState(); }
 
-  [[nodiscard]] bool runs_condensed() const { return parameters_.index() == 0; }
+  [[nodiscard]] bool runs_condensed() const {
+    return std::holds_alternative<const sensor::CondensedParameters<double>*>(parameters_) ||
+           std::holds_alternative<WholeCondensed>(parameters_);
+  }
   [[nodiscard]] const RunningState& state() const { return state_; }
   [[nodiscard]] RunningState& state() { return state_; }
   void set_state(const RunningState& state) { state_ = state; }
 
  private:
+  using Tables = std::shared_ptr<const sensor::CondensedTables<double>>;
+  static Tables laid_out(const sensor::CondensedParameters<double>& parameters) {
+    auto tables = std::make_shared<sensor::CondensedTables<double>>();
+    sensor::lay_out(parameters, *tables);
+    return tables;
+  }
+  const sensor::Estimate<double>& answer(const sensor::Sample<double>& sample, const TimedSample& measured) {
+    if (const auto* observer = std::get_if<const sensor::ObserverParameters<double>*>(&parameters_))
+      return sensor::step(**observer, state_.observer, sample);
+    if (const auto* whole = std::get_if<sensor::WholeValveParameters<double>>(&parameters_))
+      return sensor::step(*whole, state_.whole_valve, whole_valve_sample(sample, measured));
+    if (std::holds_alternative<WholeCondensed>(parameters_)) {
+      return sensor::step(sensor::WholeCondensedTables<double>{condensed_.get(), condensed_a_.get()},
+                          state_.whole_condensed, whole_valve_sample(sample, measured));
+    }
+    return sensor::step(*condensed_, state_.condensed, sample);
+  }
+
   Parameters parameters_;
-  std::shared_ptr<const sensor::CondensedTables<double>> condensed_;  ///< the parameters, laid out
+  Tables condensed_;  ///< the parameters, laid out
+  Tables condensed_a_;
   double rated_flow_m3_per_s_;
   RunningState state_;
 };

@@ -8,6 +8,7 @@ namespace spoolflow::model {
 
 /// Of dither and of the friction that swings with it.
 template <class Visitor>
+// long: a list, one entry a constant
 void describe_dither_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "least_dither_swing_share",
@@ -21,6 +22,8 @@ void describe_dither_constants(Visitor& visitor) {
                    sensor::turning_share);
   visitor.constant({.name = "longest_dither_period_s", .unit = "s", .meaning = "no dither has a longer period"},
                    sensor::longest_dither_period_s);
+  visitor.constant({.name = "shortest_dither_period_s", .unit = "s", .meaning = "no coil follows a shorter one"},
+                   sensor::shortest_dither_period_s);
   visitor.constant({.name = "alike_ratio",
                     .unit = "1",
                     .meaning = "periods of dither are alike where neither is more than so many times the other",
@@ -36,6 +39,16 @@ void describe_dither_constants(Visitor& visitor) {
                     .meaning = "share of itself by which half the swing follows that of a period at most",
                     .evidence = "orifice_duty_dither: p95 0.97, 0.94, 0.94 % FS, band 96.3, 97.6, 97.8 %"},
                    sensor::swing_following);
+  visitor.constant({.name = "missed_swing",
+                    .unit = "1",
+                    .meaning = "of a swing, samples miss this over the square of those in a period",
+                    .evidence = "orifice_duty_dither at 500 Hz: p95 0.98, 1.03, 1.14 % FS, band 98.9, 98.7, 97.6 %"},
+                   sensor::missed_swing);
+  visitor.constant({.name = "missed_middle",
+                    .unit = "1",
+                    .meaning = "one standard deviation of its middle, over half the swing and the same",
+                    .evidence = "orifice_duty_dither at 500 Hz: p95 0.97, 1.03, 1.12 % FS, band 97.9, 98.7, 99.8 %"},
+                   sensor::missed_middle);
   visitor.constant({.name = "slip_excess_factor",
                     .unit = "1",
                     .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes",
@@ -46,32 +59,29 @@ void describe_dither_constants(Visitor& visitor) {
                     .meaning = "half the width that peaks no sample met take in the band, over half the swing",
                     .evidence = "orifice_duty_dither: p95 0.94, 0.94, 0.94 % FS, band 97.0, 97.6, 98.6 %"},
                    sensor::swing_deviation_share);
+  visitor.constant({.name = "loosened_ageing_share",
+                    .unit = "1",
+                    .meaning = "one standard deviation of what ageing adds to a break-away under dither, over itself",
+                    .evidence = "ramp_60bar_dither: max 3.75, 1.90, 1.08 % FS, band 99.3, 99.5, 99.6 %"},
+                   sensor::loosened_ageing_share);
 }
 
 /// Of asking for dither.
 template <class Visitor>
 void describe_listening_constants(Visitor& visitor) {
   visitor.constant(
-      {.name = "amplitude_raise",
-       .unit = "1",
-       .meaning = "by so much the amplitude is raised after a request that did not bring the wanted band, as a ratio"},
-      sensor::amplitude_raise);
+      {.name = "amplitude_raise_per_s",
+       .unit = "1/s",
+       .meaning = "pace at which the amplitude is raised where dither does not free the spool, as a share of it"},
+      sensor::amplitude_raise_per_s);
+  visitor.constant({.name = "hearing_s", .unit = "s", .meaning = "raised after so long: what the sensor takes to hear"},
+                   sensor::hearing_s);
   visitor.constant({.name = "amplitude_lowering",
                     .unit = "1",
-                    .meaning = "by so much it is lowered after one that did, as a ratio: too little shows soon, too "
+                    .meaning = "by so much it is lowered after a request that brought the wanted band, as a ratio: too "
+                               "little shows soon, too "
                                "much does not show at all"},
                    sensor::amplitude_lowering);
-  visitor.constant(
-      {.name = "rest_before_listening_s",
-       .unit = "s",
-       .meaning = "the spool must have rested so long before dither is asked for: shorter rests are part of a motion"},
-      sensor::rest_before_listening_s);
-  visitor.constant(
-      {.name = "longest_tremble_s",
-       .unit = "s",
-       .meaning =
-           "motion that lasts no longer than this is the tremble, or dither freeing the spool: it ends no request"},
-      sensor::longest_tremble_s);
   visitor.constant({.name = "dither_rise_s",
                     .unit = "s",
                     .meaning = "in which dither rises from nothing to its amplitude, and falls to nothing again"},

@@ -20,7 +20,7 @@ struct Valve {
   std::string name;
   double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
-  std::string direction;  ///< "b": flow P to B; "a": flow P to A
+  std::string direction;  ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
 };
 
 /// Data-sheet values; absent where the campaign does not give them.
@@ -86,6 +86,13 @@ struct Observer {
   std::vector<std::string> defaults;  ///< what no recording showed, and was assumed
 };
 
+/// One direction of flow of a whole valve.
+struct Direction {
+  Condensed condensed;
+  std::optional<Observer> observer;
+  Evidence evidence;
+};
+
 struct Model {
   Valve valve;
   Fluid fluid;
@@ -94,7 +101,14 @@ struct Model {
   Condensed condensed;
   std::optional<Observer> observer;  ///< absent: not calibrated
   Evidence evidence;
+  std::optional<Direction> p_to_a;  ///< of a whole valve; what stands above is then its other direction, P to B
+
+  [[nodiscard]] bool whole() const { return p_to_a.has_value(); }
+  [[nodiscard]] bool has_observer() const { return observer && (!p_to_a || p_to_a->observer); }
 };
+
+/// The model of one direction, "a" or "b", of a whole valve; a model of one direction is its own.
+[[nodiscard]] Model of_direction(const Model& model, const std::string& direction);
 
 /// Writes the versioned JSON file.
 void write_model(std::ostream& out, const Model& model);

@@ -178,8 +178,8 @@ Model parse_model(const std::string& text, const std::string& file) {
   out.valve.name = valve.at("name").text();
   out.valve.direction = valve.at("direction").text();
   describe_valve(out.valve, TableReader(valve));
-  if (out.valve.direction != "a" && out.valve.direction != "b")
-    valve.at("direction").refuse("is neither \"a\" nor \"b\"");
+  if (out.valve.direction != "a" && out.valve.direction != "b" && out.valve.direction != "both")
+    valve.at("direction").refuse("is neither \"a\" nor \"b\" nor \"both\"");
   const JsonNode fluid = root.at("fluid");
   out.fluid.name = fluid.at("name").text();
   describe_fluid(out.fluid, TableReader(fluid));
@@ -188,6 +188,11 @@ Model parse_model(const std::string& text, const std::string& file) {
   out.condensed = condensed(root.at("condensed"));
   if (root.has("observer")) out.observer = observer(root.at("observer"));
   out.evidence = evidence(root.at("evidence"));
+  if (out.valve.direction == "both") {
+    const JsonNode p_to_a = root.at("p_to_a");
+    out.p_to_a = Direction{condensed(p_to_a.at("condensed")), std::nullopt, evidence(p_to_a.at("evidence"))};
+    if (p_to_a.has("observer")) out.p_to_a->observer = observer(p_to_a.at("observer"));
+  }
   require_limits(out, file);
   return out;
 }

@@ -151,6 +151,11 @@ void write_model(std::ostream& out, const Model& model) {
   file["condensed"] = condensed(model.condensed);
   if (model.observer) file["observer"] = observer(*model.observer);
   file["evidence"] = evidence(model.evidence);
+  if (model.p_to_a) {
+    Json& p_to_a = file["p_to_a"] = {{"condensed", condensed(model.p_to_a->condensed)}};
+    if (model.p_to_a->observer) p_to_a["observer"] = observer(*model.p_to_a->observer);
+    p_to_a["evidence"] = evidence(model.p_to_a->evidence);
+  }
   out << file.dump(1) << '\n';
 }
 

@@ -27,14 +27,20 @@ Protocol protocol_of(const TomlTable& entry) {
   return static_cast<Protocol>(found - protocol_names.begin());
 }
 
+/// "a" or "b"; nothing where the table does not say.
+std::optional<std::string> direction_of(const TomlTable& table) {
+  std::optional<std::string> out = table.optional_text("direction");
+  if (out && *out != "a" && *out != "b") {
+    throw RecordingError(fmt::format("{}: direction \"{}\" is not known; allowed: \"b\" (flow P to B), \"a\" (P to A)",
+                                     table.place("direction"), *out));
+  }
+  return out;
+}
+
 CampaignValve valve_of(const TomlTable& table) {
   table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction"});
   CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.positive("rated_flow_L_min")),
-                      units::m_from_mm(table.positive("stroke_mm")), table.optional_text("direction").value_or("b")};
-  if (valve.direction != "a" && valve.direction != "b") {
-    throw RecordingError(fmt::format("{}: direction \"{}\" is not known; allowed: \"b\" (flow P to B), \"a\" (P to A)",
-                                     table.place("direction"), valve.direction));
-  }
+                      units::m_from_mm(table.positive("stroke_mm")), direction_of(table).value_or("b")};
   constexpr double longest_stroke_m = 0.1;
   if (valve.stroke_m > longest_stroke_m) {
     throw RecordingError(fmt::format("{}: a stroke of {} mm is longer than any spool valve's; give it in mm",
@@ -69,10 +75,13 @@ CampaignInstruments instruments_of(const TomlTable& table) {
   return out;
 }
 
-CampaignRecording recording_of(const TomlTable& entry) {
-  entry.allow_only({"protocol", "file", "channels"});
-  CampaignRecording out{
-      protocol_of(entry), entry.file.parent_path() / entry.text("file"), {}, place_of(entry.table, entry.file)};
+CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve) {
+  entry.allow_only({"protocol", "file", "direction", "channels"});
+  CampaignRecording out{protocol_of(entry),
+                        entry.file.parent_path() / entry.text("file"),
+                        {},
+                        place_of(entry.table, entry.file),
+                        direction_of(entry).value_or(valve.direction)};
   std::error_code failure;
   if (!std::filesystem::exists(out.file, failure)) {
     throw RecordingError(fmt::format("{}: the recording {} does not exist; correct file = \"{}\" or put the file there",
@@ -131,7 +140,7 @@ Campaign read_campaign(const std::filesystem::path& file) {
     if (table == nullptr) {
       throw RecordingError(fmt::format("{}: write each recording as a table [[recording]]", place_of(node, file)));
     }
-    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}));
+    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve));
   }
   return campaign;
 }

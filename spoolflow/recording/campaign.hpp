@@ -18,7 +18,7 @@ struct CampaignValve {
   std::string name;
   double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
-  std::string direction = "b";  ///< "b": flow P to B
+  std::string direction = "b";  ///< "b": flow P to B; of the recordings that do not say theirs
 };
 
 /// Data-sheet values of the oil; absent where the campaign does not give them.
@@ -42,7 +42,8 @@ struct CampaignRecording {
   Protocol protocol;
   std::filesystem::path file;  ///< resolved against the campaign's folder
   ChannelMap channels;
-  std::string place;  ///< "campaign.toml, line 17", for messages
+  std::string place;            ///< "campaign.toml, line 17", for messages
+  std::string direction = "b";  ///< of a file of one direction, whose position counts from the centre, opening > 0
 };
 
 struct Campaign {

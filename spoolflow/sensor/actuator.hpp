@@ -62,11 +62,14 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 }
 
 /// What the voltage tells of the coil, from the same sample as the step before it; a NaN or a coil whose resistance was
-/// never calibrated tells nothing.
+/// never calibrated tells nothing. Every sample counts in the mean; the resistance is followed where there is time for
+/// it.
 template <class T>
-constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state, const Sample<T>& sample) {
-  follow_resistance(actuator.coil_resistance, state.coil_resistance,
-                    {sample.time_step_s, sample.current_A, sample.voltage_V, state.coil.flux_rate_V});
+[[gnu::always_inline]] constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                                  const Sample<T>& sample, Mask<T> has_time) {
+  average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
+  in_valves(has_time && is_number(sample.voltage_V), state,
+            [&] { follow_resistance(actuator.coil_resistance, state.coil_resistance, sample.time_step_s); });
 }
 
 /// One sample. It begins anew at the first, and where a coil current that no coil has, or a leap in time, left a flux

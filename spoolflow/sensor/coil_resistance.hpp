@@ -16,6 +16,10 @@ inline constexpr double warmest_resistance_ratio = 1.7;
 /// How well the resistance must be known, as a share of it, before it is called implausible.
 inline constexpr double known_resistance_share = 0.1;
 
+/// Voltage, current and flux rate are averaged over this [s]: many periods of dither, whose voltage is several times
+/// that over the resistance and follows from a flux rate that is told poorly so fast.
+inline constexpr double coil_averaging_s = 0.05;
+
 /// Coil resistance [Ohm], followed while the valve works: the coil warms, copper by 0.39 % per kelvin. It does not
 /// enter the force, which comes from the current (docs/accuracy.md, ablation); it tells of faults of the coil.
 template <class T>
@@ -26,41 +30,54 @@ struct CoilResistance {
   T voltage_noise_V_root_s{};  ///< of the voltage about R i + d flux/dt, noise density
 };
 
+/// What the coil's equation u = R i + d flux/dt tells of the resistance during one sample, or in the mean over many.
+template <class T>
+struct CoilEquation {
+  T current_A{};
+  T voltage_V{};
+  T flux_rate_V{};
+};
+
 /// Estimate and variance of a scalar Kalman filter; {} before the first sample.
 template <class T>
 struct CoilResistanceState {
   T resistance_Ohm{};
   T variance_Ohm2{};
+  CoilEquation<T> mean{};
   Mask<T> implausible{};  ///< known well, and not what copper can have
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 
-/// What the coil's equation u = R i + d flux/dt tells of the resistance during one sample.
+/// One sample, `time_step_s` long. The equation is linear: what holds of each sample holds of their mean, if it is
+/// taken of all of them. A voltage that is NaN leaves the mean alone.
 template <class T>
-struct CoilEquation {
-  T time_step_s;
-  T current_A;
-  T voltage_V;
-  T flux_rate_V;
-};
+[[gnu::always_inline]] constexpr void average(CoilResistanceState<T>& state, const CoilEquation<T>& sample,
+                                              T time_step_s) {
+  in_valves(is_number(sample.voltage_V), state, [&] {
+    const T share = smaller(time_step_s * T(1 / coil_averaging_s), T(1));
+    state.mean.current_A += share * (sample.current_A - state.mean.current_A);
+    state.mean.voltage_V += share * (sample.voltage_V - state.mean.voltage_V);
+    state.mean.flux_rate_V += share * (sample.flux_rate_V - state.mean.flux_rate_V);
+  });
+}
 
-/// One step of the Kalman filter. Informative where current flows, whether steady or not; a voltage that is NaN, or
-/// a coil whose resistance was never calibrated, leaves the estimate alone.
+/// One step of the Kalman filter, which may be left out for some samples. Informative where current flows, whether
+/// steady or not; a coil whose resistance was never calibrated leaves the estimate alone. A sample is no more than its
+/// time step of evidence, so that it does not matter that the next mean is much alike.
 template <class T>
-constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state,
-                                 const CoilEquation<T>& sample) {
-  in_valves(is_number(sample.voltage_V) && coil.resistance_Ohm > T(0) && sample.time_step_s > T(0), state, [&] {
+constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state, T time_step_s) {
+  in_valves(coil.resistance_Ohm > T(0) && time_step_s > T(0), state, [&] {
+    const CoilEquation<T>& mean = state.mean;
     const Mask<T> begins = state.variance_Ohm2 == T(0);
     state.resistance_Ohm = select(begins, coil.resistance_Ohm, state.resistance_Ohm);
     state.variance_Ohm2 = select(begins, squared(coil.uncertainty_Ohm), state.variance_Ohm2);
-    state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * sample.time_step_s;
-    const T misfit_V = sample.voltage_V - sample.flux_rate_V - state.resistance_Ohm * sample.current_A;
-    const T covariance = state.variance_Ohm2 * sample.current_A;
+    state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * time_step_s;
+    const T misfit_V = mean.voltage_V - mean.flux_rate_V - state.resistance_Ohm * mean.current_A;
+    const T covariance = state.variance_Ohm2 * mean.current_A;
     const T noise2 = squared(coil.voltage_noise_V_root_s) +
-                     squared(T(flux_rate_error_share) * sample.flux_rate_V) * sample.time_step_s +
-                     T(least_voltage_variance_V2s);
-    const T gain = covariance * sample.time_step_s / (covariance * sample.current_A * sample.time_step_s + noise2);
+                     squared(T(flux_rate_error_share) * mean.flux_rate_V) * time_step_s + T(least_voltage_variance_V2s);
+    const T gain = covariance * time_step_s / (covariance * mean.current_A * time_step_s + noise2);
     state.resistance_Ohm += gain * misfit_V;
     state.variance_Ohm2 -= gain * covariance;
     state.implausible = state.variance_Ohm2 < squared(T(known_resistance_share) * coil.resistance_Ohm) &&

@@ -16,8 +16,10 @@ namespace spoolflow::sensor {
 inline constexpr double least_dither_swing_share = 0.02;
 /// The current has turned where it went back by this share of its last swing.
 inline constexpr double turning_share = 0.35;
-/// No dither has a longer period [s].
+/// No dither has a longer period [s], ...
 inline constexpr double longest_dither_period_s = 0.025;
+/// ... none that a coil follows a shorter one.
+inline constexpr double shortest_dither_period_s = 1e-3;
 /// Two half periods are alike where the larger swing, and the longer period less one sample, is no more than so many
 /// times the other.
 inline constexpr double alike_ratio = 1.6;
@@ -43,7 +45,8 @@ static_assert(std::is_trivially_copyable_v<DitherState<float>>);
 template <class T>
 struct Dither {
   Mask<T> present;
-  Mask<T> begins;  ///< one of its periods, with this sample
+  Mask<T> begins;         ///< one of its periods, with this sample
+  T sample_per_period{};  ///< time step over the last period, 0 to 1/2; where dither is present
 };
 
 /// Amplitude of the current's dither [A], half of peak to peak, and its frequency [Hz]; where no dither is present,
@@ -104,12 +107,24 @@ template <class T>
     state.since_s = select(begins, T(0), state.since_s);
   });
   in_valves(state.since_s > T(longest_dither_period_s), state, [&] { state.alike = state.swing_A = T(0); });
-  return {!(state.alike < T(periods_of_dither)), begins};
+  Dither<T> out{!(state.alike < T(periods_of_dither)), begins};
+  if (any(out.present)) {
+    const T period_s = larger(state.period_s, T(shortest_dither_period_s));
+    out.sample_per_period = smaller(time_step_s / period_s, T(0.5));
+  }
+  return out;
 }
 
 /// Half the swing follows that of each period by this share of it at most: samples seldom meet the peaks, and a change
 /// of the mean current is no swing.
 inline constexpr double swing_following = 0.125;
+/// Samples seldom meet the peaks of a swing. With n samples a period at any phase those of one period miss pi2/(6 n2)
+/// of it in the mean; the extremes of two periods, whose samples lie between each other's, are taken to miss half of
+/// that.
+inline constexpr double missed_swing = 0.8;
+/// One standard deviation of where the middle lies between peaks of which each may be missed, over half the swing and
+/// 1/n2. At most it is pi2/4, where a sample meets the one peak and two pass the other.
+inline constexpr double missed_middle = 2;
 /// 2 pi / sqrt(4.5): see slip_excess_N.
 inline constexpr double slip_excess_factor = 2.962;
 
@@ -140,28 +155,31 @@ template <class T>
 [[gnu::always_inline]] constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
                                                                T apparent_N) {
   const Mask<T> anew = !dither.present;
-  if (!any(dither.present)) {
+  in_valves(anew, state, [&] {
     state.periods = state.half_swing_N = T(0);
     state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = apparent_N;
-    return {apparent_N, T(0), !dither.present};
-  }
+  });
+  if (!any(dither.present)) return {apparent_N, T(0), anew};
   const Mask<T> turns = dither.begins && !anew;
-  state.periods = select(anew, T(0), select(turns, smaller(state.periods + T(1), T(2)), state.periods));
+  in_valves(turns, state, [&] {
+    state.periods = smaller(state.periods + T(1), T(2));
+    const Mask<T> lone = state.periods < T(2);
+    state.last_highest_N = select(lone, apparent_N, state.highest_N);
+    state.last_lowest_N = select(lone, apparent_N, state.lowest_N);
+    state.highest_N = state.lowest_N = apparent_N;
+  });
+  state.highest_N = larger(state.highest_N, apparent_N);
+  state.lowest_N = smaller(state.lowest_N, apparent_N);
   const Mask<T> settled = !(state.periods < T(2));
-  const Mask<T> lone = anew || (turns && !settled);
-  state.last_highest_N = select(lone, apparent_N, select(turns, state.highest_N, state.last_highest_N));
-  state.last_lowest_N = select(lone, apparent_N, select(turns, state.lowest_N, state.last_lowest_N));
-  state.highest_N = select(anew || turns, apparent_N, larger(state.highest_N, apparent_N));
-  state.lowest_N = select(anew || turns, apparent_N, smaller(state.lowest_N, apparent_N));
   const T highest_N = larger(state.highest_N, state.last_highest_N);
   const T lowest_N = smaller(state.lowest_N, state.last_lowest_N);
-  const T half_N = T(0.5) * (highest_N - lowest_N);
-  const T known_N = state.half_swing_N;
-  const T reach_N = select(known_N > T(0), T(swing_following) * known_N, half_N);
-  state.half_swing_N = select(turns && settled, limited(half_N, known_N - reach_N, known_N + reach_N),
-                              select(dither.present, known_N, T(0)));
-  return {select(dither.present, T(0.5) * (highest_N + lowest_N), apparent_N), state.half_swing_N,
-          settled || !dither.present};
+  in_valves(turns && settled, state, [&] {
+    const T half_N = (T(0.5) + T(0.5 * missed_swing) * squared(dither.sample_per_period)) * (highest_N - lowest_N);
+    const T known_N = state.half_swing_N;
+    const T reach_N = select(known_N > T(0), T(swing_following) * known_N, half_N);
+    state.half_swing_N = limited(half_N, known_N - reach_N, known_N + reach_N);
+  });
+  return {select(anew, apparent_N, T(0.5) * (highest_N + lowest_N)), state.half_swing_N, settled || anew};
 }
 
 /// The flow force is believed larger by so much: friction would have to be smaller, in what has been as now.
@@ -182,7 +200,8 @@ template <class T>
 /// `slip_m` is the way in one period, less what the contacts give elastically. Leaves out drag within the slip.
 template <class T>
 [[gnu::always_inline]] constexpr T slip_excess_N(T moving_mass_kg, T half_swing_N, T slip_m, T period_s) {
-  return T(slip_excess_factor) * sqrt(moving_mass_kg * half_swing_N * larger(slip_m, T(0))) / larger(period_s, T(1e-3));
+  return T(slip_excess_factor) * sqrt(moving_mass_kg * half_swing_N * larger(slip_m, T(0))) /
+         larger(period_s, T(shortest_dither_period_s));
 }
 
 }  // namespace spoolflow::sensor

@@ -29,22 +29,27 @@ struct ForceBalance {
   Mask<T> closed;  ///< the spool covers the metering edge
 };
 
-/// One standard deviation of all forces together [N], as the parts tell it.
+/// One standard deviation of all forces together [N], as the parts tell it. `moving_N` is that of what inertia, or the
+/// swing under dither, may be wrong by.
 template <class T>
 [[gnu::always_inline]] constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
-                                                 const FrictionBounds<T>& bounds, T inertia_N) {
-  return sqrt(squared(inertia_N) + squared(band.force_residual_N) + squared(actuator.uncertainty_N) +
+                                                 const FrictionBounds<T>& bounds, T moving_N) {
+  return sqrt(squared(moving_N) + squared(band.force_residual_N) + squared(actuator.uncertainty_N) +
               squared(band.friction_share * bounds.sliding_N));
 }
 
-/// Dither takes half the swing of friction off its limits, and in motion adds what the slips' mass asks for.
+/// Dither takes half the swing of friction off its limits, and where it `moves` the spool adds what the slips' mass
+/// asks for.
 template <class T>
 [[gnu::always_inline]] constexpr FrictionBounds<T> within_swing(const ObserverParameters<T>& valve,
                                                                 const FrictionBounds<T>& bounds, T half_swing_N,
-                                                                T period_s, T velocity_m_per_s) {
-  const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
-  const T excess_N =
-      slip_excess_N(valve.moving_mass_kg, half_swing_N, magnitude(velocity_m_per_s) * period_s - elastic_m, period_s);
+                                                                T period_s, T velocity_m_per_s, Mask<T> moves) {
+  T excess_N{};
+  if (any(moves)) {
+    const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
+    const T slip_m = magnitude(velocity_m_per_s) * period_s - elastic_m;
+    excess_N = select(moves, slip_excess_N(valve.moving_mass_kg, half_swing_N, slip_m, period_s), T(0));
+  }
   return {larger(bounds.sliding_N + excess_N - half_swing_N, T(0)), larger(bounds.sticking_N - half_swing_N, T(0))};
 }
 
@@ -63,8 +68,9 @@ template <class T>
   state.swing.frees = balance.freed;
   if (!any(dither.present)) return;
   state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
+  const Mask<T> moves = balance.freed || !is(position.motion, Motion::rest);
   const FrictionBounds<T> bounds =
-      within_swing(valve, balance.bounds, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s);
+      within_swing(valve, balance.bounds, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s, moves);
   balance.bounds.sliding_N = select(dither.present, bounds.sliding_N, balance.bounds.sliding_N);
   balance.bounds.sticking_N = select(dither.present, bounds.sticking_N, balance.bounds.sticking_N);
 }
@@ -107,7 +113,8 @@ template <class T>
   // Paper (1): the mass takes a part of the force; position tells it late, so that it is no surer than its size.
   const T inertia_N = select(travels && !out.dithered, valve.moving_mass_kg * position.acceleration_m_per_s2, T(0));
   out.apparent_friction_N -= inertia_N;
-  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, inertia_N);
+  const T missed_N = T(missed_middle) * squared(dither.sample_per_period) * out.half_swing_N;
+  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, select(out.dithered, missed_N, inertia_N));
   return out;
 }
 

@@ -8,6 +8,10 @@
 
 namespace spoolflow::sensor {
 
+/// A spool that reads so far beyond half the overlap on the closed side [m] opens the other direction of flow: no zero
+/// drifts as far.
+inline constexpr double other_direction_m = 50e-6;
+
 /// The oil warms slowly and its sensor is noisy [s].
 inline constexpr double temperature_smoothing_s = 2;
 
@@ -101,10 +105,23 @@ template <class T>
   });
   // The coil is slow enough to be followed in those samples that have least else to do.
   const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
-  in_valves(!balance.sliding && !busy && balance.resting.breakaway_N == T(0), state.actuator,
-            [&] { follow_coil(valve.actuator, state.actuator, sample); });
+  const Mask<T> has_time = !balance.sliding && !busy && balance.resting.breakaway_N == T(0);
+  follow_coil(valve.actuator, state.actuator, sample, has_time);
   answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = status(valve, state, sample, position, balance);
+}
+
+/// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
+template <class T>
+[[gnu::always_inline]] constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                            T position_m) {
+  const Mask<T> opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
+  if (!any(opens)) return;
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  Estimate<T>& out = state.last;
+  out.flow_lower_m3_per_s = select(opens, -most, out.flow_lower_m3_per_s);
+  mark(out.status, opens, Status::other_direction);
 }
 
 }  // namespace detail
@@ -129,6 +146,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
   detail::observe(valve, state, sample, position, dither, T(0), begins);
+  detail::admit_other_direction(valve, state, position.position_m);
   return state.last;
 }
 

@@ -11,6 +11,10 @@ inline constexpr double least_slope_share = 0.3;
 /// A spool breaks away only after so long a rest [s]: shorter ones are part of a motion.
 inline constexpr double shortest_rest_s = 0.03;
 
+/// The tremble of dither loosens contacts that grow old: what ageing has added is as sure as this share of it, one
+/// standard deviation.
+inline constexpr double loosened_ageing_share = 0.25;
+
 /// Where friction lies: `slope` of the flow force over the pressure difference, friction's taken with it.
 template <class T>
 [[gnu::always_inline]] constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_slope_N_per_Pa) {
@@ -34,11 +38,13 @@ template <class T>
   const T aged = ageing(friction, balance.resting.rested_s);
   const T limit_N = aged * balance.spool_friction_N + balance.armature_friction_N;
   const T expected_N = balance.direction * larger(limit_N - balance.half_swing_N, T(0));
+  const T loosened_N =
+      select(balance.dithered, T(loosened_ageing_share) * (aged - T(1)) * balance.spool_friction_N, T(0));
   return {balance.resting.breakaway_N - expected_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,
                                balance.direction * aged * friction_slope_N_per_Pa),
           balance.direction * (aged * balance.edge.friction_N + balance.actuator.friction_half_width_N),
-          sqrt(squared(balance.noise_N) + squared(friction.breakaway_share * limit_N))};
+          sqrt(squared(balance.noise_N) + squared(loosened_N) + squared(friction.breakaway_share * limit_N))};
 }
 
 /// Prediction over one sample: the supply may have moved.
@@ -73,8 +79,9 @@ template <class T>
   });
   const Mask<T> breaks = !balance.closed && !balance.sliding && balance.resting.breakaway_N != T(0) &&
                          balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
-  in_valves(breaks, pressure,
-            [&] { update_breakaway(pressure, breakaway_innovation(valve.friction, balance, friction_slope)); });
+  in_valves(breaks, pressure, [&] {
+    update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope));
+  });
   const T beyond_N = balance.apparent_friction_N - balance.friction_N;
   const Mask<T> yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
                          is(position.motion, Motion::rest) && beyond_N != T(0);

@@ -28,6 +28,14 @@ void append(std::vector<Number>& to, const recording::SampleBlock& block, Channe
   for (const double value : block.column(channel)) to.push_back(static_cast<Number>(value));
 }
 
+/// Of the only or the active coil; of a whole valve coil b's counts > 0 and coil a's < 0.
+void append_current(std::vector<float>& to, const recording::SampleBlock& block) {
+  const std::vector<double>& a = block.column(Channel::current_a);
+  const std::vector<double>& b = block.column(Channel::current_b);
+  if (a.empty() || b.empty()) return append(to, block, Channel::current);
+  for (std::size_t k = 0; k < block.rows; ++k) to.push_back(static_cast<float>(b[k] - a[k]));
+}
+
 void append_pressure_difference(std::vector<float>& to, const recording::SampleBlock& block) {
   if (!block.column(Channel::pressure_difference).empty()) return append(to, block, Channel::pressure_difference);
   const auto& upstream_Pa = block.column(Channel::pressure_upstream);
@@ -47,7 +55,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
         Channel::pressure_upstream, Channel::pressure_downstream}) {
     options.optional.push_back(channel);
   }
-  const auto reader = recording::open_reader(recording, options);
+  const auto reader = open_sensor_channels(recording, options);
   const Channel reference = reader->has(Channel::flow_reference) ? Channel::flow_reference : Channel::flow;
   RunSamples run;
   std::vector<estimation::RunningSensor> sensors;
@@ -66,7 +74,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
     append(run.time_s, block, Channel::time);
     append(run.position_m, block, Channel::position);
     append(run.position_set, block, Channel::position_set);
-    append(run.current_A, block, Channel::current);
+    append_current(run.current_A, block);
     append(run.oil_temperature_K, block, Channel::oil_temperature);
     append(run.reference_m3_per_s, block, reference);
     append_pressure_difference(run.pressure_difference_Pa, block);

@@ -1,25 +1,56 @@
 #include "spoolflow/validation/sensor_channels.hpp"
 
+#include <fmt/format.h>
+
+#include "spoolflow/recording/channels/recording_error.hpp"
+
 namespace spoolflow::validation {
 
 using recording::Channel;
 
 recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels) {
+  if (!model.whole()) {
+    return {std::move(channels),
+            {Channel::time, Channel::current, Channel::position},
+            {Channel::voltage, Channel::oil_temperature},
+            model.valve.stroke_m};
+  }
   return {std::move(channels),
-          {Channel::time, Channel::current, Channel::position},
-          {Channel::voltage, Channel::oil_temperature},
+          {Channel::time, Channel::position},
+          {Channel::current, Channel::current_a, Channel::current_b, Channel::voltage, Channel::voltage_a,
+           Channel::voltage_b, Channel::oil_temperature},
           model.valve.stroke_m};
+}
+
+std::unique_ptr<recording::Reader> open_sensor_channels(const std::filesystem::path& file,
+                                                        const recording::ReadOptions& options) {
+  std::unique_ptr<recording::Reader> reader = recording::open_reader(file, options);
+  const bool both = reader->has(Channel::current_a) && reader->has(Channel::current_b);
+  if (!both && !reader->has(Channel::current)) {
+    throw recording::RecordingError(fmt::format(
+        "{}: the model is of a whole valve and needs the currents of both coils, \"current_a\" and \"current_b\", or "
+        "\"current\" of the active one; name their columns in a channel map",
+        file.string()));
+  }
+  return reader;
 }
 
 namespace {
 
 template <class Source>
 estimation::Columns columns_of(const Source& source) {
-  return {.time_s = source.column(Channel::time),
-          .current_A = source.column(Channel::current),
-          .voltage_V = source.column(Channel::voltage),
-          .position_m = source.column(Channel::position),
-          .oil_temperature_K = source.column(Channel::oil_temperature)};
+  // Both coils' currents where they are; else that of the only or the active one.
+  const bool whole = !source.column(Channel::current_a).empty() && !source.column(Channel::current_b).empty();
+  estimation::Columns out{.time_s = source.column(Channel::time),
+                          .current_A = source.column(whole ? Channel::current_b : Channel::current),
+                          .voltage_V = source.column(whole ? Channel::voltage_b : Channel::voltage),
+                          .position_m = source.column(Channel::position),
+                          .oil_temperature_K = source.column(Channel::oil_temperature)};
+  if (whole) {
+    out.current_a_A = source.column(Channel::current_a);
+    out.voltage_a_V = source.column(Channel::voltage_a);
+  }
+  return out;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #pragma once
 /// What the sensor reads of a recording, and nothing else: time, current, position; voltage and oil temperature where
-/// they are.
+/// they are. Of a whole valve the currents and voltages of both coils, or those of the active one.
+#include <memory>
+
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/reader.hpp"
@@ -8,6 +10,10 @@
 namespace spoolflow::validation {
 
 [[nodiscard]] recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels);
+/// As recording::open_reader, with these channels and perhaps more. Throws RecordingError where no coil current is
+/// there.
+[[nodiscard]] std::unique_ptr<recording::Reader> open_sensor_channels(const std::filesystem::path& file,
+                                                                      const recording::ReadOptions& options);
 
 /// The same of a block or a recording in memory, which must outlive what is returned.
 [[nodiscard]] estimation::Columns sensor_columns(const recording::SampleBlock& block);

@@ -52,12 +52,18 @@ const char* meaning(sensor::Status bit) {
       return "The current sits at the end of its range: the force may be larger than it tells.";
     case Status::dithered:
       return "The current is dithered: friction swings between its limits, and the extremes of each period tell.";
+    case Status::sign_undetermined:
+      return "The spool stands so near the centre that the oil may flow either way.";
     case Status::position_fault:
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:
       return "An input was missing; the last answer was held.";
     case Status::time_fault:
       return "The time did not advance; where it ran backwards, the last answer was held. Look at the time stamps.";
+    case Status::other_direction:
+      return "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow "
+             "there. "
+             "Calibrate the whole valve, or look at the sign of the position.";
     case Status::coil_fault:
       return "Voltage and current give a coil resistance that no sound coil has; look for shorted turns, a bad "
              "contact, or "

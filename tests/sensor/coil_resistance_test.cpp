@@ -1,22 +1,40 @@
 #include "spoolflow/sensor/coil_resistance.hpp"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/sensor/actuator.hpp"
+
 namespace {
 
+using spoolflow::sensor::ActuatorParameters;
+using spoolflow::sensor::ActuatorState;
+using spoolflow::sensor::average;
+using spoolflow::sensor::CoilEquation;
 using spoolflow::sensor::CoilResistance;
 using spoolflow::sensor::CoilResistanceState;
+using spoolflow::sensor::follow_coil;
 using spoolflow::sensor::follow_resistance;
+using spoolflow::sensor::Sample;
 
 constexpr CoilResistance<double> coil{
     .resistance_Ohm = 10, .uncertainty_Ohm = 2, .drift_Ohm_per_root_s = 0.02, .voltage_noise_V_root_s = 0.01};
 
+constexpr double sampled_every_s = 1e-3;
+
+/// One sample, in the mean and in the filter.
+void follow(CoilResistanceState<double>& state, const CoilEquation<double>& sample) {
+  average(state, sample, sampled_every_s);
+  follow_resistance(coil, state, sampled_every_s);
+}
+
 /// Ten seconds at 1 ms and 0.8 A of a coil that has `resistance_Ohm`.
 CoilResistanceState<double> followed(double resistance_Ohm, double current_A = 0.8) {
   CoilResistanceState<double> state;
-  for (int n = 0; n < 10000; ++n) follow_resistance(coil, state, {1e-3, current_A, resistance_Ohm * current_A, 0.0});
+  for (int n = 0; n < 10000; ++n) follow(state, {current_A, resistance_Ohm * current_A, 0.0});
   return state;
 }
 
@@ -36,22 +54,51 @@ TEST(CoilResistance, OfHalfTheTurnsOrABadContactIsAFault) {
 
 TEST(CoilResistance, OfAColdStartIsNoFaultThoughTheFluxOfTheFirstMillisecondsIsModelledPoorly) {
   CoilResistanceState<double> state;
-  for (int n = 0; n < 1000; ++n) follow_resistance(coil, state, {1e-3, 0, 0, 0});
+  for (int n = 0; n < 1000; ++n) follow(state, {0, 0, 0});
   for (const double flux_rate_V : {20.0, 14.0, 8.0, 4.0, 2.0, 1.0, 0.5}) {
     const double current_A = 0.5 - 0.02 * flux_rate_V;
-    follow_resistance(coil, state, {1e-3, current_A, 10 * current_A + 1.4 * flux_rate_V, flux_rate_V});
+    follow(state, {current_A, 10 * current_A + 1.4 * flux_rate_V, flux_rate_V});
     EXPECT_FALSE(state.implausible) << flux_rate_V;
     EXPECT_NEAR(state.resistance_Ohm, 10, 3) << flux_rate_V;
+  }
+}
+
+TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsToldPoorly) {
+  // 200 Hz at 1 kHz: whoever follows every fifth sample only always meets the same phase.
+  for (const double phase : {0.0, 0.3, 0.6, 0.9}) {
+    CoilResistanceState<double> state;
+    for (int n = 0; n < 20000; ++n) {
+      const double angle = 2 * std::numbers::pi * (0.2 * n + phase);
+      const double current_A = 0.8 + 0.25 * std::sin(angle);
+      const double flux_rate_V = 12 * std::cos(angle);
+      average(state, {current_A, 10 * current_A + flux_rate_V, 0.7 * flux_rate_V}, sampled_every_s);
+      if (n % 5 == 0) follow_resistance(coil, state, sampled_every_s);
+    }
+    EXPECT_FALSE(state.implausible) << phase;
+    EXPECT_NEAR(state.resistance_Ohm, 10, 0.5) << phase;
   }
 }
 
 TEST(CoilResistance, WithoutCurrentOrVoltageNothingIsSaid) {
   EXPECT_FALSE(followed(5, 0).implausible);
   CoilResistanceState<double> state;
-  for (int n = 0; n < 10000; ++n)
-    follow_resistance(coil, state, {1e-3, 0.8, std::numeric_limits<double>::quiet_NaN(), 0.0});
+  follow(state, {0.8, 8.0, 0.0});
+  const double voltage_V = state.mean.voltage_V;
+  for (int n = 0; n < 10000; ++n) average(state, {0.8, std::numeric_limits<double>::quiet_NaN(), 0.0}, sampled_every_s);
   EXPECT_FALSE(state.implausible);
-  EXPECT_EQ(state.variance_Ohm2, 0);
+  EXPECT_EQ(state.mean.voltage_V, voltage_V);
+}
+
+TEST(CoilResistance, OfACoilWithoutVoltageIsLeftAlone) {
+  ActuatorParameters<double> actuator{};
+  actuator.coil_resistance = coil;
+  ActuatorState<double> state{};
+  Sample<double> sample{sampled_every_s, 0.8, std::numeric_limits<double>::quiet_NaN(), 1e-3, 320.0};
+  follow_coil(actuator, state, sample, true);
+  EXPECT_EQ(state.coil_resistance.variance_Ohm2, 0);
+  sample.voltage_V = 8;
+  follow_coil(actuator, state, sample, true);
+  EXPECT_GT(state.coil_resistance.variance_Ohm2, 0);
 }
 
 }  // namespace

@@ -106,6 +106,45 @@ TEST(Dither, SwingOfFrictionIsToldByItsExtremesAndItsMiddle) {
   EXPECT_EQ(settled, 300);
 }
 
+TEST(Dither, SwingIsToldInTheMeanThoughSamplesMissItsPeaks) {
+  for (const double step_s : {1e-3, 2e-3})
+    for (const double frequency_Hz : {91.0, 117.0, 143.0, 171.0}) {
+      DitherState<double> state{};
+      FrictionSwingState<double> swing{};
+      begin(state, 1.0);
+      double half_N = 0, square_N2 = 0, allowed_N2 = 0;
+      int samples = 0;
+      for (double time_s = 0; time_s < 2; time_s += step_s) {
+        const double wave = sine(frequency_Hz * time_s);
+        const Dither<double> dither = follow_dither(state, 1.0 + 0.1 * wave, dithered_coil_A, step_s);
+        const FrictionSwing<double> told = follow_swing(swing, dither, 1.5 + 3 * wave);
+        if (time_s < 0.2) continue;
+        ++samples;
+        half_N += told.half_swing_N;
+        square_N2 += squared(told.middle_N - 1.5);
+        allowed_N2 += squared(missed_middle * squared(dither.sample_per_period) * told.half_swing_N);
+      }
+      EXPECT_NEAR(half_N / samples, 3, 0.27) << frequency_Hz << ' ' << step_s;
+      EXPECT_LT(square_N2, allowed_N2) << frequency_Hz << ' ' << step_s;
+    }
+}
+
+TEST(Dither, LeavesABreakAwayAfterALongRestLessSure) {
+  const FrictionParameters<double> friction{.ageing_ratio = 3, .ageing_s = 1};
+  ForceBalance<double> balance{};
+  balance.spool_friction_N = 4;
+  balance.noise_N = 0.2;
+  balance.direction = 1;
+  const auto noise_N = [&](bool dithered, double rested_s) {
+    balance.dithered = dithered;
+    balance.resting.rested_s = rested_s;
+    return breakaway_innovation(friction, balance, 0.0).noise_N;
+  };
+  EXPECT_DOUBLE_EQ(noise_N(false, 9), 0.2);
+  EXPECT_DOUBLE_EQ(noise_N(true, 0), 0.2);
+  EXPECT_NEAR(noise_N(true, 9), 0.25 * 0.9 * 2 * 4, 0.02);  // a quarter of what nine tenths of the ageing add
+}
+
 /// The slip that a peak of the force beyond friction makes, integrated: its way [m].
 double slip_m(double mass_kg, double half_swing_N, double frequency_Hz, double excess_N) {
   const double w = 2 * std::numbers::pi * frequency_Hz;

@@ -9,10 +9,10 @@ double force_error_ratio(const sensor::ObserverParameters<double>& parameters, c
   double sum = 0;
   std::size_t samples = 0;
   replay(parameters, runs, [&](const ReplayedSample& sample) {
-    const auto& [state, time_s, position_m, reference_m3_per_s, shown] = sample;
+    const auto& [valve, state, time_s, position_m, reference_m3_per_s, shown] = sample;
     if (state.position.motion != sensor::Motion::rest || sensor::has(state.last.status, sensor::Status::closed)) return;
     const double pressure_Pa = std::max(1e5, state.pressure.pressure_difference_Pa);
-    const sensor::EdgePoint<double> edge = parameters.edge.at(state.oil_temperature_K, pressure_Pa, position_m);
+    const sensor::EdgePoint<double> edge = valve.edge.at(state.oil_temperature_K, pressure_Pa, position_m);
     const double flow_per_pressure = edge.conductance / (2 * std::sqrt(pressure_Pa));
     const double deviation_m3_per_s = flow_per_pressure * sensor::pressure_deviation_Pa(edge, state.force_noise_N);
     const double error =

@@ -51,11 +51,10 @@ std::vector<std::string> not_told(sensor::ObserverParameters<double>& parameters
 
 }  // namespace
 
-OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
-                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
-                           const std::function<void(double)>& progress) {
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
+                           double full_scale_m3_per_s, const std::function<void(double)>& progress) {
   OperationFit out{};
-  const std::vector<OperatingRun> runs = with_meters(parameters, recordings);
+  const std::vector<OperatingRun> runs = with_meters(parameters, recorded);
   for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
   const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
   if (!rests) assume_rest(parameters);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
+#include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -28,10 +29,9 @@ struct OperationFit {
 };
 
 /// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
-/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference;
-/// `progress` is told the share done.
-OperationFit fit_operation(sensor::ObserverParameters<double>& parameters,
-                           const std::vector<const recording::Recording*>& recordings, double full_scale_m3_per_s,
-                           const std::function<void(double)>& progress);
+/// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference; their
+/// meters are found. `progress` is told the share done.
+OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
+                           double full_scale_m3_per_s, const std::function<void(double)>& progress);
 
 }  // namespace spoolflow::calibration

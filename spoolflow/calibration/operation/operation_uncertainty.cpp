@@ -112,7 +112,7 @@ model::Fit known_of_operation(const std::vector<Dial>& dials, const sensor::Obse
   const Eigen::Map<const Eigen::VectorXd> scale(values.data(), static_cast<Eigen::Index>(values.size()));
   const Eigen::MatrixXd covariance =
       scale.asDiagonal() * spread_over(scale.size(), free, on_log_scale) * scale.asDiagonal();
-  return known_from("friction and position sensor in operation", names, values, covariance);
+  return known_from(fit_of_operation, names, values, covariance);
 }
 
 }  // namespace spoolflow::calibration

@@ -8,6 +8,9 @@
 
 namespace spoolflow::calibration {
 
+/// The name of that fit.
+inline constexpr const char* fit_of_operation = "friction and position sensor in operation";
+
 /// What the operating recordings tell of the dials (of these parameters, turned and put back) at which their score is
 /// smallest: covariance of an M-estimator (Huber 1967) on a logarithmic scale, from the score's curvature and from how
 /// much its slope differs between stretches of some seconds, and from how far a valve's may lie from what it is pulled

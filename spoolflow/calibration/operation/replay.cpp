@@ -2,19 +2,60 @@
 
 namespace spoolflow::calibration {
 
+using recording::Channel;
+
+estimation::Columns operating_columns(const recording::Recording& recording) {
+  // Both coils' currents where they are; else that of the only or the active one.
+  const bool whole = recording.has(Channel::current_a) && recording.has(Channel::current_b);
+  return {.time_s = recording[Channel::time],
+          .current_A = recording[whole ? Channel::current_b : Channel::current],
+          .voltage_V = recording.column(whole ? Channel::voltage_b : Channel::voltage),
+          .position_m = recording[Channel::position],
+          .oil_temperature_K = recording.column(Channel::oil_temperature),
+          .current_a_A = recording.column(Channel::current_a),
+          .voltage_a_V = recording.column(Channel::voltage_a)};
+}
+
+estimation::RunningSensor operating_sensor(const sensor::ObserverParameters<double>& parameters,
+                                           const OperatingRun& run) {
+  constexpr double rated_flow_m3_per_s = 0;  // told before the first complete sample only, which nobody looks at
+  switch (run.of) {
+    case RunOf::one:
+      break;
+    case RunOf::other:
+      return {run.other, rated_flow_m3_per_s};
+    case RunOf::both:
+      return {sensor::WholeValveParameters<double>{&parameters, run.other}, rated_flow_m3_per_s};
+  }
+  return {&parameters, rated_flow_m3_per_s};
+}
+
+void share_operation(const sensor::ObserverParameters<double>& from, sensor::ObserverParameters<double>& to) {
+  const double operation_ratio = to.friction.operation_ratio;
+  to.friction = from.friction;
+  to.friction.operation_ratio = operation_ratio;
+  to.pressure = from.pressure;
+  to.position_sensor.backlash_m = from.position_sensor.backlash_m;
+  to.moving_mass_kg = from.moving_mass_kg;
+  const sensor::BandParameters<double> maps = to.band;
+  to.band = from.band;
+  to.band.force_residual_N = maps.force_residual_N;
+  to.band.flow_residual_m3_per_s = maps.flow_residual_m3_per_s;
+}
+
 std::vector<OperatingRun> with_meters(const sensor::ObserverParameters<double>& parameters,
-                                      const std::vector<const recording::Recording*>& recordings) {
-  std::vector<OperatingRun> out;
-  for (const recording::Recording* recording : recordings) {
+                                      std::vector<OperatingRun> runs) {
+  for (OperatingRun& run : runs) {
     std::vector<double> time_s, flow_m3_per_s, reference_m3_per_s;
-    replay(parameters, {{recording, {}}}, [&](const ReplayedSample& sample) {
+    run.meter = {};
+    replay(parameters, {run}, [&](const ReplayedSample& sample) {
       time_s.push_back(sample.time_s);
       flow_m3_per_s.push_back(sample.shown.flow);
       reference_m3_per_s.push_back(sample.reference_m3_per_s);
     });
-    out.push_back({recording, numerics::find_meter_lag(time_s, flow_m3_per_s, reference_m3_per_s)});
+    run.meter = numerics::find_meter_lag(time_s, flow_m3_per_s, reference_m3_per_s);
   }
-  return out;
+  return runs;
 }
 
 }  // namespace spoolflow::calibration

@@ -52,6 +52,12 @@ std::vector<Dial> told_dials(sensor::ObserverParameters<double>& parameters, con
                        telling(dial, parameters, runs, full_scale_m3_per_s) >= telling_score_share);
     if (told) out.push_back(dial);
   }
+  // The spool's friction on the benches of the other direction may be another share of that in operation.
+  const auto other = std::ranges::find_if(runs, [](const OperatingRun& run) { return run.other != nullptr; });
+  if (other != runs.end()) {
+    out.push_back(
+        {"operation_friction_ratio_p_to_a", &other->other->friction.operation_ratio, 0.5, 2.5, ShownBy::any_run});
+  }
   return out;
 }
 

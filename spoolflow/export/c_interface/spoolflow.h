@@ -73,9 +73,11 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_OUTSIDE_TEMPERATURE (UINT32_C(1) << 4)    /* oil colder or warmer than calibrated */
 #define SPOOLFLOW_STATUS_CURRENT_SATURATED (UINT32_C(1) << 5)      /* the current is at the end of its range */
 #define SPOOLFLOW_STATUS_DITHERED (UINT32_C(1) << 6)               /* the current is dithered: friction swings */
+#define SPOOLFLOW_STATUS_SIGN_UNDETERMINED (UINT32_C(1) << 7)      /* so near the centre that the flow may go either way */
 /* Faults: an input or the model cannot be trusted. */
 #define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used */
 #define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last answer is held */
+#define SPOOLFLOW_STATUS_OTHER_DIRECTION (UINT32_C(1) << 18) /* the spool opens the direction that the model does not know */
 #define SPOOLFLOW_STATUS_TIME_FAULT (UINT32_C(1) << 19)     /* time stood still, ran backwards, or is NaN; see spoolflow_step */
 #define SPOOLFLOW_STATUS_COIL_FAULT (UINT32_C(1) << 20)     /* voltage and current give a resistance that no sound coil has */
 /* Any of the faults. */

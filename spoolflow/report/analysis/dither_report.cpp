@@ -188,6 +188,12 @@ DitherVerdict dither_verdict(const model::Model& model, const DitherStudy& study
   out.remarks.emplace_back(
       "The amplitude is that of the measured coil current; the current control leaves out a part of what it is asked "
       "for, and the position control adds to it where the spool moves. Begin with less, and measure the ripple.");
+  if (amplitude_A > 0) {
+    out.remarks.push_back(
+        phrase("The limit is kept as told up to {} times that amplitude: a reserve for the position control, which "
+               "is not reckoned with and feeds a fast tremble.",
+               fixed(1 + analysis::amplitude_reserve(study.frequency_at_Hz(study.recommended)), 2)));
+  }
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_parameters.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"
 
 namespace spoolflow::sensor {
 
@@ -35,14 +36,6 @@ struct Sides {
 template <class T>
 constexpr Sides<T> sides(const WholeValveParameters<T>& valve, bool opens_a) {
   return opens_a ? Sides<T>{*valve.a, *valve.b} : Sides<T>{*valve.b, *valve.a};
-}
-
-/// What one side's electronics have, in that direction's signs.
-template <class T>
-constexpr Sample<T> sample_of(const WholeValveSample<T>& sample, bool side_a) {
-  return {sample.time_step_s, side_a ? sample.current_a_A : sample.current_b_A,
-          side_a ? sample.voltage_a_V : sample.voltage_b_V, side_a ? -sample.position_m : sample.position_m,
-          sample.oil_temperature_K};
 }
 
 /// To be called before the first sample: nothing is known of either path.
@@ -98,12 +91,6 @@ constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& po
 
 }  // namespace detail
 
-/// Why a sample cannot be estimated; see the same of one direction.
-template <class T>
-constexpr Status unusable(const WholeValveSample<T>& sample) {
-  return unusable(detail::sample_of(sample, false)) | unusable(detail::sample_of(sample, true));
-}
-
 /// One sample of the whole valve. Needs both currents and the position, and a time that does not run backwards:
 /// otherwise the last answer is held. The answer, in the valve's signs, stays in the state.
 template <class T>
@@ -116,7 +103,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const bool begins = !state.open.started;
   if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
-  Sample<T> own = detail::sample_of(sample, state.opens_a);
+  Sample<T> own = sample_of(sample, state.opens_a);
   detail::follow_temperature(state.open, own);
 
   // Where the spool is, in the valve's signs, and on which side of the centre.
@@ -130,12 +117,12 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
   if (from_centre_m < T(-centre_hysteresis_m)) {
     detail::change_sides(valve, state);
-    own = detail::sample_of(sample, state.opens_a);
+    own = sample_of(sample, state.opens_a);
   }
   const detail::Sides<T> now = detail::sides(valve, state.opens_a);
   const bool near = magnitude(position.position_m) <
                     T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
-  const Sample<T> other = detail::sample_of(sample, !state.opens_a);
+  const Sample<T> other = sample_of(sample, !state.opens_a);
   const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
                       magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
   detail::follow_zero(state, position, silent, sample.time_step_s);

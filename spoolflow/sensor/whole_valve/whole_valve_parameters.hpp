@@ -1,5 +1,5 @@
 #pragma once
-/// Parameters, input and state of the whole 4/3 valve (whole_valve.hpp): one spool, and for each direction of flow a
+/// Parameters and state of the whole 4/3 valve (whole_valve.hpp): one spool, and for each direction of flow a
 /// solenoid, springs and metering edges.
 #include <type_traits>
 
@@ -11,20 +11,8 @@ namespace spoolflow::sensor {
 /// outlive what refers to them.
 template <class T>
 struct WholeValveParameters {
-  const ObserverParameters<T>* b;  ///< flow P to B, with B to T's counterpart A to T; opened by solenoid b
+  const ObserverParameters<T>* b;  ///< flow P to B, opened by solenoid b
   const ObserverParameters<T>* a;  ///< flow P to A; opened by solenoid a
-};
-
-/// One sample of what the electronics of a whole valve have.
-template <class T>
-struct WholeValveSample {
-  T time_step_s{};  ///< since the sample before, >= 0
-  T current_a_A{};  ///< coil currents, means over the step
-  T current_b_A{};
-  T voltage_a_V{};  ///< coil voltages, means over the step; may be missing
-  T voltage_b_V{};
-  T position_m{};  ///< of the spool from the centre, > 0 opens P to B
-  T oil_temperature_K{};
 };
 
 /// The solenoid and the path of the side on which the spool does not stand.
