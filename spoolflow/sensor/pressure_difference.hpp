@@ -36,7 +36,7 @@ inline constexpr double seen_deviation_share = 0.5;
 inline constexpr double process_noise_rise = 0.8;
 inline constexpr double process_noise_fall = 0.2;
 /// A change tells half of that where its drift variance is so many times the variance of the forces' noise.
-inline constexpr double telling_drift_share = 20;
+inline constexpr double telling_drift_share = 5;
 /// The forces tell of a change of the pressure difference so much later [s]: what it did since is unobserved at any
 /// time.
 inline constexpr double told_late_s = 0.006;
