@@ -154,7 +154,9 @@ template <class T>
 constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
   in_valves(state.drift_variance_Pa2 > squared(noise_Pa), state, [&] {
     const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
-    const T shown = smaller((change2 - squared(noise_Pa)) / state.drift_variance_Pa2, T(1));
+    const T shown = smaller(
+        (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
+        T(1));
     const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
     const T pace = weight * select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
     state.process_noise = limited(state.process_noise + pace * (shown - state.process_noise),
