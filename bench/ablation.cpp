@@ -1,6 +1,7 @@
 /// What each part of the observer brings: the same runs with one part at a time taken away, and at other sampling
 /// rates. Run: ablation MODEL.json RECORDING TRUTH…   Prints 95th percentile and largest error [% FS] against the true
 /// flow, and the share inside the band. TRUTH has time and flow at the same instants.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -27,7 +28,8 @@ struct Variant {
   std::function<void(Parameters&)> change = [](Parameters&) {};
   bool voltage = true;
   bool temperature = true;
-  std::size_t every = 1;  ///< sample of the recording
+  std::size_t every = 1;      ///< sample of the recording
+  bool over_periods = false;  ///< current and voltage as means over the last period of dither
 };
 
 std::vector<Variant> variants() {
@@ -46,6 +48,13 @@ std::vector<Variant> variants() {
              valve.actuator.coil.eddy_currents.excess_A_per_rootV = 0;
            }},
       {.name = "dither not told", .change = [](Parameters& valve) { valve.largest_current_A = 1e3; }},
+      {.name = "means over periods, not friction's envelope", .over_periods = true},
+      {.name = "loads: pressure taken as all but held",
+       .change =
+           [](Parameters& valve) {
+             valve.pressure.sliding_drift_Pa_per_sqrt_s *= 0.1;
+             valve.pressure.resting_drift_Pa_per_sqrt_s *= 0.1;
+           }},
       {.name = "no moving mass", .change = [](Parameters& valve) { valve.moving_mass_kg = 1e-3; }},
       {.name = "no voltage", .voltage = false},
       {.name = "no oil temperature", .temperature = false},
@@ -75,6 +84,25 @@ std::vector<double> thinned(const std::vector<double>& column, const Variant& va
   return out;
 }
 
+/// Means over the last whole period of the current's dither, as the sensor's own search finds it; as it is where there
+/// is none.
+std::vector<double> over_periods(const std::vector<double>& values, const std::vector<double>& current_A,
+                                 const std::vector<double>& time_s, double largest_current_A) {
+  sensor::DitherState<double> state;
+  if (!current_A.empty()) sensor::begin(state, current_A.front());
+  std::vector<double> out = values;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double step_s = time_s[k] - time_s[k - 1];
+    const bool dithered = sensor::follow_dither(state, current_A[k], largest_current_A, step_s).present;
+    if (!dithered || !(state.period_s > 0) || !(step_s > 0)) continue;
+    const std::size_t count = std::clamp<std::size_t>(std::lround(state.period_s / step_s), 1, k);
+    double sum = 0;
+    for (std::size_t back = 0; back < count; ++back) sum += values[k - back];
+    out[k] = sum / static_cast<double>(count);
+  }
+  return out;
+}
+
 /// A recording and the flow itself.
 struct Run {
   recording::Recording recording;
@@ -88,10 +116,13 @@ validation::GroupFigures run(const model::Model& model, const Run& judged, const
   const auto column = [&](Channel channel, bool used = true) {
     return thinned(recording.column(channel), variant, used);
   };
-  const std::vector<double> time_s = column(Channel::time), current_A = column(Channel::current),
-                            voltage_V = column(Channel::voltage, variant.voltage),
-                            position_m = column(Channel::position),
+  const std::vector<double> time_s = column(Channel::time), position_m = column(Channel::position),
                             temperature_K = column(Channel::oil_temperature, variant.temperature);
+  std::vector<double> current_A = column(Channel::current), voltage_V = column(Channel::voltage, variant.voltage);
+  if (variant.over_periods) {
+    voltage_V = over_periods(voltage_V, current_A, time_s, valve.largest_current_A);
+    current_A = over_periods(current_A, current_A, time_s, valve.largest_current_A);
+  }
   const std::vector<double> reference = thinned(judged.true_m3_per_s, variant);
   validation::ComparedSamples compared(model.valve.rated_flow_m3_per_s);
   estimation::RunningSensor sensor(&valve, model.valve.rated_flow_m3_per_s);

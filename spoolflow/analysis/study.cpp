@@ -146,7 +146,13 @@ rig::ValveAndCampaign study_valve(const model::Model& given, const Scenario& sce
                     "set study.given_model = false or study.skip = true in the scenario",
                     given.valve.name));
   }
-  return rig::read_valve_and_campaign(scenario.study.valve == "auto" ? nearest_preset(given) : scenario.study.valve);
+  rig::ValveAndCampaign asked =
+      rig::read_valve_and_campaign(scenario.study.valve == "auto" ? nearest_preset(given) : scenario.study.valve);
+  if (asked.valve.whole) {  // a study is of one direction, P to B
+    asked.valve.whole = false;
+    asked.valve.plant.load.kind = rig::LoadKind::held_difference;
+  }
+  return asked;
 }
 
 Study global_study(const model::Model& given, const Scenario& scenario, const rig::ValveAndCampaign& asked,

@@ -25,9 +25,7 @@ model::Model virtual_model(const rig::ValveAndCampaign& asked, unsigned workers,
                            const std::function<void(double)>& progress) {
   rig::CampaignSettings campaign = asked.campaign;
   campaign.pressure_differences_bar = four_of(campaign.pressure_differences_bar);
-  rig::ValveUnderTest one_direction = asked.valve;
-  one_direction.whole = false;
-  const std::vector<rig::CampaignItem> items = rig::calibration_items(one_direction, campaign);
+  const std::vector<rig::CampaignItem> items = rig::calibration_items(asked.valve, campaign);
   Recordings recordings;
   std::mutex mutex;  // guards recordings
   constexpr double measuring_share = 0.7;

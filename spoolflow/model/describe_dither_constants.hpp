@@ -70,26 +70,18 @@ void describe_dither_constants(Visitor& visitor) {
 template <class Visitor>
 void describe_listening_constants(Visitor& visitor) {
   visitor.constant(
-      {.name = "amplitude_raise",
-       .unit = "1",
-       .meaning = "by so much the amplitude is raised after a request that did not bring the wanted band, as a ratio"},
-      sensor::amplitude_raise);
+      {.name = "amplitude_raise_per_s",
+       .unit = "1/s",
+       .meaning = "pace at which the amplitude is raised where dither does not free the spool, as a share of it"},
+      sensor::amplitude_raise_per_s);
+  visitor.constant({.name = "hearing_s", .unit = "s", .meaning = "raised after so long: what the sensor takes to hear"},
+                   sensor::hearing_s);
   visitor.constant({.name = "amplitude_lowering",
                     .unit = "1",
-                    .meaning = "by so much it is lowered after one that did, as a ratio: too little shows soon, too "
+                    .meaning = "by so much it is lowered after a request that brought the wanted band, as a ratio: too "
+                               "little shows soon, too "
                                "much does not show at all"},
                    sensor::amplitude_lowering);
-  visitor.constant(
-      {.name = "rest_before_listening_s",
-       .unit = "s",
-       .meaning = "the spool must have rested so long before dither is asked for: shorter rests are part of a motion"},
-      sensor::rest_before_listening_s);
-  visitor.constant(
-      {.name = "longest_tremble_s",
-       .unit = "s",
-       .meaning =
-           "motion that lasts no longer than this is the tremble, or dither freeing the spool: it ends no request"},
-      sensor::longest_tremble_s);
   visitor.constant({.name = "dither_rise_s",
                     .unit = "s",
                     .meaning = "in which dither rises from nothing to its amplitude, and falls to nothing again"},

@@ -155,28 +155,31 @@ template <class T>
 [[gnu::always_inline]] constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
                                                                T apparent_N) {
   const Mask<T> anew = !dither.present;
-  if (!any(dither.present)) {
+  in_valves(anew, state, [&] {
     state.periods = state.half_swing_N = T(0);
     state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = apparent_N;
-    return {apparent_N, T(0), !dither.present};
-  }
+  });
+  if (!any(dither.present)) return {apparent_N, T(0), anew};
   const Mask<T> turns = dither.begins && !anew;
-  state.periods = select(anew, T(0), select(turns, smaller(state.periods + T(1), T(2)), state.periods));
+  in_valves(turns, state, [&] {
+    state.periods = smaller(state.periods + T(1), T(2));
+    const Mask<T> lone = state.periods < T(2);
+    state.last_highest_N = select(lone, apparent_N, state.highest_N);
+    state.last_lowest_N = select(lone, apparent_N, state.lowest_N);
+    state.highest_N = state.lowest_N = apparent_N;
+  });
+  state.highest_N = larger(state.highest_N, apparent_N);
+  state.lowest_N = smaller(state.lowest_N, apparent_N);
   const Mask<T> settled = !(state.periods < T(2));
-  const Mask<T> lone = anew || (turns && !settled);
-  state.last_highest_N = select(lone, apparent_N, select(turns, state.highest_N, state.last_highest_N));
-  state.last_lowest_N = select(lone, apparent_N, select(turns, state.lowest_N, state.last_lowest_N));
-  state.highest_N = select(anew || turns, apparent_N, larger(state.highest_N, apparent_N));
-  state.lowest_N = select(anew || turns, apparent_N, smaller(state.lowest_N, apparent_N));
   const T highest_N = larger(state.highest_N, state.last_highest_N);
   const T lowest_N = smaller(state.lowest_N, state.last_lowest_N);
-  const T half_N = (T(0.5) + T(0.5 * missed_swing) * squared(dither.sample_per_period)) * (highest_N - lowest_N);
-  const T known_N = state.half_swing_N;
-  const T reach_N = select(known_N > T(0), T(swing_following) * known_N, half_N);
-  state.half_swing_N = select(turns && settled, limited(half_N, known_N - reach_N, known_N + reach_N),
-                              select(dither.present, known_N, T(0)));
-  return {select(dither.present, T(0.5) * (highest_N + lowest_N), apparent_N), state.half_swing_N,
-          settled || !dither.present};
+  in_valves(turns && settled, state, [&] {
+    const T half_N = (T(0.5) + T(0.5 * missed_swing) * squared(dither.sample_per_period)) * (highest_N - lowest_N);
+    const T known_N = state.half_swing_N;
+    const T reach_N = select(known_N > T(0), T(swing_following) * known_N, half_N);
+    state.half_swing_N = limited(half_N, known_N - reach_N, known_N + reach_N);
+  });
+  return {select(anew, apparent_N, T(0.5) * (highest_N + lowest_N)), state.half_swing_N, settled || anew};
 }
 
 /// The flow force is believed larger by so much: friction would have to be smaller, in what has been as now.

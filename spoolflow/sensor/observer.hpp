@@ -120,7 +120,7 @@ template <class T>
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
   Estimate<T>& out = state.last;
-  out.flow_lower_m3_per_s = select(opens, -most, out.flow_lower_m3_per_s);
+  out.flow_lower_m3_per_s = select(opens, smaller(out.flow_lower_m3_per_s, -most), out.flow_lower_m3_per_s);
   mark(out.status, opens, Status::other_direction);
 }
 

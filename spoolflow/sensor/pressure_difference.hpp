@@ -36,10 +36,10 @@ inline constexpr double seen_deviation_share = 0.5;
 inline constexpr double process_noise_rise = 0.8;
 inline constexpr double process_noise_fall = 0.2;
 /// A change tells half of that where its drift variance is so many times the variance of the forces' noise.
-inline constexpr double telling_drift_share = 20;
-/// The variance of unobserved changes falls no lower [Pa2]: it would fade into denormal numbers, which some cores are
-/// slow with.
-inline constexpr double least_unobserved_variance_Pa2 = 1;
+inline constexpr double telling_drift_share = 5;
+/// The forces tell of a change of the pressure difference so much later [s]: what it did since is unobserved at any
+/// time.
+inline constexpr double told_late_s = 0.006;
 /// A variance that reaches this [Pa2], or falls below zero, is none: rounding has broken the belief.
 inline constexpr double most_variance_Pa2 = 1e30;
 
@@ -154,7 +154,9 @@ template <class T>
 constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
   in_valves(state.drift_variance_Pa2 > squared(noise_Pa), state, [&] {
     const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
-    const T shown = smaller((change2 - squared(noise_Pa)) / state.drift_variance_Pa2, T(1));
+    const T shown = smaller(
+        (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
+        T(1));
     const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
     const T pace = weight * select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
     state.process_noise = limited(state.process_noise + pace * (shown - state.process_noise),
@@ -199,13 +201,14 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
 }
 
 template <class T>
-constexpr void correct_pressure(PressureState<T>& state, const KalmanUpdate<T>& update) {
+constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureState<T>& state,
+                                const KalmanUpdate<T>& update) {
   state.pressure_difference_Pa += update.gain_Pa_per_N * update.innovation_N;
   state.yielded_Pa = T(0);
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
-  state.unobserved_variance_Pa2 =
-      larger(T(least_unobserved_variance_Pa2), state.unobserved_variance_Pa2 * squared(update.remaining_share));
+  state.unobserved_variance_Pa2 = larger(squared(pressure.resting_drift_Pa_per_sqrt_s) * T(told_late_s),
+                                         state.unobserved_variance_Pa2 * squared(update.remaining_share));
 }
 
 template <class T>
@@ -227,13 +230,14 @@ constexpr void update_sliding(const PressureParameters<T>& pressure, PressureSta
                               smaller(time_step_s / T(innovation_averaging_s), T(1));
   const KalmanUpdate<T> update = weigh(state, innovation, noise_N2, time_step_s);
   correct_ratio(state, update);
-  correct_pressure(state, update);
+  correct_pressure(pressure, state, update);
 }
 
 /// At a break-away: of the pressure difference alone, since stiction says little of sliding friction.
 template <class T>
-constexpr void update_breakaway(PressureState<T>& state, const ForceInnovation<T>& innovation) {
-  correct_pressure(state, weigh(state, innovation, squared(innovation.noise_N), T(0)));
+constexpr void update_breakaway(const PressureParameters<T>& pressure, PressureState<T>& state,
+                                const ForceInnovation<T>& innovation) {
+  correct_pressure(pressure, state, weigh(state, innovation, squared(innovation.noise_N), T(0)));
 }
 
 /// Whether the pressure difference, at a given friction ratio, is known better than `noise_N` makes of it.

@@ -79,8 +79,9 @@ template <class T>
   });
   const Mask<T> breaks = !balance.closed && !balance.sliding && balance.resting.breakaway_N != T(0) &&
                          balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
-  in_valves(breaks, pressure,
-            [&] { update_breakaway(pressure, breakaway_innovation(valve.friction, balance, friction_slope)); });
+  in_valves(breaks, pressure, [&] {
+    update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope));
+  });
   const T beyond_N = balance.apparent_friction_N - balance.friction_N;
   const Mask<T> yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
                          is(position.motion, Motion::rest) && beyond_N != T(0);

@@ -16,6 +16,7 @@ namespace spoolflow::sensor {
 /// The laws. `scale` makes it another valve.
 struct ClosedFormValve {
   double scale = 1;
+  double iron = 1;  ///< share of the hysteresis; 0 for an iron without memory
   static constexpr double stroke_m = 2.4e-3;
   static constexpr double highest_Pa = 90e5;
   static constexpr double largest_A = 2.5;
@@ -32,7 +33,7 @@ struct ClosedFormValve {
   [[nodiscard]] double force_per_current_N_per_A(double x) const { return 30 * scale * (1 + 40 * x); }
   [[nodiscard]] double flux_per_current_Wb_per_A(double x) const { return 0.1 * (1 + 50 * x); }
   [[nodiscard]] static double threshold_Wb(int stop) { return 0.004 * (stop + 1); }
-  [[nodiscard]] double stiffness_A_per_Wb() const { return 1.5 * scale; }
+  [[nodiscard]] double stiffness_A_per_Wb() const { return 1.5 * scale * iron; }
   [[nodiscard]] static double spring_N(double x) { return 8 + 9e3 * x; }
   [[nodiscard]] static double opening_m(double x) { return std::max(x - overlap_m, 0.0); }
   [[nodiscard]] static double warmth(double temperature_K) { return (temperature_K - 303) / 40; }

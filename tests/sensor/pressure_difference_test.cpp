@@ -113,7 +113,7 @@ TEST(PressureDifference, LearnsFromABreakawayButTheFrictionRatioDoesNot) {
   PressureState<double> state = begin(60e5);
   slide(state, 60e5, 1, 1, 1, 1e-3);
   const PressureState<double> before = state;
-  update_breakaway(state, {2.0, slope_N_per_Pa, friction_N, 0.7});
+  update_breakaway(supply, state, {2.0, slope_N_per_Pa, friction_N, 0.7});
   EXPECT_GT(state.pressure_difference_Pa, before.pressure_difference_Pa);
   EXPECT_LT(state.variance_Pa2, before.variance_Pa2);
   EXPECT_EQ(state.friction_ratio, before.friction_ratio);
@@ -132,8 +132,16 @@ TEST(Band, ABreakawayTakesTheVarianceOfUnseenChangesAway) {
   PressureState<double> state = begin(60e5);
   for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
   const double before_Pa = unobserved_change_Pa(state, 4.0);
-  update_breakaway(state, {0.0, slope_N_per_Pa, friction_N, 0.7});
+  update_breakaway(supply, state, {0.0, slope_N_per_Pa, friction_N, 0.7});
   EXPECT_LT(unobserved_change_Pa(state, 4.0), 0.5 * before_Pa);
+}
+
+TEST(Band, KnowsThatWhatIsToldNowIsSomeMillisecondsOld) {
+  PressureState<double> state = begin(60e5);
+  slide(state, 60e5, 1, 1, 1, 1e-3);
+  state.process_noise = 0.5;
+  const double of_a_walk_Pa = 0.5 * supply.resting_drift_Pa_per_sqrt_s * std::sqrt(told_late_s);
+  EXPECT_NEAR(unobserved_change_Pa(state, 1.0), of_a_walk_Pa, 1e-3 * of_a_walk_Pa);
 }
 
 TEST(Band, TakesUnseenChangesForLargeWhereTheSupplyHasProvedLively) {

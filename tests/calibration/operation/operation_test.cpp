@@ -72,7 +72,7 @@ TEST(Operation, FindsTheFrictionRatioThatTheValveHas) {
     sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
     double shown = 0;
     const OperationFit fit =
-        fit_operation(parameters, {&run}, valve.full_scale_m3_per_s(), [&](double share) { shown = share; });
+        fit_operation(parameters, only(run), valve.full_scale_m3_per_s(), [&](double share) { shown = share; });
     // The pull towards the ratio 1 costs most of it, where the ratio that is followed while running makes up for it.
     EXPECT_NEAR(parameters.friction.operation_ratio, truth, 0.16 * truth);
     EXPECT_LT(fit.score, 0.6 * fit.score_before) << truth;
@@ -86,11 +86,11 @@ TEST(Operation, FindsTheFrictionRatioThatTheValveHas) {
 TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
   const sensor::ClosedFormValve valve;
   const recording::Recording dithered = recorded_under_dither(valve, work()), plain = recorded(valve, work(), 1);
-  const auto fitted = [&](const std::vector<const recording::Recording*>& runs) {
+  const auto fitted = [&](const std::vector<OperatingRun>& runs) {
     sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
     return fit_operation(parameters, runs, valve.full_scale_m3_per_s(), [](double) {});
   };
-  const OperationFit blind = fitted({&dithered}), both = fitted({&dithered, &plain});
+  const OperationFit blind = fitted(only(dithered)), both = fitted({{.recording = &dithered}, {.recording = &plain}});
   const auto tells = [](const OperationFit& fit, const char* name) {
     return std::ranges::find(fit.not_told, name) == fit.not_told.end();
   };
@@ -106,7 +106,7 @@ TEST(Operation, BandFromADitheredRecordingHoldsTheFlowWithoutDither) {
   const sensor::ClosedFormValve valve;
   const recording::Recording dithered = recorded_under_dither(valve, work()), plain = recorded(valve, work(), 1);
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
-  fit_operation(parameters, {&dithered}, valve.full_scale_m3_per_s(), [](double) {});
+  fit_operation(parameters, only(dithered), valve.full_scale_m3_per_s(), [](double) {});
   sensor::Judgement judged;
   replay(parameters, only(plain), [&](const ReplayedSample& sample) {
     judged.add(sample.state.last, sample.reference_m3_per_s, valve.full_scale_m3_per_s());
@@ -120,7 +120,7 @@ TEST(Operation, LeavesTheMassWhereNothingTellsIt) {
   const recording::Recording plain = recorded(valve, work(), 1);
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
   const double mass_kg = parameters.moving_mass_kg;
-  const OperationFit fit = fit_operation(parameters, {&plain}, valve.full_scale_m3_per_s(), [](double) {});
+  const OperationFit fit = fit_operation(parameters, only(plain), valve.full_scale_m3_per_s(), [](double) {});
   EXPECT_EQ(parameters.moving_mass_kg, mass_kg);
   EXPECT_NE(std::ranges::find(fit.not_told, "moving_mass_kg"), fit.not_told.end());
 }
