@@ -109,6 +109,11 @@ void RunningBatch<Parameters>::run(std::span<const Columns> runs,
   std::size_t longest = 0;
   for (std::size_t valve = 0; valve < size(); ++valve) {
     longest = std::max(longest, runs[valve].size());
+    if (!runs[valve].current_a_A.empty()) {
+      throw std::invalid_argument("the run of valve " + std::to_string(valve) +
+                                  " has the currents of both coils, and a batch steps sensors of one direction; run a "
+                                  "whole valve by itself (estimation::running_sensor)");
+    }
     if (answers[valve].size() == runs[valve].size()) continue;
     throw std::invalid_argument("valve " + std::to_string(valve) + " has " + std::to_string(runs[valve].size()) +
                                 " samples and room for " + std::to_string(answers[valve].size()) + " answers");

@@ -29,7 +29,8 @@ class RunningBatch {
 
   /// The next samples of every valve, as many as each has: one estimate a sample, in answers[valve], which is as long
   /// as runs[valve]. A valve whose samples are over waits for the others; runs of about one length waste least. Throws
-  /// std::invalid_argument where there are not as many runs and answers as valves, or their lengths differ.
+  /// std::invalid_argument where there are not as many runs and answers as valves, or their lengths differ, and where a
+  /// run is of a whole valve's two coils: a batch steps sensors of one direction.
   void run(std::span<const Columns> runs, std::span<const std::span<sensor::Estimate<float>>> answers);
 
  private:

@@ -159,5 +159,17 @@ TEST(RunningBatch, RefusesNoValvesAndRunsThatAreNotTheirs) {
   EXPECT_THROW(batch.run(columns, too_short), std::invalid_argument);
 }
 
+TEST(RunningBatch, RefusesTheRunOfAWholeValve) {
+  const Observer model = sensor::closed_form_observer<float>(valve_number(0));
+  const std::vector<BatchedValve<Observer>> one{{&model, rated_flow_m3_per_s}};
+  RunningBatch<Observer> batch(one);
+  const MeasuredRun run = measured(0);
+  Answers answers(run.time_s.size());
+  std::vector<Columns> columns{run.all()};
+  columns[0].current_a_A = columns[0].current_A;
+  const std::vector<std::span<sensor::Estimate<float>>> room{answers};
+  EXPECT_THROW(batch.run(columns, room), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace spoolflow::estimation

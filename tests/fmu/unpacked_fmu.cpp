@@ -109,6 +109,13 @@ fs::path UnpackedFmu::library() const {
   return folder_ / "binaries" / (version() == FmiVersion::fmi2 ? "linux64" : "x86_64-linux") / (identifier + ".so");
 }
 
+model::Model whole_example() {
+  model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+  model.p_to_a = model::Direction{model.condensed, model.observer, model.evidence};
+  model.valve.direction = "both";
+  return model;
+}
+
 std::string sensor_fmu_of_example(FmiVersion version) {
   return sensor_fmu(model::read_model(SPOOLFLOW_EXAMPLE_MODEL), version, "0.1.0");
 }

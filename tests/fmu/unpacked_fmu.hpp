@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spoolflow/export/fmu_content.hpp"
+#include "spoolflow/model/model.hpp"
 #include "tests/fmu/xml_elements.hpp"
 
 namespace spoolflow::exports {
@@ -42,5 +43,7 @@ class UnpackedFmu {
 
 /// The model that calibration makes of examples/valve_a.
 [[nodiscard]] std::string sensor_fmu_of_example(FmiVersion version);
+/// A whole valve that is the example's valve in both directions.
+[[nodiscard]] model::Model whole_example();
 
 }  // namespace spoolflow::exports

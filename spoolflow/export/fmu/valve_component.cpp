@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include "spoolflow/export/fmu/component.hpp"
@@ -18,24 +19,47 @@ namespace {
 
 using rig::electronics_period_s;
 
+/// What the electronics measure of one coil: means over the sample step.
+struct CoilInstruments {
+  rig::Transducer shunt, voltage;
+  double current_sum_A = 0;
+  double voltage_sum_V = 0;
+
+  CoilInstruments(const rig::Instruments& instruments, std::uint64_t seed, const std::string& coil)
+      : shunt(errors(instruments.shunt), seed, "shunt" + coil, 0),
+        voltage(errors(instruments.voltage), seed, "voltage" + coil, 0) {}
+
+  void add(double current_A, double voltage_V) {
+    current_sum_A += current_A;
+    voltage_sum_V += voltage_V;
+  }
+  /// The mean of that many conversions; a new one begins.
+  void follow(double conversions) {
+    shunt.follow(current_sum_A / conversions, 0);
+    voltage.follow(voltage_sum_V / conversions, 0);
+    current_sum_A = voltage_sum_V = 0;
+  }
+};
+
 /// Everything that moves.
 struct ValveMemory {
   rig::PlantState plant;
   rig::ElectronicsState electronics;
   rig::Noise stage_noise;
   rig::LvdtReading lvdt;
-  rig::Transducer shunt, voltage, thermometer;
-  double current_sum_A = 0;
-  double voltage_sum_V = 0;
+  CoilInstruments active;  ///< of both coils, that of a negative
+  rig::Transducer thermometer;
+  CoilInstruments coil_a, coil_b;
   std::int64_t conversions = 0;
 
   ValveMemory(const VirtualValve& valve, std::uint64_t seed, const rig::PlantState& at_rest, double oil_temperature_C)
       : plant(at_rest),
         stage_noise(seed, "current sensing of the electronics"),
         lvdt(valve.instruments.lvdt, seed, at_rest.position_m, oil_temperature_C),
-        shunt(errors(valve.instruments.shunt), seed, "shunt", 0),
-        voltage(errors(valve.instruments.voltage), seed, "voltage", 0),
-        thermometer(errors(valve.instruments.thermometer), seed, "thermometer", oil_temperature_C) {}
+        active(valve.instruments, seed, ""),
+        thermometer(errors(valve.instruments.thermometer), seed, "thermometer", oil_temperature_C),
+        coil_a(valve.instruments, seed, " of solenoid a"),
+        coil_b(valve.instruments, seed, " of solenoid b") {}
 };
 static_assert(std::is_trivially_copyable_v<ValveMemory>);
 
@@ -97,9 +121,11 @@ class ValveComponent : public Component {
       throw std::runtime_error("the simulated valve left the finite numbers; check the inputs' sizes and units");
     }
     memory.lvdt.follow(memory.plant.position_m, input.oil_temperature_C, electronics_period_s);
-    memory.current_sum_A += winding_current_A(valve_.plant.solenoid_b, memory.plant.solenoid_b) -
-                            winding_current_A(valve_.plant.solenoid_a, memory.plant.solenoid_a);
-    memory.voltage_sum_V += voltages.b_V - voltages.a_V;
+    const double current_a_A = winding_current_A(valve_.plant.solenoid_a, memory.plant.solenoid_a);
+    const double current_b_A = winding_current_A(valve_.plant.solenoid_b, memory.plant.solenoid_b);
+    memory.active.add(current_b_A - current_a_A, voltages.b_V - voltages.a_V);
+    memory.coil_a.add(current_a_A, voltages.a_V);
+    memory.coil_b.add(current_b_A, voltages.b_V);
     ++memory.conversions;
     const auto ticks = std::max<std::int64_t>(1, std::llround(values[valve_sample_step] / electronics_period_s));
     if ((number + 1) % ticks == 0) {
@@ -134,12 +160,16 @@ class ValveComponent : public Component {
   void tell(std::span<double> values, const rig::PlantInput& input, double time_s) {
     ValveMemory& memory = *memory_;
     const auto conversions = static_cast<double>(std::max<std::int64_t>(1, memory.conversions));
-    memory.shunt.follow(memory.current_sum_A / conversions, 0);
-    memory.voltage.follow(memory.voltage_sum_V / conversions, 0);
-    memory.current_sum_A = memory.voltage_sum_V = 0;
+    const double noise_share = 1 / std::sqrt(conversions);
+    const auto tell_coil = [&](CoilInstruments& coil, std::uint32_t current, std::uint32_t voltage) {
+      coil.follow(conversions);
+      values[current] = coil.shunt.reading(noise_share);
+      values[voltage] = coil.voltage.reading(noise_share);
+    };
+    tell_coil(memory.active, valve_current, valve_voltage);
+    tell_coil(memory.coil_a, valve_current_a, valve_voltage_a);
+    tell_coil(memory.coil_b, valve_current_b, valve_voltage_b);
     memory.conversions = 0;
-    values[valve_current] = memory.shunt.reading(1 / std::sqrt(conversions));
-    values[valve_voltage] = memory.voltage.reading(1 / std::sqrt(conversions));
     values[valve_position] = memory.lvdt.acquired_m(time_s);
     values[valve_oil_temperature] = units::K_from_degC(memory.thermometer.reading());
     const rig::PlantOutput truth = observe(valve_.plant, memory.plant, input);

@@ -77,7 +77,11 @@ std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_fl
        .highest = 2147483647},
       tunable("dither.amplitude", "dither on the set current", "A", "", valve.electronics.dither.amplitude_A, 0, 1),
       tunable("dither.frequency", "frequency of the dither", "Hz", "", valve.electronics.dither.frequency_Hz, 20, 500),
-      tunable("supply.ripple", "amplitude of the pump's ripple", "Pa", "bar", valve.plant.supply.ripple_Pa, 0, 20e5)};
+      tunable("supply.ripple", "amplitude of the pump's ripple", "Pa", "bar", valve.plant.supply.ripple_Pa, 0, 20e5),
+      output("current_a", "measured current of the coil that opens P to A, mean over the sample step", "A", "", 1),
+      output("current_b", "measured current of the coil that opens P to B, mean over the sample step", "A", "", 1),
+      output("voltage_a", "measured voltage of the coil that opens P to A, mean over the sample step", "V", "", 10),
+      output("voltage_b", "measured voltage of the coil that opens P to B, mean over the sample step", "V", "", 10)};
 }
 
 }  // namespace spoolflow::exports::fmu

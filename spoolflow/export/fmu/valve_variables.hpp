@@ -35,7 +35,11 @@ enum ValveReference : std::uint32_t {
   valve_seed,
   valve_dither_amplitude,
   valve_dither_frequency,
-  valve_supply_ripple
+  valve_supply_ripple,
+  valve_current_a,
+  valve_current_b,
+  valve_voltage_a,
+  valve_voltage_b
 };
 
 [[nodiscard]] std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_flow_m3_per_s);
