@@ -173,7 +173,7 @@ class ValveComponent : public Component {
     values[valve_position] = memory.lvdt.acquired_m(time_s);
     values[valve_oil_temperature] = units::K_from_degC(memory.thermometer.reading());
     const rig::PlantOutput truth = observe(valve_.plant, memory.plant, input);
-    values[valve_flow] = truth.flow_m3_per_s;
+    values[valve_flow] = truth.position_m < 0 ? -truth.flow_m3_per_s : truth.flow_m3_per_s;
     values[valve_pressure_difference] = truth.pressure_difference_Pa;
     values[valve_true_position] = truth.position_m;
     values[valve_magnetic_force] = truth.magnetic_force_N;
