@@ -133,11 +133,13 @@ class RunningSensor {
 
   /// One sample. A repeated time is a second look at the same instant, a time that runs backwards holds the last
   /// answer; both say time_fault, and the next time step counts from the new time. Before the first complete sample the
-  /// flow is zero with a band over the whole rated flow.
+  /// flow is zero with a band over the whole rated flow, of a whole valve to both sides.
   sensor::Estimate<double> step(const TimedSample& sample) {
-    const auto given = state_.times.next<double>(sample);
+    auto given = state_.times.next<double>(sample);
+    if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
     sensor::Estimate<double> out = answer(given.sample, sample);
     state_.times.finish(out, given, rated_flow_m3_per_s_);
+    if (runs_whole() && !state_.times.answered) out.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
     return out;
   }
 
@@ -147,6 +149,11 @@ class RunningSensor {
   [[nodiscard]] bool runs_condensed() const {
     return std::holds_alternative<const sensor::CondensedParameters<double>*>(parameters_) ||
            std::holds_alternative<WholeCondensed>(parameters_);
+  }
+  /// Both directions of flow.
+  [[nodiscard]] bool runs_whole() const {
+    return std::holds_alternative<WholeCondensed>(parameters_) ||
+           std::holds_alternative<sensor::WholeValveParameters<double>>(parameters_);
   }
   [[nodiscard]] const RunningState& state() const { return state_; }
   [[nodiscard]] RunningState& state() { return state_; }

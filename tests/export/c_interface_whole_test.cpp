@@ -115,6 +115,19 @@ TEST(CInterfaceOfAWholeValve, HoldsTheAnswerWhereEitherCurrentIsMissing) {
   EXPECT_EQ(answered(sensor, swinging(602)).status & SPOOLFLOW_STATUS_SAMPLE_MISSING, 0U);
 }
 
+TEST(CInterfaceOfAWholeValve, KnowsNothingBeforeTheFirstSampleWithBothCurrents) {
+  const WholeSensor sensor = running(whole_example_model());
+  const double rated = spoolflow_rated_flow(sensor.get());
+  for (int k = 0; k < 3; ++k) {
+    spoolflow_whole_sample sample = swinging(k);
+    sample.current_a_A = std::numeric_limits<double>::quiet_NaN();
+    const spoolflow_estimate unknown = answered(sensor, sample);
+    EXPECT_EQ(unknown.flow_lower_m3_per_s, -rated);
+    EXPECT_EQ(unknown.flow_upper_m3_per_s, rated);
+  }
+  EXPECT_GT(answered(sensor, swinging(3)).flow_lower_m3_per_s, -rated);
+}
+
 TEST(CInterfaceOfAWholeValve, IsRefusedForAModelOfOneDirection) {
   const WholeSensor sensor = running(example_model());
   EXPECT_EQ(spoolflow_is_whole(sensor.get()), 0);

@@ -12,3 +12,15 @@ extern "C" void observer_step(const sensor::ObserverParameters<float>* valve, se
                               const sensor::Sample<float>* sample, sensor::Estimate<float>* estimate) {
   *estimate = sensor::step(*valve, *state, *sample);
 }
+
+extern "C" void whole_condensed_step(const sensor::WholeCondensedTables<float>* valve,
+                                     sensor::WholeCondensedState<float>* state,
+                                     const sensor::WholeValveSample<float>* sample, sensor::Estimate<float>* estimate) {
+  *estimate = sensor::step(*valve, *state, *sample);
+}
+
+extern "C" void whole_valve_step(const sensor::WholeValveParameters<float>* valve,
+                                 sensor::WholeValveState<float>* state, const sensor::WholeValveSample<float>* sample,
+                                 sensor::Estimate<float>* estimate) {
+  *estimate = sensor::step(*valve, *state, *sample);
+}
