@@ -8,7 +8,7 @@
 
 #include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu/resource.hpp"
-#include "spoolflow/export/fmu/sensor_variables.hpp"
+#include "spoolflow/export/fmu/sensor_directions.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 

@@ -76,6 +76,26 @@ Variable flag(const char* name, const char* description) {
           .highest = 1};
 }
 
+Variable tunable_parameter(const TunableNumber& number) {
+  return {.name = number.name,
+          .description = number.about.meaning,
+          .causality = Causality::parameter,
+          .variability = Variability::tunable,
+          .unit = number.about.unit,
+          .display_unit = std::string(number.shown.display_unit),
+          .start = *number.value,
+          .lowest = number.about.limits.lowest,
+          .highest = number.about.limits.highest};
+}
+
+/// What a whole valve has beside one direction's inputs.
+std::array<Variable, 2> inputs_of_coil_a() {
+  return {input("current_a", "current of the coil that opens P to A, mean since the sample before; NaN: missing", "A",
+                "", 0, 1),
+          input("voltage_a", "voltage of the coil that opens P to A, mean since the sample before; NaN: not measured",
+                "V", "", 0, 10)};
+}
+
 }  // namespace
 
 std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters) {
@@ -144,24 +164,9 @@ std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vect
       flag("use_voltage", "whether the coil voltage is measured"),
       flag("use_oil_temperature", "whether the oil temperature is measured")};
   if (whole) {
-    all.push_back(input("current_a",
-                        "current of the coil that opens P to A, mean since the sample before; NaN: missing", "A", "", 0,
-                        1));
-    all.push_back(input("voltage_a",
-                        "voltage of the coil that opens P to A, mean since the sample before; NaN: not measured", "V",
-                        "", 0, 10));
+    for (const Variable& each : inputs_of_coil_a()) all.push_back(each);
   }
-  for (const TunableNumber& number : tunable) {
-    all.push_back({.name = number.name,
-                   .description = number.about.meaning,
-                   .causality = Causality::parameter,
-                   .variability = Variability::tunable,
-                   .unit = number.about.unit,
-                   .display_unit = std::string(number.shown.display_unit),
-                   .start = *number.value,
-                   .lowest = number.about.limits.lowest,
-                   .highest = number.about.limits.highest});
-  }
+  for (const TunableNumber& number : tunable) all.push_back(tunable_parameter(number));
   return all;
 }
 

@@ -5,19 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "spoolflow/export/fmu/sensor_directions.hpp"
 #include "spoolflow/export/fmu/variable.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::exports::fmu {
-
-/// The parameters of a whole valve's two directions.
-template <class Parameters>
-struct BothDirections {
-  Parameters b;  ///< flow P to B
-  Parameters a;  ///< flow P to A
-};
 
 /// Value references of what the component itself reads and writes; tunable parameters follow. A whole valve's current
 /// and voltage are those of solenoid b; solenoid a has two inputs of its own, and the tunable parameters follow those.
