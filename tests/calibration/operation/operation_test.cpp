@@ -90,8 +90,7 @@ TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
     sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
     return fit_operation(parameters, runs, valve.full_scale_m3_per_s(), [](double) {});
   };
-  const OperationFit blind = fitted(only(dithered)),
-                     both = fitted({{.recording = &dithered}, {.recording = &plain}});
+  const OperationFit blind = fitted(only(dithered)), both = fitted({{.recording = &dithered}, {.recording = &plain}});
   const auto tells = [](const OperationFit& fit, const char* name) {
     return std::ranges::find(fit.not_told, name) == fit.not_told.end();
   };
