@@ -28,6 +28,7 @@ struct ExportArguments {
   std::string model;
   std::string output;
   std::string fmi = "2";
+  std::string direction;  ///< empty: all that the model has
 };
 
 std::string content_of(const fs::path& file) {
@@ -49,9 +50,19 @@ void refuse_to_overwrite(const fs::path& folder, const std::vector<exports::Expo
   }
 }
 
+/// What is asked for of the model. Throws ModelError where it does not know that direction.
+model::Model asked_model(const ExportArguments& arguments) {
+  model::Model model = model::read_model(arguments.model);
+  if (arguments.direction.empty() || model.valve.direction == arguments.direction) return model;
+  if (model.whole()) return model::of_direction(model, arguments.direction);
+  throw model::ModelError(fmt::format(
+      "--direction {}: the model of {} knows direction {} alone; leave the option away, or calibrate the whole valve",
+      arguments.direction, model.valve.name, model.valve.direction));
+}
+
 /// All files are written before the first one gets its name.
 void export_cpp(const ExportArguments& arguments) {
-  const model::Model model = model::read_model(arguments.model);
+  const model::Model model = asked_model(arguments);
   const std::vector<exports::ExportedFile> files = exports::cpp_folder(model);
   const fs::path folder(arguments.output);
   if (folder.empty() || folder == "-") throw OutputError("an export needs a folder: name one after -o");
@@ -64,7 +75,7 @@ void export_cpp(const ExportArguments& arguments) {
     outputs.back()->stream().flush();
   }
   for (const auto& output : outputs) output->commit();
-  if (!model.observer) {
+  if (!model.has_observer()) {
     fmt::print(stderr,
                "{}: the model is not calibrated for the observer, so the condensed sensor alone is exported; calibrate "
                "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
@@ -87,17 +98,21 @@ void export_fmu(const ExportArguments& arguments) {
   }
   const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
   if (names_valve(arguments.model)) {
+    if (!arguments.direction.empty()) {
+      throw model::ModelError(fmt::format("--direction {}: a virtual valve has no direction to choose; leave it away",
+                                          arguments.direction));
+    }
     const rig::ValveUnderTest valve = rig::read_valve_and_campaign(arguments.model).valve;
     OutputFile output(arguments.output, {arguments.model});
     output.stream() << exports::valve_fmu(valve, version, tool_version());
     output.commit();
     return;
   }
-  const model::Model model = model::read_model(arguments.model);
+  const model::Model model = asked_model(arguments);
   OutputFile output(arguments.output, {arguments.model});
   output.stream() << exports::sensor_fmu(model, version, tool_version());
   output.commit();
-  if (!model.observer) {
+  if (!model.has_observer()) {
     fmt::print(
         stderr,
         "{}: the model is not calibrated for the observer, so the FMU runs the condensed sensor; calibrate with a "
@@ -131,6 +146,10 @@ void add_export_command(CLI::App& program) {
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))
       ->capture_default_str();
+  command
+      ->add_option("--direction", arguments->direction,
+                   "of a whole valve export one direction alone: a (flow P to A) or b (flow P to B)")
+      ->check(CLI::IsMember({"a", "b"}));
   command->callback([arguments] { arguments->kind == "fmu" ? export_fmu(*arguments) : export_cpp(*arguments); });
 }
 

@@ -1,23 +1,31 @@
 #pragma once
 /// The sensor's step alone over samples that carry their time steps, as a valve's firmware calls it: in the scalar of
 /// its state, without what a running sensor tells of times and before its first complete sample.
-#include <span>
 #include <vector>
 
 #include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"
 
 namespace spoolflow::estimation {
 
-/// The flow rate of every answer [m3/s]. `state` is that before the first sample.
-template <class Parameters, template <class> class State, class T>
-std::vector<T> stepped_flows(const Parameters& parameters, State<T> state,
-                             std::span<const sensor::Sample<float>> samples) {
+/// The same sample in another scalar.
+template <class T>
+constexpr sensor::Sample<T> in_scalar(const sensor::Sample<float>& in) {
+  return {in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K};
+}
+template <class T>
+constexpr sensor::WholeValveSample<T> in_scalar(const sensor::WholeValveSample<float>& in) {
+  return {in.time_step_s, in.current_a_A, in.current_b_A,      in.voltage_a_V,
+          in.voltage_b_V, in.position_m,  in.oil_temperature_K};
+}
+
+/// The flow rate of every answer [m3/s]. `state` is that before the first sample; parameters, state and samples are of
+/// one direction or of the whole valve.
+template <class Parameters, template <class> class State, class T, template <class> class Sample>
+std::vector<T> stepped_flows(const Parameters& parameters, State<T> state, const std::vector<Sample<float>>& samples) {
   std::vector<T> out;
   out.reserve(samples.size());
-  for (const sensor::Sample<float>& in : samples) {
-    const sensor::Sample<T> sample{in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K};
-    out.push_back(step(parameters, state, sample).flow_m3_per_s);
-  }
+  for (const Sample<float>& in : samples) out.push_back(step(parameters, state, in_scalar<T>(in)).flow_m3_per_s);
   return out;
 }
 

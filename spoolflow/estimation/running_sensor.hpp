@@ -78,6 +78,23 @@ inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<
   return out;
 }
 
+/// One instant of a whole valve whose coils both have their instruments. NaN means not measured; without either current
+/// the last answer is held.
+struct TimedWholeSample {
+  double time_s;
+  double current_a_A, current_b_A;
+  double voltage_a_V, voltage_b_V;
+  double position_m;
+  double oil_temperature_K;
+};
+
+/// What is measured of both coils, as a running sensor takes it. A current that is missing now is not one that nobody
+/// measures: infinite, it says so.
+inline TimedSample of_both_coils(const TimedWholeSample& in) {
+  const double current_a_A = std::isnan(in.current_a_A) ? std::numeric_limits<double>::infinity() : in.current_a_A;
+  return {in.time_s, in.current_b_A, in.voltage_b_V, in.position_m, in.oil_temperature_K, current_a_A, in.voltage_a_V};
+}
+
 /// What a running sensor remembers; trivially copyable, and so are its bytes.
 struct RunningState {
   sensor::CondensedState<double> condensed;  ///< of these, that of the estimator that runs

@@ -54,41 +54,82 @@ std::string definition(const std::string& type, const std::string& name, const s
       type, name, numbers.size(), literals(numbers, groups));
 }
 
-std::string condensed_definition(const model::Model& model) {
+/// `name`: of the definition.
+std::string condensed_definition(const model::Condensed& condensed, const std::string& name) {
   const auto tables = std::make_unique<sensor::CondensedTables<double>>();
-  sensor::lay_out(model.condensed.parameters, *tables);
+  sensor::lay_out(condensed.parameters, *tables);
   const std::vector<double> numbers = numbers_of(*tables);
   NumberGroups groups(tables.get());
   model::describe_condensed_tables(*tables, groups);
-  return definition("CondensedTables", "condensed", numbers, groups.in_order(numbers.size()));
+  return definition("CondensedTables", name, numbers, groups.in_order(numbers.size()));
 }
 
-/// What holds in double precision need not hold in the valve's: two thresholds may have become one.
-void require_limits_in_single_precision(const model::Observer& observer) {
+/// What holds in double precision need not hold in the valve's: two thresholds may have become one. `path`: in the
+/// file.
+void require_limits_in_single_precision(const model::Observer& observer, const std::string& path) {
   const auto found = model::violation(single_precision(observer.parameters), [](auto& parameters, auto& visitor) {
     model::describe_observer(parameters, visitor);
   });
   if (found) {
     throw std::invalid_argument(
-        fmt::format("in single precision the model's /observer{}: {}; calibrate again and look at the report for what "
-                    "went astray",
-                    found->path, found->problem));
+        fmt::format("in single precision the model's {}{}: {}; calibrate again and look at the report for what went "
+                    "astray",
+                    path, found->path, found->problem));
   }
 }
 
-std::string observer_definition(const model::Observer& observer) {
-  require_limits_in_single_precision(observer);
+std::string observer_definition(const model::Observer& observer, const std::string& name, const std::string& path) {
+  require_limits_in_single_precision(observer, path);
   const std::vector<double> numbers = numbers_of(observer.parameters);
   NumberGroups groups(&observer.parameters);
   model::describe_observer(observer.parameters, groups);
-  return definition("ObserverParameters", "observer", numbers, groups.in_order(numbers.size()));
+  return definition("ObserverParameters", name, numbers, groups.in_order(numbers.size()));
+}
+
+std::string direction_definitions(const model::Model& model) {
+  std::string out = condensed_definition(model.condensed, "condensed");
+  if (model.has_observer()) out += observer_definition(*model.observer, "observer", "/observer");
+  return out;
+}
+
+std::string whole_definitions(const model::Model& model) {
+  const model::Direction& a = model.p_to_a.value();
+  std::string out =
+      condensed_definition(model.condensed, "condensed_b") + condensed_definition(a.condensed, "condensed_a");
+  out +=
+      "/// Of both directions: flow P to B, flow P to A.\n"
+      "inline constexpr spoolflow::sensor::WholeCondensedTables<float> condensed{&condensed_b, &condensed_a};\n\n";
+  if (!model.has_observer()) return out;
+  out += observer_definition(*model.observer, "observer_b", "/observer") +
+         observer_definition(*a.observer, "observer_a", "/p_to_a/observer");
+  return out +
+         "/// Of both directions: flow P to B, flow P to A.\n"
+         "inline constexpr spoolflow::sensor::WholeValveParameters<float> observer{&observer_b, &observer_a};\n\n";
+}
+
+/// The sensor's types for a model of one direction or of a whole valve, as the headers name them.
+struct TypeNames {
+  const char* sample;
+  const char* condensed;  ///< state
+  const char* observer;   ///< state
+};
+TypeNames type_names(const model::Model& model) {
+  if (model.whole()) return {"WholeValveSample", "WholeCondensedState", "WholeValveState"};
+  return {"Sample", "CondensedState", "ObserverState"};
+}
+
+std::string sensor_includes(const model::Model& model) {
+  if (model.whole()) {
+    return "#include \"spoolflow/sensor/whole_valve/whole_condensed.hpp\"\n"
+           "#include \"spoolflow/sensor/whole_valve/whole_valve.hpp\"\n";
+  }
+  return std::string("#include \"spoolflow/sensor/condensed.hpp\"\n") +
+         (model.has_observer() ? "#include \"spoolflow/sensor/observer.hpp\"\n" : "");
 }
 
 std::string model_header(const model::Model& model) {
-  const bool whole = model.observer.has_value();
-  std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <bit>\n\n";
-  out += "#include \"spoolflow/sensor/condensed.hpp\"\n";
-  if (whole) out += "#include \"spoolflow/sensor/observer.hpp\"\n";
+  const bool has_observer = model.has_observer();
+  std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <bit>\n\n" + sensor_includes(model);
   out +=
       "\n/// One valve's numbers, SI. The arrays lie in flash as the sensor's structures do.\nnamespace valve_model "
       "{\n\n";
@@ -97,50 +138,61 @@ std::string model_header(const model::Model& model) {
                      float_literal(model.valve.rated_flow_m3_per_s),
                      units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s));
   out += fmt::format("inline constexpr float stroke_m = {};\n", float_literal(model.valve.stroke_m));
-  out += fmt::format("inline constexpr bool has_observer = {};\n\n", whole);
-  out += condensed_definition(model);
-  if (whole) out += observer_definition(*model.observer);
-  out += fmt::format(
-      "/// The best sensor that this model is calibrated for.\n"
-      "inline constexpr const auto& parameters = {};\n"
-      "using State = spoolflow::sensor::{}State<float>;\n\n}}  // namespace valve_model\n",
-      whole ? "observer" : "condensed", whole ? "Observer" : "Condensed");
-  return out;
+  out += fmt::format("inline constexpr bool whole_valve = {};\n", model.whole());
+  out += fmt::format("inline constexpr bool has_observer = {};\n\n", has_observer);
+  out += model.whole() ? whole_definitions(model) : direction_definitions(model);
+  const TypeNames types = type_names(model);
+  return out + fmt::format(
+                   "/// The best sensor that this model is calibrated for.\n"
+                   "inline constexpr const auto& parameters = {};\n"
+                   "using State = spoolflow::sensor::{}<float>;\n"
+                   "using CondensedState = spoolflow::sensor::{}<float>;\n"
+                   "using Sample = spoolflow::sensor::{}<float>;\n\n}}  // namespace valve_model\n",
+                   has_observer ? "observer" : "condensed", has_observer ? types.observer : types.condensed,
+                   types.condensed, types.sample);
 }
 
 std::string sample_literal(float number) {
   return number == number ? float_literal(static_cast<double>(number)) : "missing";
 }
 
-std::string golden_header(const model::Model& model, const std::vector<GoldenPoint>& points) {
+std::string literals_of(const sensor::Sample<float>& in) {
+  return fmt::format("{}, {}, {}, {}, {}", sample_literal(in.time_step_s), sample_literal(in.current_A),
+                     sample_literal(in.voltage_V), sample_literal(in.position_m), sample_literal(in.oil_temperature_K));
+}
+std::string literals_of(const sensor::WholeValveSample<float>& in) {
+  return fmt::format("{}, {}, {}, {}, {}, {}, {}", sample_literal(in.time_step_s), sample_literal(in.current_a_A),
+                     sample_literal(in.current_b_A), sample_literal(in.voltage_a_V), sample_literal(in.voltage_b_V),
+                     sample_literal(in.position_m), sample_literal(in.oil_temperature_K));
+}
+
+template <class Sample>
+std::string golden_header(const model::Model& model, const std::vector<GoldenPoint<Sample>>& points) {
   std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <limits>\n\n";
-  out +=
-      "#include \"spoolflow/sensor/sample.hpp\"\n\nnamespace valve_model {\n\n"
+  out += fmt::format(
+      "#include \"spoolflow/sensor/{}\"\n\nnamespace valve_model {{\n\n"
       "/// One sample and the flow rates [m3/s] that double precision answered on the host.\n"
-      "struct GoldenPoint {\n"
-      "  spoolflow::sensor::Sample<float> sample;\n"
+      "struct GoldenPoint {{\n"
+      "  spoolflow::sensor::{}<float> sample;\n"
       "  float condensed_m3_per_s;\n"
       "  float best_m3_per_s;  ///< of `parameters`\n"
-      "};\n\n"
-      "inline constexpr float missing = std::numeric_limits<float>::quiet_NaN();\n\n";
+      "}};\n\n"
+      "inline constexpr float missing = std::numeric_limits<float>::quiet_NaN();\n\n",
+      model.whole() ? "whole_valve/whole_valve_sample.hpp" : "sample.hpp", type_names(model).sample);
   out += fmt::format(
-      "/// In the order of time: time step s, current A, voltage V, position m, oil temperature K; flow rates.\n"
+      "/// In the order of time: time step s, {}, position m, oil temperature K; flow rates.\n"
       "inline constexpr std::array<GoldenPoint, {}> golden_points{{{{\n",
-      points.size());
-  for (const GoldenPoint& point : points) {
-    const sensor::Sample<float>& in = point.sample;
-    out += fmt::format("    {{{{{}, {}, {}, {}, {}}}, {}, {}}},\n", sample_literal(in.time_step_s),
-                       sample_literal(in.current_A), sample_literal(in.voltage_V), sample_literal(in.position_m),
-                       sample_literal(in.oil_temperature_K), float_literal(point.condensed_m3_per_s),
+      model.whole() ? "currents a and b A, voltages a and b V" : "current A, voltage V", points.size());
+  for (const GoldenPoint<Sample>& point : points) {
+    out += fmt::format("    {{{{{}}}, {}, {}}},\n", literals_of(point.sample), float_literal(point.condensed_m3_per_s),
                        float_literal(point.best_m3_per_s));
   }
   return out + "}};\n\n}  // namespace valve_model\n";
 }
 
-std::string readme(const model::Model& model, const std::vector<GoldenPoint>& points) {
-  const SinglePrecisionError error = single_precision_error(model, points);
+std::string readme(const model::Model& model, const SinglePrecisionError& error) {
   std::string sensors = fmt::format("the condensed sensor ({:.2g} %)", error.condensed_percent);
-  if (model.observer) {
+  if (model.has_observer()) {
     sensors = fmt::format("the observer ({:.2g} %) and ", error.best_percent) + sensors;
   } else {
     sensors += ". **The model is not calibrated for the observer**, so it is not here";
@@ -151,18 +203,25 @@ std::string readme(const model::Model& model, const std::vector<GoldenPoint>& po
   };
   put("@VALVE@", model.valve.name);
   put("@SENSORS@", sensors);
+  put("@SIGNS@", model.whole() ? text("whole_signs.md.in") : std::string());
   return out;
+}
+
+/// What depends on the form of the samples: the points of the self-test, and how far single precision strays there.
+template <class Sample>
+std::vector<ExportedFile> proof(const model::Model& model, const std::vector<GoldenPoint<Sample>>& points) {
+  return {{"README.md", readme(model, single_precision_error(model, points))},
+          {"golden_points.hpp", golden_header(model, points)}};
 }
 
 }  // namespace
 
 std::vector<ExportedFile> cpp_folder(const model::Model& model) {
-  const std::vector<GoldenPoint> points = golden_points(model);
-  std::vector<ExportedFile> files{{"README.md", readme(model, points)},
-                                  {"example.cpp", text("example.cpp.in")},
-                                  {"self_test.cpp", text("self_test.cpp.in")},
-                                  {"golden_points.hpp", golden_header(model, points)},
-                                  {std::string(cpp_model_name), model_header(model)}};
+  std::vector<ExportedFile> files =
+      model.whole() ? proof(model, whole_golden_points(model)) : proof(model, golden_points(model));
+  files.push_back({"example.cpp", text(model.whole() ? "whole_example.cpp.in" : "example.cpp.in")});
+  files.push_back({"self_test.cpp", text("self_test.cpp.in")});
+  files.push_back({std::string(cpp_model_name), model_header(model)});
   for (const EmbeddedFile& header : sensor_headers()) {
     files.push_back({fmt::format("spoolflow/sensor/{}", header.name), std::string(header.bytes)});
   }

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "spoolflow/estimation/bare_steps.hpp"
 #include "spoolflow/export/number_groups.hpp"
 #include "spoolflow/numerics/crossing.hpp"
+#include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
 namespace spoolflow::exports {
 
@@ -109,35 +112,119 @@ std::vector<sensor::Sample<float>> strokes(const model::Model& model) {
   return out;
 }
 
-}  // namespace
+constexpr std::size_t fading_samples = 150;
 
-std::vector<GoldenPoint> golden_points(const model::Model& model) {
-  const std::vector<sensor::Sample<float>> inputs = strokes(model);
-  const std::vector<double> condensed =
-      stepped_flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{}, inputs);
-  const std::vector<double> best =
-      model.observer ? stepped_flows(model.observer->parameters, sensor::ObserverState<double>{}, inputs) : condensed;
-  std::vector<GoldenPoint> points;
-  for (std::size_t k = 0; k < inputs.size(); ++k) points.push_back({inputs[k], condensed[k], best[k]});
+/// Both directions' strokes, one behind the other. While the second begins, the first solenoid's current fades away.
+std::vector<sensor::WholeValveSample<float>> whole_strokes(const model::Model& model) {
+  std::vector<sensor::WholeValveSample<float>> out;
+  for (const auto& in : strokes(model::of_direction(model, "b"))) {
+    out.push_back({in.time_step_s, 0.0F, in.current_A, 0.0F, in.voltage_V, in.position_m, in.oil_temperature_K});
+  }
+  const sensor::WholeValveSample<float> left = out[golden_samples / 2];
+  const std::vector<sensor::Sample<float>> other = strokes(model::of_direction(model, "a"));
+  for (std::size_t k = 0; k < other.size(); ++k) {
+    const auto& in = other[k];
+    const float share = k < fading_samples ? 1.0F - static_cast<float>(k) / fading_samples : 0.0F;
+    out.push_back({static_cast<float>(time_step_s), in.current_A, share * left.current_b_A, in.voltage_V,
+                   share * left.voltage_b_V, -in.position_m, in.oil_temperature_K});
+  }
+  return out;
+}
+
+/// One direction's parameters in one precision.
+template <class T>
+struct DirectionParameters {
+  sensor::CondensedTables<T> condensed;
+  sensor::ObserverParameters<T> observer{};  ///< where the model has one
+};
+
+DirectionParameters<double> in_double(const model::Condensed& condensed,
+                                      const std::optional<model::Observer>& observer) {
+  DirectionParameters<double> out{sensor::laid_out(condensed.parameters)};
+  if (observer) out.observer = observer->parameters;
+  return out;
+}
+
+DirectionParameters<float> in_single(const DirectionParameters<double>& parameters) {
+  return {single_precision(parameters.condensed), single_precision(parameters.observer)};
+}
+
+/// Flow rates [m3/s] of all samples.
+template <class T>
+struct Flows {
+  std::vector<T> condensed;
+  std::vector<T> best;
+};
+
+template <class T>
+Flows<T> flows(const DirectionParameters<T>& parameters, bool has_observer,
+               const std::vector<sensor::Sample<float>>& samples) {
+  Flows<T> out{stepped_flows(parameters.condensed, sensor::CondensedState<T>{}, samples), {}};
+  out.best = has_observer ? stepped_flows(parameters.observer, sensor::ObserverState<T>{}, samples) : out.condensed;
+  return out;
+}
+
+template <class T>
+Flows<T> flows(const DirectionParameters<T>& b, const DirectionParameters<T>& a, bool has_observer,
+               const std::vector<sensor::WholeValveSample<float>>& samples) {
+  const sensor::WholeCondensedTables<T> tables{&b.condensed, &a.condensed};
+  const sensor::WholeValveParameters<T> valve{&b.observer, &a.observer};
+  Flows<T> out{stepped_flows(tables, sensor::WholeCondensedState<T>{}, samples), {}};
+  out.best = has_observer ? stepped_flows(valve, sensor::WholeValveState<T>{}, samples) : out.condensed;
+  return out;
+}
+
+template <class Sample>
+std::vector<GoldenPoint<Sample>> joined(const std::vector<Sample>& samples, const Flows<double>& flows) {
+  std::vector<GoldenPoint<Sample>> points;
+  for (std::size_t k = 0; k < samples.size(); ++k) points.push_back({samples[k], flows.condensed[k], flows.best[k]});
   return points;
 }
 
-SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<GoldenPoint>& points) {
-  std::vector<sensor::Sample<float>> inputs;
-  for (const GoldenPoint& point : points) inputs.push_back(point.sample);
-  const std::vector<float> condensed = stepped_flows(single_precision(sensor::laid_out(model.condensed.parameters)),
-                                                     sensor::CondensedState<float>{}, inputs);
-  const std::vector<float> best = model.observer ? stepped_flows(single_precision(model.observer->parameters),
-                                                                 sensor::ObserverState<float>{}, inputs)
-                                                 : condensed;
+template <class Sample>
+std::vector<Sample> samples_of(const std::vector<GoldenPoint<Sample>>& points) {
+  std::vector<Sample> samples;
+  for (const GoldenPoint<Sample>& point : points) samples.push_back(point.sample);
+  return samples;
+}
+
+template <class Sample>
+SinglePrecisionError largest_error(const model::Model& model, const std::vector<GoldenPoint<Sample>>& points,
+                                   const Flows<float>& flows) {
   SinglePrecisionError largest{0, 0};
   const double percent = 100.0 / model.valve.rated_flow_m3_per_s;
   for (std::size_t k = 0; k < points.size(); ++k) {
     largest.condensed_percent =
-        std::max(largest.condensed_percent, percent * std::abs(condensed[k] - points[k].condensed_m3_per_s));
-    largest.best_percent = std::max(largest.best_percent, percent * std::abs(best[k] - points[k].best_m3_per_s));
+        std::max(largest.condensed_percent, percent * std::abs(flows.condensed[k] - points[k].condensed_m3_per_s));
+    largest.best_percent = std::max(largest.best_percent, percent * std::abs(flows.best[k] - points[k].best_m3_per_s));
   }
   return largest;
+}
+
+}  // namespace
+
+std::vector<DirectionPoint> golden_points(const model::Model& model) {
+  const std::vector<sensor::Sample<float>> inputs = strokes(model);
+  return joined(inputs, flows(in_double(model.condensed, model.observer), model.has_observer(), inputs));
+}
+
+std::vector<WholeValvePoint> whole_golden_points(const model::Model& model) {
+  const std::vector<sensor::WholeValveSample<float>> inputs = whole_strokes(model);
+  const model::Direction& a = model.p_to_a.value();
+  return joined(inputs, flows(in_double(model.condensed, model.observer), in_double(a.condensed, a.observer),
+                              model.has_observer(), inputs));
+}
+
+SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<DirectionPoint>& points) {
+  const auto parameters = in_single(in_double(model.condensed, model.observer));
+  return largest_error(model, points, flows(parameters, model.has_observer(), samples_of(points)));
+}
+
+SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<WholeValvePoint>& points) {
+  const model::Direction& a = model.p_to_a.value();
+  const auto b_parameters = in_single(in_double(model.condensed, model.observer));
+  const auto a_parameters = in_single(in_double(a.condensed, a.observer));
+  return largest_error(model, points, flows(b_parameters, a_parameters, model.has_observer(), samples_of(points)));
 }
 
 }  // namespace spoolflow::exports

@@ -39,6 +39,10 @@ void describe_whole_valve_constants(Visitor& visitor) {
                     .unit = "s",
                     .meaning = "the iron of a coil has come to rest where its current has been silent for so long"},
                    sensor::idle_settling_s);
+  visitor.constant({.name = "idle_patience_s",
+                    .unit = "s",
+                    .meaning = "that long an idle solenoid's flux waits for a sample with less else to do"},
+                   sensor::idle_patience_s);
 }
 
 }  // namespace spoolflow::model

@@ -72,18 +72,25 @@ template <class T>
             [&] { follow_resistance(actuator.coil_resistance, state.coil_resistance, sample.time_step_s); });
 }
 
-/// One sample. It begins anew at the first, and where a coil current that no coil has, or a leap in time, left a flux
-/// that no coil has. `position_m` is the position to be believed: faults and drift are removed before. Current and
-/// position must be finite; the voltage is not read. Any time step from 50 us to 5 ms.
+/// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It begins anew at
+/// the first, and where a coil current that no coil has, or a leap in time, left a flux that no coil has.
 template <class T>
-[[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
-                                                          ActuatorState<T>& state, const Sample<T>& sample,
-                                                          Mask<T> first) {
+[[gnu::always_inline]] constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                                const Sample<T>& sample, Mask<T> first) {
   const Mask<T> begins = first || !is_number(state.coil.magnetising_current_A);
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
   widen_flux_range(state, begins);
+}
+
+/// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
+/// must be finite; the voltage is not read. Any time step from 50 us to 5 ms.
+template <class T>
+[[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
+                                                          ActuatorState<T>& state, const Sample<T>& sample,
+                                                          Mask<T> first) {
+  magnetise(actuator, state, sample, first);
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);

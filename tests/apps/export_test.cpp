@@ -62,5 +62,16 @@ TEST_F(Export, RefusesWhatIsNoFolderAndWhatIsNoModel) {
   EXPECT_EQ(content("taken"), "a file");
 }
 
+TEST_F(Export, TakesTheDirectionThatTheModelHasAndRefusesTheOther) {
+  EXPECT_EQ(run("export cpp '" + model + "' --direction b -o valve").status, 0);
+  for (const char* kind : {"cpp", "fmu"}) {
+    const Answer answer = run("export " + std::string(kind) + " '" + model + "' --direction a -o other");
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_THAT(answer.message, AllOf(HasSubstr("--direction a"), HasSubstr("direction b alone")));
+  }
+  EXPECT_EQ(run("export fmu size_6 --direction a -o other").status, 2);
+  EXPECT_THAT(files(), Not(Contains("other")));
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

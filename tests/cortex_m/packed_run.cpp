@@ -1,46 +1,59 @@
 #include "tests/cortex_m/packed_run.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "spoolflow/estimation/bare_steps.hpp"
+#include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::cortex_m {
 namespace {
 
-using recording::Channel;
 using Sample = sensor::Sample<float>;
+using WholeValveSample = sensor::WholeValveSample<float>;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
-std::vector<Sample> samples_of(const model::Model& model, const std::filesystem::path& file) {
-  const auto reader = recording::open_reader(file, validation::sensor_channels(model, {}));
-  std::vector<Sample> samples;
+Sample single(const sensor::Sample<double>& in) {
+  return {static_cast<float>(in.time_step_s), static_cast<float>(in.current_A), static_cast<float>(in.voltage_V),
+          static_cast<float>(in.position_m), static_cast<float>(in.oil_temperature_K)};
+}
+
+WholeValveSample single(const sensor::WholeValveSample<double>& in) {
+  return {static_cast<float>(in.time_step_s),      static_cast<float>(in.current_a_A),
+          static_cast<float>(in.current_b_A),      static_cast<float>(in.voltage_a_V),
+          static_cast<float>(in.voltage_b_V),      static_cast<float>(in.position_m),
+          static_cast<float>(in.oil_temperature_K)};
+}
+
+/// Calls `each` with every sample, in the form of one direction and as it was timed.
+template <class Each>
+void for_each_sample(recording::Reader& reader, Each&& each) {
   recording::SampleBlock block;
   double last_s = 0;
-  while (reader->next(block)) {
-    const auto column = [&](Channel channel, std::size_t k) {
-      const std::vector<double>& values = block.columns[static_cast<std::size_t>(channel)];
-      return values.empty() ? missing : static_cast<float>(values[k]);
-    };
+  bool begun = false;
+  while (reader.next(block)) {
+    const estimation::Columns columns = validation::sensor_columns(block);
     for (std::size_t k = 0; k < block.rows; ++k) {
-      const double time_s = block.columns[static_cast<std::size_t>(Channel::time)][k];
-      const double step_s = samples.empty() ? 0.0 : time_s - last_s;
-      last_s = time_s;
-      samples.push_back({static_cast<float>(step_s), column(Channel::current, k), column(Channel::voltage, k),
-                         column(Channel::position, k), column(Channel::oil_temperature, k)});
+      const estimation::TimedSample timed = columns[k];
+      each(sensor::Sample<double>{begun ? timed.time_s - last_s : 0.0, timed.current_A, timed.voltage_V,
+                                  timed.position_m, timed.oil_temperature_K},
+           timed);
+      last_s = timed.time_s;
+      begun = true;
     }
   }
-  return samples;
 }
 
 /// Half-open, half-lifted: every 100 ms something else happens to a valve that was at work.
-void append_disturbances(std::vector<Sample>& samples, double stroke_m) {
-  Sample steady = samples[samples.size() / 2];
+std::vector<Sample> disturbances(Sample steady, double stroke_m) {
+  std::vector<Sample> samples;
   steady.time_step_s = 1e-3F;
   const auto stroke = static_cast<float>(stroke_m);
   for (int k = 0; k < 2000; ++k) {
@@ -58,36 +71,115 @@ void append_disturbances(std::vector<Sample>& samples, double stroke_m) {
     if (part > 12) sample.position_m = 0.5F * stroke * static_cast<float>(k % 20) / 20.0F;
     samples.push_back(sample);
   }
+  return samples;
+}
+
+constexpr float left_m = 300e-6F;  ///< the spool has left the centre
+constexpr float reached_m = 20e-6F;
+constexpr float fading_s = 0.05F;  ///< time constant of the current of the coil that was left
+
+/// One direction's samples to both sides in turn.
+std::vector<WholeValveSample> to_both_sides(const std::vector<Sample>& samples) {
+  std::vector<WholeValveSample> out;
+  bool side_a = false, left = false;
+  float current_A = 0, voltage_V = 0, idle_A = 0, idle_V = 0;
+  for (const Sample& in : samples) {
+    if (in.position_m > left_m) left = true;
+    if (left && in.position_m < reached_m) {
+      side_a = !side_a;
+      left = false;
+      idle_A = current_A, idle_V = voltage_V;
+    }
+    const float kept = std::exp(-in.time_step_s / fading_s);
+    idle_A *= kept, idle_V *= kept;
+    if (in.current_A == in.current_A) current_A = in.current_A;
+    if (in.voltage_V == in.voltage_V) voltage_V = in.voltage_V;
+    out.push_back({in.time_step_s, side_a ? in.current_A : idle_A, side_a ? idle_A : in.current_A,
+                   side_a ? in.voltage_V : idle_V, side_a ? idle_V : in.voltage_V,
+                   side_a ? -in.position_m : in.position_m, in.oil_temperature_K});
+  }
+  return out;
 }
 
 void append(std::string& bytes, std::uint32_t word) {
   for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xFFU);
 }
 
-}  // namespace
+template <std::size_t Count>
+void append(std::string& bytes, const std::array<float, Count>& numbers) {
+  for (const float number : numbers) append(bytes, std::bit_cast<std::uint32_t>(number));
+}
 
-std::string packed_run(const model::Model& model, estimation::Estimator estimator,
-                       const std::filesystem::path& recording) {
-  std::vector<Sample> samples = samples_of(model, recording);
-  if (samples.size() > most_samples) samples.resize(most_samples);
-  const std::size_t recorded = samples.size();
-  append_disturbances(samples, model.valve.stroke_m);
-  const std::vector<double> golden =
-      estimator == estimation::Estimator::observer
-          ? estimation::stepped_flows(model.observer.value().parameters, sensor::ObserverState<double>{}, samples)
-          : estimation::stepped_flows(sensor::laid_out(model.condensed.parameters), sensor::CondensedState<double>{},
-                                      samples);
+/// `golden`: flow rates [m3/s] of all samples; the first `recorded` of them are the recording.
+template <class AnySample>
+std::string packed(const std::vector<AnySample>& samples, std::size_t recorded, const std::vector<double>& golden) {
   std::string bytes;
   append(bytes, static_cast<std::uint32_t>(samples.size()));
   append(bytes, static_cast<std::uint32_t>(recorded));
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const Sample& in = samples[k];
-    for (const float number : {in.time_step_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K,
-                               static_cast<float>(golden[k])}) {
-      append(bytes, std::bit_cast<std::uint32_t>(number));
-    }
+    append(bytes, std::bit_cast<std::array<float, sizeof(AnySample) / sizeof(float)>>(samples[k]));
+    append(bytes, std::array{static_cast<float>(golden[k])});
   }
   return bytes;
+}
+
+template <class AnySample>
+void cut(std::vector<AnySample>& samples) {
+  const std::size_t most = most_bytes / (sizeof(AnySample) + sizeof(float));
+  if (samples.size() > most) samples.resize(most);
+}
+
+std::string packed_direction(const model::Model& model, estimation::Estimator estimator, recording::Reader& reader) {
+  std::vector<Sample> samples;
+  for_each_sample(reader, [&](const auto& sample, const auto&) { samples.push_back(single(sample)); });
+  cut(samples);
+  const std::size_t recorded = samples.size();
+  const std::vector<Sample> added = disturbances(samples[recorded / 2], model.valve.stroke_m);
+  samples.insert(samples.end(), added.begin(), added.end());
+  if (estimator == estimation::Estimator::observer) {
+    return packed(
+        samples, recorded,
+        estimation::stepped_flows(model.observer.value().parameters, sensor::ObserverState<double>{}, samples));
+  }
+  return packed(samples, recorded,
+                estimation::stepped_flows(sensor::laid_out(model.condensed.parameters),
+                                          sensor::CondensedState<double>{}, samples));
+}
+
+std::string packed_whole(const model::Model& model, estimation::Estimator estimator, recording::Reader& reader) {
+  const bool both = reader.has(recording::Channel::current_a);
+  std::vector<Sample> own;
+  std::vector<WholeValveSample> samples;
+  for_each_sample(reader, [&](const auto& sample, const auto& timed) {
+    own.push_back(single(sample));
+    if (both) samples.push_back(single(estimation::whole_valve_sample(sample, timed)));
+  });
+  if (!both) samples = to_both_sides(own);
+  cut(samples);
+  const std::size_t recorded = samples.size();
+  const auto half_open = std::find_if(
+      own.begin(), own.end(), [&](const Sample& sample) { return sample.position_m > 0.3 * model.valve.stroke_m; });
+  const std::vector<WholeValveSample> added = to_both_sides(disturbances(*half_open, model.valve.stroke_m));
+  samples.insert(samples.end(), added.begin(), added.end());
+  const model::Direction& a = model.p_to_a.value();
+  if (estimator == estimation::Estimator::observer) {
+    const sensor::WholeValveParameters<double> valve{&model.observer.value().parameters,
+                                                     &a.observer.value().parameters};
+    return packed(samples, recorded, estimation::stepped_flows(valve, sensor::WholeValveState<double>{}, samples));
+  }
+  const auto tables_b = sensor::laid_out(model.condensed.parameters),
+             tables_a = sensor::laid_out(a.condensed.parameters);
+  return packed(samples, recorded,
+                estimation::stepped_flows(sensor::WholeCondensedTables<double>{&tables_b, &tables_a},
+                                          sensor::WholeCondensedState<double>{}, samples));
+}
+
+}  // namespace
+
+std::string packed_run(const model::Model& model, estimation::Estimator estimator,
+                       const std::filesystem::path& recording) {
+  const auto reader = validation::open_sensor_channels(recording, validation::sensor_channels(model, {}));
+  return model.whole() ? packed_whole(model, estimator, *reader) : packed_direction(model, estimator, *reader);
 }
 
 }  // namespace spoolflow::cortex_m

@@ -14,6 +14,7 @@
 namespace spoolflow::exports {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -26,6 +27,12 @@ model::Model without_observer() {
   return model;
 }
 
+model::Model whole_without_observer() {
+  model::Model model = whole_example_model();
+  model.p_to_a->observer.reset();
+  return model;
+}
+
 std::vector<std::string> compilers() {
 #ifdef SPOOLFLOW_CLANGXX
   return {"g++", SPOOLFLOW_CLANGXX};
@@ -35,7 +42,8 @@ std::vector<std::string> compilers() {
 }
 
 TEST(CppFolder, StandsAloneAndAnswersAsTheHostWithoutAWarning) {
-  for (const model::Model& model : {example_model(), without_observer()}) {
+  for (const model::Model& model :
+       {example_model(), without_observer(), whole_example_model(), whole_without_observer()}) {
     const ExportedFolder folder(model);
     for (const std::string& compiler : compilers()) {
       for (const char* program : {"example", "self_test"}) {
@@ -82,6 +90,23 @@ TEST(CppFolder, HoldsTheSensorsHeadersUnchanged) {
   EXPECT_GT(headers, 15U);
 }
 
+TEST(CppFolder, OfAWholeValveHoldsBothDirectionsAndTheirHeaders) {
+  model::Model model = whole_example_model();
+  model.p_to_a->observer->parameters.largest_current_A = 2.71875;
+  const ExportedFolder folder(model);
+  const std::string header = folder.content("valve_model.hpp");
+  for (const char* name : {"condensed_b", "condensed_a", "observer_b", "observer_a"}) {
+    EXPECT_THAT(header, HasSubstr("auto " + std::string(name) + " = ")) << name;
+  }
+  const auto of_a = header.find("2.71875F");
+  EXPECT_GT(of_a, header.find("auto observer_a = "));
+  EXPECT_LT(of_a, header.find("WholeValveParameters<float> observer{&observer_b, &observer_a}"));
+  EXPECT_THAT(header, HasSubstr("whole_valve = true"));
+  EXPECT_NE(folder.content("spoolflow/sensor/whole_valve/whole_valve.hpp"), "");
+  EXPECT_THAT(folder.content("README.md"), HasSubstr("both solenoids"));
+  EXPECT_THAT(ExportedFolder(example_model()).content("README.md"), Not(AnyOf(HasSubstr("@"), HasSubstr("solenoids"))));
+}
+
 TEST(CppFolder, SaysThatAModelHasNoObserver) {
   const ExportedFolder folder(without_observer());
   EXPECT_THAT(folder.content("README.md"), HasSubstr("not calibrated for the observer"));
@@ -107,7 +132,7 @@ TEST(GoldenPoints, MoveTheValveThroughEveryModeOfTheObserver) {
   sensor::ObserverState<double> state;
   std::array<int, 4> motions{};
   int faults = 0, missing = 0, closed = 0;
-  for (const GoldenPoint& point : golden_points(model)) {
+  for (const DirectionPoint& point : golden_points(model)) {
     const auto& in = point.sample;
     const auto estimate =
         step(model.observer->parameters, state,
@@ -127,6 +152,33 @@ TEST(GoldenPoints, MoveTheValveThroughEveryModeOfTheObserver) {
 TEST(GoldenPoints, StayTheSameInSinglePrecision) {
   const model::Model model = example_model();
   const SinglePrecisionError error = single_precision_error(model, golden_points(model));
+  EXPECT_LT(error.condensed_percent, 0.1);
+  EXPECT_LT(error.best_percent, 0.1);
+  EXPECT_GT(error.best_percent, 0.0);  // it is another precision
+}
+
+TEST(GoldenPoints, OfAWholeValveOpenBothSidesOneAfterTheOther) {
+  const model::Model model = whole_example_model();
+  double most_m3_per_s = 0, least_m3_per_s = 0;
+  int both_coils = 0;
+  for (const WholeValvePoint& point : whole_golden_points(model)) {
+    if (point.sample.position_m > 1e-4F) {
+      EXPECT_GE(point.best_m3_per_s, 0);
+    } else if (point.sample.position_m < -1e-4F) {
+      EXPECT_LE(point.best_m3_per_s, 0);
+    }
+    most_m3_per_s = std::max(most_m3_per_s, point.best_m3_per_s);
+    least_m3_per_s = std::min(least_m3_per_s, point.best_m3_per_s);
+    both_coils += point.sample.current_a_A > 0.1F && point.sample.current_b_A > 0.1F ? 1 : 0;
+  }
+  EXPECT_GT(most_m3_per_s, 0.2 * model.valve.rated_flow_m3_per_s);
+  EXPECT_LT(least_m3_per_s, -0.2 * model.valve.rated_flow_m3_per_s);
+  EXPECT_GT(both_coils, 10);
+}
+
+TEST(GoldenPoints, OfAWholeValveStayTheSameInSinglePrecision) {
+  const model::Model model = whole_example_model();
+  const SinglePrecisionError error = single_precision_error(model, whole_golden_points(model));
   EXPECT_LT(error.condensed_percent, 0.1);
   EXPECT_LT(error.best_percent, 0.1);
   EXPECT_GT(error.best_percent, 0.0);  // it is another precision

@@ -13,6 +13,13 @@ model::Model example_model() {
   return model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
 }
 
+model::Model whole_example_model() {
+  model::Model model = example_model();
+  model.p_to_a = model::Direction{model.condensed, model.observer, model.evidence};
+  model.valve.direction = "both";
+  return model;
+}
+
 ExportedFolder::ExportedFolder(const model::Model& model) {
   std::string name = (fs::temp_directory_path() / "spoolflow-export-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");

@@ -8,6 +8,8 @@ namespace spoolflow::exports {
 
 /// The model that calibration makes of examples/valve_a.
 [[nodiscard]] model::Model example_model();
+/// A whole valve that is the example's valve in both directions.
+[[nodiscard]] model::Model whole_example_model();
 
 /// A model's exported folder on disk; it goes with the object.
 class ExportedFolder {

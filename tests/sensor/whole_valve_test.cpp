@@ -105,7 +105,7 @@ TEST(WholeValve, TakesOffWhatTheIdleSolenoidsIronStillHolds) {
     for (int k = 0; k < 300; ++k) step(direction, fresh, Sample<double>{sample_s, 0.3, 3, 0.1e-3, 313});
     return fresh.last.magnetic_force_N;
   }();
-  EXPECT_NEAR(-state.last.magnetic_force_N, alone_N - state.idle.magnetic_force_N, 1e-9);
+  EXPECT_NEAR(-state.open.last.magnetic_force_N, alone_N - state.idle.magnetic_force_N, 1e-9);
 }
 
 TEST(WholeValve, KeepsThePressureOfEachPathAndTrustsItLessTheLongerThePathWasClosed) {
@@ -143,11 +143,11 @@ TEST(WholeValve, LeavesTheSignOpenNearTheCentreOfAValveWithoutOverlapAlone) {
     if (!overlaps) sides.a.closed_below_m = sides.b.closed_below_m = 0;
     WholeValveState<double> state{};
     step(sides.whole, state, {sample_s, 0, 0.1, 0, 1, 3e-6, 313});
-    EXPECT_EQ(has(state.last.status, Status::sign_undetermined), !overlaps);
-    EXPECT_LE(state.last.flow_lower_m3_per_s, 0);
-    EXPECT_GE(state.last.flow_upper_m3_per_s, 0);
+    EXPECT_EQ(has(state.open.last.status, Status::sign_undetermined), !overlaps);
+    EXPECT_LE(state.open.last.flow_lower_m3_per_s, 0);
+    EXPECT_GE(state.open.last.flow_upper_m3_per_s, 0);
     step(sides.whole, state, {sample_s, 0, 0.1, 0, 1, 60e-6, 313});
-    EXPECT_FALSE(has(state.last.status, Status::sign_undetermined));
+    EXPECT_FALSE(has(state.open.last.status, Status::sign_undetermined));
   }
 }
 

@@ -75,14 +75,18 @@ spoolflow_result refuse(const char* text, char* message, std::size_t size) noexc
 }
 
 RunningSensor::Parameters parameters(const Model& model, spoolflow_estimator estimator) {
-  if (estimator == SPOOLFLOW_OBSERVER && !model.observer) {
+  if (estimator == SPOOLFLOW_OBSERVER && !model.has_observer()) {
     throw NotCalibrated(
         "the model of " + model.valve.name +
         " is not calibrated for the observer; calibrate it with a solenoid_dynamic recording, or ask for "
         "the condensed sensor");
   }
-  if (estimator == SPOOLFLOW_CONDENSED || !model.observer) return &model.condensed.parameters;
-  return &model.observer->parameters;
+  if (estimator == SPOOLFLOW_CONDENSED || !model.has_observer()) {
+    if (!model.whole()) return &model.condensed.parameters;
+    return RunningSensor::WholeCondensed{&model.condensed.parameters, &model.p_to_a->condensed.parameters};
+  }
+  if (!model.whole()) return &model.observer->parameters;
+  return sensor::WholeValveParameters<double>{&model.observer->parameters, &model.p_to_a->observer->parameters};
 }
 
 std::string text_of(const std::filesystem::path& file) {
@@ -172,6 +176,10 @@ double spoolflow_rated_flow(const spoolflow_sensor* sensor) {
   return sensor->shared->model.valve.rated_flow_m3_per_s;
 }
 
+int spoolflow_is_whole(const spoolflow_sensor* sensor) {
+  return sensor->shared->model.whole() ? 1 : 0;
+}
+
 spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample* sample,
                                 spoolflow_estimate* estimate) {
   if (sensor == nullptr || sample == nullptr || estimate == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
@@ -180,35 +188,83 @@ spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample
   return SPOOLFLOW_OK;
 }
 
+spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
+                                      spoolflow_estimate* estimate) {
+  if (sensor == nullptr || sample == nullptr || estimate == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
+  if (!sensor->shared->model.whole()) return SPOOLFLOW_BAD_ARGUMENT;
+  *estimate = told(sensor->running.step(spoolflow::estimation::of_both_coils(
+      {sample->time_s, sample->current_a_A, sample->current_b_A, sample->voltage_a_V, sample->voltage_b_V,
+       sample->position_m, sample->oil_temperature_K})));
+  return SPOOLFLOW_OK;
+}
+
+namespace {
+
+std::span<const double> column(const double* first, std::size_t count) {
+  return first == nullptr ? std::span<const double>() : std::span(first, count);
+}
+
+/// `samples`: whatever `run` takes.
+template <class Samples>
+void step_columns(RunningSensor& running, const Samples& samples, const spoolflow_outputs& outputs) {
+  const auto put = [](auto* column, std::size_t k, auto value) {
+    if (column != nullptr) column[k] = value;
+  };
+  run(running, samples, [&](std::size_t k, const sensor::Estimate<double>& answer) {
+    const spoolflow_estimate estimate = told(answer);
+    put(outputs.flow_m3_per_s, k, estimate.flow_m3_per_s);
+    put(outputs.flow_lower_m3_per_s, k, estimate.flow_lower_m3_per_s);
+    put(outputs.flow_upper_m3_per_s, k, estimate.flow_upper_m3_per_s);
+    put(outputs.pressure_difference_Pa, k, estimate.pressure_difference_Pa);
+    put(outputs.magnetic_force_N, k, estimate.magnetic_force_N);
+    put(outputs.spring_force_N, k, estimate.spring_force_N);
+    put(outputs.flow_force_N, k, estimate.flow_force_N);
+    put(outputs.friction_force_N, k, estimate.friction_force_N);
+    put(outputs.status, k, estimate.status);
+  });
+}
+
+/// Columns of both coils, with a TimedSample at each index.
+struct BothCoils {
+  const spoolflow_whole_inputs& inputs;
+  std::size_t count;
+
+  [[nodiscard]] std::size_t size() const { return count; }
+  [[nodiscard]] spoolflow::estimation::TimedSample operator[](std::size_t k) const {
+    const auto of = [k](const double* column) {
+      return column == nullptr ? spoolflow::estimation::not_measured : column[k];
+    };
+    return spoolflow::estimation::of_both_coils({inputs.time_s[k], inputs.current_a_A[k], inputs.current_b_A[k],
+                                                 of(inputs.voltage_a_V), of(inputs.voltage_b_V), inputs.position_m[k],
+                                                 of(inputs.oil_temperature_K)});
+  }
+};
+
+}  // namespace
+
 spoolflow_result spoolflow_step_arrays(spoolflow_sensor* sensor, size_t count, const spoolflow_inputs* inputs,
                                        const spoolflow_outputs* outputs) {
   if (sensor == nullptr || inputs == nullptr || outputs == nullptr || inputs->time_s == nullptr ||
       inputs->current_A == nullptr || inputs->position_m == nullptr) {
     return SPOOLFLOW_BAD_ARGUMENT;
   }
-  const auto put = [](auto* column, std::size_t k, auto value) {
-    if (column != nullptr) column[k] = value;
-  };
-  const auto column = [count](const double* first) {
-    return first == nullptr ? std::span<const double>() : std::span(first, count);
-  };
-  const spoolflow::estimation::Columns columns{.time_s = column(inputs->time_s),
-                                               .current_A = column(inputs->current_A),
-                                               .voltage_V = column(inputs->voltage_V),
-                                               .position_m = column(inputs->position_m),
-                                               .oil_temperature_K = column(inputs->oil_temperature_K)};
-  run(sensor->running, columns, [&](std::size_t k, const sensor::Estimate<double>& answer) {
-    const spoolflow_estimate estimate = told(answer);
-    put(outputs->flow_m3_per_s, k, estimate.flow_m3_per_s);
-    put(outputs->flow_lower_m3_per_s, k, estimate.flow_lower_m3_per_s);
-    put(outputs->flow_upper_m3_per_s, k, estimate.flow_upper_m3_per_s);
-    put(outputs->pressure_difference_Pa, k, estimate.pressure_difference_Pa);
-    put(outputs->magnetic_force_N, k, estimate.magnetic_force_N);
-    put(outputs->spring_force_N, k, estimate.spring_force_N);
-    put(outputs->flow_force_N, k, estimate.flow_force_N);
-    put(outputs->friction_force_N, k, estimate.friction_force_N);
-    put(outputs->status, k, estimate.status);
-  });
+  const spoolflow::estimation::Columns columns{.time_s = column(inputs->time_s, count),
+                                               .current_A = column(inputs->current_A, count),
+                                               .voltage_V = column(inputs->voltage_V, count),
+                                               .position_m = column(inputs->position_m, count),
+                                               .oil_temperature_K = column(inputs->oil_temperature_K, count)};
+  step_columns(sensor->running, columns, *outputs);
+  return SPOOLFLOW_OK;
+}
+
+spoolflow_result spoolflow_step_whole_arrays(spoolflow_sensor* sensor, size_t count,
+                                             const spoolflow_whole_inputs* inputs, const spoolflow_outputs* outputs) {
+  if (sensor == nullptr || inputs == nullptr || outputs == nullptr || inputs->time_s == nullptr ||
+      inputs->current_a_A == nullptr || inputs->current_b_A == nullptr || inputs->position_m == nullptr ||
+      !sensor->shared->model.whole()) {
+    return SPOOLFLOW_BAD_ARGUMENT;
+  }
+  step_columns(sensor->running, BothCoils{*inputs, count}, *outputs);
   return SPOOLFLOW_OK;
 }
 

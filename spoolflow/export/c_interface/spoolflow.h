@@ -17,7 +17,9 @@
  * Model:    a file that `spoolflow calibrate` wrote; one file describes one valve.
  * Units:    SI everywhere, named in each member: m3/s, Pa, N, A, V, m, K, s. Pressures are differences.
  * Signs:    position 0 closed, > 0 opens the edge P to B; magnetic force opens (+), spring and flow force close (+),
- *           friction has the sign of the velocity.
+ *           friction has the sign of the velocity. Of a whole 4/3 valve (spoolflow_is_whole) the position counts from the
+ *           centre and is < 0 where the spool opens P to A; flow and forces then are < 0, too. Its solenoid a opens P to
+ *           A, solenoid b P to B; spoolflow_step_whole takes the signals of both.
  * Missing:  an input that was not measured is NaN (<math.h>: NAN). Infinite values and values beyond 1e9 count as
  *           missing, too.
  * Threads:  the library has no global state. Any number of sensors may work at once; one sensor is used by one thread
@@ -133,7 +135,7 @@ SPOOLFLOW_API spoolflow_result spoolflow_copy(const spoolflow_sensor* sensor, sp
 /* Ends a sensor; NULL is allowed. */
 SPOOLFLOW_API void spoolflow_destroy(spoolflow_sensor* sensor);
 
-/* Which sensor runs: SPOOLFLOW_CONDENSED or SPOOLFLOW_OBSERVER. `sensor` must not be NULL, here and in the next two. */
+/* Which sensor runs: SPOOLFLOW_CONDENSED or SPOOLFLOW_OBSERVER. `sensor` must not be NULL, here and in the next three. */
 SPOOLFLOW_API spoolflow_estimator spoolflow_runs(const spoolflow_sensor* sensor);
 
 /* The valve's name from its model, UTF-8; lives as long as the sensor. */
@@ -142,7 +144,11 @@ SPOOLFLOW_API const char* spoolflow_valve_name(const spoolflow_sensor* sensor);
 /* The valve's rated flow [m3/s]: full scale of every figure in percent. */
 SPOOLFLOW_API double spoolflow_rated_flow(const spoolflow_sensor* sensor);
 
-/* One sample in, one estimate out; allocates nothing.
+/* Whether the model is of a whole 4/3 valve: 1, with signed flow; 0: of one direction of flow. */
+SPOOLFLOW_API int spoolflow_is_whole(const spoolflow_sensor* sensor);
+
+/* One sample in, one estimate out; allocates nothing. Of a whole valve current and voltage are those of the active coil:
+ * solenoid a where the position is < 0, else solenoid b; the other is taken to carry no current.
  * The first sample's time is any time. After it,
  *   a repeated time:          the sample counts as a second look at the same instant; status has TIME_FAULT;
  *   a time that runs back:    the last answer is held with TIME_FAULT, and time goes on from there;
@@ -152,6 +158,23 @@ SPOOLFLOW_API double spoolflow_rated_flow(const spoolflow_sensor* sensor);
  * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a pointer is NULL; faults of the inputs are told by the status alone. */
 SPOOLFLOW_API spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample* sample,
                                               spoolflow_estimate* estimate);
+
+/* One sample of what the electronics of a whole 4/3 valve have. */
+typedef struct spoolflow_whole_sample {
+  double time_s;            /* as in spoolflow_sample */
+  double current_a_A;       /* coil currents, means since the sample before; NaN: missing */
+  double current_b_A;
+  double voltage_a_V;       /* coil voltages, means since the sample before; NaN: not measured */
+  double voltage_b_V;
+  double position_m;        /* spool position from the centre, > 0 opens P to B, < 0 opens P to A */
+  double oil_temperature_K; /* 0 degC is 273.15; NaN: not measured, the last one is held, at first the calibration's middle */
+} spoolflow_whole_sample;
+
+/* One sample of a whole valve in, one estimate out; allocates nothing. It may alternate with spoolflow_step. Times and
+ * missing inputs are as there; where either current is NaN, the last answer is held with SAMPLE_MISSING.
+ * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a pointer is NULL or the model is of one direction. */
+SPOOLFLOW_API spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
+                                                    spoolflow_estimate* estimate);
 
 /* Columns of samples, `count` entries each. voltage_V and oil_temperature_K may be NULL: not measured. */
 typedef struct spoolflow_inputs {
@@ -179,6 +202,23 @@ typedef struct spoolflow_outputs {
  * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a required pointer is NULL. */
 SPOOLFLOW_API spoolflow_result spoolflow_step_arrays(spoolflow_sensor* sensor, size_t count,
                                                      const spoolflow_inputs* inputs, const spoolflow_outputs* outputs);
+
+/* Columns of a whole valve's samples, `count` entries each. Voltages and oil_temperature_K may be NULL: not measured. */
+typedef struct spoolflow_whole_inputs {
+  const double* time_s;
+  const double* current_a_A;
+  const double* current_b_A;
+  const double* voltage_a_V;
+  const double* voltage_b_V;
+  const double* position_m;
+  const double* oil_temperature_K;
+} spoolflow_whole_inputs;
+
+/* `count` samples one after the other, exactly as that many calls of spoolflow_step_whole. Returns SPOOLFLOW_OK, or
+ * BAD_ARGUMENT where a required pointer is NULL or the model is of one direction. */
+SPOOLFLOW_API spoolflow_result spoolflow_step_whole_arrays(spoolflow_sensor* sensor, size_t count,
+                                                           const spoolflow_whole_inputs* inputs,
+                                                           const spoolflow_outputs* outputs);
 
 /* Back to the state after creation. NULL gives BAD_ARGUMENT. */
 SPOOLFLOW_API spoolflow_result spoolflow_reset(spoolflow_sensor* sensor);

@@ -1,7 +1,6 @@
 /// The sensor inside an FMU.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <variant>
 
@@ -14,21 +13,56 @@
 namespace spoolflow::exports::fmu {
 namespace {
 
+using Condensed = sensor::CondensedParameters<double>;
+using Observer = sensor::ObserverParameters<double>;
+using estimation::RunningSensor;
+
+template <class Parameters>
+inline constexpr bool of_both = false;
+template <class Parameters>
+inline constexpr bool of_both<BothDirections<Parameters>> = true;
+
+RunningSensor::Parameters parameters_of(const Condensed& parameters) {
+  return &parameters;
+}
+RunningSensor::Parameters parameters_of(const Observer& parameters) {
+  return &parameters;
+}
+RunningSensor::Parameters parameters_of(const BothDirections<Condensed>& parameters) {
+  return RunningSensor::WholeCondensed{&parameters.b, &parameters.a};
+}
+RunningSensor::Parameters parameters_of(const BothDirections<Observer>& parameters) {
+  return sensor::WholeValveParameters<double>{&parameters.b, &parameters.a};
+}
+
+template <class Parameters>
+std::optional<model::Violation> violation_of(const Parameters& parameters) {
+  return model::violation(parameters, [](auto& described, auto& visitor) { describe(described, visitor); });
+}
+template <class Parameters>
+std::optional<model::Violation> violation_of(const BothDirections<Parameters>& parameters) {
+  std::optional<model::Violation> found = violation_of(parameters.b);
+  const std::string_view direction = found ? "/b" : "/a";
+  if (!found) found = violation_of(parameters.a);
+  if (found) found->path = model::joined({direction, found->path});
+  return found;
+}
+
 template <class Parameters>
 class SensorComponent : public Component {
  public:
   /// `numbers`: rated flow, stroke, parameters.
   SensorComponent(const Resource& resource, std::uint64_t identity)
-      : identity_(identity), running_(&parameters_, resource.numbers.at(0)) {
+      : identity_(identity), running_(parameters_of(parameters_), resource.numbers.at(0)) {
     const std::span<const double> numbers(resource.numbers);
     take_numbers(numbers.subspan(2), parameters_);
-    if (const auto wrong = broken_limit()) {
+    if (const auto wrong = violation_of(parameters_)) {
       throw ResourceError(model::joined({"the resource is damaged: ", wrong->path, ": ", wrong->problem,
                                          "; export the FMU again with `spoolflow export fmu`"}));
     }
     running_.parameters_changed();
     tunable_ = tunable_numbers(parameters_);
-    variables_ = sensor_variables({numbers[0], numbers[1]}, tunable_);
+    variables_ = sensor_variables({numbers[0], numbers[1], whole}, tunable_);
   }
 
   [[nodiscard]] const std::vector<Variable>& variables() const override { return variables_; }
@@ -38,8 +72,8 @@ class SensorComponent : public Component {
   }
   void tune(std::span<const double> values) override {
     const Parameters before = parameters_;
-    for (std::size_t k = 0; k < tunable_.size(); ++k) *tunable_[k].value = values[sensor_first_tunable + k];
-    if (const auto wrong = broken_limit()) {
+    for (std::size_t k = 0; k < tunable_.size(); ++k) *tunable_[k].value = values[first_tunable + k];
+    if (const auto wrong = violation_of(parameters_)) {
       parameters_ = before;
       throw CallError(model::joined(
           {"the parameters do not fit together: ", std::string_view(wrong->path).substr(1), ": ", wrong->problem}));
@@ -48,7 +82,7 @@ class SensorComponent : public Component {
   }
   void start(std::span<double> values) override {
     running_.reset();
-    estimation::RunningSensor ahead = running_;
+    RunningSensor ahead = running_;
     tell(ahead.step(sample_of(values, 0)), values);
   }
   void sample(std::span<double> values, std::int64_t number) override {
@@ -59,16 +93,29 @@ class SensorComponent : public Component {
   }
 
  private:
-  [[nodiscard]] std::optional<model::Violation> broken_limit() const {
-    return model::violation(parameters_, [](auto& parameters, auto& visitor) { describe(parameters, visitor); });
-  }
+  static constexpr bool whole = of_both<Parameters>;
+  static constexpr std::size_t first_tunable = whole ? whole_first_tunable : sensor_first_tunable;
+
   static estimation::TimedSample sample_of(std::span<const double> values, std::int64_t number) {
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    return {.time_s = static_cast<double>(number) * values[sensor_sample_step],
+    const double nothing = estimation::not_measured;
+    const bool use_voltage = values[sensor_use_voltage] != 0;
+    const double time_s = static_cast<double>(number) * values[sensor_sample_step];
+    const double voltage_V = use_voltage ? values[sensor_voltage] : nothing;
+    const double oil_temperature_K = values[sensor_use_oil_temperature] != 0 ? values[sensor_oil_temperature] : nothing;
+    if constexpr (whole) {
+      return estimation::of_both_coils({.time_s = time_s,
+                                        .current_a_A = values[whole_current_a],
+                                        .current_b_A = values[sensor_current],
+                                        .voltage_a_V = use_voltage ? values[whole_voltage_a] : nothing,
+                                        .voltage_b_V = voltage_V,
+                                        .position_m = values[sensor_position],
+                                        .oil_temperature_K = oil_temperature_K});
+    }
+    return {.time_s = time_s,
             .current_A = values[sensor_current],
-            .voltage_V = values[sensor_use_voltage] != 0 ? values[sensor_voltage] : nothing,
+            .voltage_V = voltage_V,
             .position_m = values[sensor_position],
-            .oil_temperature_K = values[sensor_use_oil_temperature] != 0 ? values[sensor_oil_temperature] : nothing};
+            .oil_temperature_K = oil_temperature_K};
   }
   static void tell(const sensor::Estimate<double>& estimate, std::span<double> values) {
     values[sensor_flow] = estimate.flow_m3_per_s;
@@ -88,23 +135,27 @@ class SensorComponent : public Component {
   Parameters parameters_{};
   std::vector<TunableNumber> tunable_;
   std::vector<Variable> variables_;
-  estimation::RunningSensor running_;
+  RunningSensor running_;
 };
+
+/// Null where the resource holds something else.
+template <class Parameters>
+std::unique_ptr<Component> made(const Resource& resource, std::string_view estimator, std::uint64_t identity) {
+  if (resource.kind != order_of<Parameters>(estimator)) return nullptr;
+  return std::make_unique<SensorComponent<Parameters>>(resource, identity);
+}
 
 }  // namespace
 
 std::unique_ptr<Component> load_component(const std::string& resource_folder, const std::string& token) {
-  using Condensed = sensor::CondensedParameters<double>;
-  using Observer = sensor::ObserverParameters<double>;
   const Resource resource = read_resource(resource_folder, token);
   const std::uint64_t identity = checksum(resource.token.data(), resource.token.size());
   if (resource.numbers.size() < 2) throw ResourceError("the resource holds no sensor");
-  if (resource.kind == order_of<Observer>("observer")) {
-    return std::make_unique<SensorComponent<Observer>>(resource, identity);
-  }
-  if (resource.kind == order_of<Condensed>("condensed")) {
-    return std::make_unique<SensorComponent<Condensed>>(resource, identity);
-  }
+  std::unique_ptr<Component> out = made<Observer>(resource, "observer", identity);
+  if (!out) out = made<Condensed>(resource, "condensed", identity);
+  if (!out) out = made<BothDirections<Observer>>(resource, "observer of both directions", identity);
+  if (!out) out = made<BothDirections<Condensed>>(resource, "condensed of both directions", identity);
+  if (out) return out;
   throw ResourceError("the resource holds '" + resource.kind +
                       "', not a sensor of this version; export the FMU again with `spoolflow export fmu`");
 }

@@ -8,6 +8,7 @@
 
 #include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/fmu/resource.hpp"
+#include "spoolflow/export/fmu/sensor_variables.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 
@@ -67,7 +68,7 @@ class NumberVisitor {
   Checksum keys_;
 };
 
-/// Calls visitor for the parameters of either estimator.
+/// Calls visitor for the parameters of either estimator, of one direction or of both.
 template <class T, class Visitor>
 void describe(sensor::CondensedParameters<T>& parameters, Visitor& visitor) {
   model::describe_condensed(parameters, visitor);
@@ -83,6 +84,17 @@ void describe(sensor::ObserverParameters<T>& parameters, Visitor& visitor) {
 template <class T, class Visitor>
 void describe(const sensor::ObserverParameters<T>& parameters, Visitor& visitor) {
   model::describe_observer(parameters, visitor);
+}
+
+template <class Parameters, class Visitor>
+void describe(BothDirections<Parameters>& parameters, Visitor& visitor) {
+  describe(parameters.b, visitor);
+  describe(parameters.a, visitor);
+}
+template <class Parameters, class Visitor>
+void describe(const BothDirections<Parameters>& parameters, Visitor& visitor) {
+  describe(parameters.b, visitor);
+  describe(parameters.a, visitor);
 }
 
 template <class Parameters>

@@ -42,7 +42,7 @@ struct TunableVisitor {
   void number(const model::Parameter& about, double& value) {
     const auto it =
         std::find_if(tunables.begin(), tunables.end(), [&](const Tunable& each) { return each.key == about.key; });
-    if (it != tunables.end()) found.push_back({*it, about, &value});
+    if (it != tunables.end()) found.push_back({std::string(it->name), *it, about, &value});
   }
 };
 
@@ -51,6 +51,17 @@ std::vector<TunableNumber> found_in(Parameters& parameters) {
   std::vector<TunableNumber> found;
   TunableVisitor visitor{found};
   describe(parameters, visitor);
+  return found;
+}
+
+template <class Parameters>
+std::vector<TunableNumber> found_in(BothDirections<Parameters>& parameters) {
+  std::vector<TunableNumber> found = found_in(parameters.b);
+  for (TunableNumber& number : found) number.name = "b." + number.name;
+  for (TunableNumber& number : found_in(parameters.a)) {
+    number.name = "a." + number.name;
+    found.push_back(std::move(number));
+  }
   return found;
 }
 
@@ -75,21 +86,40 @@ std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& p
   return found_in(parameters);
 }
 
+std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::CondensedParameters<double>>& parameters) {
+  return found_in(parameters);
+}
+
+std::vector<TunableNumber> tunable_numbers(BothDirections<sensor::ObserverParameters<double>>& parameters) {
+  return found_in(parameters);
+}
+
 std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vector<TunableNumber>& tunable) {
   const double flow = scale.rated_flow_m3_per_s;
+  const bool whole = scale.whole;
   std::vector<Variable> all{
       {.name = "time", .description = "simulation time", .causality = Causality::independent, .unit = "s"},
-      input("current", "coil current, mean since the sample before; NaN: missing", "A", "", 0, 1),
-      input("voltage", "coil voltage, mean since the sample before; NaN: not measured", "V", "", 0, 10),
-      input("position", "spool position, 0 closed, > 0 opens P to B; NaN: missing", "m", "mm", 0, scale.stroke_m),
+      input(whole ? "current_b" : "current",
+            whole ? "current of the coil that opens P to B, mean since the sample before; NaN: missing"
+                  : "coil current, mean since the sample before; NaN: missing",
+            "A", "", 0, 1),
+      input(whole ? "voltage_b" : "voltage",
+            whole ? "voltage of the coil that opens P to B, mean since the sample before; NaN: not measured"
+                  : "coil voltage, mean since the sample before; NaN: not measured",
+            "V", "", 0, 10),
+      input("position",
+            whole ? "spool position from the centre, > 0 opens P to B, < 0 opens P to A; NaN: missing"
+                  : "spool position, 0 closed, > 0 opens P to B; NaN: missing",
+            "m", "mm", 0, scale.stroke_m),
       input("oil_temperature", "temperature of the oil; NaN: the last one is held", "K", "degC", 323.15, 300),
-      output("flow", "flow rate", "m3/s", "L/min", flow),
+      output("flow", whole ? "flow rate, P to B > 0, P to A < 0" : "flow rate", "m3/s", "L/min", flow),
       output("flow_lower", "lower end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
       output("flow_upper", "upper end of the 95 % band of the flow rate", "m3/s", "L/min", flow),
       output("pressure_difference", "pressure difference over the metering edge", "Pa", "bar", 5e6),
-      output("magnetic_force", "magnetic force, opening > 0", "N", "", 50),
-      output("spring_force", "spring force, closing > 0", "N", "", 50),
-      output("flow_force", "steady flow force, closing > 0", "N", "", 50),
+      output("magnetic_force", whole ? "magnetic force, > 0 opens P to B" : "magnetic force, opening > 0", "N", "", 50),
+      output("spring_force", whole ? "spring force, > 0 closes P to B" : "spring force, closing > 0", "N", "", 50),
+      output("flow_force", whole ? "steady flow force, > 0 closes P to B" : "steady flow force, closing > 0", "N", "",
+             50),
       output("friction_force", "friction of spool and armature, sign of the velocity", "N", "", 5),
       {.name = "status",
        .description = "status bits, 0 when all is well; see the documentation",
@@ -113,8 +143,16 @@ std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vect
        .nominal = 1e-3},
       flag("use_voltage", "whether the coil voltage is measured"),
       flag("use_oil_temperature", "whether the oil temperature is measured")};
+  if (whole) {
+    all.push_back(input("current_a",
+                        "current of the coil that opens P to A, mean since the sample before; NaN: missing", "A", "", 0,
+                        1));
+    all.push_back(input("voltage_a",
+                        "voltage of the coil that opens P to A, mean since the sample before; NaN: not measured", "V",
+                        "", 0, 10));
+  }
   for (const TunableNumber& number : tunable) {
-    all.push_back({.name = std::string(number.shown.name),
+    all.push_back({.name = number.name,
                    .description = number.about.meaning,
                    .causality = Causality::parameter,
                    .variability = Variability::tunable,

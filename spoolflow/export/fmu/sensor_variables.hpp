@@ -1,6 +1,7 @@
 #pragma once
 /// What the sensor's FMU shows: inputs, outputs, and the parameters that may be tuned.
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +12,15 @@
 
 namespace spoolflow::exports::fmu {
 
-/// Value references of what the component itself reads and writes; tunable parameters follow.
+/// The parameters of a whole valve's two directions.
+template <class Parameters>
+struct BothDirections {
+  Parameters b;  ///< flow P to B
+  Parameters a;  ///< flow P to A
+};
+
+/// Value references of what the component itself reads and writes; tunable parameters follow. A whole valve's current
+/// and voltage are those of solenoid b; solenoid a has two inputs of its own, and the tunable parameters follow those.
 enum SensorReference : std::uint32_t {
   sensor_time,
   sensor_current,
@@ -31,7 +40,10 @@ enum SensorReference : std::uint32_t {
   sensor_sample_step,
   sensor_use_voltage,
   sensor_use_oil_temperature,
-  sensor_first_tunable
+  sensor_first_tunable,
+  whole_current_a = sensor_first_tunable,
+  whole_voltage_a,
+  whole_first_tunable
 };
 
 /// How an FMU shows a number of the model that it lets its user tune.
@@ -43,6 +55,7 @@ struct Tunable {
 
 /// In the order of the description; numbers that this estimator does not have are not among them.
 struct TunableNumber {
+  std::string name;  ///< as shown; of a whole valve behind "b." or "a.", the direction
   Tunable shown;
   model::Parameter about;
   double* value;  ///< inside the parameters
@@ -50,10 +63,16 @@ struct TunableNumber {
 [[nodiscard]] std::vector<TunableNumber> tunable_numbers(sensor::CondensedParameters<double>& parameters);
 [[nodiscard]] std::vector<TunableNumber> tunable_numbers(sensor::ObserverParameters<double>& parameters);
 
+[[nodiscard]] std::vector<TunableNumber> tunable_numbers(
+    BothDirections<sensor::CondensedParameters<double>>& parameters);
+[[nodiscard]] std::vector<TunableNumber> tunable_numbers(
+    BothDirections<sensor::ObserverParameters<double>>& parameters);
+
 /// Scales of one valve, for nominal values.
 struct SensorScale {
   double rated_flow_m3_per_s;
   double stroke_m;
+  bool whole = false;  ///< both directions
 };
 
 /// All variables; start values of the tunable ones are the model's.

@@ -25,6 +25,9 @@ inline constexpr double sign_deviations = 5;
 /// The iron of a coil has come to rest where its current has been silent for so long [s].
 inline constexpr double idle_settling_s = 0.1;
 
+/// ... and until then its flux waits for a sample that has less else to do, but not for longer [s].
+inline constexpr double idle_patience_s = 1.5e-3;
+
 namespace detail {
 
 template <class T>
@@ -52,13 +55,22 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
 }
 
+/// In pieces so small that no compiler wants a library to move them.
+template <class T>
+constexpr void exchange(ActuatorState<T>& one, ActuatorState<T>& other) {
+  std::swap(one.coil, other.coil);
+  std::swap(one.coil_resistance, other.coil_resistance);
+  std::swap(one.lowest_flux_Wb, other.lowest_flux_Wb);
+  std::swap(one.highest_flux_Wb, other.highest_flux_Wb);
+}
+
 /// The spool went through the centre: the other solenoid and the other path are at work. What the supply did to it
 /// meanwhile nobody saw.
 template <class T>
 constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveState<T>& state) {
   state.opens_a = !state.opens_a;
   const ObserverParameters<T>& open = sides(valve, state.opens_a).open;
-  std::swap(state.open.actuator, state.idle.actuator);
+  exchange(state.open.actuator, state.idle.actuator);
   std::swap(state.open.pressure, state.idle.pressure);
   std::swap(state.open.dither, state.idle.dither);
   mirror(state.open.friction);
@@ -66,18 +78,35 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   PressureState<T>& pressure = state.open.pressure;
   expect_change(open.pressure, pressure);
   drift_unseen(open.pressure, pressure, state.idle.closed_s, open.edge.highest_pressure_difference_Pa());
-  state.idle.closed_s = state.idle.quiet_s = T(0);
+  state.idle.magnetic_force_N = magnitude(state.open.last.magnetic_force_N);
+  state.idle.closed_s = state.idle.quiet_s = state.idle.waiting_s = state.idle.charge_As = T(0);
 }
 
-/// What the solenoid on the other side holds [N, >= 0]: its iron keeps some of it when the current is gone.
+/// What the solenoid on the other side holds [N, >= 0]: its iron keeps some of it when the current is gone. It is slow
+/// enough that its flux waits for a sample that is not `busy` otherwise, and then takes the mean current since; its
+/// force is read in one that is.
 template <class T>
-constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle, const Sample<T>& sample,
-                           bool begins) {
+[[gnu::always_inline]] constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
+                                                  const Sample<T>& sample, bool begins, bool busy) {
+  const bool just_left = !begins && idle.closed_s == T(0);
   idle.closed_s += sample.time_step_s;
+  if (just_left) return;
   const bool silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
   idle.quiet_s = silent ? idle.quiet_s + sample.time_step_s : T(0);
   if (!begins && idle.quiet_s > T(idle_settling_s)) return;
-  idle.magnetic_force_N = step(valve.actuator, idle.actuator, sample, begins).magnetic_force_N;
+  idle.waiting_s += sample.time_step_s;
+  idle.charge_As += sample.current_A * sample.time_step_s;
+  if (!busy || idle.waiting_s > T(idle_patience_s)) {
+    Sample<T> mean = sample;
+    mean.time_step_s = idle.waiting_s;
+    if (idle.waiting_s > T(0)) mean.current_A = idle.charge_As / idle.waiting_s;
+    magnetise(valve.actuator, idle.actuator, mean, begins);
+    idle.waiting_s = idle.charge_As = T(0);
+  }
+  if (busy || begins) {
+    idle.magnetic_force_N =
+        valve.actuator.magnetic_force.at(idle.actuator.coil.magnetising_current_A, sample.position_m).value;
+  }
 }
 
 /// Both coils silent and the spool at rest near zero: the springs have centred it.
@@ -89,6 +118,29 @@ constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& po
   state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
 }
 
+/// The chain of the side on which the spool stands, written out for each: with its tables' addresses a compiler knows
+/// their numbers. `position` is in the valve's signs.
+template <bool opens_a, class T>
+[[gnu::always_inline]] constexpr void observe_side(const Sides<T>& now, WholeValveState<T>& state,
+                                                   const WholeValveSample<T>& sample, PositionPoint<T> position,
+                                                   const Dither<T>& dither, bool begins) {
+  const Sample<T> own = sample_of(sample, opens_a);
+  const Sample<T> other = sample_of(sample, !opens_a);
+  const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
+                      magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
+  follow_zero(state, position, silent, sample.time_step_s);
+  const PositionSensor<T>& position_sensor = opens_a ? now.idle.position_sensor : now.open.position_sensor;
+  const bool near = magnitude(position.position_m) <
+                    T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
+  if constexpr (opens_a) position = mirrored(position);
+
+  const bool busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
+  follow_idle(now.idle, state.idle, other, begins, busy);
+  observe(now.open, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+  if constexpr (opens_a) state.open.last = mirrored(state.open.last);
+  if (near && !(position.position_m < now.open.closed_below_m)) state.open.last.status |= Status::sign_undetermined;
+}
+
 }  // namespace detail
 
 /// One sample of the whole valve. Needs both currents and the position, and a time that does not run backwards:
@@ -97,13 +149,13 @@ template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
   if (const Status held = unusable(sample); held != Status::none) {
-    state.last.status = held;
-    return state.last;
+    state.open.last.status = held;
+    return state.open.last;
   }
   const bool begins = !state.open.started;
   if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
-  Sample<T> own = sample_of(sample, state.opens_a);
+  const Sample<T> own = sample_of(sample, state.opens_a);
   detail::follow_temperature(state.open, own);
 
   // Where the spool is, in the valve's signs, and on which side of the centre.
@@ -111,28 +163,17 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   signed_sample.position_m = sample.position_m - state.zero_m;
   const Dither<T> dither = follow_dither(
       state.open.dither, own.current_A, detail::sides(valve, state.opens_a).open.largest_current_A, sample.time_step_s);
-  PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample,
-                                    detail::quiet_coil(detail::sides(valve, state.opens_a).open),
-                                    state.open.oil_temperature_K, dither, state.open.swing.frees);
+  const PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample,
+                                          detail::quiet_coil(detail::sides(valve, state.opens_a).open),
+                                          state.open.oil_temperature_K, dither, state.open.swing.frees);
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
-  if (from_centre_m < T(-centre_hysteresis_m)) {
-    detail::change_sides(valve, state);
-    own = sample_of(sample, state.opens_a);
+  if (from_centre_m < T(-centre_hysteresis_m)) detail::change_sides(valve, state);
+  if (state.opens_a) {
+    detail::observe_side<true>(detail::sides(valve, true), state, sample, position, dither, begins);
+  } else {
+    detail::observe_side<false>(detail::sides(valve, false), state, sample, position, dither, begins);
   }
-  const detail::Sides<T> now = detail::sides(valve, state.opens_a);
-  const bool near = magnitude(position.position_m) <
-                    T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
-  const Sample<T> other = sample_of(sample, !state.opens_a);
-  const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
-                      magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
-  detail::follow_zero(state, position, silent, sample.time_step_s);
-  if (state.opens_a) position = mirrored(position);
-
-  detail::follow_idle(now.idle, state.idle, other, begins);
-  detail::observe(now.open, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
-  state.last = state.opens_a ? mirrored(state.open.last) : state.open.last;
-  if (near && !(position.position_m < now.open.closed_below_m)) state.last.status |= Status::sign_undetermined;
-  return state.last;
+  return state.open.last;
 }
 
 }  // namespace spoolflow::sensor

@@ -24,17 +24,18 @@ struct IdleSide {
   T magnetic_force_N{};  ///< that its iron still holds, >= 0
   T quiet_s{};           ///< since its current fell silent
   T closed_s{};          ///< since the spool left its side
+  T waiting_s{};         ///< since its solenoid was last stepped
+  T charge_As{};         ///< through its coil since
 };
 
 template <class T>
 struct WholeValveState {
   ObserverState<T> open;  ///< of the side on which the spool stands, in that direction's signs, but for the position
-                          ///< track, which keeps the valve's
+                          ///< track and the last answer, which keep the valve's: flow P to B > 0
   IdleSide<T> idle;
-  T zero_m{};          ///< of the position sensor, found at rest in the centre
-  T centred_s{};       ///< for how long the spool has rested there
-  Mask<T> opens_a{};   ///< it stands on the side that opens P to A
-  Estimate<T> last{};  ///< flow and forces in the valve's signs: P to B > 0
+  T zero_m{};         ///< of the position sensor, found at rest in the centre
+  T centred_s{};      ///< for how long the spool has rested there
+  Mask<T> opens_a{};  ///< it stands on the side that opens P to A
 };
 
 static_assert(std::is_trivially_copyable_v<WholeValveParameters<float>>);

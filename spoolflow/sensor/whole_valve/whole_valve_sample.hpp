@@ -26,7 +26,7 @@ constexpr Sample<T> sample_of(const WholeValveSample<T>& sample, bool side_a) {
 /// Why a sample cannot be estimated; see the same of one direction. Both currents are needed.
 template <class T>
 constexpr Status unusable(const WholeValveSample<T>& sample) {
-  return unusable(sample_of(sample, false)) | unusable(sample_of(sample, true));
+  return unusable(sample_of(sample, false)) | when(!is_number(sample.current_a_A), Status::sample_missing);
 }
 
 }  // namespace spoolflow::sensor

@@ -6,7 +6,7 @@
 namespace {
 
 struct Point {
-  spoolflow::sensor::Sample<float> sample;
+  Sample sample;
   float golden_m3_per_s;
 };
 struct Run {
@@ -22,8 +22,7 @@ constexpr std::uint32_t most_instructions = 8192;
 std::uint32_t histogram[modes][most_instructions];
 State state, other_state;
 
-[[gnu::noinline, gnu::flatten]] const spoolflow::sensor::Estimate<float>& one_step(
-    State& state, const spoolflow::sensor::Sample<float>& sample) {
+[[gnu::noinline, gnu::flatten]] const spoolflow::sensor::Estimate<float>& one_step(State& state, const Sample& sample) {
   return step(parameters, state, sample);
 }
 

@@ -4,9 +4,11 @@
 
 #include "valve_model.hpp"
 
+using Sample = valve_model::Sample;
+
 #ifdef REPLAY_CONDENSED
 inline constexpr const auto& parameters = valve_model::condensed;
-using State = spoolflow::sensor::CondensedState<float>;
+using State = valve_model::CondensedState;
 
 /// Which way through the step was taken.
 inline std::uint32_t mode_of(const State& /*state*/, const spoolflow::sensor::Estimate<float>& estimate) {
@@ -17,12 +19,26 @@ inline std::uint32_t mode_of(const State& /*state*/, const spoolflow::sensor::Es
 }
 #else
 inline constexpr const auto& parameters = valve_model::observer;
-using State = spoolflow::sensor::ObserverState<float>;
+using State = valve_model::State;
+
+/// Of one direction, or of the side on which a whole valve's spool stands.
+template <class OneDirection>
+const auto& open_side(const OneDirection& state) {
+  return state;
+}
+template <class WholeValve>
+requires requires(const WholeValve& state) {
+  state.open;
+}
+const auto& open_side(const WholeValve& state) {
+  return state.open;
+}
 
 /// Which way through the step was taken: the spool's motion, and whether a block of positions was closed.
 inline std::uint32_t mode_of(const State& state, const spoolflow::sensor::Estimate<float>& estimate) {
   if (has(estimate.status, spoolflow::sensor::Status::sample_missing)) return 0;
-  return 1U + 2U * static_cast<std::uint32_t>(state.position.motion) + (state.position.samples == 0 ? 1U : 0U);
+  const auto& position = open_side(state).position;
+  return 1U + 2U * static_cast<std::uint32_t>(position.motion) + (position.samples == 0 ? 1U : 0U);
 }
 #endif
 inline constexpr std::uint32_t modes = 9;
