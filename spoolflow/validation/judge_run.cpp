@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::size_t drawn_stretches = 1200;
 constexpr std::size_t status_stretches = 500;
-constexpr double worst_window_s = 1.5;  // before and after
-constexpr double no_flow_share = 0.01;  // of full scale: noise of the meter, which has no direction
+constexpr double worst_window_s = 1.5;      // before and after
+constexpr double signed_flow_share = 0.02;  // of full scale: that the meter's noise and lag do not turn round
+constexpr double no_flow_share = 0.01;      // of full scale: noise of the meter, which has no direction
 
 template <class Number>
 std::optional<Extent> extent_of(const std::vector<Number>& values) {
@@ -131,7 +132,9 @@ ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phase
     compared.add({answers.flow_m3_per_s[k], answers.lower_m3_per_s[k], answers.upper_m3_per_s[k], reference,
                   phases.moving[k], phases.rest[k], phases.reversal[k], whole && reference > least_m3_per_s,
                   whole && reference < -least_m3_per_s});
-    if (whole) judge_sign(*out.sign, answers.flow_m3_per_s[k], reference, least_m3_per_s, answers.status[k]);
+    if (whole)
+      judge_sign(*out.sign, answers.flow_m3_per_s[k], reference, signed_flow_share * valve.rated_flow_m3_per_s,
+                 answers.status[k]);
     if (worst == run.time_s.size() || std::abs(errors[k]) > std::abs(errors[worst])) worst = k;
     const std::array values{
         std::abs(reference) < least_m3_per_s ? 0.0 : reference, run.position_m[k],

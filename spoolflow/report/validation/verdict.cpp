@@ -97,7 +97,7 @@ Text place(Quantity quantity, const validation::ProfileBin& bin, bool whole) {
     case Quantity::flow:
       return between("flow rates", units::Kind::flow, 0);
     case Quantity::position:
-      return between(whole ? "positions" : "openings", units::Kind::length, 2);
+      return between(whole || bin.from < 0 ? "positions" : "openings", units::Kind::length, 2);
     case Quantity::pressure_difference:
       return between("pressure differences", units::Kind::pressure, 0);
     case Quantity::oil_temperature:
@@ -125,16 +125,16 @@ void Judge::add_worst_bins(std::vector<Text>& out) const {
 void Judge::add_sign(std::vector<Text>& out) const {
   if (!leading().sign || leading().sign->samples == 0) return;
   const validation::SignFigures& sign = *leading().sign;
-  const auto share = [&](std::size_t count) {
-    return fixed(100 * static_cast<double>(count) / static_cast<double>(sign.samples), 2);
-  };
-  Text text = sign.wrong == 0
-                  ? Text("Nowhere is the direction of the flow wrong")
-                  : Text(fmt::format("The direction of the flow is wrong in {} % of the samples", share(sign.wrong)));
-  text += sign.undetermined == 0
-              ? Text(".")
-              : Text(fmt::format("; it is called undetermined in {} %, with flow rates of up to {} of full scale.",
-                                 share(sign.undetermined), percent(sign.undetermined_largest_m3_per_s)));
+  Text text =
+      sign.wrong == 0
+          ? Text("Nowhere is the direction of the flow wrong")
+          : Text(fmt::format("The direction of the flow is wrong in {} of {} samples", sign.wrong, sign.samples));
+  text +=
+      sign.undetermined == 0
+          ? Text(".")
+          : Text(fmt::format("; it is called undetermined in {} %, with flow rates of up to {} of full scale.",
+                             fixed(100 * static_cast<double>(sign.undetermined) / static_cast<double>(sign.samples), 2),
+                             percent(sign.undetermined_largest_m3_per_s)));
   out.push_back(text);
 }
 
