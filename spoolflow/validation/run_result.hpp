@@ -38,8 +38,7 @@ struct WorstMoment {
   std::vector<Line> flow_m3_per_s;  ///< of every estimator, in the run's order
 };
 
-/// Whether a whole valve's flow was told to go the right way, where the meter shows more than a hundredth of full
-/// scale.
+/// Whether a whole valve's flow was told to go the right way, where the meter shows more than a fiftieth of full scale.
 struct SignFigures {
   std::size_t samples = 0;                   ///< with reference flow
   std::size_t wrong = 0;                     ///< of them: against the measured flow, and the status did not say so
