@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 /// The spool goes slowly from one side of the centre to the other.
@@ -71,7 +70,7 @@ class WholeValve : public CommandLine {
 TEST_F(WholeValve, AModelOfOneDirectionSaysOtherDirectionAndTheReportCountsTheFault) {
   const Answer estimated = run("estimate one.json both.csv -o estimate.csv");
   ASSERT_EQ(estimated.status, 0) << estimated.message;
-  EXPECT_THAT(content("estimate.csv"), HasSubstr("other_direction"));
+  EXPECT_NE(content("estimate.csv").find("other_direction"), std::string::npos);
   const Answer validated = run("validate one.json both.csv --json metrics.json");
   ASSERT_EQ(validated.status, 0) << validated.message;
   EXPECT_THAT(validated.output, HasSubstr("other_direction for "));
@@ -90,8 +89,8 @@ TEST_F(WholeValve, AModelOfBothDirectionsTakesTheActiveCoilsCurrentForTheOtherIs
   ASSERT_EQ(run("estimate whole.json both.csv -o both_estimate.csv").status, 0);
   const Answer active = run("estimate whole.json active.csv -o active_estimate.csv");
   ASSERT_EQ(active.status, 0) << active.message;
-  EXPECT_EQ(content("active_estimate.csv"), content("both_estimate.csv"));
-  EXPECT_THAT(content("both_estimate.csv"), Not(HasSubstr("other_direction")));
+  EXPECT_TRUE(content("active_estimate.csv") == content("both_estimate.csv"));
+  EXPECT_EQ(content("both_estimate.csv").find("other_direction"), std::string::npos);
 }
 
 TEST_F(WholeValve, WithoutAnyCoilCurrentIsRefused) {
@@ -113,7 +112,7 @@ TEST_F(WholeValve, IsJudgedOverSignedFlowAndOnBothSidesOfTheCentre) {
   const std::string page = content("page.html");
   for (const char* part :
        {">Flow P to B<", ">Flow P to A<", "coil current, b &gt; 0, a &lt; 0", "Coil current, b less a"}) {
-    EXPECT_THAT(page, HasSubstr(part));
+    EXPECT_NE(page.find(part), std::string::npos) << part;
   }
 }
 
@@ -137,9 +136,9 @@ TEST_F(WholeValve, IsAnalysedInOneDirectionAndThePageSaysWhich) {
         "positions = 3\npressure_differences = 2\n[study]\nskip = true\n");
   const Answer of_b = run("analyse whole.json --scenario s.toml --report b.html --json b.json");
   ASSERT_EQ(of_b.status, 0) << of_b.message;
-  EXPECT_THAT(content("b.html"), HasSubstr(", flow P to B"));
+  EXPECT_NE(content("b.html").find(", flow P to B"), std::string::npos);
   ASSERT_EQ(run("analyse whole.json --direction a --scenario s.toml --report a.html").status, 0);
-  EXPECT_THAT(content("a.html"), HasSubstr(", flow P to A"));
+  EXPECT_NE(content("a.html").find(", flow P to A"), std::string::npos);
   EXPECT_EQ(json("b.json")["direction"], "b");
   expect_refused("analyse one.json --direction a --json o.json", {"one.json", "--direction a"});
   expect_refused("analyse whole.json --direction c --json o.json", {"--direction"});

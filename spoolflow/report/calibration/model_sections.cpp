@@ -127,10 +127,10 @@ void show_valve(HtmlPage& page, const model::Model& model, const std::vector<val
   const model::Condensed* const p_to_a = model.whole() ? &model.p_to_a->condensed : nullptr;
   const double lowest_A = p_to_a != nullptr ? -p_to_a->current_A.upper : condensed.current_A.lower;
   const double lowest_m = p_to_a != nullptr ? -p_to_a->position_m.upper : condensed.position_m.lower;
-  table.row({p_to_a != nullptr ? "coil current, b > 0, a < 0" : "coil current",
+  table.row({p_to_a != nullptr ? "coil current, b &gt; 0, a &lt; 0" : "coil current",
              channel_text(lowest_A, condensed.current_A.upper, current_channel),
              used_text(runs, &Run::current_A, current_channel)});
-  table.row({p_to_a != nullptr ? "spool position, > 0 opens P to B" : "spool position",
+  table.row({p_to_a != nullptr ? "spool position, &gt; 0 opens P to B" : "spool position",
              channel_text(lowest_m, condensed.position_m.upper, position_channel),
              used_text(runs, &Run::position_m, position_channel)});
   table.row(
