@@ -13,6 +13,7 @@
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/parallel/for_each.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/analysis/dither_report.hpp"
@@ -35,6 +36,7 @@ struct AnalyseArguments {
   std::uint32_t samples = 0;  ///< 0: as the scenario says
   std::uint64_t seed = 0;     ///< 0: as the scenario says
   unsigned jobs = 0;          ///< 0: all cores
+  std::string direction;      ///< "a" or "b"; empty: that of the model, of a whole valve "b"
   std::string dither_shape = "sine";
   double ripple_limit_percent = 0.5;
   bool dither = false;
@@ -103,13 +105,40 @@ std::optional<std::filesystem::path> state_file(const AnalyseArguments& argument
   return std::nullopt;
 }
 
+/// The model, or of a whole valve the model of the direction asked for. Throws where the model knows another one only.
+model::Model model_of(const AnalyseArguments& arguments) {
+  const model::Model model = model::read_model(arguments.model);
+  if (model.whole()) return model::of_direction(model, arguments.direction.empty() ? "b" : arguments.direction);
+  if (!arguments.direction.empty() && arguments.direction != model.valve.direction) {
+    throw model::ModelError(
+        fmt::format("{}: --direction {}: the model knows direction \"{}\" only; leave the option out, "
+                    "or calibrate the whole valve",
+                    arguments.model, arguments.direction, model.valve.direction));
+  }
+  return model;
+}
+
+/// A budget along a run is that of one direction: a run of a whole valve goes through both.
+void refuse_whole_valve(const recording::Recording& run, const std::string& file) {
+  using recording::Channel;
+  if (run.column(Channel::current_a).empty() && run.column(Channel::current_b).empty()) return;
+  throw recording::RecordingError(fmt::format(
+      "{}: is a run of a whole valve (current_a, current_b); a budget is made up along a run of one direction, "
+      "with one current and positions >= 0. Give such a run, or leave --recording out",
+      file));
+}
+
 analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& arguments) {
   recording::ChannelMap channels;
   if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
   recording::ReadOptions options = validation::sensor_channels(model, std::move(channels));
-  options.optional.push_back(recording::Channel::flow_reference);
-  options.optional.push_back(recording::Channel::flow);
-  return analysis::run_samples(recording::read_recording(arguments.recording, options));
+  using recording::Channel;
+  for (const Channel channel : {Channel::flow_reference, Channel::flow, Channel::current_a, Channel::current_b})
+    options.optional.push_back(channel);
+  options.stands_in = {{Channel::current, Channel::current_b}};  // so that a whole valve's run is told as such
+  const recording::Recording run = recording::read_recording(arguments.recording, options);
+  refuse_whole_valve(run, arguments.recording);
+  return analysis::run_samples(run);
 }
 
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
@@ -133,7 +162,7 @@ analysis::Study study(const model::Model& model, const analysis::Scenario& scena
 
 void analyse_dither(const AnalyseArguments& arguments) {
   const report::ReaderUnits units(arguments.units);
-  const model::Model model = model::read_model(arguments.model);
+  const model::Model model = model_of(arguments);
   analysis::DitherQuestion question;
   question.points = scenario_of(arguments).points;
   question.shape = arguments.dither_shape == "sine" ? analysis::DitherShape::sine : analysis::DitherShape::square;
@@ -165,7 +194,7 @@ void analyse(const AnalyseArguments& arguments) {
   if (arguments.model.empty()) throw CLI::RequiredError("model");
   if (arguments.dither) return analyse_dither(arguments);
   const report::ReaderUnits units(arguments.units);
-  const model::Model model = model::read_model(arguments.model);
+  const model::Model model = model_of(arguments);
   analysis::Analysis results{scenario_of(arguments), {}, {}, {}, {}};
   std::vector<std::filesystem::path> inputs{arguments.model};
   if (!arguments.scenario.empty()) inputs.emplace_back(arguments.scenario);
@@ -266,6 +295,11 @@ void add_analyse_command(CLI::App& program) {
   command->add_option("--jobs", arguments->jobs, "threads; all cores where not given; the result is the same")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U));
+  command
+      ->add_option("--direction", arguments->direction,
+                   "of a whole valve the direction of flow that is analysed: b (P to B, the default) or a (P to A)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"a", "b"}));
   add_dither_options(*command, *arguments, {recording, samples});
   command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
   command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")

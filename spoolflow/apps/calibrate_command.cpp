@@ -25,6 +25,13 @@ std::vector<std::filesystem::path> files_of(const recording::Campaign& campaign)
 }
 
 void print_summary(const model::Model& model) {
+  if (model.whole()) {
+    for (const char* direction : {"b", "a"}) {
+      fmt::print(stderr, "flow P to {}\n", *direction == 'a' ? "A" : "B");
+      print_summary(model::of_direction(model, direction));
+    }
+    return;
+  }
   const model::Condensed& condensed = model.condensed;
   fmt::print(stderr, "{}: currents to {:.3g} A, positions to {:.3g} mm, pressure differences {:.3g} to {:.3g} bar\n",
              model.valve.name, condensed.current_A.upper, units::mm_from_m(condensed.position_m.upper),

@@ -19,7 +19,13 @@ class Binder {
 
   std::optional<BoundColumn> bind(Channel channel) const {
     const auto source = options_.channels.sources.find(channel);
-    return source != options_.channels.sources.end() ? mapped(channel, source->second) : by_header(channel);
+    std::optional<BoundColumn> found =
+        source != options_.channels.sources.end() ? mapped(channel, source->second) : by_header(channel);
+    const auto other = options_.stands_in.find(channel);
+    if (found || other == options_.stands_in.end()) return found;
+    found = bind(other->second);
+    if (found) found->channel = channel;
+    return found;
   }
 
   [[noreturn]] void missing(Channel channel) const {
@@ -31,6 +37,12 @@ class Binder {
         hint = fmt::format("; '{}' would be it, but '{}' is no known unit{}", column.name, unit,
                            did_you_mean(unit, unit_names(channel)));
       }
+    }
+    if (channel == Channel::current && (by_header(Channel::current_a) || by_header(Channel::current_b))) {
+      hint =
+          "; the file has those of a whole valve's coils, where position > 0 and flow > 0 are P to B: a model of both "
+          "directions reads it, for a model of P to A alone map current to coil a, and position and flow with scale "
+          "-1";
     }
     if (!table_.unread().empty()) hint += fmt::format("; {}", table_.unread());
     throw RecordingError(

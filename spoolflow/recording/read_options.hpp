@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -9,10 +10,11 @@ namespace spoolflow::recording {
 
 /// What is read of a file.
 struct ReadOptions {
-  ChannelMap channels;             ///< empty: headers follow <channel>_<unit>
-  std::vector<Channel> required;   ///< absence of one of these is an error that names it
-  std::vector<Channel> optional;   ///< read where present; all other columns are skipped unparsed
-  std::optional<double> stroke_m;  ///< lets position be given in percent and position_set in mm
+  ChannelMap channels;                        ///< empty: headers follow <channel>_<unit>
+  std::vector<Channel> required;              ///< absence of one of these is an error that names it
+  std::vector<Channel> optional;              ///< read where present; all other columns are skipped unparsed
+  std::optional<double> stroke_m;             ///< lets position be given in percent and position_set in mm
+  std::map<Channel, Channel> stands_in = {};  ///< where the first is missing, the second is read as it
 };
 
 }  // namespace spoolflow::recording

@@ -71,6 +71,34 @@ constexpr Place<T> find_root(const Mask<T>& closed, T& cells2, typename ScalarTy
   }
 }
 
+/// The most that may flow at a position [m3/s]: at the largest flow force of the map.
+template <class T>
+constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
+  using Layout = CondensedLayout;
+  typename ScalarTypes<T>::StatusWord ignored{};
+  Place<T> place{};
+  if constexpr (one_valve<T>) {
+    if (!find_place<Layout::position_cells>(valve.cells_per_m, position_m, Status::none, place, ignored)) return T(0);
+  } else {
+    place = blended_place<Layout::position_cells>(position_m * valve.cells_per_m);
+  }
+  const auto here = corner(valve.records.data(), place.index * Layout::record);
+  const auto last = onward(here, Index<T>((Layout::root_cells - 1) * Layout::flow_cell));
+  const auto [flow, flow_rise, flow_more, flow_more_rise] = four(last, Layout::flow);
+  return flow + place.cells * flow_rise + T(Layout::root_cells) * (flow_more + place.cells * flow_more_rise);
+}
+
+/// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
+template <class T>
+constexpr void admit_other_direction(const CondensedTables<T>& valve, T position_m, Estimate<T>& answer) {
+  const T beyond_cells = (-position_m - T(other_direction_m)) * valve.cells_per_m;
+  const Mask<T> opens = beyond_cells > T(0.5) * valve.closed_below_cells;
+  if (!any(opens)) return;
+  answer.flow_lower_m3_per_s =
+      select(opens, smaller(answer.flow_lower_m3_per_s, -largest_flow(valve, -position_m)), answer.flow_lower_m3_per_s);
+  mark(answer.status, opens, Status::other_direction);
+}
+
 }  // namespace detail
 
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
@@ -124,6 +152,7 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.spring_force_N = spring_force_N;
   out.flow_force_N = flow_force_N;
   out.status = point.status;
+  detail::admit_other_direction(valve, sample.position_m, out);
   return out;
 }
 

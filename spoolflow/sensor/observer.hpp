@@ -8,10 +8,6 @@
 
 namespace spoolflow::sensor {
 
-/// A spool that reads so far beyond half the overlap on the closed side [m] opens the other direction of flow: no zero
-/// drifts as far.
-inline constexpr double other_direction_m = 50e-6;
-
 /// The oil warms slowly and its sensor is noisy [s].
 inline constexpr double temperature_smoothing_s = 2;
 

@@ -15,6 +15,10 @@ struct Sample {
   T oil_temperature_K{};
 };
 
+/// A spool that reads so far beyond half the overlap on the closed side [m] opens the other direction of flow: no zero
+/// drifts as far.
+inline constexpr double other_direction_m = 50e-6;
+
 /// A time step beyond this is none.
 inline constexpr int longest_step_s = 1 << 30;
 

@@ -10,13 +10,15 @@ constexpr std::size_t fewest = 20;
 }  // namespace
 
 DirectionProfile::DirectionProfile(const Sizes& sizes)
-    : stroke_m_(sizes.stroke_m), magnitudes_(1, sizes.full_scale_m3_per_s) {}
+    : stroke_m_(sizes.stroke_m),
+      lowest_m_(sizes.whole_valve ? -sizes.stroke_m : 0.0),
+      magnitudes_(1, sizes.full_scale_m3_per_s) {}
 
 void DirectionProfile::add(Direction direction, double position_m, double error_m3_per_s) {
   if (std::isnan(position_m) || std::isnan(error_m3_per_s)) return;
   magnitudes_.add(static_cast<double>(direction) + 0.5, error_m3_per_s);
-  const double share = position_m / stroke_m_;
-  if (direction == Direction::rest || share < 0 || share >= 1) return;
+  const double share = (position_m - lowest_m_) / stroke_m_;
+  if (direction == Direction::rest || share < 0 || position_m >= stroke_m_) return;
   Sum& sum = sums_[static_cast<std::size_t>(direction)][static_cast<std::size_t>(share * positions)];
   sum.error_m3_per_s += error_m3_per_s;
   ++sum.samples;
@@ -25,7 +27,7 @@ void DirectionProfile::add(Direction direction, double position_m, double error_
 void DirectionProfile::append(const DirectionProfile& others) {
   magnitudes_.append(others.magnitudes_);
   for (std::size_t d = 0; d < sums_.size(); ++d) {
-    for (std::size_t p = 0; p < positions; ++p) {
+    for (std::size_t p = 0; p < 2 * positions; ++p) {
       sums_[d][p].error_m3_per_s += others.sums_[d][p].error_m3_per_s;
       sums_[d][p].samples += others.sums_[d][p].samples;
     }
@@ -41,12 +43,12 @@ std::optional<ProfileBin> DirectionProfile::magnitudes(Direction direction) cons
 
 std::vector<DirectionBin> DirectionProfile::bins() const {
   std::vector<DirectionBin> out;
-  for (std::size_t p = 0; p < positions; ++p) {
+  for (std::size_t p = 0; p < 2 * positions; ++p) {
     const Sum& opening = sums_[0][p];
     const Sum& closing = sums_[1][p];
     if (opening.samples < fewest || closing.samples < fewest) continue;
     const double step_m = stroke_m_ / positions;
-    out.push_back({static_cast<double>(p) * step_m, static_cast<double>(p + 1) * step_m,
+    out.push_back({lowest_m_ + static_cast<double>(p) * step_m, lowest_m_ + static_cast<double>(p + 1) * step_m,
                    opening.error_m3_per_s / static_cast<double>(opening.samples),
                    closing.error_m3_per_s / static_cast<double>(closing.samples)});
   }

@@ -27,6 +27,7 @@ class DirectionProfile {
  public:
   struct Sizes {
     double stroke_m, full_scale_m3_per_s;
+    bool whole_valve = false;  ///< positions from -stroke_m, else from 0
   };
   explicit DirectionProfile(const Sizes& sizes);
   /// NaN is left out.
@@ -40,14 +41,14 @@ class DirectionProfile {
   [[nodiscard]] std::optional<Hysteresis> hysteresis() const;
 
  private:
-  static constexpr std::size_t positions = 24;
+  static constexpr std::size_t positions = 24;  ///< each side
   struct Sum {
     double error_m3_per_s = 0;
     std::size_t samples = 0;
   };
-  double stroke_m_;
-  ErrorProfile magnitudes_;  ///< over the direction's number
-  std::array<std::array<Sum, positions>, 2> sums_{};
+  double stroke_m_, lowest_m_;
+  ErrorProfile magnitudes_;                               ///< over the direction's number
+  std::array<std::array<Sum, 2 * positions>, 2> sums_{};  ///< from lowest_m_ on
 };
 
 }  // namespace spoolflow::validation

@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::size_t drawn_stretches = 1200;
 constexpr std::size_t status_stretches = 500;
-constexpr double worst_window_s = 1.5;  // before and after
+constexpr double worst_window_s = 1.5;      // before and after
+constexpr double signed_flow_share = 0.02;  // of full scale: that the meter's noise and lag do not turn round
+constexpr double no_flow_share = 0.01;      // of full scale: noise of the meter, which has no direction
 
 template <class Number>
 std::optional<Extent> extent_of(const std::vector<Number>& values) {
@@ -98,6 +100,18 @@ void draw(EstimatorResult& out, const RunSamples& run, const Answers& answers) {
   }
 }
 
+/// `least_m3_per_s`: of flow that has a direction.
+void judge_sign(SignFigures& sign, double flow_m3_per_s, double reference_m3_per_s, double least_m3_per_s,
+                sensor::Status status) {
+  ++sign.samples;
+  if (sensor::has(status, sensor::Status::sign_undetermined)) {
+    ++sign.undetermined;
+    sign.undetermined_largest_m3_per_s = std::max(sign.undetermined_largest_m3_per_s, std::abs(reference_m3_per_s));
+  } else if (std::abs(reference_m3_per_s) > least_m3_per_s && flow_m3_per_s * reference_m3_per_s < 0) {
+    ++sign.wrong;
+  }
+}
+
 /// Figures, profiles and the worst moment of one estimator.
 ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phases& phases, const Answers& answers,
                         const model::Valve& valve) {
@@ -105,6 +119,9 @@ ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phase
   std::vector<float> errors;
   out.profiles = empty_profiles(valve);
   out.direction = empty_direction(valve);
+  const bool whole = valve.direction == "both";
+  const double least_m3_per_s = no_flow_share * valve.rated_flow_m3_per_s;
+  if (whole) out.sign.emplace();
   std::size_t worst = run.time_s.size();
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < run.time_s.size(); ++k) {
@@ -113,10 +130,14 @@ ComparedSamples compare(EstimatorResult& out, const RunSamples& run, const Phase
     errors.push_back(static_cast<float>(error));
     if (std::isnan(error)) continue;
     compared.add({answers.flow_m3_per_s[k], answers.lower_m3_per_s[k], answers.upper_m3_per_s[k], reference,
-                  phases.moving[k], phases.rest[k], phases.reversal[k]});
+                  phases.moving[k], phases.rest[k], phases.reversal[k], whole && reference > least_m3_per_s,
+                  whole && reference < -least_m3_per_s});
+    if (whole)
+      judge_sign(*out.sign, answers.flow_m3_per_s[k], reference, signed_flow_share * valve.rated_flow_m3_per_s,
+                 answers.status[k]);
     if (worst == run.time_s.size() || std::abs(errors[k]) > std::abs(errors[worst])) worst = k;
     const std::array values{
-        std::max(reference, 0.0), run.position_m[k],
+        std::abs(reference) < least_m3_per_s ? 0.0 : reference, run.position_m[k],
         run.pressure_difference_Pa.empty() ? nothing : static_cast<double>(run.pressure_difference_Pa[k]),
         run.oil_temperature_K.empty() ? nothing : static_cast<double>(run.oil_temperature_K[k])};
     const bool inside = answers.lower_m3_per_s[k] <= reference && reference <= answers.upper_m3_per_s[k];
@@ -141,7 +162,7 @@ std::vector<ErrorProfile> empty_profiles(const model::Valve& valve) {
 }
 
 DirectionProfile empty_direction(const model::Valve& valve) {
-  return DirectionProfile({valve.stroke_m, valve.rated_flow_m3_per_s});
+  return DirectionProfile({valve.stroke_m, valve.rated_flow_m3_per_s, valve.direction == "both"});
 }
 
 JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options,

@@ -6,7 +6,8 @@
 namespace spoolflow::validation {
 namespace {
 
-constexpr std::uint8_t moving_bit = 1, rest_bit = 2, reversal_bit = 4, inside_bit = 8, any_bit = 16;
+constexpr std::uint8_t moving_bit = 1, rest_bit = 2, reversal_bit = 4, inside_bit = 8, any_bit = 16, p_to_b_bit = 32,
+                       p_to_a_bit = 64;
 constexpr double reading_from_share_of_full_scale = 0.1;
 
 }  // namespace
@@ -40,7 +41,8 @@ void ComparedSamples::add(const ComparedSample& sample) {
   error_m3_per_s_.push_back(static_cast<float>(error));
   width_m3_per_s_.push_back(static_cast<float>(sample.upper_m3_per_s - sample.lower_m3_per_s));
   bits_.push_back(static_cast<std::uint8_t>(any_bit | (sample.moving ? moving_bit : 0) | (sample.rest ? rest_bit : 0) |
-                                            (sample.reversal ? reversal_bit : 0) | (inside ? inside_bit : 0)));
+                                            (sample.reversal ? reversal_bit : 0) | (inside ? inside_bit : 0) |
+                                            (sample.p_to_b ? p_to_b_bit : 0) | (sample.p_to_a ? p_to_a_bit : 0)));
   if (std::abs(sample.reference_m3_per_s) > reading_from_share_of_full_scale * full_scale_m3_per_s_) {
     share_of_reading_.push_back(static_cast<float>(error / sample.reference_m3_per_s));
   }
@@ -74,7 +76,13 @@ GroupFigures ComparedSamples::group(std::uint8_t bit) const {
 }
 
 Metrics ComparedSamples::metrics() const {
-  return {group(any_bit), group(moving_bit), group(rest_bit), group(reversal_bit), error_figures(share_of_reading_)};
+  return {group(any_bit),
+          group(moving_bit),
+          group(rest_bit),
+          group(reversal_bit),
+          group(p_to_b_bit),
+          group(p_to_a_bit),
+          error_figures(share_of_reading_)};
 }
 
 }  // namespace spoolflow::validation

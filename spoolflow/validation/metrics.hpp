@@ -28,6 +28,7 @@ struct GroupFigures {
 
 struct Metrics {
   GroupFigures all, moving, rest, reversal;
+  GroupFigures p_to_b, p_to_a;    ///< of a whole valve by the direction of the measured flow
   ErrorFigures share_of_reading;  ///< error over reference, where the reference is above a tenth of full scale
 };
 
@@ -36,6 +37,7 @@ struct ComparedSample {
   double estimate_m3_per_s, lower_m3_per_s, upper_m3_per_s;
   double reference_m3_per_s;
   bool moving, rest, reversal;
+  bool p_to_b = false, p_to_a = false;
 };
 
 /// Samples of one or several runs, kept for exact percentiles: about 12 bytes each.

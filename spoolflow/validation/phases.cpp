@@ -24,7 +24,8 @@ std::vector<bool> near_turns(std::span<const double> time_s, const std::vector<d
   return near;
 }
 
-/// `longest_turn_s`: how long the rate may be zero between two directions that make one turn.
+/// `share`: > 0 opens P to B, < 0 P to A: on either side the spool opens away from the centre. `longest_turn_s`: how
+/// long the rate may be zero between two directions that make one turn.
 Phases phases_of_rate(std::span<const double> time_s, std::span<const double> share, const std::vector<double>& rate,
                       double longest_turn_s) {
   Phases out;
@@ -33,10 +34,10 @@ Phases phases_of_rate(std::span<const double> time_s, std::span<const double> sh
   for (std::size_t k = 0; k < rate.size(); ++k) {
     const bool moving = std::abs(rate[k]) > moving_rate_per_s;
     out.moving.push_back(moving);
-    out.opening.push_back(moving && rate[k] > 0);
-    out.rest.push_back(!moving && share[k] > open_share);
+    out.opening.push_back(moving && (share[k] < 0 ? rate[k] < 0 : rate[k] > 0));
+    out.rest.push_back(!moving && std::abs(share[k]) > open_share);
     if (k == 0) continue;
-    const bool stops_or_starts = moving != out.moving[k - 1] && share[k] > half_open_share;
+    const bool stops_or_starts = moving != out.moving[k - 1] && std::abs(share[k]) > half_open_share;
     const bool turns = rate[k] * rate[k - 1] < 0 ||
                        (moving && rate[k] * rate[moved] < 0 && time_s[k] - time_s[moved] <= longest_turn_s);
     if (stops_or_starts || turns) turns_s.push_back(time_s[k]);

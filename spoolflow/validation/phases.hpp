@@ -5,11 +5,12 @@
 
 namespace spoolflow::validation {
 
-/// Which samples move (faster than 1 % of the stroke a second), rest (not moving, more than 1 % open), or stand within
+/// Which samples move (faster than 1 % of the stroke a second), rest (not moving, more than 1 % open to
+/// either side), or stand within
 /// 2 s of a reversal or a stop of the motion. A sample may belong to none, or to reversal and another.
 struct Phases {
   std::vector<bool> moving;
-  std::vector<bool> opening;  ///< of the moving samples: the spool opens; the others close
+  std::vector<bool> opening;  ///< of the moving samples: away from the centre; the others close
   std::vector<bool> rest;
   std::vector<bool> reversal;
   bool from_measured_position = false;  ///< no position_set was recorded

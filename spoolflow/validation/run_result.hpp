@@ -1,5 +1,6 @@
 #pragma once
 /// What is known of a run after it was judged: figures, and lines short enough to draw.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -37,12 +38,28 @@ struct WorstMoment {
   std::vector<Line> flow_m3_per_s;  ///< of every estimator, in the run's order
 };
 
+/// Whether a whole valve's flow was told to go the right way, where the meter shows more than a fiftieth of full scale.
+struct SignFigures {
+  std::size_t samples = 0;                   ///< with reference flow
+  std::size_t wrong = 0;                     ///< of them: against the measured flow, and the status did not say so
+  std::size_t undetermined = 0;              ///< of them: the status says sign_undetermined
+  double undetermined_largest_m3_per_s = 0;  ///< largest magnitude of the measured flow among those
+
+  void append(const SignFigures& others) {
+    samples += others.samples;
+    wrong += others.wrong;
+    undetermined += others.undetermined;
+    undetermined_largest_m3_per_s = std::max(undetermined_largest_m3_per_s, others.undetermined_largest_m3_per_s);
+  }
+};
+
 /// One estimator over a run; lines in SI.
 struct EstimatorResult {
   estimation::Estimator estimator;
   std::optional<Metrics> metrics;      ///< absent without reference flow
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`; empty without reference flow
   std::optional<DirectionProfile> direction;
+  std::optional<SignFigures> sign;  ///< of a whole valve with reference flow
   std::optional<FrequencyResponse> frequency_response;
   std::vector<StatusRow> status;
   double fault_share = 0;  ///< of the samples: with any fault

@@ -10,10 +10,15 @@ using recording::Channel;
 
 recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels) {
   if (!model.whole()) {
+    // Of a run of the whole valve, in whose signs P to B is > 0, the coil that this model knows.
+    std::map<Channel, Channel> stands_in;
+    if (model.valve.direction == "b")
+      stands_in = {{Channel::current, Channel::current_b}, {Channel::voltage, Channel::voltage_b}};
     return {std::move(channels),
             {Channel::time, Channel::current, Channel::position},
             {Channel::voltage, Channel::oil_temperature},
-            model.valve.stroke_m};
+            model.valve.stroke_m,
+            std::move(stands_in)};
   }
   return {std::move(channels),
           {Channel::time, Channel::position},

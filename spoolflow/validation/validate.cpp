@@ -15,6 +15,7 @@ struct Pool {
   ComparedSamples samples;
   std::vector<ErrorProfile> profiles;
   DirectionProfile direction;
+  std::optional<SignFigures> sign = {};
 };
 
 std::string run_name(const std::filesystem::path& recording) {
@@ -43,7 +44,9 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
   Validation out{{}, {}, 0, options.apply_reference_lag, {}, {}};
   std::vector<double> lags_s;
   std::vector<Pool> pools(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
-                                                      empty_profiles(model.valve), empty_direction(model.valve)});
+                                                      empty_profiles(model.valve),
+                                                      empty_direction(model.valve),
+                                                      {}});
   const auto total = static_cast<double>(recordings.size());
   for (const std::filesystem::path& recording : recordings) {
     const auto before = static_cast<double>(out.runs.size());
@@ -58,6 +61,10 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
         pools[e].profiles[q].append(judged.result.results[e].profiles[q]);
       }
       if (judged.result.results[e].direction) pools[e].direction.append(*judged.result.results[e].direction);
+      if (const auto& sign = judged.result.results[e].sign) {
+        if (!pools[e].sign) pools[e].sign.emplace();
+        pools[e].sign->append(*sign);
+      }
     }
     out.runs.push_back(std::move(judged.result));
   }
@@ -69,6 +76,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     if (pools[e].samples.size() == 0) continue;
     pooled.metrics = pools[e].samples.metrics();
     pooled.direction = std::move(pools[e].direction);
+    pooled.sign = pools[e].sign;
   }
   if (options.requirements) {
     out.requirements_file = options.requirements->file;

@@ -27,6 +27,7 @@ struct PooledResult {
   std::optional<Metrics> metrics;
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`
   std::optional<DirectionProfile> direction = {};
+  std::optional<SignFigures> sign = {};  ///< of a whole valve
 };
 
 struct Validation {

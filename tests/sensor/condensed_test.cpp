@@ -52,6 +52,16 @@ TEST(Condensed, HoldsItsLastAnswerWhereASampleIsMissing) {
   EXPECT_EQ(missing.status, Status::sample_missing);
 }
 
+TEST(Condensed, NamesTheOtherDirectionInsteadOfASilentZero) {
+  const auto valve = laid_out(linear_valve());
+  CondensedState<double> state;
+  EXPECT_FALSE(has(step(valve, state, {1e-3, 0, 0, -0.02e-3, 323}).status, Status::other_direction));
+  const auto most = step(valve, state, {1e-3, 3.2, 12, 1.5e-3, 323}).flow_m3_per_s;
+  const auto other = step(valve, state, {1e-3, 0, 0, -1.5e-3, 323});
+  EXPECT_TRUE(has(other.status, Status::other_direction));
+  EXPECT_NEAR(other.flow_lower_m3_per_s, -most, 0.01 * most);
+}
+
 TEST(Condensed, SaysClosedBelowTheOpening) {
   const auto valve = laid_out(linear_valve());
   CondensedState<double> state;

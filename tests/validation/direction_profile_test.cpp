@@ -41,6 +41,19 @@ TEST(DirectionProfile, TellsTheErrorsOfEachDirection) {
   EXPECT_EQ(profile.bins().size(), 24U) << "rest belongs to no direction";
 }
 
+TEST(DirectionProfile, OfAWholeValveReachesToBothEndsOfTheStroke) {
+  DirectionProfile profile({stroke_m, 1, true});
+  for (int k = 0; k < 4800; ++k) {
+    const double position_m = stroke_m * ((k + 0.5) / 2400 - 1);
+    profile.add(Direction::opening, position_m, position_m < -2e-3 ? -0.03 : 0.01);
+    profile.add(Direction::closing, position_m, 0);
+  }
+  EXPECT_EQ(profile.bins().size(), 48U);
+  EXPECT_NEAR(profile.bins().front().from_m, -stroke_m, 1e-12);
+  EXPECT_NEAR(profile.bins().back().to_m, stroke_m, 1e-12);
+  EXPECT_LT(profile.hysteresis()->position_m, -2e-3);
+}
+
 TEST(DirectionProfile, OfOneDirectionHasNoHysteresis) {
   DirectionProfile profile({stroke_m, 1});
   for (int k = 0; k < 1000; ++k) profile.add(Direction::opening, 1e-3, 0.1);

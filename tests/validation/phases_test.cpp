@@ -47,6 +47,22 @@ TEST(Phases, OfACommandAreMotionHoldAndTheSecondsAroundEachTurn) {
   EXPECT_FALSE(phases.reversal[triangle.at(30)]);
 }
 
+TEST(Phases, OfAWholeValveOpenAwayFromTheCentreOnEitherSide) {
+  Triangle triangle;
+  for (double& share : triangle.share) share = -share;
+  const Phases phases = phases_of_command(triangle.time_s, triangle.share);
+  EXPECT_TRUE(phases.opening[triangle.at(10)]) << "towards P to A";
+  EXPECT_FALSE(phases.opening[triangle.at(30)]);
+  EXPECT_TRUE(phases.rest[triangle.at(22)]) << "fully open to the other side";
+  EXPECT_TRUE(phases.reversal[triangle.at(21)]) << "a stop far from the centre";
+  std::vector<double> time_s, through;
+  for (int k = 0; k < 4000; ++k) time_s.push_back(step_s * k), through.push_back(-1 + 5e-4 * k);
+  const Phases passage = phases_of_command(time_s, through);
+  EXPECT_FALSE(passage.opening[1000]);
+  EXPECT_TRUE(passage.opening[3000]);
+  EXPECT_FALSE(passage.reversal[2000]) << "the spool goes through the centre without turning";
+}
+
 TEST(Phases, OfANoisyMeasuredPositionAreThoseOfTheCommandButForTheEdges) {
   const Triangle triangle;
   std::mt19937 generator(3);

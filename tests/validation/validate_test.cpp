@@ -64,6 +64,38 @@ TEST_F(Validate, AReferenceThatIsOffByAKnownFlowGivesThatError) {
   EXPECT_FALSE(result.pressure_difference_Pa);
 }
 
+TEST_F(Validate, OfAWholeValveIsOverSignedFlow) {
+  model.p_to_a = model::Direction{model.condensed, {}, {}};
+  model.valve.direction = "both";
+  std::string text = "time_s,current_a_A,current_b_A,position_mm,flow_reference_L_min\n";
+  for (int k = 0; k < 100; ++k) text += number(k * 0.01) + ",1.5,0,-1," + number(-flow_L_min - 3) + "\n";
+  for (int k = 100; k < 200; ++k) text += number(k * 0.01) + ",0,1.5,1," + number(flow_L_min - 3) + "\n";
+  ValidationOptions options;
+  options.reference_lag_s = 0;
+  const RunResult result = run({write("run.csv", text)}, options).runs.front();
+  const EstimatorResult& judged = result.results.front();
+  EXPECT_NEAR(judged.metrics->all.error.bias, 3 / 60e3, 1e-8) << "both answers lie 3 L/min above the signed reference";
+  EXPECT_EQ(judged.metrics->p_to_a.error.samples, 100U);
+  EXPECT_EQ(judged.metrics->p_to_b.error.samples, 100U);
+  EXPECT_NEAR(result.current_A->lowest, -1.5, 1e-6) << "coil a counts below zero";
+  ASSERT_TRUE(judged.sign);
+  EXPECT_EQ(judged.sign->samples, 200U);
+  EXPECT_EQ(judged.sign->wrong, 0U);
+  EXPECT_LT(judged.profiles.front().bins().front().to, 0) << "the flow of P to A has its own bins";
+}
+
+TEST_F(Validate, CountsSamplesThatFlowTheOtherWayThanTold) {
+  model.p_to_a = model::Direction{model.condensed, {}, {}};
+  model.valve.direction = "both";
+  std::string text = "time_s,current_a_A,current_b_A,position_mm,flow_reference_L_min\n";
+  for (int k = 0; k < 100; ++k)
+    text += number(k * 0.01) + ",0,1.5,1," + (k < 10 ? "-20" : k < 20 ? "-0.5" : "20") + "\n";
+  ValidationOptions options;
+  options.reference_lag_s = 0;
+  const RunResult result = run({write("run.csv", text)}, options).runs.front();
+  EXPECT_EQ(result.results.front().sign->wrong, 10U) << "0.5 L/min have no direction to be sure of";
+}
+
 TEST_F(Validate, PoolsTheRunsThatHaveAReference) {
   const std::string head = "time_s,current_A,position_mm,flow_reference_L_min\n";
   const fs::path first = write("a.csv", head + "0,1.5,1," + number(flow_L_min - 1) + "\n");

@@ -136,8 +136,9 @@ void show_study(HtmlPage& page, const analysis::Study& study) {
 
 void write_analysis_report(std::ostream& out, const model::Model& model, const Analysis& analysis,
                            const ReaderUnits& units) {
-  HtmlPage page("spoolflow analysis report", "Uncertainty of the flow rate of " + model.valve.name, origin_of(model),
-                units);
+  HtmlPage page("spoolflow analysis report",
+                "Uncertainty of the flow rate of " + model.valve.name + ", f" + std::string(flow_name(model)).substr(1),
+                origin_of(model), units);
   show_verdict(page, analysis_verdict(model, analysis));
   show_budget(page, model, analysis);
   show_maps(page, model, analysis);

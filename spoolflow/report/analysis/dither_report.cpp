@@ -200,7 +200,9 @@ DitherVerdict dither_verdict(const model::Model& model, const DitherStudy& study
 void write_dither_report(std::ostream& out, const model::Model& model, const DitherStudy& study,
                          const ReaderUnits& units) {
   const double full_scale = model.valve.rated_flow_m3_per_s;
-  HtmlPage page("spoolflow dither report", "How to dither " + model.valve.name, origin_of(model), units);
+  HtmlPage page("spoolflow dither report",
+                "How to dither " + model.valve.name + ", f" + std::string(flow_name(model)).substr(1), origin_of(model),
+                units);
   const DitherVerdict verdict = dither_verdict(model, study);
   page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(verdict.sentence.in(units))));
   for (const Text& remark : verdict.remarks) page.html(fmt::format("<li>{}</li>", html_text(remark.in(units))));

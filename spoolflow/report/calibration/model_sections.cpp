@@ -78,6 +78,11 @@ HtmlTable runs_table(const std::vector<validation::RunResult>& runs) {
   return table;
 }
 
+const char* flows_of(const model::Model& model) {
+  if (model.whole()) return "P to B and P to A";
+  return model.valve.direction == "b" ? "P to B" : "P to A";
+}
+
 /// `unit`: of the model, SI. Residuals of positions are too small for the unit of positions.
 Text residual_text(double residual, const std::string& unit) {
   if (unit == "m") return three_digits(1e6 * residual) + " \u00b5m";
@@ -100,12 +105,15 @@ std::string origin_of(const model::Model& model) {
   return fmt::format("Model of {}, {}", model.provenance.created, model.provenance.tool_version);
 }
 
+const char* flow_name(const model::Model& model) {
+  return model.valve.direction == "a" ? "Flow P to A" : "Flow P to B";
+}
+
 void show_valve(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs) {
   page.section("The valve and the data");
   page.paragraph(phrase("{}: full scale {}, stroke {}, flow {}. Oil: {}{}.", model.valve.name,
                         three_digits(units::flow(model.valve.rated_flow_m3_per_s)),
-                        fixed(units::length(model.valve.stroke_m), 2),
-                        model.valve.direction == "b" ? "P to B" : "P to A", model.fluid.name,
+                        fixed(units::length(model.valve.stroke_m), 2), flows_of(model), model.fluid.name,
                         model.fluid.viscosity_40C_m2_per_s
                             ? phrase(", {} mm\u00b2/s at {}",
                                      three_digits(*model.fluid.viscosity_40C_m2_per_s / units::m2_per_s_per_mm2_per_s),
@@ -116,14 +124,25 @@ void show_valve(HtmlPage& page, const model::Model& model, const std::vector<val
   HtmlTable table(std::move(columns));
   const model::Condensed& condensed = model.condensed;
   using Run = validation::RunResult;
-  table.row({"coil current", channel_text(condensed.current_A.lower, condensed.current_A.upper, current_channel),
+  const model::Condensed* const p_to_a = model.whole() ? &model.p_to_a->condensed : nullptr;
+  const double lowest_A = p_to_a != nullptr ? -p_to_a->current_A.upper : condensed.current_A.lower;
+  const double lowest_m = p_to_a != nullptr ? -p_to_a->position_m.upper : condensed.position_m.lower;
+  table.row({p_to_a != nullptr ? "coil current, b &gt; 0, a &lt; 0" : "coil current",
+             channel_text(lowest_A, condensed.current_A.upper, current_channel),
              used_text(runs, &Run::current_A, current_channel)});
-  table.row({"spool position", channel_text(condensed.position_m.lower, condensed.position_m.upper, position_channel),
+  table.row({p_to_a != nullptr ? "spool position, &gt; 0 opens P to B" : "spool position",
+             channel_text(lowest_m, condensed.position_m.upper, position_channel),
              used_text(runs, &Run::position_m, position_channel)});
   table.row(
-      {"pressure difference",
+      {p_to_a != nullptr ? "pressure difference, flow P to B" : "pressure difference",
        channel_text(condensed.pressure_difference_Pa.lower, condensed.pressure_difference_Pa.upper, pressure_channel),
        used_text(runs, &Run::pressure_difference_Pa, pressure_channel)});
+  if (p_to_a != nullptr) {
+    table.row(
+        {"pressure difference, flow P to A",
+         channel_text(p_to_a->pressure_difference_Pa.lower, p_to_a->pressure_difference_Pa.upper, pressure_channel),
+         used_text(runs, &Run::pressure_difference_Pa, pressure_channel)});
+  }
   table.row({"oil temperature", calibrated_temperature(model),
              used_text(runs, &Run::oil_temperature_K, temperature_channel)});
   page.table(table);

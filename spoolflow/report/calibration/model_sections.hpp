@@ -8,6 +8,8 @@ namespace spoolflow::report {
 
 /// When and by what the model was made; the line below a page's title.
 [[nodiscard]] std::string origin_of(const model::Model& model);
+/// "Flow P to B" or "Flow P to A", of a model of one direction.
+[[nodiscard]] const char* flow_name(const model::Model& model);
 /// Valve and oil; what was calibrated beside what the runs used.
 void show_valve(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs);
 /// How well the maps hold on the samples they were made from.

@@ -190,11 +190,14 @@ Json study(const analysis::Study& study) {
 
 void write_analysis_json(std::ostream& out, const model::Model& model, const analysis::Analysis& analysis) {
   const AnalysisVerdict verdict = analysis_verdict(model, analysis);
-  Json file{
-      {"format", "spoolflow analysis"}, {"version", 1},
-      {"valve", model.valve.name},      {"full_scale_L_min", L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s)},
-      {"seed", analysis.scenario.seed}, {"verdict", verdict.sentence},
-      {"remarks", verdict.remarks}};
+  Json file{{"format", "spoolflow analysis"},
+            {"version", 1},
+            {"valve", model.valve.name},
+            {"direction", model.valve.direction},
+            {"full_scale_L_min", L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s)},
+            {"seed", analysis.scenario.seed},
+            {"verdict", verdict.sentence},
+            {"remarks", verdict.remarks}};
   Json shares = Json::array();
   for (const auto& group : analysis::mean_shares(analysis.points, analysis::leading_estimator(analysis))) {
     shares.push_back({{"group", group.group}, {"part_of_model", group.part_of_model}, {"mean_share", group.share}});

@@ -52,6 +52,7 @@ void write_dither_json(std::ostream& out, const model::Model& model, const analy
   Ordered file{{"format", "spoolflow dither"},
                {"version", 1},
                {"valve", model.valve.name},
+               {"direction", model.valve.direction},
                {"full_scale_L_min", units::L_per_min_from_m3_per_s(full_scale)},
                {"largest_current_A", model.observer->parameters.largest_current_A},
                {"shape", study.question.shape == analysis::DitherShape::sine ? "sine" : "square"},

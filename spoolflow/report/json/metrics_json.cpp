@@ -30,6 +30,7 @@ class MetricsJson {
   void add_metrics(Json& to, const validation::Metrics& metrics) const;
   [[nodiscard]] Json profiles(const std::vector<validation::ErrorProfile>& profiles) const;
   void add_directions(Json& to, const validation::DirectionProfile& profile) const;
+  [[nodiscard]] Json sign(const validation::SignFigures& figures) const;
   [[nodiscard]] static Json steps(const validation::StepResponse& response);
   [[nodiscard]] Json estimator(const validation::EstimatorResult& result) const;
 
@@ -55,6 +56,10 @@ void MetricsJson::add_metrics(Json& to, const validation::Metrics& metrics) cons
                  {"moving", group(metrics.moving)},
                  {"rest", group(metrics.rest)},
                  {"reversal", group(metrics.reversal)}};
+  if (metrics.p_to_b.error.samples + metrics.p_to_a.error.samples > 0) {
+    to["error"]["p_to_b"] = group(metrics.p_to_b);
+    to["error"]["p_to_a"] = group(metrics.p_to_a);
+  }
   const validation::ErrorFigures& reading = metrics.share_of_reading;
   to["error_of_reading_percent"] = {{"samples", reading.samples}};
   if (reading.samples == 0) return;
@@ -104,6 +109,7 @@ Json MetricsJson::estimator(const validation::EstimatorResult& result) const {
     }
   }
   if (result.direction) add_directions(out, *result.direction);
+  if (result.sign) out["sign"] = sign(*result.sign);
   if (result.frequency_response) {
     const validation::FrequencyResponse& response = *result.frequency_response;
     Json points = Json::array();
@@ -137,6 +143,15 @@ void MetricsJson::add_directions(Json& to, const validation::DirectionProfile& p
                          {"position_mm", units::mm_from_m(hysteresis->position_m)}};
   }
   to["error_by_direction"] = std::move(out);
+}
+
+Json MetricsJson::sign(const validation::SignFigures& figures) const {
+  const double samples = static_cast<double>(std::max<std::size_t>(figures.samples, 1));
+  return {{"samples", figures.samples},
+          {"wrong", figures.wrong},
+          {"wrong_share", static_cast<double>(figures.wrong) / samples},
+          {"undetermined_share", static_cast<double>(figures.undetermined) / samples},
+          {"undetermined_largest_flow", flow(figures.undetermined_largest_m3_per_s)}};
 }
 
 Json MetricsJson::steps(const validation::StepResponse& response) {
@@ -177,6 +192,7 @@ Json MetricsJson::pooled(const validation::PooledResult& pooled) const {
   if (pooled.metrics) add_metrics(out, *pooled.metrics);
   out["error_over"] = profiles(pooled.profiles);
   if (pooled.direction) add_directions(out, *pooled.direction);
+  if (pooled.sign) out["sign"] = sign(*pooled.sign);
   return out;
 }
 

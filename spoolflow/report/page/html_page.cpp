@@ -22,7 +22,14 @@ constexpr const char* nothing_from_outside =
 HtmlPage::HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units)
     : kind_(std::move(kind)), title_(std::move(title)), origin_(std::move(origin)), units_(units) {}
 
+void HtmlPage::part(std::string_view heading) {
+  end_part();
+  section(heading);
+  in_part_ = true;
+}
+
 void HtmlPage::section(std::string_view heading) {
+  if (in_part_) return subsection(std::string(heading));
   ++sections_;
   body_ += fmt::format("<h2 id=\"s{}\">{}</h2>\n", sections_, html_text(heading));
   contents_ += fmt::format("<a href=\"#s{}\">{}</a>", sections_, html_text(heading));

@@ -29,6 +29,9 @@ class HtmlPage {
 
   void section(std::string_view heading);  ///< appears in the contents
   void subsection(const Text& heading);    ///< does not
+  /// A section; until end_part() the sections that follow stand in it, as subsections.
+  void part(std::string_view heading);
+  void end_part() { in_part_ = false; }
   void paragraph(const Text& text);
   void note(const Text& text);  ///< small print
   void html(std::string_view markup) { body_ += markup; }
@@ -52,6 +55,7 @@ class HtmlPage {
   std::string body_;
   std::string contents_;
   int sections_ = 0;
+  bool in_part_ = false;
   int figures_ = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spoolflow/report/figures/scaled.hpp"
+
 namespace spoolflow::report {
 namespace {
 
@@ -13,6 +15,9 @@ struct Box {
     return x >= x_lowest && x <= x_highest && y >= y_lowest && y <= y_highest;
   }
 };
+
+/// Calibrated ranges, from left to right: one, or one each side of a whole valve's centre.
+using Boxes = std::vector<Box>;
 
 /// Points that were used.
 struct Used {
@@ -27,16 +32,23 @@ Mark dots(Used points, const char* tone, const char* name) {
   return {Shape::dots, tone, {}, name, "", 2.6, std::move(points.x), std::move(points.y), {}};
 }
 
-/// Points within and beyond a box, and what lies around it as far as the axes reach.
+/// Points within and beyond the boxes, and what lies around it as far as the axes reach.
 struct Sides {
   Used inside, outside;
   Box axes;
 };
 
-Sides sides_of(const Used& used, const Box& calibrated) {
-  Sides out{{}, {}, calibrated};
+Sides sides_of(const Used& used, const Boxes& calibrated) {
+  Sides out{{}, {}, calibrated.front()};
+  for (const Box& box : calibrated) {
+    out.axes.x_highest = std::max(out.axes.x_highest, box.x_highest);
+    out.axes.y_lowest = std::min(out.axes.y_lowest, box.y_lowest);
+    out.axes.y_highest = std::max(out.axes.y_highest, box.y_highest);
+  }
   for (std::size_t k = 0; k < used.x.size(); ++k) {
-    Used& side = calibrated.holds(used.x[k], used.y[k]) ? out.inside : out.outside;
+    const bool held =
+        std::any_of(calibrated.begin(), calibrated.end(), [&](auto& box) { return box.holds(used.x[k], used.y[k]); });
+    Used& side = held ? out.inside : out.outside;
     side.x.push_back(used.x[k]);
     side.y.push_back(used.y[k]);
     out.axes.x_lowest = std::min(out.axes.x_lowest, used.x[k]);
@@ -74,13 +86,19 @@ CaptionedFigure with_points(const Names& names, Panel panel, Sides sides) {
 }
 
 /// `panel`: the axis.
-CaptionedFigure box_figure(const Names& names, Panel panel, const Used& used, const Box& calibrated) {
+CaptionedFigure box_figure(const Names& names, Panel panel, const Used& used, const Boxes& calibrated) {
   Sides sides = sides_of(used, calibrated);
   const Box& axes = sides.axes;
-  panel.marks = {shade(axes.x_lowest, calibrated.x_lowest, axes.y_lowest, axes.y_highest, "not calibrated"),
-                 shade(calibrated.x_highest, axes.x_highest, axes.y_lowest, axes.y_highest),
-                 shade(calibrated.x_lowest, calibrated.x_highest, axes.y_lowest, calibrated.y_lowest),
-                 shade(calibrated.x_lowest, calibrated.x_highest, calibrated.y_highest, axes.y_highest)};
+  panel.marks = {
+      shade(axes.x_lowest, calibrated.front().x_lowest, axes.y_lowest, axes.y_highest, "not calibrated"),
+      shade(calibrated.back().x_highest, axes.x_highest, axes.y_lowest, axes.y_highest),
+  };
+  double from = calibrated.front().x_lowest;
+  for (const Box& box : calibrated) {
+    panel.marks.push_back(shade(from, box.x_highest, axes.y_lowest, box.y_lowest));
+    panel.marks.push_back(shade(from, box.x_highest, box.y_highest, axes.y_highest));
+    from = box.x_highest;
+  }
   return with_points(names, std::move(panel), std::move(sides));
 }
 
@@ -98,26 +116,65 @@ Used used_by(const std::vector<validation::RunResult>& runs, std::vector<Point> 
   return out;
 }
 
-/// Flow over position: calibrated between no flow and the flow at the highest pressure difference of the bench.
-CaptionedFigure flow_figure(const model::Model& model, const Used& used) {
-  const auto& loops = model.evidence.axial_force;
-  const model::AxialForceLoop& highest = *std::max_element(loops.begin(), loops.end(), [](auto& a, auto& b) {
+/// The level with the highest pressure difference; null where none was recorded.
+const model::AxialForceLoop* highest_level(const model::Evidence& evidence) {
+  const auto& loops = evidence.axial_force;
+  const auto highest = std::max_element(loops.begin(), loops.end(), [](auto& a, auto& b) {
     return a.pressure_difference_set_Pa < b.pressure_difference_set_Pa;
   });
+  return highest == loops.end() || highest->position_m.empty() ? nullptr : &*highest;
+}
+
+/// Flow over position: calibrated between no flow and the flow at the highest pressure difference of the bench.
+CaptionedFigure flow_figure(const model::Model& model, const Used& used) {
+  const model::AxialForceLoop& highest = *highest_level(model.evidence);
+  const model::AxialForceLoop* const p_to_a = model.whole() ? highest_level(model.p_to_a->evidence) : nullptr;
   Mark above{Shape::area, "fault", {}, "above the highest calibrated pressure difference", "", 0, {}, {}, {}};
   above.x = highest.position_m;
   above.y = highest.flow_m3_per_s;
-  const double most = above.y.empty() ? 0 : *std::max_element(above.y.begin(), above.y.end());
-  Sides sides = sides_of(used, {above.x.front(), above.x.back(), 0, most});
+  Mark below{Shape::area, "fault", {}, "", "", 0, {}, {}, {}};
+  Boxes calibrated{{above.x.front(), above.x.back(), 0, *std::max_element(above.y.begin(), above.y.end())}};
+  if (p_to_a != nullptr) {
+    below.x = scaled(p_to_a->position_m, -1);
+    below.y_upper = scaled(p_to_a->flow_m3_per_s, -1);
+    calibrated.insert(calibrated.begin(), {below.x.back(), below.x.front(),
+                                           *std::min_element(below.y_upper.begin(), below.y_upper.end()), 0});
+  }
+  Sides sides = sides_of(used, calibrated);
   sides.inside = used;
   sides.outside = {};
   above.y_upper.assign(above.y.size(), sides.axes.y_highest);
+  below.y.assign(below.y_upper.size(), sides.axes.y_lowest);
   Panel panel{.title = "Flow rate", .quantity = units::Kind::flow, .height_px = 220};
   panel.marks.push_back(std::move(above));
+  if (p_to_a != nullptr) panel.marks.push_back(std::move(below));
   return with_points({"Flow rate over position: calibrated and used",
                       phrase("Flow rates over position; shaded: above the bench's flow at {}.",
                              fixed(units::pressure(highest.pressure_difference_set_Pa), 0))},
                      std::move(panel), std::move(sides));
+}
+
+/// Noise of a spool that stands in the centre of a whole valve is on no side of it.
+double centre_margin_m(const model::Condensed& map) {
+  constexpr double share = 0.02;
+  return share * map.position_m.upper;
+}
+
+Boxes calibrated_pressures(const model::Condensed& map, const model::Condensed* p_to_a) {
+  const auto box = [](const model::Condensed& of, double from_m, double to_m) {
+    return Box{from_m, to_m, of.pressure_difference_Pa.lower, of.pressure_difference_Pa.upper};
+  };
+  if (p_to_a == nullptr) return {box(map, map.position_m.lower, map.position_m.upper)};
+  return {box(*p_to_a, -p_to_a->position_m.upper, 0), box(map, 0, map.position_m.upper)};
+}
+
+Boxes calibrated_currents(const model::Condensed& map, const model::Condensed* p_to_a) {
+  if (p_to_a == nullptr)
+    return {{map.position_m.lower, map.position_m.upper, map.current_A.lower, map.current_A.upper}};
+  const double margin_m = centre_margin_m(map);
+  return {{-p_to_a->position_m.upper, -margin_m, -p_to_a->current_A.upper, 0},
+          {-margin_m, margin_m, -p_to_a->current_A.upper, map.current_A.upper},
+          {margin_m, map.position_m.upper, 0, map.current_A.upper}};
 }
 
 std::optional<Span> calibrated_temperatures_K(const model::Model& model) {
@@ -158,26 +215,29 @@ std::vector<CaptionedFigure> envelope_figures(const model::Model& model,
   using Run = validation::RunResult;
   std::vector<CaptionedFigure> out;
   const model::Condensed& map = model.condensed;
+  const model::Condensed* const p_to_a = model.whole() ? &model.p_to_a->condensed : nullptr;
   const Used pressures = used_by(runs, &Run::operating_points, &validation::OperatingPoint::pressure_difference_Pa);
   if (!pressures.x.empty()) {
     out.push_back(box_figure({"Pressure difference over position: calibrated and used",
                               "Working points against the flow-force map's range; shaded: extrapolation."},
                              {.title = "Pressure difference", .quantity = units::Kind::pressure, .height_px = 220},
-                             pressures,
-                             {map.position_m.lower, map.position_m.upper, map.pressure_difference_Pa.lower,
-                              map.pressure_difference_Pa.upper}));
+                             pressures, calibrated_pressures(map, p_to_a)));
   }
   const Used flows = used_by(runs, &Run::flow_points, &validation::FlowPoint::flow_m3_per_s);
-  if (!flows.x.empty() && !model.evidence.axial_force.empty() &&
-      !model.evidence.axial_force.front().position_m.empty()) {
+  if (!flows.x.empty() && highest_level(model.evidence) != nullptr) {
     out.push_back(flow_figure(model, flows));
   }
   const Used currents = used_by(runs, &Run::solenoid_points, &validation::SolenoidPoint::current_A);
   if (!currents.x.empty()) {
-    out.push_back(box_figure({"Coil current over position: calibrated and used",
-                              "Working points against the magnetic-force map's range; shaded: extrapolation."},
-                             {.title = "Coil current", .quantity = units::Kind::current, .height_px = 220}, currents,
-                             {map.position_m.lower, map.position_m.upper, map.current_A.lower, map.current_A.upper}));
+    const Text caption = p_to_a == nullptr
+                             ? "Working points against the magnetic-force map's range; shaded: extrapolation."
+                             : "Working points against the ranges of both solenoids' magnetic-force maps: current of "
+                               "coil b less that of coil a; shaded: extrapolation.";
+    out.push_back(box_figure({"Coil current over position: calibrated and used", caption},
+                             {.title = p_to_a == nullptr ? "Coil current" : "Coil current, b less a",
+                              .quantity = units::Kind::current,
+                              .height_px = 220},
+                             currents, calibrated_currents(map, p_to_a)));
   }
   if (auto temperatures = temperature_figure(model, runs)) out.push_back(std::move(*temperatures));
   return out;

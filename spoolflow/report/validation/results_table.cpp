@@ -68,7 +68,8 @@ void add_all_figures(HtmlTable& table, const std::string& run, const std::string
   };
   bool first = true;
   for (const Group& group : {Group{"all", metrics.all}, Group{"moving", metrics.moving}, Group{"at rest", metrics.rest},
-                             Group{"reversal", metrics.reversal}}) {
+                             Group{"reversal", metrics.reversal}, Group{"flow P to B", metrics.p_to_b},
+                             Group{"flow P to A", metrics.p_to_a}}) {
     const validation::ErrorFigures& error = group.figures.error;
     if (error.samples == 0) continue;
     table.row({first ? run : "", first ? estimator : "", group.name, fmt::format("{}", error.samples),

@@ -51,6 +51,14 @@ Panel error_panel(const validation::RunResult& run, double full_scale_m3_per_s) 
   return panel;
 }
 
+/// From zero, unless the spool went to the other side of the centre as well.
+std::optional<double> lowest_position_m(const validation::RunResult& run) {
+  constexpr double noise_share = 0.02;  // of the positions' range
+  const auto& used = run.position_m;
+  if (used && used->lowest < -noise_share * (used->highest - used->lowest)) return std::nullopt;
+  return 0.0;
+}
+
 Panel pressure_panel(const validation::RunResult& run) {
   const validation::EstimatorResult& leading = run.results.back();
   Panel panel{.title = "Pressure difference", .quantity = units::Kind::pressure, .height_px = 90, .lowest = 0.0};
@@ -82,7 +90,8 @@ CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m
   const bool judged = leading.metrics.has_value();
   if (judged) out.figure.panels.push_back(error_panel(run, full_scale_m3_per_s));
   if (!run.pressure_difference_line_Pa.time_s.empty()) out.figure.panels.push_back(pressure_panel(run));
-  Panel position{.title = "Position", .quantity = units::Kind::length, .height_px = 70, .lowest = 0.0};
+  Panel position{
+      .title = "Position", .quantity = units::Kind::length, .height_px = 70, .lowest = lowest_position_m(run)};
   position.marks.push_back(line(run.position_line_m, "ink", "measured", 1.2));
   out.figure.panels.push_back(std::move(position));
   if (!leading.status.empty()) out.figure.panels.push_back(status_panel(leading));
@@ -148,10 +157,11 @@ CaptionedFigure worst_moment_figure(const validation::RunResult& run, double ful
            .x_title = "Time",
            .x_quantity = units::Kind::time,
            .panels = {std::move(panel)}},
-          phrase("The {}'s largest error: {} % FS at {}, {}, {} open{}. Status then: {}.", text(leading.estimator),
+          phrase("The {}'s largest error: {} % FS at {}, {}, {}{}. Status then: {}.", text(leading.estimator),
                  signed_fixed(100 * worst.error_m3_per_s / full_scale_m3_per_s, 1), fixed(units::time(worst.time_s), 2),
                  worst.moving ? "in motion" : (worst.rest ? "at rest" : "closed"),
-                 fixed(units::length(worst.position_m), 2),
+                 worst.position_m < 0 ? phrase("at {}", fixed(units::length(worst.position_m), 2))
+                                      : phrase("{} open", fixed(units::length(worst.position_m), 2)),
                  worst.pressure_difference_Pa ? phrase(", {}", fixed(units::pressure(*worst.pressure_difference_Pa), 0))
                                               : Text(),
                  status.empty() ? "none" : status),

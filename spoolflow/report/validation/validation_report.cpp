@@ -110,6 +110,40 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
                                    "(--apply-reference-lag takes it out)"));
 }
 
+/// Of the runs only where they worked on the side of the centre that opens one direction of flow, in that direction's
+/// positions.
+std::vector<validation::RunResult> on_side(const std::vector<validation::RunResult>& runs, bool side_a) {
+  std::vector<validation::RunResult> out;
+  for (const validation::RunResult& run : runs) {
+    validation::RunResult& each = out.emplace_back();
+    for (validation::OperatingPoint point : run.operating_points) {
+      if (side_a) point.position_m = -point.position_m;
+      if (point.position_m >= 0) each.operating_points.push_back(point);
+    }
+  }
+  return out;
+}
+
+/// One direction of a whole valve: its maps, where they are blind and what makes the uncertainty.
+void show_direction(HtmlPage& page, const model::Model& of_one, const std::vector<validation::RunResult>& runs) {
+  page.part(flow_name(of_one));
+  show_maps(page, of_one);
+  show_blindness(page, of_one, on_side(runs, of_one.valve.direction == "a"));
+  budget_section(page, of_one);
+  show_residuals(page, of_one);
+  page.end_part();
+}
+
+/// Residuals, maps and fits of a model of one direction.
+void show_calibration(HtmlPage& page, const model::Model& model) {
+  show_residuals(page, model);
+  show_maps(page, model);
+  show_temperatures(page, model);
+  show_model_against_bench(page, model);
+  show_fits(page, model);
+  show_blindness(page, model, {});
+}
+
 }  // namespace
 
 void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
@@ -122,7 +156,7 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
   page.table(results_table(validation, full_scale));
   show_valve(page, model, validation.runs);
   show_envelope(page, model, validation.runs);
-  show_maps(page, model);
+  if (!model.whole()) show_maps(page, model);
   for (const validation::RunResult& run : validation.runs) show_run(page, run, full_scale);
   const std::vector<CaptionedFigure> profiles = profile_figures(validation, full_scale);
   if (!profiles.empty()) {
@@ -132,15 +166,20 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
     page.table(direction_table(validation, full_scale));
   }
   show_comparison(page, model, validation, others);
-  show_blindness(page, model, validation.runs);
-  budget_section(page, model);
+  if (model.whole()) {
+    for (const char* direction : {"b", "a"})
+      show_direction(page, model::of_direction(model, direction), validation.runs);
+  } else {
+    show_blindness(page, model, validation.runs);
+    budget_section(page, model);
+  }
   page.section("What the sensor said of itself");
   page.table(status_table(validation));
   page.section("All figures");
   const HtmlTable figures = all_figures_table(validation, full_scale);
   if (!figures.empty()) page.table(figures);
   show_definitions(page, validation, full_scale);
-  show_residuals(page, model);
+  if (!model.whole()) show_residuals(page, model);
   show_inputs(page, model, validation.runs);
   out << page.str();
 }
@@ -149,12 +188,17 @@ void write_calibration_report(std::ostream& out, const model::Model& model, cons
   HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model), units);
   show_verdict(page, calibration_verdict(model));
   show_valve(page, model, {});
-  show_residuals(page, model);
-  show_maps(page, model);
-  show_temperatures(page, model);
-  show_model_against_bench(page, model);
-  show_fits(page, model);
-  show_blindness(page, model, {});
+  if (model.whole()) {
+    for (const char* direction : {"b", "a"}) {
+      const model::Model of_one = model::of_direction(model, direction);
+      page.part(flow_name(of_one));
+      show_calibration(page, of_one);
+    }
+    page.end_part();
+    page.section("The recordings");
+  } else {
+    show_calibration(page, model);
+  }
   show_inputs(page, model, {});
   out << page.str();
 }

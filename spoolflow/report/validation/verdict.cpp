@@ -28,8 +28,10 @@ class Judge {
   [[nodiscard]] std::string leading_name() const { return std::string(estimation::name(leading().estimator)); }
   [[nodiscard]] const validation::RunResult* run_of_largest_error() const;
   void add_phases(std::vector<Text>& out) const;
+  void add_sign(std::vector<Text>& out) const;
   void add_worst_bins(std::vector<Text>& out) const;
-  void add_status(std::vector<Text>& out) const;
+  /// `grave`: faults that last; they come first.
+  void add_status(std::vector<Text>& out, bool grave) const;
   void add_band(std::vector<Text>& out) const;
   void add_known_runs(std::vector<Text>& out) const;
 
@@ -86,7 +88,7 @@ void Judge::add_phases(std::vector<Text>& out) const {
   }
 }
 
-Text place(Quantity quantity, const validation::ProfileBin& bin) {
+Text place(Quantity quantity, const validation::ProfileBin& bin, bool whole) {
   const auto between = [&](const char* what, units::Kind kind, int decimals) {
     return phrase("{} between {} and {}", what, bare(fixed(units::Quantity{kind, bin.from}, decimals)),
                   fixed(units::Quantity{kind, bin.to}, decimals));
@@ -95,7 +97,7 @@ Text place(Quantity quantity, const validation::ProfileBin& bin) {
     case Quantity::flow:
       return between("flow rates", units::Kind::flow, 0);
     case Quantity::position:
-      return between("openings", units::Kind::length, 2);
+      return between(whole || bin.from < 0 ? "positions" : "openings", units::Kind::length, 2);
     case Quantity::pressure_difference:
       return between("pressure differences", units::Kind::pressure, 0);
     case Quantity::oil_temperature:
@@ -113,18 +115,35 @@ void Judge::add_worst_bins(std::vector<Text>& out) const {
     for (const validation::ProfileBin& bin : bins) {
       if (bin.p95_m3_per_s <= worst) continue;
       worst = bin.p95_m3_per_s;
-      text = phrase("Worst are {}: 95 % of the errors within {}.", place(validation::quantities[q], bin),
-                    percent(bin.p95_m3_per_s));
+      text = phrase("Worst are {}: 95 % of the errors within {}.",
+                    place(validation::quantities[q], bin, leading().sign.has_value()), percent(bin.p95_m3_per_s));
     }
   }
   if (!text.empty()) out.push_back(text);
 }
 
-void Judge::add_status(std::vector<Text>& out) const {
+void Judge::add_sign(std::vector<Text>& out) const {
+  if (!leading().sign || leading().sign->samples == 0) return;
+  const validation::SignFigures& sign = *leading().sign;
+  Text text =
+      sign.wrong == 0
+          ? Text("Nowhere is the direction of the flow wrong")
+          : Text(fmt::format("The direction of the flow is wrong in {} of {} samples", sign.wrong, sign.samples));
+  text +=
+      sign.undetermined == 0
+          ? Text(".")
+          : Text(fmt::format("; it is called undetermined in {} %, with flow rates of up to {} of full scale.",
+                             fixed(100 * static_cast<double>(sign.undetermined) / static_cast<double>(sign.samples), 2),
+                             percent(sign.undetermined_largest_m3_per_s)));
+  out.push_back(text);
+}
+
+void Judge::add_status(std::vector<Text>& out, bool grave) const {
   for (const validation::RunResult& run : validation_.runs) {
     for (const validation::StatusRow& status : run.results.back().status) {
       const bool told = status.fault || (status.name.starts_with("outside") && status.share > 0.05);
-      if (!told) continue;
+      constexpr double grave_share = 0.05;
+      if (!told || grave != (status.fault && status.share > grave_share)) continue;
       constexpr double least_share = 5e-5;  // of what two decimals tell
       const std::string percent =
           status.share < least_share ? "less than 0.01" : fixed(100 * status.share, status.share < 0.01 ? 2 : 0);
@@ -153,16 +172,18 @@ void Judge::add_known_runs(std::vector<Text>& out) const {
 
 std::vector<Text> Judge::limits() const {
   std::vector<Text> out;
+  add_status(out, true);
   if (!leading().metrics) {
-    add_status(out);
+    add_status(out, false);
   } else {
+    add_sign(out);
     add_phases(out);
     add_worst_bins(out);
     add_band(out);
     add_known_runs(out);
-    add_status(out);
+    add_status(out, false);
   }
-  constexpr std::size_t most = 5;
+  const std::size_t most = leading().sign ? 6 : 5;
   if (out.size() > most) out.resize(most);
   return out;
 }
@@ -177,6 +198,19 @@ Text residual_text(const model::Model& model, std::string_view of) {
   return "an unknown residual";
 }
 
+/// Of both directions.
+Verdict whole_calibration_verdict(const model::Model& model) {
+  Verdict out;
+  out.sentence = "The whole valve: both directions of flow in one model.";
+  for (const char* direction : {"b", "a"}) {
+    Verdict of_one = calibration_verdict(model::of_direction(model, direction));
+    const char* const flow = *direction == 'a' ? "Flow P to A" : "Flow P to B";
+    out.limits.push_back(phrase("{}: {}", flow, of_one.sentence));
+    for (const Text& limit : of_one.limits) out.limits.push_back(phrase("{}: {}", flow, limit));
+  }
+  return out;
+}
+
 }  // namespace
 
 Verdict verdict(const model::Model& model, const validation::Validation& validation) {
@@ -185,6 +219,7 @@ Verdict verdict(const model::Model& model, const validation::Validation& validat
 }
 
 Verdict calibration_verdict(const model::Model& model) {
+  if (model.whole()) return whole_calibration_verdict(model);
   const model::Condensed& condensed = model.condensed;
   Verdict out;
   out.sentence = phrase(

@@ -90,5 +90,20 @@ TEST(HtmlPage, NeverChangesNames) {
   EXPECT_THAT(html, Not(HasSubstr("ramp at 870")));
 }
 
+TEST(HtmlPage, PutsTheSectionsOfAPartBelowItsHeading) {
+  HtmlPage page("kind", "title", "origin");
+  page.part("Flow P to B");
+  page.section("Maps");
+  page.part("Flow P to A");
+  page.section("Maps");
+  page.end_part();
+  page.section("Files");
+  const std::string html = page.str();
+  EXPECT_THAT(html, HasSubstr("<h3>Maps</h3>"));
+  EXPECT_THAT(html, HasSubstr(">Flow P to A</h2>"));
+  EXPECT_THAT(html, HasSubstr(">Files</h2>"));
+  EXPECT_THAT(html, Not(HasSubstr(">Maps</a>"))) << "the contents name the part";
+}
+
 }  // namespace
 }  // namespace spoolflow::report

@@ -54,6 +54,24 @@ TEST(EnvelopeFigures, TellExtrapolatedPointsFromCalibratedOnes) {
   for (const CaptionedFigure& figure : figures) EXPECT_EQ(unbalanced_markup(svg_of(figure.figure, {}, "f")), "");
 }
 
+TEST(EnvelopeFigures, OfAWholeValveAreCalibratedOnBothSidesOfTheCentre) {
+  model::Model whole = calibrated();
+  whole.valve.direction = "both";
+  whole.p_to_a = model::Direction{whole.condensed, {}, whole.evidence};
+  whole.p_to_a->condensed.pressure_difference_Pa.upper = 40e5;
+  validation::RunResult run;
+  run.operating_points = {{-1e-3, 30e5}, {-1e-3, 60e5}, {1e-3, 60e5}};
+  run.solenoid_points = {{-1e-3, -1.0}, {1e-3, 1.0}, {1e-3, -1.0}};
+  run.flow_points = {{-1e-3, -2e-4}};
+  const std::vector<CaptionedFigure> figures = envelope_figures(whole, {run});
+  ASSERT_GE(figures.size(), 3U);
+  EXPECT_EQ(named(figures[0], "used by the runs")->x.size(), 2U);
+  EXPECT_NEAR(named(figures[0], "used, extrapolated")->x.front(), -1e-3, 1e-9) << "P to A was calibrated up to 40 bar";
+  EXPECT_LT(*figures[1].figure.panels.front().lowest, -1.3e-3) << "flow P to A is below zero";
+  EXPECT_EQ(named(figures[2], "used, extrapolated")->y.size(), 1U) << "coil a with the spool on coil b's side";
+  for (const CaptionedFigure& figure : figures) EXPECT_EQ(unbalanced_markup(svg_of(figure.figure, {}, "f")), "");
+}
+
 TEST(EnvelopeFigures, OfRunsThatRecordedLittleAreLeftOut) {
   EXPECT_TRUE(envelope_figures(calibrated(), {}).empty());
   EXPECT_TRUE(envelope_figures(calibrated(), {validation::RunResult{}}).empty());
