@@ -297,7 +297,7 @@ void add_analyse_command(CLI::App& program) {
       ->check(CLI::Range(1U, 1024U));
   command
       ->add_option("--direction", arguments->direction,
-                   "of a whole valve the direction of flow that is analysed: b (P to B, the default) or a (P to A)")
+                   "of a whole valve the flow analysed: b (P to B, default) or a (P to A)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"a", "b"}));
   add_dither_options(*command, *arguments, {recording, samples});

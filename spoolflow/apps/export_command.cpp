@@ -148,7 +148,7 @@ void add_export_command(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--direction", arguments->direction,
-                   "of a whole valve export one direction alone: a (flow P to A) or b (flow P to B)")
+                   "of a whole valve one direction alone: a (P to A) or b (P to B)")
       ->check(CLI::IsMember({"a", "b"}));
   command->callback([arguments] { arguments->kind == "fmu" ? export_fmu(*arguments) : export_cpp(*arguments); });
 }

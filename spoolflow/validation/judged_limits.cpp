@@ -15,6 +15,10 @@ const GroupFigures& group_of(const Metrics& metrics, When when) {
       return metrics.rest;
     case When::reversal:
       return metrics.reversal;
+    case When::p_to_b:
+      return metrics.p_to_b;
+    case When::p_to_a:
+      return metrics.p_to_a;
     case When::always:
       break;
   }
@@ -42,9 +46,16 @@ std::optional<double> figure_of(const Metrics& metrics, const Limit& limit) {
     case Figure::p95_of_reading:
       return metrics.share_of_reading.p95;
     case Figure::fault_share:
+    case Figure::wrong_sign:
       break;
   }
   return std::nullopt;
+}
+
+/// Absent but for a whole valve with reference flow.
+std::optional<double> wrong_share(const std::optional<SignFigures>& sign) {
+  if (!sign || sign->samples == 0) return std::nullopt;
+  return static_cast<double>(sign->wrong) / static_cast<double>(sign->samples);
 }
 
 double in_unit(double value, LimitUnit unit, double full_scale_m3_per_s) {
@@ -76,7 +87,8 @@ class Judge {
     if (limit.figure == Figure::fault_share) return judged(limit, "all runs", estimator, fault_share(estimator));
     for (const PooledResult& pooled : validation_.pooled) {
       if (pooled.estimator != estimator || !pooled.metrics) continue;
-      return judged(limit, "all runs", estimator, figure_of(*pooled.metrics, limit));
+      return judged(limit, "all runs", estimator,
+                    limit.figure == Figure::wrong_sign ? wrong_share(pooled.sign) : figure_of(*pooled.metrics, limit));
     }
     return judged(limit, "all runs", estimator, std::nullopt);
   }
@@ -87,6 +99,7 @@ class Judge {
       return judged(limit, run.name, estimator,
                     run.samples == 0 ? std::nullopt : std::optional<double>(result.fault_share));
     }
+    if (limit.figure == Figure::wrong_sign) return judged(limit, run.name, estimator, wrong_share(result.sign));
     return judged(limit, run.name, estimator, result.metrics ? figure_of(*result.metrics, limit) : std::nullopt);
   }
 

@@ -12,9 +12,9 @@
 namespace spoolflow::validation {
 
 /// The figure that a limit bounds.
-enum class Figure { p95, rms, largest, bias, band_mean_width, band_coverage, p95_of_reading, fault_share };
+enum class Figure { p95, rms, largest, bias, band_mean_width, band_coverage, p95_of_reading, fault_share, wrong_sign };
 /// Which samples it is taken over.
-enum class When { always, moving, rest, reversal };
+enum class When { always, moving, rest, reversal, p_to_b, p_to_a };
 /// `percent`: of the samples, or of the reading.
 enum class LimitUnit { percent_FS, litre_per_minute, percent };
 
@@ -31,9 +31,11 @@ inline constexpr std::array figure_names{Named<Figure>{Figure::p95, "p95"},
                                          Named<Figure>{Figure::band_mean_width, "band_mean_width"},
                                          Named<Figure>{Figure::band_coverage, "band_coverage"},
                                          Named<Figure>{Figure::p95_of_reading, "p95_of_reading"},
-                                         Named<Figure>{Figure::fault_share, "fault_share"}};
+                                         Named<Figure>{Figure::fault_share, "fault_share"},
+                                         Named<Figure>{Figure::wrong_sign, "wrong_sign"}};
 inline constexpr std::array when_names{Named<When>{When::always, "always"}, Named<When>{When::moving, "moving"},
-                                       Named<When>{When::rest, "rest"}, Named<When>{When::reversal, "reversal"}};
+                                       Named<When>{When::rest, "rest"},     Named<When>{When::reversal, "reversal"},
+                                       Named<When>{When::p_to_b, "p_to_b"}, Named<When>{When::p_to_a, "p_to_a"}};
 inline constexpr std::array limit_unit_names{Named<LimitUnit>{LimitUnit::percent_FS, "% FS"},
                                              Named<LimitUnit>{LimitUnit::litre_per_minute, "L/min"},
                                              Named<LimitUnit>{LimitUnit::percent, "%"}};

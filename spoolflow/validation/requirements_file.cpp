@@ -32,7 +32,8 @@ std::optional<Value> one_of(const TomlTable& table, std::string_view key,
 }
 
 bool is_share(Figure figure) {
-  return figure == Figure::band_coverage || figure == Figure::p95_of_reading || figure == Figure::fault_share;
+  return figure == Figure::band_coverage || figure == Figure::p95_of_reading || figure == Figure::fault_share ||
+         figure == Figure::wrong_sign;
 }
 
 void check_unit(const Limit& limit, const TomlTable& table) {
@@ -48,7 +49,7 @@ void check_bounds(const Limit& limit, const TomlTable& table) {
     throw RecordingError(
         fmt::format("{}: {} bounds nothing; give it at_most, at_least or both", limit.place, table.name));
   }
-  const bool share_of_samples = limit.figure == Figure::band_coverage || limit.figure == Figure::fault_share;
+  const bool share_of_samples = is_share(limit.figure) && limit.figure != Figure::p95_of_reading;
   for (const auto& [key, bound] : {std::pair{"at_least", limit.at_least}, std::pair{"at_most", limit.at_most}}) {
     if (!bound) continue;
     if (*bound < 0 || (share_of_samples && *bound > 100)) {
@@ -78,7 +79,7 @@ Limit read_limit(const TomlTable& table) {
   limit.at_most = table.optional_number("at_most");
   check_unit(limit, table);
   check_bounds(limit, table);
-  const bool of_all_samples = limit.figure == Figure::p95_of_reading || limit.figure == Figure::fault_share;
+  const bool of_all_samples = is_share(limit.figure) && limit.figure != Figure::band_coverage;
   if (of_all_samples && limit.when != When::always) {
     throw RecordingError(fmt::format("{}: {} is told of all samples only; leave 'when' out", table.place("when"),
                                      name_of(figure_names, limit.figure)));

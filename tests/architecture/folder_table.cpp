@@ -45,11 +45,13 @@ FolderRule read_rule(const std::string& may_include, const std::string& librarie
   return rule;
 }
 
-/// The rows that a name in a cell means: itself, and the rooms below it.
-std::vector<std::string> rows_meant(const FolderTable& table, const std::string& name) {
+/// The rows that a name in a cell means: itself, and the rooms below it. In the row of such a room the name of its own
+/// folder means that folder without its rooms.
+std::vector<std::string> rows_meant(const FolderTable& table, const std::string& name, const std::string& in_row = {}) {
   std::vector<std::string> rows;
+  const bool own = in_row.starts_with(name + "/");
   for (const auto& [row, rule] : table) {
-    if (row == name || row.starts_with(name + "/")) rows.push_back(row);
+    if (row == name || (!own && row.starts_with(name + "/"))) rows.push_back(row);
   }
   return rows;
 }
@@ -58,7 +60,7 @@ std::vector<std::string> rows_meant(const FolderTable& table, const std::string&
 void follow(const FolderTable& table, std::vector<std::string>& way) {
   const std::string row = way.back();
   for (const std::string& name : table.at(row).folders) {
-    for (const std::string& next : rows_meant(table, name)) {
+    for (const std::string& next : rows_meant(table, name, row)) {
       const bool round = std::find(way.begin(), way.end(), next) != way.end();
       way.push_back(next);
       if (round) throw std::runtime_error(fmt::format("round in a circle: {}", fmt::join(way, " -> ")));

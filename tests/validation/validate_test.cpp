@@ -93,6 +93,17 @@ TEST_F(Validate, CountsSamplesThatFlowTheOtherWayThanTold) {
   ValidationOptions options;
   options.reference_lag_s = 0;
   const RunResult result = run({write("run.csv", text)}, options).runs.front();
+  options.requirements = Requirements{
+      "limits.toml",
+      {{.place = "", .figure = Figure::wrong_sign, .unit = LimitUnit::percent, .at_most = 0.0},
+       {.place = "", .when = When::p_to_a, .figure = Figure::largest, .at_most = 1e3},
+       {.place = "", .run = "each", .figure = Figure::wrong_sign, .unit = LimitUnit::percent, .at_most = 5.0}}};
+  const std::vector<JudgedLimit> limits = run({folder / "run.csv"}, options).limits;
+  ASSERT_EQ(limits.size(), 3U);
+  EXPECT_NEAR(*limits[0].value, 10, 1e-9);
+  EXPECT_FALSE(limits[0].met);
+  EXPECT_TRUE(limits[1].met) << "the samples measured P to A have figures of their own";
+  EXPECT_NEAR(*limits[2].value, 10, 1e-9);
   EXPECT_EQ(result.results.front().sign->wrong, 10U) << "0.5 L/min have no direction to be sure of";
 }
 

@@ -30,6 +30,8 @@ std::string figure_text(const JudgedLimit& judged) {
       return fmt::format("share of the samples inside the {}'s 95 % band", estimator);
     case validation::Figure::p95_of_reading:
       return fmt::format("95th percentile of the {}'s error, of reading", estimator);
+    case validation::Figure::wrong_sign:
+      return fmt::format("share of the samples that flow the other way than the {} told", estimator);
     case validation::Figure::fault_share:
       break;
   }
@@ -44,6 +46,10 @@ const char* when_text(validation::When when) {
       return ", at rest";
     case validation::When::reversal:
       return ", around reversal";
+    case validation::When::p_to_b:
+      return ", flow P to B";
+    case validation::When::p_to_a:
+      return ", flow P to A";
     case validation::When::always:
       break;
   }
