@@ -107,7 +107,7 @@ std::optional<std::filesystem::path> state_file(const AnalyseArguments& argument
 
 /// The model, or of a whole valve the model of the direction asked for. Throws where the model knows another one only.
 model::Model model_of(const AnalyseArguments& arguments) {
-  const model::Model model = model::read_model(arguments.model);
+  model::Model model = model::read_model(arguments.model);
   if (model.whole()) return model::of_direction(model, arguments.direction.empty() ? "b" : arguments.direction);
   if (!arguments.direction.empty() && arguments.direction != model.valve.direction) {
     throw model::ModelError(

@@ -152,6 +152,10 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.spring_force_N = spring_force_N;
   out.flow_force_N = flow_force_N;
   out.status = point.status;
+  if constexpr (one_valve<T>) {
+    if (!has(point.status, Status::outside_force_map)) [[likely]]
+      return out;  // the position lies on its axis
+  }
   detail::admit_other_direction(valve, sample.position_m, out);
   return out;
 }
