@@ -101,11 +101,11 @@ constexpr void admit_other_direction(const CondensedTables<T>& valve, T position
 
 }  // namespace detail
 
-/// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
-/// left out (paper section 3) and stand in the band instead. Needs current and position, and a time that does not run
-/// backwards: otherwise the last answer is held. Other inputs are not read. The answer stays in the state.
-template <class T>
-constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
+/// One sample, see below. Whether the model `knows_one_direction` alone, wherever the spool stands, or is that of the
+/// side on which it stands.
+template <bool knows_one_direction, class T>
+[[gnu::always_inline]] constexpr const Estimate<T>& step_side(const CondensedTables<T>& valve, CondensedState<T>& state,
+                                                              const Sample<T>& sample) {
   using Layout = CondensedLayout;
   Estimate<T>& out = state.last;
   detail::CondensedPoint<T> point;
@@ -152,8 +152,16 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.spring_force_N = spring_force_N;
   out.flow_force_N = flow_force_N;
   out.status = point.status;
-  detail::admit_other_direction(valve, sample.position_m, out);
+  if constexpr (knows_one_direction) detail::admit_other_direction(valve, sample.position_m, out);
   return out;
+}
+
+/// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
+/// left out (paper section 3) and stand in the band instead. Needs current and position, and a time that does not run
+/// backwards: otherwise the last answer is held. Other inputs are not read. The answer stays in the state.
+template <class T>
+constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
+  return step_side<true>(valve, state, sample);
 }
 
 }  // namespace spoolflow::sensor

@@ -59,6 +59,7 @@ void follow(const FolderTable& table, std::vector<std::string>& way) {
   const std::string row = way.back();
   for (const std::string& name : table.at(row).folders) {
     for (const std::string& next : rows_meant(table, name)) {
+      if (next == row && name != row) continue;  // a room that may include what stands around it
       const bool round = std::find(way.begin(), way.end(), next) != way.end();
       way.push_back(next);
       if (round) throw std::runtime_error(fmt::format("round in a circle: {}", fmt::join(way, " -> ")));

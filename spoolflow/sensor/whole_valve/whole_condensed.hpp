@@ -25,7 +25,7 @@ constexpr const Estimate<T>& step(const WholeCondensedTables<T>& valve, WholeCon
                                   const WholeValveSample<T>& sample) {
   const bool opens_a = sample.position_m < T(0);
   CondensedState<T> direction{opens_a ? mirrored(state.last) : state.last};
-  const Estimate<T>& answer = step(opens_a ? *valve.a : *valve.b, direction, sample_of(sample, opens_a));
+  const Estimate<T>& answer = step_side<false>(opens_a ? *valve.a : *valve.b, direction, sample_of(sample, opens_a));
   state.last = opens_a ? mirrored(answer) : answer;
   return state.last;
 }
