@@ -175,7 +175,9 @@ class RunningSensor {
       return sensor::step(sensor::WholeCondensedTables<double>{condensed_.get(), condensed_a_.get()},
                           state_.whole_condensed, whole_valve_sample(sample, measured));
     }
-    return sensor::step(*condensed_, state_.condensed, sample);
+    sensor::step(*condensed_, state_.condensed, sample);
+    sensor::admit_other_direction(*condensed_, sample.position_m, state_.condensed.last);
+    return state_.condensed.last;
   }
 
   Parameters parameters_;

@@ -88,17 +88,6 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
   return flow + place.cells * flow_rise + T(Layout::root_cells) * (flow_more + place.cells * flow_more_rise);
 }
 
-/// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
-template <class T>
-constexpr void admit_other_direction(const CondensedTables<T>& valve, T position_m, Estimate<T>& answer) {
-  const T beyond_cells = (-position_m - T(other_direction_m)) * valve.cells_per_m;
-  const Mask<T> opens = beyond_cells > T(0.5) * valve.closed_below_cells;
-  if (!any(opens)) return;
-  answer.flow_lower_m3_per_s =
-      select(opens, smaller(answer.flow_lower_m3_per_s, -largest_flow(valve, -position_m)), answer.flow_lower_m3_per_s);
-  mark(answer.status, opens, Status::other_direction);
-}
-
 }  // namespace detail
 
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
@@ -152,12 +141,21 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.spring_force_N = spring_force_N;
   out.flow_force_N = flow_force_N;
   out.status = point.status;
-  if constexpr (one_valve<T>) {
-    if (!has(point.status, Status::outside_force_map)) [[likely]]
-      return out;  // the position lies on its axis
-  }
-  detail::admit_other_direction(valve, sample.position_m, out);
   return out;
+}
+
+/// To be called after the step of a model of one direction, which knows nothing of the other: where the spool opens
+/// that, as much may flow there as through its own edge, and the status says so. Beside the step, whose few
+/// instructions it would add to, for those who have other means to know the sign of the position.
+template <class T>
+constexpr void admit_other_direction(const CondensedTables<T>& valve, T position_m, Estimate<T>& answer) {
+  const T beyond_cells = (-position_m - T(other_direction_m)) * valve.cells_per_m;
+  const Mask<T> opens = beyond_cells > T(0.5) * valve.closed_below_cells;
+  if (!any(opens)) return;
+  answer.flow_lower_m3_per_s =
+      select(opens, smaller(answer.flow_lower_m3_per_s, -detail::largest_flow(valve, -position_m)),
+             answer.flow_lower_m3_per_s);
+  mark(answer.status, opens, Status::other_direction);
 }
 
 }  // namespace spoolflow::sensor

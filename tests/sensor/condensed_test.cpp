@@ -55,9 +55,14 @@ TEST(Condensed, HoldsItsLastAnswerWhereASampleIsMissing) {
 TEST(Condensed, NamesTheOtherDirectionInsteadOfASilentZero) {
   const auto valve = laid_out(linear_valve());
   CondensedState<double> state;
-  EXPECT_FALSE(has(step(valve, state, {1e-3, 0, 0, -0.02e-3, 323}).status, Status::other_direction));
-  const auto most = step(valve, state, {1e-3, 3.2, 12, 1.5e-3, 323}).flow_m3_per_s;
-  const auto other = step(valve, state, {1e-3, 0, 0, -1.5e-3, 323});
+  const auto answer = [&](double current_A, double position_m) {
+    step(valve, state, {1e-3, current_A, 12, position_m, 323});
+    admit_other_direction(valve, position_m, state.last);
+    return state.last;
+  };
+  EXPECT_FALSE(has(answer(0, -0.02e-3).status, Status::other_direction));
+  const double most = answer(3.2, 1.5e-3).flow_m3_per_s;
+  const Estimate<double> other = answer(0, -1.5e-3);
   EXPECT_TRUE(has(other.status, Status::other_direction));
   EXPECT_NEAR(other.flow_lower_m3_per_s, -most, 0.02 * most);
 }
