@@ -39,7 +39,7 @@ inline constexpr double process_noise_fall = 0.2;
 inline constexpr double telling_drift_share = 5;
 /// The forces tell of a change of the pressure difference so much later [s]: what it did since is unobserved at any
 /// time.
-inline constexpr double told_late_s = 0.006;
+inline constexpr double told_late_s = 0.002;
 /// A variance that reaches this [Pa2], or falls below zero, is none: rounding has broken the belief.
 inline constexpr double most_variance_Pa2 = 1e30;
 
