@@ -212,7 +212,7 @@ void describe_pressure_constants(Visitor& visitor) {
   visitor.constant({.name = "first_pressure_share",
                     .unit = "1",
                     .meaning = "belief before the first sample, as a share of the highest pressure difference",
-                    .evidence = "ramps_30_to_70bar: p95 0.37, 0.38, 0.41 % FS, band 93.2, 93.2, 93.0 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.0, 94.9 %"},
                    sensor::first_pressure_share);
   visitor.constant({.name = "first_deviation_share",
                     .unit = "1",
@@ -279,7 +279,7 @@ void describe_pressure_constants(Visitor& visitor) {
   visitor.constant({.name = "told_late_s",
                     .unit = "s",
                     .meaning = "how much later the forces tell of a change of the pressure difference",
-                    .evidence = "fast_10kHz: p95 2.41, 2.41, 2.41 % FS, band 92.7, 93.1, 93.6 %"},
+                    .evidence = "fast_10kHz: p95 2.40, 2.40, 2.40 % FS, band 92.9, 93.2, 93.5 %"},
                    sensor::told_late_s);
   visitor.constant(
       {.name = "most_variance_Pa2",
