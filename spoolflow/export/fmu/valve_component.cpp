@@ -11,6 +11,7 @@
 #include "spoolflow/export/fmu/number_text.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
+#include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/plant/winding_current.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -19,37 +20,15 @@ namespace {
 
 using rig::electronics_period_s;
 
-/// What the electronics measure of one coil: means over the sample step.
-struct CoilInstruments {
-  rig::Transducer shunt, voltage;
-  double current_sum_A = 0;
-  double voltage_sum_V = 0;
-
-  CoilInstruments(const rig::Instruments& instruments, std::uint64_t seed, const std::string& coil)
-      : shunt(errors(instruments.shunt), seed, "shunt" + coil, 0),
-        voltage(errors(instruments.voltage), seed, "voltage" + coil, 0) {}
-
-  void add(double current_A, double voltage_V) {
-    current_sum_A += current_A;
-    voltage_sum_V += voltage_V;
-  }
-  /// The mean of that many conversions; a new one begins.
-  void follow(double conversions) {
-    shunt.follow(current_sum_A / conversions, 0);
-    voltage.follow(voltage_sum_V / conversions, 0);
-    current_sum_A = voltage_sum_V = 0;
-  }
-};
-
 /// Everything that moves.
 struct ValveMemory {
   rig::PlantState plant;
   rig::ElectronicsState electronics;
   rig::Noise stage_noise;
   rig::LvdtReading lvdt;
-  CoilInstruments active;  ///< of both coils, that of a negative
+  rig::CoilPanel active;  ///< of both coils, that of a negative
   rig::Transducer thermometer;
-  CoilInstruments coil_a, coil_b;
+  rig::CoilPanel coil_a, coil_b;
   std::int64_t conversions = 0;
 
   ValveMemory(const VirtualValve& valve, std::uint64_t seed, const rig::PlantState& at_rest, double oil_temperature_C)
@@ -123,9 +102,9 @@ class ValveComponent : public Component {
     memory.lvdt.follow(memory.plant.position_m, input.oil_temperature_C, electronics_period_s);
     const double current_a_A = winding_current_A(valve_.plant.solenoid_a, memory.plant.solenoid_a);
     const double current_b_A = winding_current_A(valve_.plant.solenoid_b, memory.plant.solenoid_b);
-    memory.active.add(current_b_A - current_a_A, voltages.b_V - voltages.a_V);
-    memory.coil_a.add(current_a_A, voltages.a_V);
-    memory.coil_b.add(current_b_A, voltages.b_V);
+    memory.active.follow(current_b_A - current_a_A, voltages.b_V - voltages.a_V);
+    memory.coil_a.follow(current_a_A, voltages.a_V);
+    memory.coil_b.follow(current_b_A, voltages.b_V);
     ++memory.conversions;
     const auto ticks = std::max<std::int64_t>(1, std::llround(values[valve_sample_step] / electronics_period_s));
     if ((number + 1) % ticks == 0) {
@@ -160,11 +139,10 @@ class ValveComponent : public Component {
   void tell(std::span<double> values, const rig::PlantInput& input, double time_s) {
     ValveMemory& memory = *memory_;
     const auto conversions = static_cast<double>(std::max<std::int64_t>(1, memory.conversions));
-    const double noise_share = 1 / std::sqrt(conversions);
-    const auto tell_coil = [&](CoilInstruments& coil, std::uint32_t current, std::uint32_t voltage) {
-      coil.follow(conversions);
-      values[current] = coil.shunt.reading(noise_share);
-      values[voltage] = coil.voltage.reading(noise_share);
+    const auto tell_coil = [&](rig::CoilPanel& coil, std::uint32_t current, std::uint32_t voltage) {
+      coil.end_period(conversions);
+      values[current] = coil.current_A();
+      values[voltage] = coil.voltage_V();
     };
     tell_coil(memory.active, valve_current, valve_voltage);
     tell_coil(memory.coil_a, valve_current_a, valve_voltage_a);

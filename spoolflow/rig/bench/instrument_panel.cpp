@@ -30,14 +30,13 @@ InstrumentPanel::InstrumentPanel(const Instruments& instruments, std::uint64_t s
                                  const PlantOutput& plant, double oil_temperature_C)
     : lvdt(instruments.lvdt, seed, plant.position_m, oil_temperature_C),
       whole_valve_(run.whole_valve),
-      shunt_(errors(instruments.shunt), seed, "shunt", 0),
-      voltage_(errors(instruments.voltage), seed, "voltage", 0),
+      driven_coil_(instruments, seed, ""),
       load_cell_(errors(instruments.load_cell), seed, "load cell", plant.load_cell_force_N),
       upstream_(errors(instruments.upstream), seed, "upstream pressure", plant.path.upstream_pressure_Pa),
       downstream_(errors(instruments.downstream), seed, "downstream pressure", downstream_Pa(plant, run.whole_valve)),
       thermometer_(errors(instruments.thermometer), seed, "thermometer", oil_temperature_C),
-      coil_a_(instruments, seed, "a"),
-      coil_b_(instruments, seed, "b"),
+      coil_a_(instruments, seed, " a"),
+      coil_b_(instruments, seed, " b"),
       flow_meter_(instruments.flow_meter, seed, flow_m3_per_s(plant, run.whole_valve)) {
   if (records(run, Channel::pressure_p) || records(run, Channel::pressure_a) || records(run, Channel::pressure_b) ||
       records(run, Channel::pressure_t)) {
@@ -63,16 +62,16 @@ void InstrumentPanel::follow_plant(const PlantOutput& plant, double oil_temperat
   }
 }
 
-double InstrumentPanel::reading(Channel channel, const SetValues& set, double noise_share) {
+double InstrumentPanel::reading(Channel channel, const SetValues& set) {
   switch (channel) {
     case Channel::time:
       return set.time_s;
     case Channel::current:
-      return shunt_.reading(noise_share);
+      return driven_coil_.current_A();
     case Channel::current_set:
       return set.current_A;
     case Channel::voltage:
-      return voltage_.reading(noise_share);
+      return driven_coil_.voltage_V();
     case Channel::current_a:
       return coil_a_.current_A();
     case Channel::current_b:
@@ -119,14 +118,12 @@ void InstrumentPanel::store(recording::Recording& recording, const std::vector<C
                             const SetValues& set) {
   // A first sample without a period before it is a single conversion.
   const double conversions = static_cast<double>(std::max<std::int64_t>(1, conversions_));
-  shunt_.follow(current_sum_A_ / conversions, 0);
-  voltage_.follow(voltage_sum_V_ / conversions, 0);
+  driven_coil_.end_period(conversions);
   coil_a_.end_period(conversions);
   coil_b_.end_period(conversions);
-  current_sum_A_ = voltage_sum_V_ = 0;
   conversions_ = 0;
   for (const Channel channel : channels) {
-    recording.column(channel).push_back(reading(channel, set, 1 / std::sqrt(conversions)));
+    recording.column(channel).push_back(reading(channel, set));
   }
 }
 

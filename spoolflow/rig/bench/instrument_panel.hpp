@@ -6,7 +6,7 @@
 
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/rig/bench/bench_run.hpp"
-#include "spoolflow/rig/bench/coil_panel.hpp"
+#include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/instruments/instruments.hpp"
 #include "spoolflow/rig/plant/valve_plant.hpp"
 
@@ -38,8 +38,7 @@ class InstrumentPanel {
   /// One period of the electronics went by with these mean voltages and these currents at its end. The channels current
   /// and voltage show the driven solenoid; a is negative, as its direction.
   void follow_coils(const CoilSignals& coils) {
-    current_sum_A_ += coils.current_b_A - coils.current_a_A;
-    voltage_sum_V_ += coils.voltage_b_V - coils.voltage_a_V;
+    driven_coil_.follow(coils.current_b_A - coils.current_a_A, coils.voltage_b_V - coils.voltage_a_V);
     coil_a_.follow(coils.current_a_A, coils.voltage_a_V);
     coil_b_.follow(coils.current_b_A, coils.voltage_b_V);
     ++conversions_;
@@ -50,18 +49,17 @@ class InstrumentPanel {
   void store(recording::Recording& recording, const std::vector<recording::Channel>& channels, const SetValues& set);
 
  private:
-  [[nodiscard]] double reading(recording::Channel channel, const SetValues& set, double noise_share);
+  [[nodiscard]] double reading(recording::Channel channel, const SetValues& set);
 
   struct Ports {
     Transducer P, A, B, T;
   };
   bool whole_valve_;
-  Transducer shunt_, voltage_, load_cell_, upstream_, downstream_, thermometer_;
+  CoilPanel driven_coil_;
+  Transducer load_cell_, upstream_, downstream_, thermometer_;
   CoilPanel coil_a_, coil_b_;
   std::optional<Ports> ports_;  ///< where the run records them
   FlowMeterReading flow_meter_;
-  double current_sum_A_ = 0;
-  double voltage_sum_V_ = 0;
   std::int64_t conversions_ = 0;
 };
 

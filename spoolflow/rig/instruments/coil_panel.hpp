@@ -1,6 +1,5 @@
 #pragma once
-/// Shunt and voltage divider of one solenoid of a whole valve; both readings are means over a sample period.
-#include <algorithm>
+/// Shunt and voltage divider of one coil; both readings are means over a sample period.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -12,9 +11,10 @@ namespace spoolflow::rig {
 
 class CoilPanel {
  public:
-  CoilPanel(const Instruments& instruments, std::uint64_t seed, std::string_view solenoid)
-      : shunt_(errors(instruments.shunt), seed, std::string("shunt ").append(solenoid), 0),
-        divider_(errors(instruments.voltage), seed, std::string("voltage ").append(solenoid), 0) {}
+  /// `coil` tells the noise of several apart; empty for the only one.
+  CoilPanel(const Instruments& instruments, std::uint64_t seed, std::string_view coil)
+      : shunt_(errors(instruments.shunt), seed, std::string("shunt").append(coil), 0),
+        divider_(errors(instruments.voltage), seed, std::string("voltage").append(coil), 0) {}
 
   /// One period of the electronics went by with this mean voltage and this current at its end.
   void follow(double current_A, double voltage_V) {
