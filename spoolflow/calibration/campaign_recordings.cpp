@@ -6,6 +6,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::calibration {
@@ -49,7 +50,7 @@ recording::ReadOptions channels_of(Protocol protocol) {
 /// Whether an operating run is of the whole valve; its channels must suffice.
 bool goes_through_centre(const recording::Recording& recording, const recording::CampaignRecording& entry, bool whole) {
   if (entry.protocol != Protocol::operation) return false;
-  const bool both = recording.has(Channel::current_a) && recording.has(Channel::current_b);
+  const bool both = recording::has_both_coils(recording);
   if (!both && !recording.has(Channel::current)) {
     throw recording::RecordingError(
         fmt::format("{}: has no coil current; give \"current\", or \"current_a\" and \"current_b\" of a whole valve, "

@@ -1,6 +1,7 @@
 #include "spoolflow/validation/run_samples.hpp"
 
 #include "spoolflow/numerics/meter_lag.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::validation {
@@ -32,7 +33,7 @@ void append(std::vector<Number>& to, const recording::SampleBlock& block, Channe
 void append_current(std::vector<float>& to, const recording::SampleBlock& block) {
   const std::vector<double>& a = block.column(Channel::current_a);
   const std::vector<double>& b = block.column(Channel::current_b);
-  if (a.empty() || b.empty()) return append(to, block, Channel::current);
+  if (!recording::has_both_coils(block)) return append(to, block, Channel::current);
   for (std::size_t k = 0; k < block.rows; ++k) to.push_back(static_cast<float>(b[k] - a[k]));
 }
 

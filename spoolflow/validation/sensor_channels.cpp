@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
 
 namespace spoolflow::validation {
 
@@ -44,14 +45,13 @@ namespace {
 
 template <class Source>
 estimation::Columns columns_of(const Source& source) {
-  // Both coils' currents where they are; else that of the only or the active one.
-  const bool whole = !source.column(Channel::current_a).empty() && !source.column(Channel::current_b).empty();
+  const recording::CoilChannels coil = recording::coil_channels(source);
   estimation::Columns out{.time_s = source.column(Channel::time),
-                          .current_A = source.column(whole ? Channel::current_b : Channel::current),
-                          .voltage_V = source.column(whole ? Channel::voltage_b : Channel::voltage),
+                          .current_A = source.column(coil.current),
+                          .voltage_V = source.column(coil.voltage),
                           .position_m = source.column(Channel::position),
                           .oil_temperature_K = source.column(Channel::oil_temperature)};
-  if (whole) {
+  if (recording::has_both_coils(source)) {
     out.current_a_A = source.column(Channel::current_a);
     out.voltage_a_V = source.column(Channel::voltage_a);
   }

@@ -1,15 +1,16 @@
 #include "spoolflow/calibration/operation/replay.hpp"
 
+#include "spoolflow/recording/coil_channels.hpp"
+
 namespace spoolflow::calibration {
 
 using recording::Channel;
 
 estimation::Columns operating_columns(const recording::Recording& recording) {
-  // Both coils' currents where they are; else that of the only or the active one.
-  const bool whole = recording.has(Channel::current_a) && recording.has(Channel::current_b);
+  const recording::CoilChannels coil = recording::coil_channels(recording);
   return {.time_s = recording[Channel::time],
-          .current_A = recording[whole ? Channel::current_b : Channel::current],
-          .voltage_V = recording.column(whole ? Channel::voltage_b : Channel::voltage),
+          .current_A = recording[coil.current],
+          .voltage_V = recording.column(coil.voltage),
           .position_m = recording[Channel::position],
           .oil_temperature_K = recording.column(Channel::oil_temperature),
           .current_a_A = recording.column(Channel::current_a),
