@@ -1,6 +1,7 @@
 #include "spoolflow/calibration/observer.hpp"
 
 #include <cmath>
+#include <deque>
 #include <iterator>
 #include <optional>
 
@@ -65,14 +66,26 @@ struct BenchFits {
   SpringFit spring;
   MagneticForceFit magnetic;
   ActuatorFit actuator;
-  std::vector<recording::Recording> axial_recordings;
-  std::vector<AxialForceFit> axial;
+  std::deque<recording::Recording> axial_recordings;  ///< a deque: `maps` points to them
+  AxialForceMaps maps;
+  PathFit axial;
   MeteringEdgeFit edge;
 };
 
+/// The axial force's recordings without the position sensor's drift.
+void take_off_drift(const AxialForceMaps& measured, double stroke_m, BenchFits& out) {
+  out.maps = measured;
+  for (auto* recordings : {&out.maps.joined, &out.maps.inlet, &out.maps.outlet}) {
+    for (const recording::Recording*& recording : *recordings) {
+      out.axial_recordings.push_back(without_zero_offset(*recording, stroke_m));
+      recording = &out.axial_recordings.back();
+    }
+  }
+}
+
 BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
-  std::vector<const recording::Recording*> bench{&recordings.spring};
-  bench.insert(bench.end(), recordings.axial_force_maps.begin(), recordings.axial_force_maps.end());
+  std::vector<const recording::Recording*> bench = recordings.axial_force_maps.recordings();
+  bench.insert(bench.begin(), &recordings.spring);
   BenchFits out{};
   out.position = fit_position_sensor(bench, stroke_m);
   out.spring = fit_spring(without_zero_offset(recordings.spring, stroke_m), stroke_m);
@@ -83,11 +96,9 @@ BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
   std::optional<recording::Recording> dynamic;
   if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
   out.actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, out.magnetic, stroke_m);
-  for (const recording::Recording* recording : recordings.axial_force_maps)
-    out.axial_recordings.push_back(without_zero_offset(*recording, stroke_m));
-  for (const recording::Recording& recording : out.axial_recordings)
-    out.axial.push_back(fit_axial_force(recording, stroke_m));
-  out.edge = fit_metering_edge(out.axial, out.spring.spring, out.spring.friction_half_width_N);
+  take_off_drift(recordings.axial_force_maps, stroke_m, out);
+  out.axial = fit_path(out.maps, out.spring.spring, stroke_m);
+  out.edge = fit_metering_edge(out.axial.path, out.spring.spring, out.spring.friction_half_width_N);
   return out;
 }
 
@@ -95,10 +106,21 @@ model::BenchResiduals residuals_on_bench(const BenchFits& fits, double stroke_m)
   model::BenchResiduals out;
   out.magnetic_force = fits.actuator.profiles;
   if (fits.actuator.dynamics) out.solenoid = fits.actuator.dynamics->traces;
-  for (const recording::Recording& recording : fits.axial_recordings) {
-    std::vector<model::MapResidual> each =
-        axial_force_residuals(recording, fits.spring.spring, fits.edge.edge, stroke_m);
-    std::move(each.begin(), each.end(), std::back_inserter(out.axial_force));
+  const auto add = [&](const std::vector<const recording::Recording*>& recordings,
+                       const sensor::MeteringEdge<double>& edge) {
+    for (const recording::Recording* recording : recordings) {
+      std::vector<model::MapResidual> each = axial_force_residuals(*recording, fits.spring.spring, edge, stroke_m);
+      std::move(each.begin(), each.end(), std::back_inserter(out.axial_force));
+    }
+  };
+  // Of one edge alone what its own map leaves: the path's is of both.
+  const auto own = [&](const std::vector<AxialForceFit>& measured) {
+    return fit_metering_edge(measured, fits.spring.spring, fits.spring.friction_half_width_N).edge;
+  };
+  add(fits.maps.joined, fits.maps.edges_are_assumed() ? own(fits.axial.measured.front()) : fits.edge.edge);
+  if (!fits.maps.inlet.empty()) {
+    add(fits.maps.inlet, own(fits.axial.measured.front()));
+    add(fits.maps.outlet, own(fits.axial.measured.back()));
   }
   return out;
 }
@@ -114,10 +136,10 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
   out.friction = assumed_friction;
   out.pressure = supply;
   out.band = {.friction_share = 0.03,
-              .force_residual_N =
-                  std::hypot(fits.magnetic.residual.rms(), together(fits.axial, &AxialForceFit::force_residual).rms(),
-                             fits.spring.residual.rms()),
-              .flow_residual_m3_per_s = together(fits.axial, &AxialForceFit::flow_residual).rms(),
+              .force_residual_N = std::hypot(fits.magnetic.residual.rms(),
+                                             together(fits.axial.path, &AxialForceFit::force_residual).rms(),
+                                             fits.spring.residual.rms()),
+              .flow_residual_m3_per_s = together(fits.axial.path, &AxialForceFit::flow_residual).rms(),
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
               .unseen_factor = 2.0};
@@ -128,8 +150,8 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
 }
 
 std::vector<model::Residual> residuals_of_fits(const BenchFits& fits) {
-  const FitResidual axial_force = together(fits.axial, &AxialForceFit::force_residual);
-  const FitResidual flow = together(fits.axial, &AxialForceFit::flow_residual);
+  const FitResidual axial_force = together(fits.axial.path, &AxialForceFit::force_residual);
+  const FitResidual flow = together(fits.axial.path, &AxialForceFit::flow_residual);
   std::vector<model::Residual> out{
       {std::string(model::of_spring_force), "N", fits.spring.residual.rms(), fits.spring.residual.largest},
       {std::string(model::of_magnetic_force), "N", fits.magnetic.residual.rms(), fits.magnetic.residual.largest},
@@ -175,12 +197,16 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
   calibration.bench = residuals_on_bench(fits, valve.stroke_m);
   model::Observer& out = calibration.observer;
   out.parameters = parameters_from(fits, closed_below_m);
+  double& flow_residual_m3_per_s = out.parameters.band.flow_residual_m3_per_s;
+  flow_residual_m3_per_s =
+      flow_residual_with_unknown_edges(fits.maps, flow_residual_m3_per_s, valve.rated_flow_m3_per_s);
   const auto& temperature_K = fits.edge.edge.temperature_K;
   out.oil_temperature_K = {temperature_K.at(0), temperature_K.at(sensor::edge_temperatures - 1)};
   out.residuals = residuals_of_fits(fits);
   out.fits = known_of_bench(fits);
   out.defaults = {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure", "band_coverage_factor",
                   "band_unseen_factor", "band_creep_per_s"};
+  if (fits.maps.edges_are_assumed()) out.defaults.emplace_back(model::each_edge_alone);
   if (!fits.actuator.dynamics) {
     out.defaults.emplace_back("hysteresis_threshold_Wb");
     out.defaults.emplace_back("eddy_currents");
