@@ -13,6 +13,7 @@
 #include "spoolflow/calibration/fits/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
@@ -43,6 +44,9 @@ constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s
                                                     .ratio_deviation = 0.03,
                                                     .ratio_memory_s = 10};
 constexpr double coverage_factor = 2;
+
+/// More than that no valve's forces are off in operation, measured by what its benches leave open.
+constexpr double largest_force_error_ratio = 7;
 
 constexpr const char* of_operation = "flow rate in operation";
 
@@ -178,6 +182,16 @@ std::vector<model::Fit> known_of_bench(const BenchFits& fits) {
   return out;
 }
 
+/// Throws CalibrationError where operation contradicts the benches.
+void require_agreement(const OperationFit& fit, const std::vector<OperatingRun>& runs) {
+  if (fit.force_error_ratio <= largest_force_error_ratio) return;
+  throw CalibrationError(fmt::format(
+      "{}: the flow in operation differs from what the bench recordings tell by {:.1f} times what they leave open, at "
+      "most {:.0f} is credible; give the load's area_ratio under [load] where it passes unequal flows over both edges, "
+      "compare the signs and units of both, or leave the operation out",
+      runs.front().recording->file.filename().string(), fit.force_error_ratio, largest_force_error_ratio));
+}
+
 /// Without an operating recording.
 void assume_operation(model::Observer& observer) {
   observer.defaults = {"operation_friction_ratio",  "friction_ageing_ratio", "friction_ageing_s",
@@ -220,6 +234,7 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
   const std::vector<OperatingRun> used = with_reference(runs);
   if (!used.empty()) {
     const OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
+    require_agreement(fit, used);
     observer.fits.push_back(fit.known);
     observer.defaults = fit.not_told;
     observer.residuals.push_back({of_operation, "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
