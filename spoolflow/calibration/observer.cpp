@@ -121,7 +121,7 @@ model::BenchResiduals residuals_on_bench(const BenchFits& fits, double stroke_m)
   const auto own = [&](const std::vector<AxialForceFit>& measured) {
     return fit_metering_edge(measured, fits.spring.spring, fits.spring.friction_half_width_N).edge;
   };
-  add(fits.maps.joined, fits.maps.edges_are_assumed() ? own(fits.axial.measured.front()) : fits.edge.edge);
+  add(fits.maps.joined, fits.maps.edges_are_unknown() ? own(fits.axial.measured.front()) : fits.edge.edge);
   if (!fits.maps.inlet.empty()) {
     add(fits.maps.inlet, own(fits.axial.measured.front()));
     add(fits.maps.outlet, own(fits.axial.measured.back()));
@@ -175,6 +175,13 @@ std::vector<model::Fit> known_of_bench(const BenchFits& fits) {
   std::vector<model::Fit> out{fits.spring.known};
   out.insert(out.end(), fits.edge.known.begin(), fits.edge.known.end());
   if (fits.position.known) out.push_back(*fits.position.known);
+  if (const std::optional<EdgeRatio>& edges = fits.maps.edge_ratio) {
+    constexpr double standard = 4;  // deviations in the range of 95 %
+    out.push_back(
+        {"edges of the path, joined on the bench, as operation tells them apart",
+         {{"conductance_ratio_of_outlet_to_inlet", edges->value, (edges->highest - edges->lowest) / standard}},
+         {1.0}});
+  }
   const ActuatorFit& actuator = fits.actuator;
   out.push_back(actuator.loop_widths ? actuator.loop_widths->known : actuator.friction);
   if (actuator.flux_linkage.measured) out.push_back(actuator.flux_linkage.known);

@@ -176,6 +176,12 @@ LoadFactors load_factors(double outlet_flow_ratio, double edge_ratio) {
   return {std::sqrt(share), (e + k2) / (e + 1) * share};
 }
 
+/// The flow that belongs to one force, over that of the joined bench: a force tells dp, and the flow is C sqrt(dp).
+double flow_of_force(double outlet_flow_ratio, double edge_ratio) {
+  const LoadFactors factors = load_factors(outlet_flow_ratio, edge_ratio);
+  return factors.conductance / std::sqrt(factors.force);
+}
+
 }  // namespace
 
 std::vector<const recording::Recording*> AxialForceMaps::recordings() const {
@@ -230,8 +236,9 @@ PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& sprin
   if (maps.inlet.empty()) {
     out.measured = {fits_of(maps.joined)};
     out.path = out.measured.front();
-    if (maps.edges_are_assumed()) {
-      for (AxialForceFit& fit : out.path) fit = joined_under_load(std::move(fit), spring, ratio, 1);
+    if (maps.edges_are_unknown()) {
+      const double edge_ratio = maps.edge_ratio ? maps.edge_ratio->value : 1;
+      for (AxialForceFit& fit : out.path) fit = joined_under_load(std::move(fit), spring, ratio, edge_ratio);
     }
     return out;
   }
@@ -262,21 +269,26 @@ AxialForceFit joined_under_load(AxialForceFit joined, const sensor::Spring<doubl
   return joined;
 }
 
-double flow_share_of_unknown_edges(double outlet_flow_ratio) {
-  // One force tells dp = F/(F per pressure), and the flow is C sqrt(dp).
-  const auto flow_of_force = [&](double edge_ratio) {
-    const LoadFactors factors = load_factors(outlet_flow_ratio, edge_ratio);
-    return factors.conductance / std::sqrt(factors.force);
-  };
-  const double ratio = flow_of_force(outlet_flow_ratio) / flow_of_force(1);
-  return std::max(ratio, 1 / ratio) - 1;
+double conductance_under_load(double outlet_flow_ratio, double edge_ratio) {
+  return load_factors(outlet_flow_ratio, edge_ratio).conductance;
+}
+
+double edge_ratio_of(double outlet_flow_ratio, double conductance_share) {
+  const double k2 = outlet_flow_ratio * outlet_flow_ratio, s2 = conductance_share * conductance_share;
+  return std::sqrt((1 - s2 * k2) / (s2 - 1));
 }
 
 double flow_residual_with_unknown_edges(const AxialForceMaps& maps, double flow_residual_m3_per_s,
                                         double rated_flow_m3_per_s) {
-  if (!maps.edges_are_assumed()) return flow_residual_m3_per_s;
-  return std::hypot(flow_residual_m3_per_s, flow_share_of_unknown_edges(maps.outlet_flow_ratio) * rated_flow_m3_per_s /
-                                                sensor::flow_residual_factor);
+  if (!maps.edges_are_unknown()) return flow_residual_m3_per_s;
+  const double k = maps.outlet_flow_ratio;
+  const EdgeRatio edges = maps.edge_ratio.value_or(EdgeRatio{1, k, k});
+  double share = 0;
+  for (const double edge_ratio : {edges.lowest, edges.highest}) {
+    const double ratio = flow_of_force(k, edge_ratio) / flow_of_force(k, edges.value);
+    share = std::max({share, ratio - 1, 1 / ratio - 1});
+  }
+  return std::hypot(flow_residual_m3_per_s, share * rated_flow_m3_per_s / sensor::flow_residual_factor);
 }
 
 }  // namespace spoolflow::calibration

@@ -13,8 +13,10 @@
 ///     C/C_joined = sqrt((e^2 + 1)/(e^2 + k^2)),   F/F_joined = (e + k^2)/(e + 1) (e^2 + 1)/(e^2 + k^2)   at the same
 ///     dp
 ///
-/// Nothing on such a bench tells e. It is taken as 1, both edges alike: C/C_joined = sqrt(2/(1 + k^2)), F as it was.
+/// Nothing on such a bench tells e; a run at work whose flow and pressure difference were recorded does
+/// (edges_in_operation.hpp). Else it is taken as 1, both edges alike: C/C_joined = sqrt(2/(1 + k^2)), F as it was.
 /// Edges cut for their cylinder have e = k; what lies between both is what the flow may be wrong by.
+#include <optional>
 #include <vector>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
@@ -22,16 +24,24 @@
 
 namespace spoolflow::calibration {
 
+/// e = C2/C1, and the range in which it lies at 95 %.
+struct EdgeRatio {
+  double value, lowest, highest;
+};
+
 /// How a direction's axial force was measured: both edges of its path together, or each by itself.
 struct AxialForceMaps {
   std::vector<const recording::Recording*> joined;  ///< one an oil temperature; or
   std::vector<const recording::Recording*> inlet;   ///< of P to B or P to A alone,
   std::vector<const recording::Recording*> outlet;  ///< and of A to T or B to T
   double outlet_flow_ratio = 1;                     ///< flow over the outlet through that through the inlet, > 0
+  std::optional<EdgeRatio> edge_ratio;              ///< of joined edges, where operation told it
 
   /// All of them.
   [[nodiscard]] std::vector<const recording::Recording*> recordings() const;
-  [[nodiscard]] bool edges_are_assumed() const { return inlet.empty() && outlet_flow_ratio != 1; }
+  /// The load passes unequal flows over edges that were measured together.
+  [[nodiscard]] bool edges_are_unknown() const { return inlet.empty() && outlet_flow_ratio != 1; }
+  [[nodiscard]] bool edges_are_assumed() const { return edges_are_unknown() && !edge_ratio; }
 };
 
 /// The path's loops, as a bench with that load would measure them, from those of its edges at the same oil temperature.
@@ -56,11 +66,13 @@ struct PathFit {
 [[nodiscard]] AxialForceFit joined_under_load(AxialForceFit joined, const sensor::Spring<double>& spring,
                                               double outlet_flow_ratio, double edge_ratio);
 
-/// Half the width of the band, as a share of the flow, that edges unlike each other would need where they were assumed
-/// alike: how far the flow that belongs to one force differs between e = 1 and e = k.
-[[nodiscard]] double flow_share_of_unknown_edges(double outlet_flow_ratio);
+/// C/C_joined as above, and e from it; C/C_joined lies between 1 and 1/k.
+[[nodiscard]] double conductance_under_load(double outlet_flow_ratio, double edge_ratio);
+[[nodiscard]] double edge_ratio_of(double outlet_flow_ratio, double conductance_share);
 
-/// What the band's flow residual becomes where the edges were assumed: it then holds that share of rated flow [m3/s].
+/// What the band's flow residual becomes where each edge by itself is not known [m3/s]: the band then holds what the
+/// flow that belongs to one force would be at rated flow with edges in another proportion: up to e = k where they were
+/// assumed alike, within the range of e where operation told it.
 [[nodiscard]] double flow_residual_with_unknown_edges(const AxialForceMaps& maps, double flow_residual_m3_per_s,
                                                       double rated_flow_m3_per_s);
 

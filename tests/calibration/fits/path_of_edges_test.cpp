@@ -7,7 +7,7 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/sensor/band.hpp"
-#include "tests/calibration/synthetic_bench.hpp"
+#include "tests/calibration/closed_form_edges.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -15,71 +15,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr double warm_K = 323.15;
-
-/// An edge in closed form: flow C sqrt(dp), flow force and what pressure adds to friction in proportion to dp.
-struct ClosedFormEdge {
-  double opens_at_m = 0.2e-3;
-  double conductance_per_m = 2.5e-4;
-  double force_per_m_Pa = 3.4e-3;
-  double friction_per_Pa = 0.3e-6;
-
-  [[nodiscard]] double opening_m(double x_m) const { return std::fmax(0.0, x_m - opens_at_m); }
-  [[nodiscard]] double conductance(double x_m) const { return conductance_per_m * opening_m(x_m); }
-  [[nodiscard]] double force_N(double x_m, double pressure_Pa) const {
-    return force_per_m_Pa * opening_m(x_m) * pressure_Pa;
-  }
-};
-
-constexpr double unloaded_friction_N = 2.0;
-
-/// What the axial-force rig shows of one edge, or of two of which the second passes k times the flow.
-struct EdgeReading {
-  double force_N, friction_N, flow_m3_per_s;
-};
-
-EdgeReading reading_of(const ClosedFormEdge& edge, double x_m, double pressure_Pa) {
-  return {edge.force_N(x_m, pressure_Pa), unloaded_friction_N + edge.friction_per_Pa * pressure_Pa,
-          edge.conductance(x_m) * std::sqrt(pressure_Pa)};
-}
-
-EdgeReading reading_of(const ClosedFormEdge& inlet, const ClosedFormEdge& outlet, double k, double x_m,
-                       double pressure_Pa) {
-  const double c1 = inlet.conductance(x_m), c2 = outlet.conductance(x_m);
-  if (!(c1 > 0) && !(c2 > 0)) return {0, unloaded_friction_N + inlet.friction_per_Pa * pressure_Pa, 0};
-  const double inlet_Pa = pressure_Pa * c2 * c2 / (c2 * c2 + k * k * c1 * c1), outlet_Pa = pressure_Pa - inlet_Pa;
-  return {inlet.force_N(x_m, inlet_Pa) + outlet.force_N(x_m, outlet_Pa),
-          unloaded_friction_N + inlet.friction_per_Pa * inlet_Pa + outlet.friction_per_Pa * outlet_Pa,
-          c1 * std::sqrt(inlet_Pa)};
-}
-
-const std::vector<Stroke> edge_levels{{5e5}, {10e5}, {20e5}, {30e5}, {40e5}, {50e5}, {60e5}, {70e5}};
-
-template <class Shows>
-recording::Recording recorded(const std::string& file, const Shows& shows, double oil_temperature_K = warm_K) {
-  using recording::Channel;
-  const Drive motion = drive(edge_levels, 0);
-  recording::Recording out;
-  out.file = file;
-  out.column(Channel::time) = motion.time_s;
-  out.column(Channel::position) = motion.position_m;
-  out.column(Channel::pressure_difference_set) = motion.level;
-  out.column(Channel::pressure_difference) = motion.level;
-  for (std::size_t k = 0; k < motion.time_s.size(); ++k) {
-    const double x_m = motion.true_position_m[k];
-    const EdgeReading shown = shows(x_m, motion.level[k]);
-    out.column(Channel::axial_force).push_back(spring_N(x_m) + shown.force_N + motion.direction[k] * shown.friction_N);
-    out.column(Channel::flow).push_back(shown.flow_m3_per_s);
-    out.column(Channel::oil_temperature).push_back(oil_temperature_K);
-  }
-  return out;
-}
-
-recording::Recording recorded(const std::string& file, const ClosedFormEdge& edge, double oil_temperature_K = warm_K) {
-  return recorded(
-      file, [&](double x_m, double p_Pa) { return reading_of(edge, x_m, p_Pa); }, oil_temperature_K);
-}
 
 SpringFit unloaded_spring() {
   return fit_spring(axial_force_recording({{}}, 0), stroke_m);
@@ -108,10 +43,6 @@ MeteringEdgeFit joined(const recording::Recording& recording, double k) {
   return fit_metering_edge(fit_path(joined_maps(recording, k), spring.spring, stroke_m).path, spring.spring,
                            spring.friction_half_width_N);
 }
-
-/// Of like opening, the outlet cut narrower and with a steeper jet.
-const ClosedFormEdge wide{};
-const ClosedFormEdge narrow{.conductance_per_m = 1.5e-4, .force_per_m_Pa = 2.4e-3, .friction_per_Pa = 0.5e-6};
 
 TEST(PathOfEdges, MeasuredOneEdgeAtATimeHasTheMapsThatItHasWithBothJoined) {
   const recording::Recording both =
@@ -194,6 +125,27 @@ TEST(PathOfEdges, WhoseEdgesAreAssumedHasABandThatHoldsEdgesCutForTheCylinder) {
     EXPECT_LT(missed_m3_per_s, 1.02 * sensor::flow_residual_factor * residual_m3_per_s) << k;
     EXPECT_GT(missed_m3_per_s, 0.5 * sensor::flow_residual_factor * residual_m3_per_s) << k;
   }
+}
+
+TEST(PathOfEdges, WhoseProportionOperationToldIsThatUnderTheCylinder) {
+  ClosedFormEdge cut = wide;
+  cut.conductance_per_m *= 0.5;
+  cut.force_per_m_Pa *= 0.5;
+  const recording::Recording both =
+      recorded("joined.csv", [&](double x_m, double p_Pa) { return reading_of(wide, cut, 1, x_m, p_Pa); });
+  AxialForceMaps maps = joined_maps(both, 0.6);
+  maps.edge_ratio = EdgeRatio{0.5, 0.48, 0.52};
+  const SpringFit spring = unloaded_spring();
+  const MeteringEdgeFit fit =
+      fit_metering_edge(fit_path(maps, spring.spring, stroke_m).path, spring.spring, spring.friction_half_width_N);
+  const EdgeReading known = reading_of(wide, cut, 0.6, 1.6e-3, 50e5);
+  const auto found = fit.edge.at(warm_K, 50e5, 1.6e-3);
+  EXPECT_NEAR(found.conductance * std::sqrt(50e5) / known.flow_m3_per_s, 1, 2e-3);
+  EXPECT_NEAR(found.flow_force_N, known.force_N, 0.02);
+  const double told_m3_per_s = flow_residual_with_unknown_edges(maps, 0, 1e-3);
+  maps.edge_ratio.reset();
+  EXPECT_LT(told_m3_per_s, 0.2 * flow_residual_with_unknown_edges(maps, 0, 1e-3));
+  EXPECT_NEAR(edge_ratio_of(0.6, conductance_under_load(0.6, 0.5)), 0.5, 1e-12);
 }
 
 TEST(PathOfEdges, WidensNoBandWhereTheCampaignTellsTheEdges) {
