@@ -91,7 +91,7 @@ void add_calibrate_command(CLI::App& program) {
        "make a valve's model from the bench recordings of a campaign",
        "CAMPAIGN.toml, which names the valve, the oil and the recordings with their protocols: one `spring`, one "
        "`solenoid_force_map`, `axial_force_map` at one or several oil temperatures; of a whole valve all of them in "
-       "each direction",
+       "each direction, with A and B joined or one edge at a time",
        "the model as JSON: maps, their ranges and residuals, and where they came from",
        {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json"}});
   command->add_option("campaign", arguments->campaign, "campaign file (TOML)")->required();

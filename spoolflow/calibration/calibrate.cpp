@@ -106,7 +106,8 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   const bool whole = recordings.directions().size() > 1;
   const std::string direction =
       recordings.directions().empty() ? campaign.valve.direction : recordings.directions().front();
-  const model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
+  model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
+  if (campaign.load.area_ratio != 1) valve.load_area_ratio = campaign.load.area_ratio;
   model::Model out =
       whole ? calibrate_whole_valve(recordings.of("b"), recordings.of("a"), recordings.through_centre(), valve, fitting)
             : calibrate_valve(recordings.of(direction), valve, fitting);

@@ -20,7 +20,8 @@ struct Valve {
   std::string name;
   double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
-  std::string direction;  ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
+  std::string direction;                    ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
+  std::optional<double> load_area_ratio{};  ///< of the cylinder it is for, port A over port B; absent: equal flows
 };
 
 /// Data-sheet values; absent where the campaign does not give them.
