@@ -164,6 +164,17 @@ model::AxialForceLoop beyond(model::AxialForceLoop loop, const sensor::Spring<do
   return loop;
 }
 
+/// Throws CalibrationError where no oil flows through an edge that is open.
+void require_flow(const AxialForceFit& fit, const recording::Recording& recording) {
+  const std::vector<double>& flow_m3_per_s = fit.loops.back().flow_m3_per_s;
+  if (flow_m3_per_s[flow_m3_per_s.size() / 2] > 0 || flow_m3_per_s.back() > 0) return;
+  throw CalibrationError(fmt::format(
+      "{}: {:.2f} L/min flow through the fully open edge at {:.0f} bar; flow through the measured edge is > 0, "
+      "whichever port feeds it: correct sign or channel",
+      recording.file.filename().string(), units::L_per_min_from_m3_per_s(flow_m3_per_s.back()),
+      units::bar_from_Pa(fit.loops.back().pressure_difference_set_Pa)));
+}
+
 /// What the edges' proportion makes of conductance and force at the same pressure difference.
 struct LoadFactors {
   double conductance;
@@ -244,8 +255,12 @@ PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& sprin
   }
   out.measured = {fits_of(maps.inlet), fits_of(maps.outlet)};
   const std::vector<AxialForceFit>&inlet = out.measured[0], &outlet = out.measured[1];
-  for (std::size_t k = 0; k < outlet.size(); ++k) (void)partner(outlet[k], *maps.outlet[k], inlet, maps.inlet);
+  for (std::size_t k = 0; k < outlet.size(); ++k) {
+    require_flow(outlet[k], *maps.outlet[k]);
+    (void)partner(outlet[k], *maps.outlet[k], inlet, maps.inlet);
+  }
   for (std::size_t k = 0; k < inlet.size(); ++k) {
+    require_flow(inlet[k], *maps.inlet[k]);
     const AxialForceFit& other = partner(inlet[k], *maps.inlet[k], outlet, maps.outlet);
     out.path.push_back(path_of_edges(inlet[k], other, spring, ratio));
   }

@@ -57,7 +57,7 @@ struct PathFit {
 };
 
 /// Each inlet is taken together with the outlet at the nearest oil temperature. Throws CalibrationError where an edge
-/// was measured at an oil temperature at which the other was not, within 5 K.
+/// was measured at an oil temperature at which the other was not, within 5 K, or no oil flows through one fully open.
 [[nodiscard]] PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& spring, double stroke_m);
 
 /// A path measured with both edges joined, under a load that passes k times the flow over the outlet; e = C2/C1. With

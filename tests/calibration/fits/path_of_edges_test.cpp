@@ -173,5 +173,18 @@ TEST(PathOfEdges, IsRefusedWithTheFileWhoseOilTemperatureTheOtherEdgeLacks) {
   EXPECT_NEAR(fit.path.front().oil_temperature_K, warm_K + 1.5, 1e-6);
 }
 
+TEST(PathOfEdges, WhoseMeterWasTurnedRoundWithTheHosesIsRefusedByFile) {
+  const recording::Recording of_inlet = recorded("PB.csv", wide);
+  recording::Recording of_outlet = recorded("AT.csv", narrow);
+  for (double& flow : of_outlet.column(recording::Channel::flow)) flow = -flow;
+  AxialForceMaps maps;
+  maps.inlet = {&of_inlet};
+  maps.outlet = {&of_outlet};
+  const SpringFit spring = unloaded_spring();
+  EXPECT_THAT([&] { (void)fit_path(maps, spring.spring, stroke_m); },
+              ThrowsMessage<CalibrationError>(
+                  AllOf(HasSubstr("AT.csv: -52.39 L/min"), HasSubstr("flow through the measured edge is > 0"))));
+}
+
 }  // namespace
 }  // namespace spoolflow::calibration
