@@ -53,6 +53,7 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.edge.highest_pressure_difference_Pa(),
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
+  state.idle.waiting_s = state.idle.charge_As = T(0);
 }
 
 /// In pieces so small that no compiler wants a library to move them.
@@ -74,7 +75,7 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   std::swap(state.open.pressure, state.idle.pressure);
   std::swap(state.open.dither, state.idle.dither);
   mirror(state.open.friction);
-  state.open.swing = {};
+  forget(state.open.swing);
   PressureState<T>& pressure = state.open.pressure;
   expect_change(open.pressure, pressure);
   drift_unseen(open.pressure, pressure, state.idle.closed_s, open.edge.highest_pressure_difference_Pa());
@@ -152,11 +153,12 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
     state.open.last.status = held;
     return state.open.last;
   }
-  const bool begins = !state.open.started;
+  const bool leapt = lies_below(T(longest_step_s), sample.time_step_s);
+  const bool begins = !state.open.started || leapt;
   if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
-  detail::follow_temperature(state.open, own);
+  detail::follow_temperature(state.open, own.oil_temperature_K);
 
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
@@ -173,6 +175,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   } else {
     detail::observe_side<false>(detail::sides(valve, false), state, sample, position, dither, begins);
   }
+  if (begins && leapt) state.open.last.status |= Status::time_fault;
   return state.open.last;
 }
 
