@@ -190,11 +190,18 @@ spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample
 
 spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
                                       spoolflow_estimate* estimate) {
+  return spoolflow_step_whole_ports(sensor, sample, nullptr, estimate);
+}
+
+spoolflow_result spoolflow_step_whole_ports(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
+                                            const spoolflow_port_pressures* ports, spoolflow_estimate* estimate) {
   if (sensor == nullptr || sample == nullptr || estimate == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
   if (!sensor->shared->model.whole()) return SPOOLFLOW_BAD_ARGUMENT;
+  sensor::PortPressures<double> measured;
+  if (ports != nullptr) measured = {ports->p_Pa, ports->a_Pa, ports->b_Pa, ports->t_Pa};
   *estimate = told(sensor->running.step(spoolflow::estimation::of_both_coils(
       {sample->time_s, sample->current_a_A, sample->current_b_A, sample->voltage_a_V, sample->voltage_b_V,
-       sample->position_m, sample->oil_temperature_K})));
+       sample->position_m, sample->oil_temperature_K, measured})));
   return SPOOLFLOW_OK;
 }
 
