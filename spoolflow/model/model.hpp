@@ -77,6 +77,9 @@ struct Condensed {
   std::vector<Residual> residuals;
 };
 
+/// Among an observer's defaults: A and B were joined on the bench, and the load passes unequal flows over both edges.
+inline constexpr const char* each_edge_alone = "each edge by itself: both are taken as alike";
+
 /// The full sensor; a model may lack it.
 struct Observer {
   sensor::ObserverParameters<double> parameters;
