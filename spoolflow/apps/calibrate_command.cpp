@@ -53,7 +53,9 @@ void print_summary(const model::Model& model) {
 }  // namespace
 
 void calibrate(const CalibrateArguments& arguments) {
-  const recording::Campaign campaign = recording::read_campaign(arguments.campaign);
+  const recording::Campaign campaign =
+      recording::read_campaign(arguments.campaign, arguments.allow_outside ? recording::OutsideFiles::allowed
+                                                                           : recording::OutsideFiles::refused);
   const report::ReaderUnits units(arguments.units);
   std::vector<std::filesystem::path> inputs = files_of(campaign);
   OutputFile output(arguments.model, inputs);
@@ -91,6 +93,8 @@ void add_calibrate_command(CLI::App& program) {
       ->required();
   command->add_option("--report", arguments->report, "HTML page to write about the calibration")
       ->type_name("PAGE.html");
+  command->add_flag("--allow-outside", arguments->allow_outside,
+                    "read recordings that the campaign names outside its own folder, too");
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { calibrate(*arguments); });

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <span>
@@ -13,6 +12,7 @@
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
 #include "spoolflow/export/state_bytes.hpp"
+#include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace {
@@ -94,7 +94,7 @@ std::string text_of(const std::filesystem::path& file) {
   if (!in || std::filesystem::is_directory(file)) {
     throw BadFile(file.string() + ": cannot be opened; check the path, or make a model with `spoolflow calibrate`");
   }
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = spoolflow::model::read_json_text(in);
   if (text.empty()) {
     throw BadFile(file.string() + ": the file is empty; make the model again with `spoolflow calibrate`");
   }
