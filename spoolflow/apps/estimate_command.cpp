@@ -14,6 +14,8 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/several_failures.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -58,12 +60,12 @@ void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, estimati
 
 void tell(const recording::ReadNotes& notes, const std::string& file) {
   if (notes.duplicate_times > 0) {
-    fmt::print(stderr, "{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n",
-               file, notes.duplicate_times);
+    say("{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n", file,
+        notes.duplicate_times);
   }
   if (notes.missing_values > 0) {
-    fmt::print(stderr, "{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
-               notes.missing_values);
+    say("{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
+        notes.missing_values);
   }
 }
 
@@ -157,19 +159,16 @@ std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folde
 /// input.
 [[noreturn]] void throw_together(const std::vector<std::exception_ptr>& failures) {
   if (failures.size() == 1) std::rethrow_exception(failures.front());
-  std::vector<std::string> messages;
-  bool work_failed = false;
+  SeveralFailures all;
   for (const std::exception_ptr& failure : failures) {
     try {
       std::rethrow_exception(failure);
     } catch (const std::exception& error) {
-      messages.emplace_back(error.what());
-      work_failed = work_failed || dynamic_cast<const std::invalid_argument*>(&error) == nullptr;
+      all.messages.emplace_back(error.what());
+      all.of_the_work = all.of_the_work || dynamic_cast<const std::invalid_argument*>(&error) == nullptr;
     }
   }
-  const std::string text = fmt::format("{}", fmt::join(messages, "\nspoolflow estimate: "));
-  if (work_failed) throw std::runtime_error(text);
-  throw std::invalid_argument(text);
+  throw all;
 }
 
 /// All recordings, as many at a time as the machine has cores. Failures are thrown when the others are done.

@@ -199,7 +199,8 @@ Model parse_model(const std::string& text, const std::string& file) {
 }
 
 Model read_model(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file))
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(file, unreadable))
     throw ModelError(fmt::format("{}: is a folder, not a model file", file.string()));
   std::ifstream in(file, std::ios::binary);
   if (!in) {

@@ -77,10 +77,12 @@ CampaignInstruments instruments_of(const TomlTable& table) {
 
 /// A campaign that came from elsewhere must not make this program read what its user can read.
 void refuse_outside(const std::filesystem::path& recording, const TomlTable& entry) {
-  const std::filesystem::path folder = std::filesystem::absolute(entry.file).parent_path();
+  const std::filesystem::path folder = std::filesystem::absolute(entry.file).parent_path();  // "" for one named alone
   std::error_code unreadable;
-  const std::filesystem::path inside = std::filesystem::weakly_canonical(recording, unreadable)
-                                           .lexically_relative(std::filesystem::weakly_canonical(folder, unreadable));
+  const auto without_links = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), unreadable);
+  };
+  const std::filesystem::path inside = without_links(recording).lexically_relative(without_links(folder));
   if (!unreadable && !inside.empty() && *inside.begin() != "..") return;
   throw RecordingError(
       fmt::format("{}: the recording {} stands outside the campaign's folder; put it there, or allow it with "

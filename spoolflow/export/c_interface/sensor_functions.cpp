@@ -91,7 +91,8 @@ RunningSensor::Parameters parameters(const Model& model, spoolflow_estimator est
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
+  std::error_code unreadable;
+  if (!in || std::filesystem::is_directory(file, unreadable)) {
     throw BadFile(file.string() + ": cannot be opened; check the path, or make a model with `spoolflow calibrate`");
   }
   std::string text = spoolflow::model::read_json_text(in);
