@@ -151,7 +151,7 @@ step_refused() {
   sed '/spring/d; s,file = ",&../examples/valve_a/,' ../examples/valve_a/campaign.toml >key.toml
   for bad in text backwards unit channel header empty missing; do said $bad spoolflow estimate ../valve_a/model.json $bad.csv -o out.csv; done
   for bad in cut negative version missing; do said model_$bad spoolflow estimate $bad.json good.csv -o out.csv; done
-  for bad in protocol key missing; do said campaign_$bad spoolflow calibrate $bad.toml -o out.json; done
+  for bad in protocol key missing; do said campaign_$bad spoolflow calibrate $bad.toml --allow-outside -o out.json; done
   said calibrated_of_a_model spoolflow calibrate ../valve_a/model.json -o out.json
   said several spoolflow estimate ../valve_a/model.json missing.csv text.csv good.csv -o several
   said units spoolflow validate ../valve_a/model.json $run --report out.html --units furlong

@@ -10,6 +10,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/demo_files.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::apps {
@@ -71,7 +72,7 @@ void demo(const DemoArguments& arguments) {
             .channels = {},
             .units = arguments.units,
             .quiet = arguments.quiet});
-  fmt::print(
+  print(
       "\nThe recordings are simulated by the virtual test rig; they, the model and the estimate are in {0}. The same "
       "step "
       "by step:\n"

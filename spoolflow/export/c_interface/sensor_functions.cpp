@@ -3,7 +3,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <span>
@@ -13,6 +12,7 @@
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
 #include "spoolflow/export/state_bytes.hpp"
+#include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace {
@@ -91,10 +91,11 @@ RunningSensor::Parameters parameters(const Model& model, spoolflow_estimator est
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
+  std::error_code unreadable;
+  if (!in || std::filesystem::is_directory(file, unreadable)) {
     throw BadFile(file.string() + ": cannot be opened; check the path, or make a model with `spoolflow calibrate`");
   }
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = spoolflow::model::read_json_text(in);
   if (text.empty()) {
     throw BadFile(file.string() + ": the file is empty; make the model again with `spoolflow calibrate`");
   }
