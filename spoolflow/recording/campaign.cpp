@@ -75,7 +75,6 @@ CampaignInstruments instruments_of(const TomlTable& table) {
   return out;
 }
 
-<<<<<<< HEAD
 CampaignLoad load_of(const TomlTable& table) {
   table.allow_only({"area_ratio"});
   constexpr double least = 0.1, most = 10;
@@ -118,9 +117,6 @@ std::string edge_of(const TomlTable& entry, Protocol protocol, std::string& dire
                   entry.place("edge"), *edge));
 }
 
-CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve) {
-  entry.allow_only({"protocol", "file", "direction", "edge", "channels"});
-=======
 /// A campaign that came from elsewhere must not make this program read what its user can read.
 void refuse_outside(const std::filesystem::path& recording, const TomlTable& entry) {
   const std::filesystem::path folder = std::filesystem::absolute(entry.file).parent_path();  // "" for one named alone
@@ -137,18 +133,14 @@ void refuse_outside(const std::filesystem::path& recording, const TomlTable& ent
 }
 
 CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve, OutsideFiles outside) {
-  entry.allow_only({"protocol", "file", "direction", "channels"});
->>>>>>> files
+  entry.allow_only({"protocol", "file", "direction", "edge", "channels"});
   CampaignRecording out{protocol_of(entry),
                         entry.file.parent_path() / entry.text("file"),
                         {},
                         place_of(entry.table, entry.file),
                         direction_of(entry).value_or(valve.direction)};
-<<<<<<< HEAD
   out.edge = edge_of(entry, out.protocol, out.direction);
-=======
   if (outside == OutsideFiles::refused) refuse_outside(out.file, entry);
->>>>>>> files
   std::error_code failure;
   if (!std::filesystem::exists(out.file, failure)) {
     throw RecordingError(fmt::format("{}: the recording {} does not exist; correct file = \"{}\" or put the file there",

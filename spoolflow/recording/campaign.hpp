@@ -75,12 +75,8 @@ struct Campaign {
 enum class OutsideFiles : std::uint8_t { refused, allowed };
 
 /// Throws RecordingError with file and line: unknown keys, missing or non-positive values, a recording that does not
-<<<<<<< HEAD
-/// exist, an edge that is not of its direction, a path of which one edge alone was measured.
-[[nodiscard]] Campaign read_campaign(const std::filesystem::path& file);
-=======
-/// exist, or that stands outside where that is refused.
+/// exist, or that stands outside where that is refused, an edge that is not of its direction, a path of which one edge
+/// alone was measured.
 [[nodiscard]] Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside = OutsideFiles::refused);
->>>>>>> files
 
 }  // namespace spoolflow::recording

@@ -63,7 +63,6 @@ TEST(Campaign, NamesFileAndLineOfWhatItRefuses) {
               HasSubstr("campaign.toml, line 7: the recording"));
 }
 
-<<<<<<< HEAD
 /// Axial-force maps, each of what its keys say.
 std::string maps_with(std::initializer_list<std::string_view> keys, std::string_view before = {}) {
   std::string out = std::string(valve) + std::string(before);
@@ -112,7 +111,6 @@ TEST(Campaign, RefusesAnAreaRatioThatIsNoCylinders) {
                         "port B, 0.1 to 10"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 0\n")), HasSubstr("it must be above zero"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\nratio = 0.6\n")), HasSubstr("unknown key 'ratio' in [load]"));
-=======
 TEST(Campaign, ReadsNothingOutsideItsFolderUnlessToldTo) {
   const TemporaryFile outside("secret.csv", "time_s\n");
   const std::string climbing = "../" + outside.folder().filename().string() + "/secret.csv";
@@ -151,7 +149,6 @@ TEST(Campaign, NestsNoDeeperThanItsReaderCanFollow) {
   const std::string many_lines = "more = \"\"\"\n" + dotted + "\"\"\n\"\"\"\nlast = '" + dotted + "\\'\n";
   EXPECT_EQ(too_deep_toml(text + many_lines), std::nullopt);
   EXPECT_TRUE(too_deep_toml(text + many_lines + dotted));
->>>>>>> files
 }
 
 TEST(Campaign, RefusesChannelsAndUnitsThatDoNotFit) {
