@@ -111,6 +111,8 @@ TEST(Campaign, RefusesAnAreaRatioThatIsNoCylinders) {
                         "port B, 0.1 to 10"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 0\n")), HasSubstr("it must be above zero"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\nratio = 0.6\n")), HasSubstr("unknown key 'ratio' in [load]"));
+}
+
 TEST(Campaign, ReadsNothingOutsideItsFolderUnlessToldTo) {
   const TemporaryFile outside("secret.csv", "time_s\n");
   const std::string climbing = "../" + outside.folder().filename().string() + "/secret.csv";
