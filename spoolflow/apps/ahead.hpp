@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -17,10 +18,15 @@ template <class Item>
 class Ahead {
  public:
   /// `produce(item)` fills an item, whose capacities are those of an earlier one, and tells whether there was one more.
-  /// `beside` false: no thread, each item is produced when it is asked for.
+  /// `beside` false, or no thread to be had: each item is produced when it is asked for.
   Ahead(std::function<bool(Item&)> produce, bool beside) : produce_(std::move(produce)), beside_(beside) {
     const InterruptionPause inherited;  // interruptions are the main thread's, which holds them back where it must
-    if (beside_) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    if (!beside_) return;
+    try {
+      thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    } catch (const std::system_error&) {  // no further thread is to be had
+      beside_ = false;
+    }
   }
   /// Waits for the item that is being produced.
   ~Ahead() {

@@ -11,6 +11,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
@@ -52,10 +53,9 @@ struct SelfCheckFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-void print_text(const std::string& text) {
-  OutputFile output("-");
-  output.stream() << text;
-  output.commit();
+void print_lines(const std::string& text) {
+  print_text(terminal_lines(text));
+  flush_standard_output();
 }
 
 void self_check(const AnalyseArguments& arguments) {
@@ -75,7 +75,7 @@ void self_check(const AnalyseArguments& arguments) {
           f + 1, first.value, first.lower, first.upper, check.first_order[f], total.value, total.lower, total.upper,
           check.total[f]);
     }
-    print_text(text);
+    print_lines(text);
   }
   if (!check.passed) throw SelfCheckFailed("self-check: a known index lies outside its confidence interval");
 }
@@ -185,11 +185,11 @@ void analyse_dither(const AnalyseArguments& arguments) {
   const report::DitherVerdict verdict = report::dither_verdict(model, results);
   std::string text = verdict.sentence.in(units) + "\n";
   for (const report::Text& remark : verdict.remarks) text += "- " + remark.in(units) + "\n";
-  print_text(text);
+  print_lines(text);
 }
 
 void analyse(const AnalyseArguments& arguments) {
-  if (arguments.print_scenario) return print_text(analysis::scenario_template());
+  if (arguments.print_scenario) return print_lines(analysis::scenario_template());
   if (!arguments.self_check.empty()) return self_check(arguments);
   if (arguments.model.empty()) throw CLI::RequiredError("model");
   if (arguments.dither) return analyse_dither(arguments);
@@ -238,7 +238,7 @@ void analyse(const AnalyseArguments& arguments) {
     const report::AnalysisVerdict verdict = report::analysis_verdict(model, results);
     std::string text = verdict.sentence + "\n";
     for (const std::string& remark : verdict.remarks) text += "- " + remark + "\n";
-    print_text(text);
+    print_lines(text);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/recording/campaign.hpp"
@@ -29,25 +30,24 @@ std::vector<std::filesystem::path> files_of(const recording::Campaign& campaign)
 void print_summary(const model::Model& model) {
   if (model.whole()) {
     for (const char* direction : {"b", "a"}) {
-      fmt::print(stderr, "flow P to {}\n", *direction == 'a' ? "A" : "B");
+      say("flow P to {}\n", *direction == 'a' ? "A" : "B");
       print_summary(model::of_direction(model, direction));
     }
     return;
   }
   const model::Condensed& condensed = model.condensed;
-  fmt::print(stderr, "{}: currents to {:.3g} A, positions to {:.3g} mm, pressure differences {:.3g} to {:.3g} bar\n",
-             model.valve.name, condensed.current_A.upper, units::mm_from_m(condensed.position_m.upper),
-             units::bar_from_Pa(condensed.pressure_difference_Pa.lower),
-             units::bar_from_Pa(condensed.pressure_difference_Pa.upper));
+  say("{}: currents to {:.3g} A, positions to {:.3g} mm, pressure differences {:.3g} to {:.3g} bar\n", model.valve.name,
+      condensed.current_A.upper, units::mm_from_m(condensed.position_m.upper),
+      units::bar_from_Pa(condensed.pressure_difference_Pa.lower),
+      units::bar_from_Pa(condensed.pressure_difference_Pa.upper));
   for (const model::Residual& residual : condensed.residuals) {
     const bool flow = residual.unit == "m3/s";
     const double scale = flow ? units::litre_per_minute_per_m3_per_s : 1.0;
-    fmt::print(stderr, "  {:<15} residual {:.3g} RMS, {:.3g} at most [{}]\n", residual.of, residual.rms * scale,
-               residual.largest * scale, flow ? "L/min" : residual.unit);
+    say("  {:<15} residual {:.3g} RMS, {:.3g} at most [{}]\n", residual.of, residual.rms * scale,
+        residual.largest * scale, flow ? "L/min" : residual.unit);
   }
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
-  fmt::print(
-      stderr, "  flow force tells the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),
+  say("  flow force tells the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),
       uniqueness.ambiguous_at_m.empty() ? ""
                                         : fmt::format(", but is ambiguous at {} positions (see the model's evidence)",
                                                       uniqueness.ambiguous_at_m.size()));
@@ -62,7 +62,9 @@ void print_summary(const model::Model& model) {
 }  // namespace
 
 void calibrate(const CalibrateArguments& arguments) {
-  const recording::Campaign campaign = recording::read_campaign(arguments.campaign);
+  const recording::Campaign campaign =
+      recording::read_campaign(arguments.campaign, arguments.allow_outside ? recording::OutsideFiles::allowed
+                                                                           : recording::OutsideFiles::refused);
   const report::ReaderUnits units(arguments.units);
   std::vector<std::filesystem::path> inputs = files_of(campaign);
   OutputFile output(arguments.model, inputs);
@@ -100,6 +102,8 @@ void add_calibrate_command(CLI::App& program) {
       ->required();
   command->add_option("--report", arguments->report, "HTML page to write about the calibration")
       ->type_name("PAGE.html");
+  command->add_flag("--allow-outside", arguments->allow_outside,
+                    "read recordings that the campaign names outside its own folder, too");
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { calibrate(*arguments); });

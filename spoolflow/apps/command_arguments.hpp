@@ -28,6 +28,7 @@ struct CalibrateArguments {
   std::string model;                    ///< to write
   std::string report;                   ///< to write; empty: none
   std::vector<std::string> units = {};  ///< of the report
+  bool allow_outside = false;           ///< recordings outside the campaign's folder
   bool quiet = false;
 };
 void calibrate(const CalibrateArguments& arguments);

@@ -1,6 +1,5 @@
 /// `spoolflow estimate`: the flow rate of a recording, sample by sample, from what the sensor may read.
 #include <exception>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,12 +14,12 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/several_failures.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/parallel/for_each.hpp"
-#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
-#include "spoolflow/recording/files/file_format.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -61,12 +60,12 @@ void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, estimati
 
 void tell(const recording::ReadNotes& notes, const std::string& file) {
   if (notes.duplicate_times > 0) {
-    fmt::print(stderr, "{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n",
-               file, notes.duplicate_times);
+    say("{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n", file,
+        notes.duplicate_times);
   }
   if (notes.missing_values > 0) {
-    fmt::print(stderr, "{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
-               notes.missing_values);
+    say("{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
+        notes.missing_values);
   }
 }
 
@@ -156,47 +155,29 @@ std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folde
   return targets;
 }
 
-/// The libraries that read HDF5 and MATLAB files work for one thread at a time.
-bool reads_beside_others(const std::string& file) {
-  std::string beginning(recording::format_bytes, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(in.gcount()));
-  try {
-    return recording::format_of(beginning, file) == recording::FileFormat::csv;
-  } catch (const recording::RecordingError&) {
-    return false;  // reading it will tell
-  }
-}
-
 /// Throws all failures as one, each told as if it had come alone. A failure of the work weighs more than an unusable
 /// input.
 [[noreturn]] void throw_together(const std::vector<std::exception_ptr>& failures) {
   if (failures.size() == 1) std::rethrow_exception(failures.front());
-  std::vector<std::string> messages;
-  bool work_failed = false;
+  SeveralFailures all;
   for (const std::exception_ptr& failure : failures) {
     try {
       std::rethrow_exception(failure);
     } catch (const std::exception& error) {
-      messages.emplace_back(error.what());
-      work_failed = work_failed || dynamic_cast<const std::invalid_argument*>(&error) == nullptr;
+      all.messages.emplace_back(error.what());
+      all.of_the_work = all.of_the_work || dynamic_cast<const std::invalid_argument*>(&error) == nullptr;
     }
   }
-  const std::string text = fmt::format("{}", fmt::join(messages, "\nspoolflow estimate: "));
-  if (work_failed) throw std::runtime_error(text);
-  throw std::invalid_argument(text);
+  throw all;
 }
 
 /// All recordings, as many at a time as the machine has cores. Failures are thrown when the others are done.
 void estimate_all(const Task& task, const std::vector<std::string>& recordings,
                   const std::vector<std::filesystem::path>& targets) {
-  std::mutex one_at_a_time, told;
+  std::mutex told;
   std::vector<std::exception_ptr> failures(recordings.size());
   parallel::for_each(recordings.size(), parallel::cores(), [&](std::size_t k) {
     try {
-      std::unique_lock alone(one_at_a_time, std::defer_lock);
-      if (!reads_beside_others(recordings[k])) alone.lock();
       const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k], false);
       const std::lock_guard lock(told);
       tell(notes, recordings[k]);

@@ -11,6 +11,7 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/embedded_parts.hpp"
@@ -76,10 +77,9 @@ void export_cpp(const ExportArguments& arguments) {
   }
   for (const auto& output : outputs) output->commit();
   if (!model.has_observer()) {
-    fmt::print(stderr,
-               "{}: the model is not calibrated for the observer, so the condensed sensor alone is exported; calibrate "
-               "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
-               model.valve.name);
+    say("{}: the model is not calibrated for the observer, so the condensed sensor alone is exported; calibrate "
+        "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
+        model.valve.name);
   }
 }
 
@@ -91,9 +91,7 @@ bool names_valve(const std::string& name) {
 
 void export_fmu(const ExportArguments& arguments) {
   if (!exports::windows_is_served()) {
-    fmt::print(
-        stderr,
-        "this program was built without MinGW: the FMU runs on Linux alone; for Windows compile its sources there, "
+    say("this program was built without MinGW: the FMU runs on Linux alone; for Windows compile its sources there, "
         "or build spoolflow where x86_64-w64-mingw32-g++-posix is installed\n");
   }
   const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
@@ -113,9 +111,7 @@ void export_fmu(const ExportArguments& arguments) {
   output.stream() << exports::sensor_fmu(model, version, tool_version());
   output.commit();
   if (!model.has_observer()) {
-    fmt::print(
-        stderr,
-        "{}: the model is not calibrated for the observer, so the FMU runs the condensed sensor; calibrate with a "
+    say("{}: the model is not calibrated for the observer, so the FMU runs the condensed sensor; calibrate with a "
         "solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for the observer\n",
         model.valve.name);
   }

@@ -8,6 +8,7 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/proposal.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -76,62 +77,47 @@ std::vector<std::string> columns_left_out(const recording::ChannelMap& map, cons
 
 void print_proposal(const recording::ChannelMap& proposal) {
   if (proposal.sources.empty()) {
-    fmt::print("No column name is known; write a channel map by hand (see docs/formats.md).\n");
+    print("No column name is known; write a channel map by hand (see docs/formats.md).\n");
   } else {
-    fmt::print("Proposed channel map (check it, then give it with --channels MAP.toml):\n\n{}",
-               recording::written(proposal));
+    print_text("Proposed channel map (check it, then give it with --channels MAP.toml):\n\n" +
+               terminal_lines(recording::written(proposal)));
   }
 }
 
 /// `map`: the one that the file was read with; null: none.
 void print_text(const InspectArguments& arguments, const recording::ChannelMap* map,
                 const recording::Inspection& found) {
-  fmt::print("{}: {}, {} columns: {}\n", arguments.file, found.contents.format, found.contents.columns.size(),
-             joined(found.contents.columns));
+  print("{}: {}, {} columns: {}\n", arguments.file, found.contents.format, found.contents.columns.size(),
+        joined(found.contents.columns));
   if (!found.channels.empty()) {
-    fmt::print("{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
-               found.end_s - found.begin_s, found.rate_Hz);
-    if (found.jitter > 0.01) fmt::print(", time steps vary by up to {:.0f} %", 100 * found.jitter);
-    fmt::print("\n");
-    if (found.duplicate_times > 0) fmt::print("{} samples repeat the time stamp before them\n", found.duplicate_times);
+    print("{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
+          found.end_s - found.begin_s, found.rate_Hz);
+    if (found.jitter > 0.01) print(", time steps vary by up to {:.0f} %", 100 * found.jitter);
+    print("\n");
+    if (found.duplicate_times > 0) print("{} samples repeat the time stamp before them\n", found.duplicate_times);
     if (found.gap_count > 0) {
-      fmt::print("{} gaps in time", found.gap_count);
+      print("{} gaps in time", found.gap_count);
       for (const recording::Gap& gap : found.gaps)
-        fmt::print("{} {:.6g} to {:.6g} s", &gap == found.gaps.data() ? ":" : ",", gap.from_s, gap.to_s);
-      fmt::print("{}\n", found.gap_count > found.gaps.size() ? ", …" : "");
+        print("{} {:.6g} to {:.6g} s", &gap == found.gaps.data() ? ":" : ",", gap.from_s, gap.to_s);
+      print("{}\n", found.gap_count > found.gaps.size() ? ", …" : "");
     }
-    fmt::print("\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
-               "missing", "clipped");
+    print("\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
+          "missing", "clipped");
     for (const recording::ChannelSummary& summary : found.channels) {
       const ShownUnit unit = shown_unit(summary.channel);
       const auto shown = [&](double value) { return value * unit.per_SI + unit.offset; };
-      fmt::print("{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel),
-                 unit.name, shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
-                 100 * summary.clipped);
+      print("{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel), unit.name,
+            shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing, 100 * summary.clipped);
     }
-    fmt::print("\n");
+    print("\n");
   }
   if (map == nullptr) {
     print_proposal(found.proposal);
   } else if (const std::vector<std::string> columns = columns_left_out(*map, found); columns.empty()) {
-    fmt::print("Read with {}, which names every column.\n", arguments.channels);
+    print("Read with {}, which names every column.\n", arguments.channels);
   } else {
-    fmt::print("Read with {}; columns that it does not name: {}\n", arguments.channels, joined(columns));
+    print("Read with {}; columns that it does not name: {}\n", arguments.channels, joined(columns));
   }
-}
-
-/// Text as a JSON string.
-std::string json_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<int>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
 }
 
 /// A number of JSON, which has none for NaN.
@@ -140,29 +126,28 @@ std::string number(double value) {
 }
 
 void print_json(const recording::Inspection& found) {
-  fmt::print("{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
+  print("{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
   for (const std::string& column : found.contents.columns) {
-    fmt::print("{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
+    print("{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
   }
-  fmt::print(
-      "],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
-      found.samples, number(found.begin_s), number(found.end_s), number(found.rate_Hz), number(found.jitter));
-  fmt::print(" \"duplicate_times\": {},\n \"gap_count\": {},\n \"gaps_s\": [", found.duplicate_times, found.gap_count);
+  print("],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
+        found.samples, number(found.begin_s), number(found.end_s), number(found.rate_Hz), number(found.jitter));
+  print(" \"duplicate_times\": {},\n \"gap_count\": {},\n \"gaps_s\": [", found.duplicate_times, found.gap_count);
   for (const recording::Gap& gap : found.gaps) {
-    fmt::print("{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", number(gap.from_s), number(gap.to_s));
+    print("{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", number(gap.from_s), number(gap.to_s));
   }
-  fmt::print("],\n \"channels\": [");
+  print("],\n \"channels\": [");
   for (const recording::ChannelSummary& summary : found.channels) {
     const ShownUnit unit = shown_unit(summary.channel);
     const auto shown = [&](double value) { return number(value * unit.per_SI + unit.offset); };
-    fmt::print(
+    print(
         "{}\n  {{\"channel\": \"{}\", \"unit\": \"{}\", \"lowest\": {}, \"mean\": {}, \"highest\": {}, \"missing\": "
         "{}, "
         "\"clipped_share\": {}}}",
         &summary == found.channels.data() ? "" : ",", recording::name(summary.channel), unit.name,
         shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing, number(summary.clipped));
   }
-  fmt::print("\n ],\n \"proposed_channel_map\": {}\n}}\n", json_text(recording::written(found.proposal)));
+  print("\n ],\n \"proposed_channel_map\": {}\n}}\n", json_text(recording::written(found.proposal)));
 }
 
 void inspect(const InspectArguments& arguments) {

@@ -24,12 +24,21 @@ void say(const char* text) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
 }
 
-extern "C" void end_interrupted(int) {
-  if (ending.test_and_set()) return;
+void remove_unfinished() {
   for (auto& slot : unfinished) {
     const char* path = slot.load();
     if (path != nullptr) unlink(path);
   }
+}
+
+/// Of an abort: the program goes on to end by it.
+extern "C" void tidy_up(int) {
+  remove_unfinished();
+}
+
+extern "C" void end_interrupted(int) {
+  if (ending.test_and_set()) return;
+  remove_unfinished();
   if (terminal) say("\r\033[K");  // a progress line may stand there
   say(speaker_text.data());
   switch (output_state.load()) {
@@ -66,6 +75,7 @@ void end_cleanly_when_interrupted(std::string_view program) {
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored under nohup, and stays so
+  std::signal(SIGABRT, tidy_up);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

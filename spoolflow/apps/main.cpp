@@ -1,13 +1,11 @@
 /// The spoolflow command: chooses a command, and is the only place that catches what it throws.
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,7 +15,10 @@
 #include "spoolflow/apps/help_page.hpp"
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/several_failures.hpp"
+#include "spoolflow/apps/standard_streams.hpp"
 #include "spoolflow/apps/suggestion.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 
 namespace {
@@ -94,15 +95,8 @@ int help_or_refuse(const CLI::App& program, const CLI::ParseError& error) {
     output.commit();
     return done;
   }
-  fmt::print(stderr, "{}: {}; see {} --help\n", speaker(program), usage_message(program, error), speaker(program));
+  say("{}: {}; see {} --help\n", speaker(program), usage_message(program, error), speaker(program));
   return wrong_usage;
-}
-
-/// What a command printed counts as written only once it is: `> /dev/full` must not look like success.
-void flush_standard_output() {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  if (errno == EPIPE) throw ReaderGone();
-  throw OutputError(fmt::format("cannot write standard output: {}", std::strerror(errno)));
 }
 
 int run(CLI::App& program, int argc, char** argv) {
@@ -112,7 +106,7 @@ int run(CLI::App& program, int argc, char** argv) {
       flush_standard_output();
       return done;
     }
-    fmt::print(stderr, "{0}: no command given; see {0} --help\n", program.get_name());
+    say("{0}: no command given; see {0} --help\n", program.get_name());
     return wrong_usage;
   } catch (const CLI::ParseError& error) {
     return help_or_refuse(program, error);
@@ -135,23 +129,25 @@ int run_and_report(int argc, char** argv) {
   program.require_subcommand(0, 1);
   program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
   add_commands(program);
-  const auto say = [&program](const char* message) { fmt::print(stderr, "{}: {}\n", speaker(program), message); };
+  const auto tell = [&program](const std::string& message) { say("{}: {}\n", speaker(program), message); };
   try {
     return run(program, argc, argv);
   } catch (const ReaderGone&) {
     end_by_sigpipe();
+  } catch (const SeveralFailures& failures) {
+    for (const std::string& message : failures.messages) tell(message);
+    return failures.of_the_work ? work_failed : wrong_usage;
   } catch (const std::invalid_argument& error) {
-    say(error.what());
+    tell(error.what());
     return wrong_usage;
-  } catch (const std::system_error& error) {  // printed text that standard output did not take
-    if (error.code() == std::errc::broken_pipe) end_by_sigpipe();
-    say(error.what());
-    return error.code() == std::errc::no_space_on_device ? wrong_usage : work_failed;
+  } catch (const std::filesystem::filesystem_error& error) {  // a name that leads nowhere, such as a loop of links
+    tell(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+    return wrong_usage;
   } catch (const std::bad_alloc&) {
-    say("out of memory; try a shorter recording or a machine with more");
+    tell("out of memory; try a shorter recording or a machine with more");
     return work_failed;
   } catch (const std::exception& error) {
-    say(error.what());
+    tell(error.what());
     return work_failed;
   }
 }
@@ -159,6 +155,7 @@ int run_and_report(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hold_standard_streams();
   try {
     end_cleanly_when_interrupted("spoolflow");
     return run_and_report(argc, argv);

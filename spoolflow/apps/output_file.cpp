@@ -7,6 +7,7 @@
 #include <optional>
 #include <streambuf>
 #include <string>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -122,6 +123,25 @@ void check_target(const fs::path& target, const std::vector<fs::path>& also_used
   }
 }
 
+/// Marks an unfinished file as somebody's for as long as its descriptor is open. False where another run that looked
+/// whether it is anybody's removed it. File systems without locks keep every file.
+bool keep(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
+/// An unfinished file that nobody keeps is of a run that was killed.
+void remove_if_left_behind(const fs::path& beside) {
+  const int descriptor = ::open(beside.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat status {};
+  const bool left = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() &&
+                    ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (left) ::unlink(beside.c_str());
+  ::close(descriptor);
+}
+
 }  // namespace
 
 struct OutputFile::Target {
@@ -138,15 +158,19 @@ struct OutputFile::Target {
   void open_beside(const std::optional<struct stat>& replaced) {
     std::error_code ignored;
     if (fs::is_symlink(name, ignored)) final_name = fs::weakly_canonical(name);
+    constexpr std::size_t longest_name = 200;  // of 255 bytes that systems allow
+    const std::string stem = final_name.filename().string().substr(0, longest_name);
     for (int attempt = 0; descriptor < 0; ++attempt) {
-      const fs::path beside =
-          fs::path(folder_of(final_name)) / fmt::format(".spoolflow-{}-{}.part", ::getpid(), attempt);
-      unfinished.emplace(beside.string());
+      const fs::path beside = fs::path(folder_of(final_name)) / fmt::format(".{}.spoolflow-{}.part", stem, attempt);
+      remove_if_left_behind(beside);
       descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor < 0) {
-        const int error = errno;
-        unfinished.reset();
-        if (error != EEXIST || attempt > 100) refuse_errno(name, error);
+        if (errno != EEXIST || attempt > 1000) refuse_errno(name, errno);
+      } else if (keep(descriptor)) {
+        unfinished.emplace(beside.string());  // from here on an interruption may remove it: it is no other run's
+        kept_by = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+      } else {
+        ::close(std::exchange(descriptor, -1));
       }
     }
     if (replaced) {
@@ -166,6 +190,7 @@ struct OutputFile::Target {
   fs::path name;
   fs::path final_name = name;
   int descriptor = -1;
+  int kept_by = -1;  ///< keeps the unfinished file after `descriptor` is closed, until it has its name
   std::optional<UnfinishedFile> unfinished;
   DescriptorBuffer buffer;
   std::ostream stream;
@@ -189,6 +214,7 @@ OutputFile::OutputFile(const fs::path& target, const std::vector<fs::path>& also
 OutputFile::~OutputFile() {
   if (target_->descriptor > STDOUT_FILENO) ::close(target_->descriptor);
   if (target_->unfinished) ::unlink(target_->unfinished->path().c_str());
+  if (target_->kept_by >= 0) ::close(target_->kept_by);
 }
 
 std::ostream& OutputFile::stream() {

@@ -20,7 +20,8 @@ struct ReaderGone : std::runtime_error {
 };
 
 /// Writes to a temporary file beside the target and gives it the target's name on commit(); what stood there before
-/// stays untouched until then, and for good if commit() is never reached (error, interruption).
+/// stays untouched until then, and for good if commit() is never reached (error, interruption). What a killed run left
+/// beside the target is removed.
 /// "-" is standard output; devices and pipes (/dev/null, /dev/stdout, a FIFO) are written directly.
 class OutputFile {
  public:

@@ -7,6 +7,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/report/json/metrics_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
@@ -24,25 +25,23 @@ std::vector<estimation::Estimator> chosen(const std::string& name, const model::
 void print_figures(const model::Model& model, const validation::Validation& validation) {
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
   const report::Verdict said = report::verdict(model, validation);
-  fmt::print("{}\n", said.sentence.str());
-  for (const report::Text& limit : said.limits) fmt::print("- {}\n", limit.str());
-  if (!validation.limits.empty()) fmt::print("\n{}\n", report::requirements_sentence(validation));
+  print("{}\n", said.sentence.str());
+  for (const report::Text& limit : said.limits) print("- {}\n", limit.str());
+  if (!validation.limits.empty()) print("\n{}\n", report::requirements_sentence(validation));
   for (const validation::JudgedLimit& judged : validation.limits) {
-    fmt::print("{}  {}: {}; found {}\n", judged.met ? "met    " : "NOT MET", judged.run,
-               report::limit_text(judged).str(), report::value_text(judged).str());
+    print("{}  {}: {}; found {}\n", judged.met ? "met    " : "NOT MET", judged.run, report::limit_text(judged).str(),
+          report::value_text(judged).str());
   }
-  fmt::print("\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", "run", "estimator", "p95 %FS", "RMS %FS", "max %FS",
-             "in band");
+  print("\n{:<24} {:<10} {:>8} {:>8} {:>8} {:>9}\n", "run", "estimator", "p95 %FS", "RMS %FS", "max %FS", "in band");
   for (const validation::RunResult& run : validation.runs) {
     for (const validation::EstimatorResult& result : run.results) {
       if (!result.metrics) {
-        fmt::print("{:<24} {:<10} no reference flow\n", run.name, estimation::name(result.estimator));
+        print("{:<24} {:<10} no reference flow\n", run.name, estimation::name(result.estimator));
         continue;
       }
       const validation::GroupFigures& all = result.metrics->all;
-      fmt::print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, estimation::name(result.estimator),
-                 all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent,
-                 100 * all.band_coverage);
+      print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, estimation::name(result.estimator),
+            all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
     }
   }
 }

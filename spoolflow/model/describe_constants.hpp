@@ -192,6 +192,8 @@ void describe_friction_constants(Visitor& visitor) {
        .meaning = "standard deviations of the gauge by which friction at rest may exceed the sticking limit",
        .evidence = "duty_cycle_1: p95 3.06, 3.05, 2.97 % FS, band 95.9, 96.0, 95.9 %"},
       sensor::sticking_limit_deviations);
+  visitor.constant({.name = "longest_rest_s", .unit = "s", .meaning = "a longer rest says no more"},
+                   sensor::longest_rest_s);
   visitor.constant({.name = "least_rest_s", .unit = "s", .meaning = "a time at rest divides by no less"},
                    sensor::least_rest_s);
   visitor.constant({.name = "breakaway_delay_s",
@@ -281,6 +283,10 @@ void describe_pressure_constants(Visitor& visitor) {
                     .meaning = "how much later the forces tell of a change of the pressure difference",
                     .evidence = "fast_10kHz: p95 2.40, 2.40, 2.40 % FS, band 92.9, 93.2, 93.5 %"},
                    sensor::told_late_s);
+  visitor.constant({.name = "least_covariance_Pa",
+                    .unit = "Pa",
+                    .meaning = "a smaller covariance of pressure difference and friction ratio is none"},
+                   sensor::least_covariance_Pa);
   visitor.constant(
       {.name = "most_variance_Pa2",
        .unit = "Pa2",

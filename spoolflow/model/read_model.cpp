@@ -1,5 +1,4 @@
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "spoolflow/model/describe_campaign.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
+#include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/json_tables.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/model/model_limits.hpp"
@@ -161,6 +161,7 @@ nlohmann::ordered_json parsed(const std::string& text, const std::string& file) 
 }  // namespace
 
 Model parse_model(const std::string& text, const std::string& file) {
+  require_json_limits(text, file);
   const nlohmann::ordered_json json = parsed(text, file);
   const JsonNode root(json, "", file);
   if (!root.has("format") || !json["format"].is_string() || json["format"] != "spoolflow model") {
@@ -198,14 +199,15 @@ Model parse_model(const std::string& text, const std::string& file) {
 }
 
 Model read_model(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file))
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(file, unreadable))
     throw ModelError(fmt::format("{}: is a folder, not a model file", file.string()));
   std::ifstream in(file, std::ios::binary);
   if (!in) {
     throw ModelError(
         fmt::format("{}: cannot be opened; check the path, or make a model with `spoolflow calibrate`", file.string()));
   }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = read_json_text(in);
   if (text.empty())
     throw ModelError(
         fmt::format("{}: the file is empty; make the model again with `spoolflow calibrate`", file.string()));

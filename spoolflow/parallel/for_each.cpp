@@ -4,6 +4,8 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,8 +32,14 @@ void for_each(std::size_t count, unsigned workers, const std::function<void(std:
     }
   };
   {
-    std::vector<std::jthread> others;
-    while (others.size() + 1 < std::min<std::size_t>(workers, count)) others.emplace_back(worker);
+    std::vector<std::jthread> others;  // joined whatever is thrown
+    try {
+      const std::size_t wanted = std::min<std::size_t>(workers, count);
+      if (wanted > 1) others.reserve(wanted - 1);
+      while (others.size() + 1 < wanted) others.emplace_back(worker);
+    } catch (const std::system_error&) {  // no further thread is to be had, or no memory for it: fewer do the same
+    } catch (const std::bad_alloc&) {
+    }
     worker();
   }
   if (failure) std::rethrow_exception(failure);

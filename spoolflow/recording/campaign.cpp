@@ -117,7 +117,22 @@ std::string edge_of(const TomlTable& entry, Protocol protocol, std::string& dire
                   entry.place("edge"), *edge));
 }
 
-CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve) {
+/// A campaign that came from elsewhere must not make this program read what its user can read.
+void refuse_outside(const std::filesystem::path& recording, const TomlTable& entry) {
+  const std::filesystem::path folder = std::filesystem::absolute(entry.file).parent_path();  // "" for one named alone
+  std::error_code unreadable;
+  const auto without_links = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), unreadable);
+  };
+  const std::filesystem::path inside = without_links(recording).lexically_relative(without_links(folder));
+  if (!unreadable && !inside.empty() && *inside.begin() != "..") return;
+  throw RecordingError(
+      fmt::format("{}: the recording {} stands outside the campaign's folder; put it there, or allow it with "
+                  "--allow-outside",
+                  entry.place("file"), recording.string()));
+}
+
+CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve, OutsideFiles outside) {
   entry.allow_only({"protocol", "file", "direction", "edge", "channels"});
   CampaignRecording out{protocol_of(entry),
                         entry.file.parent_path() / entry.text("file"),
@@ -125,6 +140,7 @@ CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valv
                         place_of(entry.table, entry.file),
                         direction_of(entry).value_or(valve.direction)};
   out.edge = edge_of(entry, out.protocol, out.direction);
+  if (outside == OutsideFiles::refused) refuse_outside(out.file, entry);
   std::error_code failure;
   if (!std::filesystem::exists(out.file, failure)) {
     throw RecordingError(fmt::format("{}: the recording {} does not exist; correct file = \"{}\" or put the file there",
@@ -197,7 +213,7 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
   return out;
 }
 
-Campaign read_campaign(const std::filesystem::path& file) {
+Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the campaign"};
   document.allow_only({"valve", "fluid", "instruments", "load", "recording"});
@@ -217,7 +233,7 @@ Campaign read_campaign(const std::filesystem::path& file) {
     if (table == nullptr) {
       throw RecordingError(fmt::format("{}: write each recording as a table [[recording]]", place_of(node, file)));
     }
-    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve));
+    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve, outside));
   }
   require_whole_paths(campaign);
   return campaign;

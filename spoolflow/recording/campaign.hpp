@@ -71,8 +71,12 @@ struct Campaign {
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;
 };
 
+/// Whether a campaign may name recordings outside its own folder: by "..", by a whole path, by a symbolic link.
+enum class OutsideFiles : std::uint8_t { refused, allowed };
+
 /// Throws RecordingError with file and line: unknown keys, missing or non-positive values, a recording that does not
-/// exist, an edge that is not of its direction, a path of which one edge alone was measured.
-[[nodiscard]] Campaign read_campaign(const std::filesystem::path& file);
+/// exist, or that stands outside where that is refused, an edge that is not of its direction, a path of which one edge
+/// alone was measured.
+[[nodiscard]] Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside = OutsideFiles::refused);
 
 }  // namespace spoolflow::recording

@@ -117,7 +117,11 @@ std::string written(const ChannelMap& map) {
     std::string column;
     for (const char c : source.column) {
       if (c == '"' || c == '\\') column += '\\';
-      column += c;
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+        column += fmt::format("\\u{:04x}", static_cast<int>(c));
+      } else {
+        column += c;
+      }
     }
     const auto unit = units::unit_named(source.unit);
     const bool raw_signal =

@@ -7,19 +7,12 @@
 
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/files/input_bytes.hpp"
+#include "spoolflow/recording/toml_limits.hpp"
 
 namespace spoolflow::recording {
 
 toml::table read_toml(const std::filesystem::path& file) {
-  constexpr std::size_t largest = std::size_t{4} << 20;  // a campaign has some kilobytes
-  InputBytes input(file);
-  std::string text(largest + 1, '\0');
-  text.resize(input.read(text.data(), text.size()));
-  if (text.size() > largest) {
-    throw RecordingError(
-        fmt::format("{}: is larger than {} MiB; it is no campaign or channel map", input.name(), largest >> 20));
-  }
+  const std::string text = read_toml_text(file);
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {

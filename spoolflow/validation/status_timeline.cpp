@@ -54,6 +54,10 @@ const char* meaning(sensor::Status bit) {
       return "The current is dithered: friction swings between its limits, and the extremes of each period tell.";
     case Status::sign_undetermined:
       return "The spool stands so near the centre that the oil may flow either way.";
+    case Status::ambiguous_load:
+      return "More flow force than the supply explains: a load may drive the oil, and the flow be larger.";
+    case Status::flow_reversed:
+      return "By the pressures at the ports a load drives the oil against the way that the spool opens.";
     case Status::position_fault:
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:

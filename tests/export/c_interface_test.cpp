@@ -54,6 +54,18 @@ std::vector<double> flows(const Sensor& sensor, int from, int to) {
   return out;
 }
 
+TEST(CInterface, SurvivesTextThatNestsWithoutEnd) {
+  for (const std::string& nest : {std::string(80000, '['), std::string(80000, '{')}) {
+    const std::string text = "{\"format\": \"spoolflow model\", \"version\": " + nest;
+    spoolflow_sensor* sensor = nullptr;
+    char message[256];
+    EXPECT_EQ(spoolflow_create_from_memory(text.data(), text.size(), SPOOLFLOW_BEST, &sensor, message, sizeof message),
+              SPOOLFLOW_BAD_MODEL);
+    EXPECT_EQ(sensor, nullptr);
+    EXPECT_THAT(message, HasSubstr("nests deeper than 64 levels"));
+  }
+}
+
 TEST(CInterface, RunsTheObserverWhereTheModelHasOneAndSaysWhichSensorRuns) {
   EXPECT_EQ(spoolflow_runs(sensor_of().get()), SPOOLFLOW_OBSERVER);
   const Sensor condensed = sensor_of(SPOOLFLOW_CONDENSED);

@@ -101,6 +101,15 @@ TEST(Model, CutShortAnywhereIsRefused) {
               ThrowsMessage<ModelError>(AllOf(HasSubstr("model.json, line "), HasSubstr("cut short"))));
 }
 
+TEST(Model, NestsNoDeeperThanItsReaderCanFollow) {
+  const std::string deep = "{\n\"format\": \"spoolflow model\", \"version\": " + std::string(80000, '[');
+  EXPECT_THAT([&] { (void)parse_model(deep + std::string(80000, ']') + "}", "model.json"); },
+              ThrowsMessage<ModelError>(HasSubstr("model.json, line 2: nests deeper than 64 levels")));
+  EXPECT_THAT([&] { (void)parse_model(deep, "model.json"); }, ThrowsMessage<ModelError>(HasSubstr("nests deeper")));
+  EXPECT_THAT([&] { (void)parse_model("[\"\\\"" + std::string(100, '[') + "\"]", "model.json"); },
+              ThrowsMessage<ModelError>(HasSubstr("this is no spoolflow model")));  // in quotes nothing nests
+}
+
 TEST(Model, OfAnotherVersionIsRefusedWithBothVersions) {
   const std::string text = replaced(written(small_model()), "\"version\": 1", "\"version\": 7");
   EXPECT_THAT([&] { (void)parse_model(text, "model.json"); },

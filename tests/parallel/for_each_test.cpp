@@ -1,11 +1,17 @@
 #include "spoolflow/parallel/for_each.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,6 +38,22 @@ TEST(ForEach, NeverRunsMoreThreadsThanItMay) {
   });
   EXPECT_LE(threads.size(), 3U);
 }
+
+#ifndef __clang__  // the build with sanitizers reserves terabytes, which no limit allows
+TEST(ForEach, DoesWithTheThreadsThatTheSystemHas) {
+  const auto in_little_memory = [] {
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (rlim_t{40} << 20);  // some stacks
+    const struct rlimit limit { bytes, bytes };
+    ::setrlimit(RLIMIT_AS, &limit);
+    std::atomic<int> done = 0;
+    for_each(1000, 100, [&](std::size_t) { ++done; });
+    std::_Exit(done == 1000 ? 7 : 1);
+  };
+  EXPECT_EXIT(in_little_memory(), testing::ExitedWithCode(7), "");
+}
+#endif
 
 TEST(ForEach, RethrowsAFailureAndLeavesWhatWasNotBegun) {
   std::size_t begun = 0;

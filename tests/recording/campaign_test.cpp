@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/recording/toml_limits.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
 
@@ -110,6 +111,46 @@ TEST(Campaign, RefusesAnAreaRatioThatIsNoCylinders) {
                         "port B, 0.1 to 10"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 0\n")), HasSubstr("it must be above zero"));
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\nratio = 0.6\n")), HasSubstr("unknown key 'ratio' in [load]"));
+}
+
+TEST(Campaign, ReadsNothingOutsideItsFolderUnlessToldTo) {
+  const TemporaryFile outside("secret.csv", "time_s\n");
+  const std::string climbing = "../" + outside.folder().filename().string() + "/secret.csv";
+  for (const std::string& name :
+       {climbing, outside.path().string(), std::string("link.csv"), std::string("sub/link")}) {
+    const TemporaryFile file("campaign.toml", with_recording("protocol = \"spring\"\nfile = \"" + name + "\"\n"));
+    std::filesystem::create_symlink(outside.path(), file.folder() / "link.csv");
+    std::filesystem::create_directory(file.folder() / "sub");
+    std::filesystem::create_symlink(outside.path(), file.folder() / "sub" / "link");
+    EXPECT_THAT(refusal([&] { (void)read_campaign(file.path()); }),
+                HasSubstr("campaign.toml, line 7: the recording " + (file.folder() / name).string() +
+                          " stands outside the campaign's folder"));
+    EXPECT_EQ(read_campaign(file.path(), OutsideFiles::allowed).recordings.size(), 1U) << name;
+  }
+}
+
+TEST(Campaign, ReadsItsFolderByWhateverNameThatIsGiven) {
+  const TemporaryFile file("campaign.toml", with_recording("protocol = \"spring\"\nfile = \"./sub/../..run.csv\"\n"));
+  std::filesystem::create_directory(file.folder() / "sub");
+  std::ofstream(file.folder() / "..run.csv") << "time_s\n";
+  const std::filesystem::path link = file.folder().string() + "_link";
+  std::filesystem::create_symlink(file.folder(), link);
+  EXPECT_EQ(read_campaign(link / "campaign.toml").recordings.size(), 1U);
+  std::filesystem::remove(link);
+}
+
+TEST(Campaign, NestsNoDeeperThanItsReaderCanFollow) {
+  std::string dotted = "a";
+  for (int k = 0; k < 40000; ++k) dotted += ".a";
+  EXPECT_THAT(refused_campaign(dotted + " = 1\n"), HasSubstr("campaign.toml, line 1: nests deeper than 32 levels"));
+  EXPECT_THAT(refused_campaign("\n[" + dotted + "]\n"), HasSubstr("line 2: nests deeper than 32 levels"));
+  EXPECT_THAT(refused_campaign("a = " + std::string(100000, '[')), HasSubstr("nests deeper than 32 levels"));
+  EXPECT_THAT(refused_campaign("a = " + std::string(5 << 20, ' ')), HasSubstr("is larger than 4 MiB"));
+  // What stands in quotes and comments nests nothing.
+  const std::string text = "name = \"" + dotted + "[[[\\\"{{{\"\n# " + dotted + "\n";
+  const std::string many_lines = "more = \"\"\"\n" + dotted + "\"\"\n\"\"\"\nlast = '" + dotted + "\\'\n";
+  EXPECT_EQ(too_deep_toml(text + many_lines), std::nullopt);
+  EXPECT_TRUE(too_deep_toml(text + many_lines + dotted));
 }
 
 TEST(Campaign, RefusesChannelsAndUnitsThatDoNotFit) {

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <span>
@@ -13,6 +12,7 @@
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
 #include "spoolflow/export/state_bytes.hpp"
+#include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace {
@@ -91,10 +91,11 @@ RunningSensor::Parameters parameters(const Model& model, spoolflow_estimator est
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
+  std::error_code unreadable;
+  if (!in || std::filesystem::is_directory(file, unreadable)) {
     throw BadFile(file.string() + ": cannot be opened; check the path, or make a model with `spoolflow calibrate`");
   }
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = spoolflow::model::read_json_text(in);
   if (text.empty()) {
     throw BadFile(file.string() + ": the file is empty; make the model again with `spoolflow calibrate`");
   }
@@ -190,11 +191,18 @@ spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample
 
 spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
                                       spoolflow_estimate* estimate) {
+  return spoolflow_step_whole_ports(sensor, sample, nullptr, estimate);
+}
+
+spoolflow_result spoolflow_step_whole_ports(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
+                                            const spoolflow_port_pressures* ports, spoolflow_estimate* estimate) {
   if (sensor == nullptr || sample == nullptr || estimate == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
   if (!sensor->shared->model.whole()) return SPOOLFLOW_BAD_ARGUMENT;
+  sensor::PortPressures<double> measured;
+  if (ports != nullptr) measured = {ports->p_Pa, ports->a_Pa, ports->b_Pa, ports->t_Pa};
   *estimate = told(sensor->running.step(spoolflow::estimation::of_both_coils(
       {sample->time_s, sample->current_a_A, sample->current_b_A, sample->voltage_a_V, sample->voltage_b_V,
-       sample->position_m, sample->oil_temperature_K})));
+       sample->position_m, sample->oil_temperature_K, measured})));
   return SPOOLFLOW_OK;
 }
 

@@ -66,10 +66,6 @@ void refuse_other_encodings(std::string_view beginning, const std::string& file)
   if (beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF")) {
     throw RecordingError(fmt::format("{}: is UTF-16 text; save it as UTF-8 (\"CSV UTF-8\" in a spreadsheet)", file));
   }
-  if (beginning.substr(0, 4096).find('\0') != std::string_view::npos) {
-    throw RecordingError(
-        fmt::format("{}: is not text: it holds zero bytes; save the recording as CSV, MAT or HDF5", file));
-  }
 }
 
 /// A row of units below the header: no numbers, and at least one unit that is known.

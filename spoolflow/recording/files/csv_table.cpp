@@ -33,7 +33,14 @@ CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginnin
     filled_ += input_->read(buffer_.data() + filled_, block_bytes - filled_);
     at_end_ = filled_ < block_bytes;
   }
+  const std::string_view begun(buffer_.data(), filled_);
+  const bool utf16 = begun.starts_with("\xFF\xFE") || begun.starts_with("\xFE\xFF");
+  if (!utf16) refuse_zero_bytes(0);  // else the dialect tells
   dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name());
+  if (!at_end_ && dialect_.header_bytes == filled_) {
+    throw RecordingError(fmt::format("{}: its header goes on for more than {} KiB; this is no CSV recording",
+                                     input_->name(), block_bytes >> 10));
+  }
   cursor_ = dialect_.header_bytes;
   line_ = dialect_.header_lines;
   look_at_new_bytes();
@@ -53,6 +60,17 @@ void CsvTable::select(const std::vector<std::size_t>& columns) {
     next = column + 1;
   }
   look_at_new_bytes();
+}
+
+/// Text holds none; looked for from `first` of the buffer on.
+void CsvTable::refuse_zero_bytes(std::size_t first) const {
+  const void* const zero = std::memchr(buffer_.data() + first, '\0', filled_ - first);
+  if (zero == nullptr) return;
+  const auto before = static_cast<std::size_t>(static_cast<const char*>(zero) - buffer_.data());
+  throw RecordingError(fmt::format(
+      "{}: is not text: it holds a zero byte at byte {}; it is damaged, or save the recording as CSV, MAT or "
+      "HDF5",
+      input_->name(), input_->position() - filled_ + before + 1));
 }
 
 /// Whole lines now end at lines_end_; tells what they need.
@@ -87,6 +105,7 @@ bool CsvTable::refill() {
     at_end_ = got < block_bytes;
     cursor_ = 0;
     filled_ = begun + got;
+    refuse_zero_bytes(begun);
     look_at_new_bytes();
   }
   return true;

@@ -29,6 +29,7 @@ class CsvTable final : public SampleTable {
 
  private:
   bool refill();
+  void refuse_zero_bytes(std::size_t first) const;
   void look_at_new_bytes();
   bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
   void careful_row(std::string_view line, std::span<double* const> out, std::size_t row);

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <map>
-#include <new>
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
+#include "spoolflow/recording/files/hdf5_other_files.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t slab_rows = std::size_t{1} << 16;
-constexpr std::size_t chunk_cache_bytes = std::size_t{16} << 20;  // a chunk is unpacked once, not once a slab
+constexpr std::size_t chunk_cache_bytes = std::size_t{16} << 20;  // a chunk is unpacked once, not once a block
 constexpr std::size_t longest_text = 4096;
 
 /// A text attribute, of fixed or variable length; empty where there is none.
@@ -61,14 +62,19 @@ double number_attribute(hid_t object, const char* name, double otherwise) {
 
 class Hdf5Table final : public VectorTable {
  public:
-  explicit Hdf5Table(const std::filesystem::path& path) : VectorTable(path.string()) {
+  explicit Hdf5Table(const std::filesystem::path& path)
+      : VectorTable(path.string()), declared_(path.string(), std::filesystem::file_size(path)) {
     silence_hdf5();
     file_handle_ = Hdf5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file_handle_.valid()) {
       throw RecordingError(
           fmt::format("{}: is damaged or cut short: HDF5 cannot open it; copy or record it again", file()));
     }
-    if (H5Ovisit2(file_handle_.id(), H5_INDEX_NAME, H5_ITER_INC, &Hdf5Table::visit, this, H5O_INFO_BASIC) < 0) {
+    refuse_other_files(file_handle_.id(), file());
+    const bool listed =
+        H5Ovisit2(file_handle_.id(), H5_INDEX_NAME, H5_ITER_INC, &Hdf5Table::visit, this, H5O_INFO_BASIC) >= 0;
+    if (failure_) std::rethrow_exception(failure_);
+    if (!listed) {
       throw RecordingError(fmt::format(
           "{}: is damaged or cut short: its table of contents cannot be read; copy or record it again", file()));
     }
@@ -76,18 +82,21 @@ class Hdf5Table final : public VectorTable {
 
   [[nodiscard]] std::string unread() const override { return unread_; }
 
- protected:
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
-    Slab& slab = slabs_[column];
-    while (count > 0) {
-      if (first < slab.first || first >= slab.first + slab.values.size()) load(column, slab, first);
-      const auto at = static_cast<std::size_t>(first - slab.first);
-      const std::size_t part = std::min(count, slab.values.size() - at);
-      std::copy_n(slab.values.data() + at, part, out);
-      out += part;
-      first += part;
-      count -= part;
+    const Source& source = sources_[column];
+    const Dataset& from = opened(column, first);
+    // A vector lies along the first dimension, or as a row along the second.
+    const std::array<hsize_t, 2> start{source.is_row ? source.index : first, source.is_row ? first : source.index};
+    const std::array<hsize_t, 2> size{source.is_row ? 1 : count, source.is_row ? count : 1};
+    const hsize_t in_memory = count;
+    const Hdf5Handle memory(H5Screate_simple(1, &in_memory, nullptr), H5Sclose);
+    if (!from.space.valid() || !memory.valid() ||
+        H5Sselect_hyperslab(from.space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0 ||
+        H5Dread(from.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), from.space.id(), H5P_DEFAULT, out) < 0) {
+      refuse_damaged(source, first);
     }
+    if (from.scale == 1.0 && from.offset == 0.0) return;
+    for (std::size_t k = 0; k < count; ++k) out[k] = from.scale * out[k] + from.offset;
   }
 
  private:
@@ -97,21 +106,20 @@ class Hdf5Table final : public VectorTable {
     bool is_row;
     std::uint64_t index;
   };
-  struct Slab {
+  struct Dataset {
     Hdf5Handle dataset;
     Hdf5Handle space;
     double scale = 1.0;
     double offset = 0.0;
-    std::uint64_t first = 0;
-    std::vector<double> values;
   };
 
   static herr_t visit(hid_t file, const char* name, const H5O_info_t* info, void* table) {
     if (info->type != H5O_TYPE_DATASET) return 0;
     try {
       static_cast<Hdf5Table*>(table)->list(file, name);
-    } catch (const std::bad_alloc&) {
-      return -1;  // no exception may pass through the library
+    } catch (...) {  // no exception may pass through the library
+      static_cast<Hdf5Table*>(table)->failure_ = std::current_exception();
+      return -1;
     }
     return 0;
   }
@@ -133,6 +141,7 @@ class Hdf5Table final : public VectorTable {
           fmt::format("dataset '{}' is no vector or matrix of numbers; write one dataset of numbers a channel", path);
       return;
     }
+    declared_.add(path, size[0], size[1], H5Tget_size(type.id()));
     std::string unit = text_attribute(dataset.id(), "unit");
     if (unit.empty()) unit = text_attribute(dataset.id(), "units");
     const FileColumn column{path, path.substr(path.rfind('/') + 1), unit};
@@ -142,51 +151,38 @@ class Hdf5Table final : public VectorTable {
     }
   }
 
-  void load(std::size_t column, Slab& slab, std::uint64_t first) {
+  [[noreturn]] void refuse_damaged(const Source& source, std::uint64_t first) const {
+    throw RecordingError(
+        fmt::format("{}: dataset '{}' is damaged or cut short: it cannot be read from sample {} on; "
+                    "copy or record it again",
+                    file(), source.path, first + 1));
+  }
+
+  const Dataset& opened(std::size_t column, std::uint64_t first) {
+    Dataset& out = datasets_[column];
+    if (out.dataset.valid()) return out;
     const Source& source = sources_[column];
-    const auto fail = [&] {
-      throw RecordingError(
-          fmt::format("{}: dataset '{}' is damaged or cut short: it cannot be read from sample {} on; "
-                      "copy or record it again",
-                      file(), source.path, first + 1));
-    };
-    if (!slab.dataset.valid()) {
-      const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-      H5Pset_chunk_cache(access.id(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, chunk_cache_bytes, H5D_CHUNK_CACHE_W0_DEFAULT);
-      slab.dataset = Hdf5Handle(H5Dopen2(file_handle_.id(), source.path.c_str(), access.id()), H5Dclose);
-      if (!slab.dataset.valid()) fail();
-      slab.space = Hdf5Handle(H5Dget_space(slab.dataset.id()), H5Sclose);
-      slab.scale = number_attribute(slab.dataset.id(), "scale_factor", 1.0);
-      slab.offset = number_attribute(slab.dataset.id(), "add_offset", 0.0);
-    }
-    const std::uint64_t rows = std::min<std::uint64_t>(slab_rows, length(column) - first);
-    // A vector lies along the first dimension, or as a row along the second.
-    const std::array<hsize_t, 2> start{source.is_row ? source.index : first, source.is_row ? first : source.index};
-    const std::array<hsize_t, 2> count{source.is_row ? 1 : rows, source.is_row ? rows : 1};
-    const hsize_t in_memory = rows;
-    const Hdf5Handle memory(H5Screate_simple(1, &in_memory, nullptr), H5Sclose);
-    slab.values.resize(static_cast<std::size_t>(rows));
-    if (!slab.space.valid() || !memory.valid() ||
-        H5Sselect_hyperslab(slab.space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
-        H5Dread(slab.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), slab.space.id(), H5P_DEFAULT, slab.values.data()) <
-            0) {
-      fail();
-    }
-    if (slab.scale != 1.0 || slab.offset != 0.0) {
-      for (double& value : slab.values) value = slab.scale * value + slab.offset;
-    }
-    slab.first = first;
+    const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    H5Pset_chunk_cache(access.id(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, chunk_cache_bytes, H5D_CHUNK_CACHE_W0_DEFAULT);
+    out.dataset = Hdf5Handle(H5Dopen2(file_handle_.id(), source.path.c_str(), access.id()), H5Dclose);
+    if (!out.dataset.valid()) refuse_damaged(source, first);
+    out.space = Hdf5Handle(H5Dget_space(out.dataset.id()), H5Sclose);
+    out.scale = number_attribute(out.dataset.id(), "scale_factor", 1.0);
+    out.offset = number_attribute(out.dataset.id(), "add_offset", 0.0);
+    return out;
   }
 
   Hdf5Handle file_handle_;
   std::vector<Source> sources_;
-  std::map<std::size_t, Slab> slabs_;  ///< of the chosen columns
+  std::map<std::size_t, Dataset> datasets_;  ///< of the chosen columns
   std::string unread_;
+  DeclaredSize declared_;
+  std::exception_ptr failure_;  ///< of list()
 };
 
 }  // namespace
 
-std::unique_ptr<SampleTable> open_hdf5_table(const std::filesystem::path& file) {
+std::unique_ptr<VectorTable> open_hdf5_table(const std::filesystem::path& file) {
   return std::make_unique<Hdf5Table>(file);
 }
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "spoolflow/recording/files/sample_table.hpp"
+#include "spoolflow/recording/files/vector_table.hpp"
 
 namespace spoolflow::recording {
 
@@ -10,6 +10,6 @@ namespace spoolflow::recording {
 /// each column as `rig/data(:,3)` (each row `rig/data(3,:)` where it is wider than tall). A text attribute `unit` or
 /// `units` is the column's unit. Packed data (netCDF CF conventions, section 8.1) are unpacked: value = scale_factor *
 /// stored + add_offset. Throws RecordingError where the file is damaged or holds no such dataset.
-[[nodiscard]] std::unique_ptr<SampleTable> open_hdf5_table(const std::filesystem::path& file);
+[[nodiscard]] std::unique_ptr<VectorTable> open_hdf5_table(const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

@@ -51,6 +51,7 @@ std::size_t InputBytes::read(char* out, std::size_t room) {
     if (got == 0) break;
     if (got < 0) {
       if (errno == EINTR) continue;
+      if (errno == EBADF) throw RecordingError(fmt::format("{}: cannot be read: it is closed", name_));
       throw std::runtime_error(
           fmt::format("{}: reading failed after {} bytes: {}", name_, position_ + filled, reason(errno)));
     }

@@ -7,7 +7,9 @@
 #include <matio.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
+#include "spoolflow/recording/files/hdf5_other_files.hpp"
 #include "spoolflow/recording/files/mat_elements.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
@@ -70,8 +72,13 @@ struct Step {
 
 class MatTable final : public VectorTable {
  public:
-  explicit MatTable(const std::filesystem::path& path) : VectorTable(path.string()) {
+  explicit MatTable(const std::filesystem::path& path)
+      : VectorTable(path.string()), declared_(path.string(), std::filesystem::file_size(path)) {
     silence_hdf5();
+    {  // of version 7.3, else it cannot be opened
+      const Hdf5Handle hdf5(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+      if (hdf5.valid()) refuse_other_files(hdf5.id(), file());
+    }
     Mat_LogInitFunc("spoolflow", [](int, char*) {});
     refuse_cut_mat_file(path);
     mat_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
@@ -84,7 +91,6 @@ class MatTable final : public VectorTable {
 
   [[nodiscard]] std::string unread() const override { return unread_; }
 
- protected:
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const Source& source = sources_[column];
     const matvar_t& variable = loaded(source);
@@ -126,6 +132,7 @@ class MatTable final : public VectorTable {
                variable.dims == nullptr) {
       if (unread_.empty()) unread_ = fmt::format("'{}' is no vector or matrix of real numbers", name);
     } else {
+      declared_.add(name, variable.dims[0], variable.dims[1], Mat_SizeOfClass(variable.class_type));
       const FileColumn column{name, path.back().field, {}};
       for (MatrixPart& part : matrix_parts(column, variable.dims[0], variable.dims[1])) {
         add(part.vector);
@@ -174,11 +181,12 @@ class MatTable final : public VectorTable {
   std::vector<Source> sources_;
   std::map<std::string, Variable> loaded_;
   std::string unread_;
+  DeclaredSize declared_;
 };
 
 }  // namespace
 
-std::unique_ptr<SampleTable> open_mat_table(const std::filesystem::path& file) {
+std::unique_ptr<VectorTable> open_mat_table(const std::filesystem::path& file) {
   return std::make_unique<MatTable>(file);
 }
 

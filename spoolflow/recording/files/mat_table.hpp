@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "spoolflow/recording/files/sample_table.hpp"
+#include "spoolflow/recording/files/vector_table.hpp"
 
 namespace spoolflow::recording {
 
@@ -11,6 +11,6 @@ namespace spoolflow::recording {
 /// it is wider than tall). A variable is read whole when the first of its
 /// vectors is needed: MATLAB's compression allows no less. Throws RecordingError where
 /// the file is damaged or holds no such vector.
-[[nodiscard]] std::unique_ptr<SampleTable> open_mat_table(const std::filesystem::path& file);
+[[nodiscard]] std::unique_ptr<VectorTable> open_mat_table(const std::filesystem::path& file);
 
 }  // namespace spoolflow::recording

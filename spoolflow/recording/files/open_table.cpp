@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/mat_table.hpp"
@@ -23,8 +24,7 @@ OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text te
                     "and name it",
                     input->name(), name(format)));
   }
-  if (format == FileFormat::mat) return {format, open_mat_table(file)};
-  return {format, open_hdf5_table(file)};
+  return {format, open_confined(file, *input->size(), format == FileFormat::mat ? open_mat_table : open_hdf5_table)};
 }
 
 }  // namespace spoolflow::recording

@@ -10,6 +10,10 @@
 namespace spoolflow::recording {
 
 void VectorTable::add(Vector vector) {
+  constexpr std::size_t most = 65536;
+  if (columns_.size() == most) {
+    throw RecordingError(fmt::format("{}: holds more than {} columns of numbers; it is no recording", file_, most));
+  }
   columns_.push_back(std::move(vector.column));
   lengths_.push_back(vector.length);
 }
@@ -25,12 +29,14 @@ void VectorTable::select(const std::vector<std::size_t>& columns) {
                     "equally long, so resample one of them or cut both to the same time",
                     file_, columns_[columns.front()].name, rows_, columns_[column].name, lengths_[column]));
   }
+  chosen(columns);
 }
 
 std::size_t VectorTable::read(std::span<double* const> out, std::size_t rows) {
-  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows, rows_ - next_));
+  auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows, rows_ - next_));
   first_of_block_ = next_;
   if (count == 0) return 0;
+  count = at_once(next_, count);
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     copy(chosen_[k], next_, count, out[k]);
     const double* const wrong =

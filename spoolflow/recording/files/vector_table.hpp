@@ -21,14 +21,19 @@ class VectorTable : public SampleTable {
   std::size_t read(std::span<double* const> out, std::size_t rows) final;
   [[nodiscard]] std::string place(std::size_t row) const final;
   [[nodiscard]] std::optional<double> progress() const final;
+  /// Samples of the column.
+  [[nodiscard]] std::uint64_t length(std::size_t column) const { return lengths_[column]; }
+  /// Copies `count` numbers from `first` on; the format's own slab may be larger. Throws RecordingError.
+  virtual void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) = 0;
 
  protected:
   explicit VectorTable(std::string file) : file_(std::move(file)) {}
   void add(Vector vector);
-  /// Copies `count` numbers from `first` on; the format's own slab may be larger. Throws RecordingError.
-  virtual void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) = 0;
+  /// Told once, before the first copy().
+  virtual void chosen(const std::vector<std::size_t>&) {}
+  /// How many samples from `first` on copy() may be asked for at once.
+  virtual std::size_t at_once(std::uint64_t, std::size_t wanted) { return wanted; }
   [[nodiscard]] const std::string& file() const { return file_; }
-  [[nodiscard]] std::uint64_t length(std::size_t column) const { return lengths_[column]; }
 
  private:
   std::string file_;

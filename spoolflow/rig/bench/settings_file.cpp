@@ -1,8 +1,6 @@
 #include "spoolflow/rig/bench/settings_file.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,6 +8,8 @@
 #include <toml++/toml.h>
 
 #include "spoolflow/recording/channels/nearest_name.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/toml_limits.hpp"
 
 namespace spoolflow::rig {
 namespace {
@@ -137,12 +137,11 @@ void apply_table(const SettingsSource& source, const toml::table& table, const s
 }  // namespace
 
 SettingsSource read_settings_source(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw SettingsError(fmt::format("{}: cannot be read; give the path of a TOML file", file.string()));
+  try {
+    return {.text = recording::read_toml_text(file), .name = file.filename().string()};
+  } catch (const recording::RecordingError& error) {
+    throw SettingsError(fmt::format("{}; give the path of a TOML file", error.what()));
   }
-  return {.text = {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()},
-          .name = file.filename().string()};
 }
 
 void apply(const SettingsSource& source, const Settings& settings) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -68,6 +69,12 @@ MeasuredSample measured(const recording::Recording& recording, const BenchRun& r
           .oil_temperature_K = newest(Channel::oil_temperature)};
 }
 
+/// The truth first: see read_scenario.
+Simulation nothing_yet(bool whole_valve) {
+  GroundTruth truth(whole_valve);
+  return {.recording = {}, .truth = std::move(truth)};
+}
+
 }  // namespace
 
 Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed,
@@ -86,7 +93,7 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
   SpanReader<double> sample_rate(run.sample_rate_Hz);
   SpanReader<double> test(run.test);
 
-  Simulation out{.recording = {}, .truth = GroundTruth(run.whole_valve)};
+  Simulation out = nothing_yet(run.whole_valve);
   const std::int64_t end = std::llround(run.duration_s() / electronics_period_s);
   const std::int64_t ticks_per_report = std::max<std::int64_t>(1, end / 200);
   std::int64_t next_sample = 0;

@@ -101,6 +101,10 @@ TEST(CsvReading, RefusesFilesWithoutHeaderOrSamples) {
   EXPECT_THAT(refused("\n\n"), HasSubstr("holds no header line"));
   EXPECT_THAT(refused("0.0,1.0\n0.1,1.1\n"), HasSubstr("insert a first line that names the columns"));
   EXPECT_THAT(refused(std::string_view("\xFF\xFEt\0i\0", 6)), HasSubstr("UTF-16"));
+  EXPECT_THAT(refused(std::string("time_s,") + std::string(300 << 10, 'x') + ",current_A\n0,1,2\n"),
+              HasSubstr("header goes on for more than 256 KiB"));
+  EXPECT_THAT(refused("time_s,current_A\ns," + std::string(300 << 10, 'x') + "\n0,1\n"),
+              HasSubstr("header goes on for more than 256 KiB"));
   const TemporaryFile empty("empty.csv");
   empty.write("");
   EXPECT_THAT(refusal([&] { (void)read_recording(empty.path(), position_over_time); }), HasSubstr("is empty"));
@@ -125,6 +129,16 @@ TEST(CsvReading, DoesNotStumbleOverLatin1DegreeSigns) {
                              "C"}) {
     const Recording run = read(std::string("time_s;") + header + "\n0;50,0\n", oil);
     EXPECT_NEAR(run[Channel::oil_temperature][0], 323.15, 1e-9) << header;
+  }
+}
+
+TEST(CsvReading, RefusesZeroBytesWhereverTheyStand) {
+  std::string text = "time_s,position_mm,remark\n";
+  for (int k = 0; k < 30000; ++k) text += std::to_string(0.001 * k) + ",0.5,nothing to say\n";
+  for (const std::size_t at : {std::size_t{5000}, std::size_t{300000}, text.size() - 3}) {
+    std::string damaged = text;
+    damaged[at] = '\0';
+    EXPECT_THAT(refused(damaged), HasSubstr("it holds a zero byte at byte " + std::to_string(at + 1))) << at;
   }
 }
 

@@ -51,6 +51,18 @@ TEST(Scenario, OperationOfAWholeValveTakesNegativePositionsAndPortPressures) {
               testing::IsSupersetOf({recording::Channel::current_a, recording::Channel::pressure_t}));
 }
 
+TEST(Scenario, IsRefusedWhereItIsNoneOrNestsWithoutEnd) {
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal_of("valve = \"size_6\"\n"), HasSubstr("protocol is missing"));
+  EXPECT_THAT(refusal_of("protocol = 3\n"), HasSubstr("protocol must be text in quotes"));
+  EXPECT_THAT(refusal_of("protocol = \"ramp\"\n"), HasSubstr("choose one of"));
+  EXPECT_THAT(refusal_of("protocol = \n"), HasSubstr("line 1"));
+  std::string dotted = "a";
+  for (int k = 0; k < 40000; ++k) dotted += ".a";
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\n" + dotted + " = 1\n"), HasSubstr("line 2: nests deeper"));
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\n[" + dotted + "]\n"), HasSubstr("line 2: nests deeper"));
+}
+
 TEST(Scenario, RefusesDirectionsAndEdgesThatDoNotFit) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal_of("protocol = \"ramps\"\ndirection = \"a\"\n"), HasSubstr("direction is of bench tests"));

@@ -1,0 +1,53 @@
+#pragma once
+/// What the command prints for people: names from files and command lines cannot steer the terminal or forge a line.
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace spoolflow::apps {
+
+/// The text on one line and without effect: control characters (of ASCII and of ISO 6429 above it), marks that turn the
+/// direction of writing, and bytes that are no UTF-8 become \n, \t, \u001b, \xb0 and so on.
+[[nodiscard]] std::string terminal_text(std::string_view text);
+/// The same line by line.
+[[nodiscard]] std::string terminal_lines(std::string_view text);
+/// The text as a JSON string with its quotes, as harmless.
+[[nodiscard]] std::string json_text(std::string_view text);
+
+namespace detail {
+
+template <class Value>
+auto harmless(const Value& value) {
+  if constexpr (std::is_convertible_v<const Value&, std::string_view>) {
+    return terminal_text(value);
+  } else {
+    return value;
+  }
+}
+template <class Value>
+using Harmless = decltype(harmless(std::declval<const Value&>()));
+
+}  // namespace detail
+
+/// To standard output. Throws OutputError or ReaderGone where it is refused.
+void print_text(std::string_view text);
+/// To standard error; where that is refused there is nobody left to tell.
+void say_text(std::string_view text);
+
+/// Every text among the values is made harmless; line ends are those of the format alone.
+template <class... Values>
+void print(fmt::format_string<detail::Harmless<Values>...> format, const Values&... values) {
+  print_text(fmt::format(format, detail::harmless(values)...));
+}
+template <class... Values>
+void say(fmt::format_string<detail::Harmless<Values>...> format, const Values&... values) {
+  say_text(fmt::format(format, detail::harmless(values)...));
+}
+
+/// What was printed counts as written only once it is: `> /dev/full` must not look like success. Throws as
+/// print_text().
+void flush_standard_output();
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,229 @@
+#include "spoolflow/recording/files/confined_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <sys/mman.h>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/reading_process.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+// What the processes say to each other: the child lists the columns; the parent chooses; then blocks and room for more.
+enum class Message : std::uint32_t { listing, choice, room, block, refusal, failure };
+
+constexpr std::size_t blocks = 2;
+constexpr std::size_t block_numbers = std::size_t{1} << 17;  // of all chosen columns together
+
+bool send(Connection& to, Message message, std::string_view content = {}) {
+  return to.send(static_cast<std::uint32_t>(message), content);
+}
+
+/// Numbers and texts one after the other.
+class MessageText {
+ public:
+  void number(std::uint64_t value) {
+    std::array<char, sizeof value> bytes{};
+    std::memcpy(bytes.data(), &value, sizeof value);
+    content_.append(bytes.data(), bytes.size());
+  }
+  void text(const std::string& value) {
+    number(value.size());
+    content_ += value;
+  }
+  [[nodiscard]] const std::string& content() const { return content_; }
+
+ private:
+  std::string content_;
+};
+
+/// Throws RecordingError where the content ends too soon: what comes from the child is not believed either.
+class ReceivedText {
+ public:
+  explicit ReceivedText(std::string_view content) : rest_(content) {}
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+  std::string text() { return std::string(take(number())); }
+
+ private:
+  std::string_view take(std::uint64_t count) {
+    if (count > rest_.size()) throw RecordingError("the process that reads the recording sent nonsense");
+    const std::string_view taken = rest_.substr(0, static_cast<std::size_t>(count));
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+  std::string_view rest_;
+};
+
+/// Memory that parent and child see.
+class SharedNumbers {
+ public:
+  SharedNumbers() {
+    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    numbers_ = static_cast<double*>(memory);
+  }
+  ~SharedNumbers() { ::munmap(numbers_, bytes); }
+  SharedNumbers(const SharedNumbers&) = delete;
+  SharedNumbers& operator=(const SharedNumbers&) = delete;
+  [[nodiscard]] double* block(std::uint64_t index) const { return numbers_ + (index % blocks) * block_numbers; }
+
+ private:
+  static constexpr std::size_t bytes = blocks * block_numbers * sizeof(double);
+  double* numbers_;
+};
+
+/// As many as there is room for; VectorTable holds no more columns than numbers fit.
+std::size_t rows_of_block(std::size_t columns) {
+  return block_numbers / std::max<std::size_t>(1, columns);
+}
+
+std::string listing_of(const VectorTable& table) {
+  MessageText out;
+  out.text(table.unread());
+  out.number(table.columns().size());
+  for (std::size_t k = 0; k < table.columns().size(); ++k) {
+    const FileColumn& column = table.columns()[k];
+    for (const std::string* text : {&column.name, &column.leaf, &column.unit}) out.text(*text);
+    out.number(table.length(k));
+  }
+  return out.content();
+}
+
+/// The child's work: what is chosen, block after block, each as soon as there is room for it.
+void send_blocks(VectorTable& table, const SharedNumbers& shared, Connection& parent) {
+  std::uint32_t kind = 0;
+  std::string content;
+  if (!parent.receive(kind, content) || kind != static_cast<std::uint32_t>(Message::choice)) return;
+  ReceivedText chosen(content);
+  std::vector<std::size_t> columns(static_cast<std::size_t>(chosen.number()));
+  for (std::size_t& column : columns) column = static_cast<std::size_t>(chosen.number());
+  const std::size_t rows = rows_of_block(columns.size());
+  const std::uint64_t length = columns.empty() ? 0 : table.length(columns.front());
+  std::uint64_t first = 0;
+  for (std::uint64_t index = 0; first < length; ++index) {
+    if (index >= blocks && !parent.receive(kind, content)) return;
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows, length - first));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      table.copy(columns[k], first, count, shared.block(index) + k * rows);
+    }
+    if (!send(parent, Message::block)) return;
+    first += count;
+  }
+  (void)parent.receive(kind, content);  // until the parent is gone
+}
+
+void read_in_child(const std::filesystem::path& file, const OpenVectors& open, const SharedNumbers& shared,
+                   const ReadingLimits& limits, Connection& parent) {
+  try {
+    const std::unique_ptr<VectorTable> table = open(file);
+    give_up_opening();
+    if (send(parent, Message::listing, listing_of(*table))) send_blocks(*table, shared, parent);
+  } catch (const RecordingError& error) {
+    (void)send(parent, Message::refusal, error.what());
+  } catch (const std::bad_alloc&) {
+    (void)send(parent, Message::refusal,
+               fmt::format("{}: needs more than {} MiB of memory to read, which is out of all "
+                           "proportion to its size; it is damaged, or record it in parts",
+                           file.string(), limits.memory_bytes >> 20));
+  } catch (const std::exception& error) {
+    (void)send(parent, Message::failure, error.what());
+  }
+}
+
+class ConfinedTable final : public VectorTable {
+ public:
+  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, const OpenVectors& open)
+      : VectorTable(path.string()), process_(reading_limits(file_bytes), [&](Connection& parent) {
+          read_in_child(path, open, shared_, reading_limits(file_bytes), parent);
+        }) {
+    ReceivedText content(expect(Message::listing));
+    unread_ = content.text();
+    const std::uint64_t columns = content.number();
+    for (std::uint64_t k = 0; k < columns; ++k) {
+      FileColumn column;
+      for (std::string* text : {&column.name, &column.leaf, &column.unit}) *text = content.text();
+      add({std::move(column), content.number()});
+    }
+  }
+
+  [[nodiscard]] std::string unread() const override { return unread_; }
+
+  void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
+    const double* const values = shared_.block(index_) + slot_of_.at(column) * rows_ + (first - first_);
+    std::copy_n(values, count, out);
+  }
+
+ protected:
+  void chosen(const std::vector<std::size_t>& columns) override {
+    slot_of_.assign(this->columns().size(), 0);
+    MessageText message;
+    message.number(columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      slot_of_.at(columns[k]) = k;
+      message.number(columns[k]);
+    }
+    rows_ = rows_of_block(columns.size());
+    if (!send(process_.connection(), Message::choice, message.content())) refuse_end();
+  }
+
+  std::size_t at_once(std::uint64_t first, std::size_t wanted) override {
+    if (!begun_ || first >= first_ + rows_) {
+      if (begun_) {
+        (void)send(process_.connection(),
+                   Message::room);  // where the child is gone, what it said last is still to be read
+        first_ += rows_;
+        ++index_;
+      }
+      begun_ = true;
+      (void)expect(Message::block);
+    }
+    return std::min<std::size_t>(wanted, static_cast<std::size_t>(first_ + rows_ - first));
+  }
+
+ private:
+  [[noreturn]] void refuse_end() {
+    throw RecordingError(
+        fmt::format("{}: is damaged or made to do harm: the process that read it {}; copy or record it again", file(),
+                    process_.end()));
+  }
+
+  /// The content of the child's next message, valid until the one after.
+  std::string_view expect(Message wanted) {
+    std::uint32_t kind = 0;
+    if (!process_.connection().receive(kind, content_)) refuse_end();
+    const auto message = static_cast<Message>(kind);
+    if (message == Message::refusal) throw RecordingError(content_);
+    if (message == Message::failure) throw std::runtime_error(content_);
+    if (message != wanted) refuse_end();
+    return content_;
+  }
+
+  SharedNumbers shared_;
+  ReadingProcess process_;
+  std::string content_;
+  std::string unread_;
+  std::vector<std::size_t> slot_of_;
+  std::size_t rows_ = 0;     ///< of a block
+  std::uint64_t first_ = 0;  ///< sample with which the block at hand begins
+  std::uint64_t index_ = 0;  ///< of the block at hand
+  bool begun_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
+                                           const OpenVectors& open) {
+  return std::make_unique<ConfinedTable>(file, file_bytes, open);
+}
+
+}  // namespace spoolflow::recording

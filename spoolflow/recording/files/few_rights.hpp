@@ -1,0 +1,25 @@
+#pragma once
+/// What a process gives up before it reads a file that nobody vouches for.
+#include <cstdint>
+
+namespace spoolflow::recording {
+
+/// Limits of a reading process.
+struct ReadingLimits {
+  std::uint64_t memory_bytes;  ///< address space beyond what the process has already
+  std::uint64_t computing_s;   ///< processor time
+};
+
+/// Limits of a file of that size [bytes]: 512 MiB and 250 times the file (see DeclaredSize); 20 s and 2 s for each MiB
+/// of it.
+[[nodiscard]] ReadingLimits reading_limits(std::uint64_t file_bytes);
+
+/// Keeps the descriptor `kept`, and /dev/null as 0 to 2; limits memory and time; no larger file, no further process, no
+/// core dump, no new privileges. The limit of memory is left out under AddressSanitizer, which reserves terabytes.
+void give_up_rights(int kept, const ReadingLimits& limits);
+
+/// From here on the process opens nothing any more: no descriptor beyond those it has, and of the system's calls only
+/// those that reading, reckoning and answering need (Linux on x86-64 and AArch64); every other one fails.
+void give_up_opening();
+
+}  // namespace spoolflow::recording
