@@ -17,6 +17,9 @@ if(SPOOLFLOW_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
+if(SPOOLFLOW_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 
 # spoolflow_link_names(LIST): in it the folder spoolflow/rig/plant becomes its target spoolflow_rig_plant.
 function(spoolflow_link_names list)

@@ -30,6 +30,12 @@ constexpr bool sanitized = true;
 constexpr bool sanitized = false;
 #endif
 
+#if defined(SPOOLFLOW_SANITIZED_READING) && !defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
+constexpr bool silent = false;  // what a sanitizer finds in the child is to be read
+#else
+constexpr bool silent = true;
+#endif
+
 #if defined(__x86_64__)
 constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
 #elif defined(__aarch64__)
@@ -91,7 +97,7 @@ ReadingLimits reading_limits(std::uint64_t file_bytes) {
 void give_up_rights(int kept, const ReadingLimits& limits) {
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO}) (void)::dup2(nothing, standard);
-  if (!sanitized) (void)::dup2(nothing, STDERR_FILENO);
+  if (silent) (void)::dup2(nothing, STDERR_FILENO);
   const auto descriptor = static_cast<unsigned>(kept);
   if (descriptor > 3) (void)::close_range(3, descriptor - 1, 0);
   (void)::close_range(descriptor + 1, ~0U, 0);
@@ -104,8 +110,9 @@ void give_up_rights(int kept, const ReadingLimits& limits) {
 }
 
 void give_up_opening() {
+  if (sanitized) return;  // the sanitizers open pipes to look at memory
   limit(RLIMIT_NOFILE, 0);
-  if (!sanitized && architecture != 0) allow_only_reading();
+  if (architecture != 0) allow_only_reading();
 }
 
 }  // namespace spoolflow::recording

@@ -19,7 +19,8 @@ struct ReadingLimits {
 void give_up_rights(int kept, const ReadingLimits& limits);
 
 /// From here on the process opens nothing any more: no descriptor beyond those it has, and of the system's calls only
-/// those that reading, reckoning and answering need (Linux on x86-64 and AArch64); every other one fails.
+/// those that reading, reckoning and answering need (Linux on x86-64 and AArch64); every other one fails. Does nothing
+/// in a build with sanitizers.
 void give_up_opening();
 
 }  // namespace spoolflow::recording

@@ -1,0 +1,15 @@
+/// CSV recordings: bytes.
+#include "tests/fuzz/sample_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace spoolflow;
+  static const fuzz::InputFile file("run.csv");
+  fuzz::read_or_refuse([&] {
+    const auto format = recording::format_of({reinterpret_cast<const char*>(data), size}, file.path());
+    if (format != recording::FileFormat::csv) return;
+    file.write(data, size);
+    fuzz::read_or_refuse([] { fuzz::read_a_column(file.path()); });
+    fuzz::inspect_file(file.path());
+  });
+  return 0;
+}

@@ -1,0 +1,14 @@
+/// MATLAB recordings through the process that reads them: bytes. What happens there is not seen in the coverage.
+#include "tests/fuzz/sample_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace spoolflow;
+  static const fuzz::InputFile file("run.mat");
+  fuzz::read_or_refuse([&] {
+    const auto format = recording::format_of({reinterpret_cast<const char*>(data), size}, file.path());
+    if (format == recording::FileFormat::csv) return;
+    file.write(data, size);
+    fuzz::read_a_column(file.path());
+  });
+  return 0;
+}
