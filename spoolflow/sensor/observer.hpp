@@ -10,15 +10,28 @@ namespace spoolflow::sensor {
 
 /// The oil warms slowly and its sensor is noisy [s].
 inline constexpr double temperature_smoothing_s = 2;
+/// No oil that a valve has is colder or warmer [K]: the sensor or its line is broken.
+inline constexpr double coldest_oil_K = 233.15;
+inline constexpr double warmest_oil_K = 423.15;
+/// Nor does oil leap by more than this [K] from what it was; ...
+inline constexpr double oil_leap_K = 15;
+/// ... what has lasted for longer [s] is believed.
+inline constexpr double longest_oil_fault_s = 20;
 
 namespace detail {
+
+template <class T>
+constexpr Mask<T> is_oil_temperature(T temperature_K) {
+  return temperature_K > T(coldest_oil_K) && temperature_K < T(warmest_oil_K);
+}
 
 /// To be called before the first sample goes through the stages, and where time has leapt.
 template <class T>
 constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
   state.started = Mask<T>(true);
   state.oil_temperature_K =
-      select(is_number(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
+      select(is_oil_temperature(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
+  state.oil_fault_s = T(0);
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
   sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);
@@ -28,12 +41,17 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
                 valve.friction.operation_ratio, valve.band.unseen_factor);
 }
 
-/// Once after each block of positions. A missing oil temperature is held.
+/// Once after each block of positions. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
 constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K) {
-  in_valves(state.position.velocity_due && is_number(oil_temperature_K), state.oil_temperature_K, [&] {
-    state.oil_temperature_K += (oil_temperature_K - state.oil_temperature_K) *
-                               smaller(state.position.block_s / T(temperature_smoothing_s), T(1));
+  in_valves(state.position.velocity_due && is_number(oil_temperature_K), state, [&] {
+    const T change_K = oil_temperature_K - state.oil_temperature_K;
+    const Mask<T> impossible = !is_oil_temperature(oil_temperature_K);
+    const Mask<T> odd = impossible || magnitude(change_K) > T(oil_leap_K);
+    state.oil_fault_s = select(odd, state.oil_fault_s + state.position.block_s, T(0));
+    const Mask<T> lasted = !impossible && state.oil_fault_s > T(longest_oil_fault_s);
+    const T pace = smaller(state.position.block_s / T(temperature_smoothing_s), T(1));
+    state.oil_temperature_K += change_K * select(lasted, T(1), select(odd, T(0), pace));
   });
 }
 
@@ -59,6 +77,7 @@ template <class T>
   mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
   mark(out, position.fault, Status::position_fault);
   mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
+  mark(out, state.oil_fault_s > T(0), Status::temperature_fault);
   return out;
 }
 

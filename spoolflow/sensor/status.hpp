@@ -28,6 +28,7 @@ enum class Status : std::uint32_t {
                                ///< that may flow there
   time_fault = 1U << 19,       ///< the time does not advance: where it runs backwards the last answer is held
   coil_fault = 1U << 20,       ///< voltage and current give a resistance that no sound coil has
+  temperature_fault = 1U << 21,  ///< the oil temperature reads what no oil has, or leapt: the one before is held
 };
 
 inline constexpr std::uint32_t fault_bits = 0xFFFF0000U;
@@ -55,7 +56,7 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit, in the order in which they are listed.
-inline constexpr std::array<StatusName, 15> status_names{{
+inline constexpr std::array<StatusName, 16> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
@@ -71,6 +72,7 @@ inline constexpr std::array<StatusName, 15> status_names{{
     {Status::other_direction, "other_direction"},
     {Status::time_fault, "time_fault"},
     {Status::coil_fault, "coil_fault"},
+    {Status::temperature_fault, "temperature_fault"},
 }};
 
 }  // namespace spoolflow::sensor

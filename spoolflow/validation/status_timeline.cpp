@@ -68,6 +68,9 @@ const char* meaning(sensor::Status bit) {
       return "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow "
              "there. "
              "Calibrate the whole valve, or look at the sign of the position.";
+    case Status::temperature_fault:
+      return "The oil temperature read what no oil has, or leapt; the one before was held. Look at its sensor and "
+             "line.";
     case Status::coil_fault:
       return "Voltage and current give a coil resistance that no sound coil has; look for shorted turns, a bad "
              "contact, or "

@@ -201,6 +201,37 @@ TEST(Observer, BeginsAnewAndSaysSoWhereTimeLeaps) {
   }
 }
 
+/// The answer after a second at rest whose oil temperature reads `read_K` from its middle on, for `samples`.
+Estimate<double> with_oil_reading(double read_K, int samples) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  ObserverState<double> state{};
+  for (int k = 0; k < 1000; ++k) {
+    const bool broken = k >= 500 && k < 500 + samples;
+    step(valve, state, {1e-3, 1.2, 10, 1e-3 + 1e-7 * k, broken ? read_K : 313.0});
+  }
+  return state.last;
+}
+
+TEST(Observer, HoldsTheOilTemperatureWhereItsSensorIsBroken) {
+  const Estimate<double> sound = with_oil_reading(313.0, 500);
+  for (const double read_K : {223.15, 73.15, 1123.15, 1e5, 350.0}) {
+    const Estimate<double> broken = with_oil_reading(read_K, 500), once = with_oil_reading(read_K, 1);
+    EXPECT_TRUE(has(broken.status, Status::temperature_fault)) << read_K;
+    EXPECT_FALSE(has(once.status, Status::temperature_fault)) << read_K;
+    EXPECT_EQ(broken.flow_m3_per_s, sound.flow_m3_per_s) << read_K;
+    EXPECT_EQ(once.flow_m3_per_s, sound.flow_m3_per_s) << read_K;
+  }
+  EXPECT_FALSE(has(sound.status, Status::temperature_fault));
+}
+
+TEST(Observer, BelievesALeapOfTheOilTemperatureThatLasts) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  ObserverState<double> state{};
+  for (int k = 0; k < 25000; ++k) step(valve, state, {1e-3, 1.2, 10, 1e-3, k < 1000 ? 303.0 : 333.0});
+  EXPECT_NEAR(state.oil_temperature_K, 333.0, 0.1);
+  EXPECT_FALSE(has(state.last.status, Status::temperature_fault));
+}
+
 TEST(Observer, HoldsItsAnswerWhereCurrentOrPositionIsMissingOrTimeRunsBackwards) {
   const Course course = opening();
   const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), 1e-3);

@@ -84,6 +84,7 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_OTHER_DIRECTION (UINT32_C(1) << 18) /* the spool opens the direction that the model does not know */
 #define SPOOLFLOW_STATUS_TIME_FAULT (UINT32_C(1) << 19)     /* time stood still, ran backwards, or is NaN; see spoolflow_step */
 #define SPOOLFLOW_STATUS_COIL_FAULT (UINT32_C(1) << 20)     /* voltage and current give a resistance that no sound coil has */
+#define SPOOLFLOW_STATUS_TEMPERATURE_FAULT (UINT32_C(1) << 21) /* the oil temperature reads what no oil has: the one before is held */
 /* Any of the faults. */
 #define SPOOLFLOW_STATUS_FAULTS UINT32_C(0xFFFF0000)
 

@@ -28,8 +28,9 @@ static_assert(same(SPOOLFLOW_STATUS_POSITION_FAULT, Status::position_fault));
 static_assert(same(SPOOLFLOW_STATUS_SAMPLE_MISSING, Status::sample_missing));
 static_assert(same(SPOOLFLOW_STATUS_TIME_FAULT, Status::time_fault));
 static_assert(same(SPOOLFLOW_STATUS_COIL_FAULT, Status::coil_fault));
+static_assert(same(SPOOLFLOW_STATUS_TEMPERATURE_FAULT, Status::temperature_fault));
 static_assert(SPOOLFLOW_STATUS_FAULTS == spoolflow::sensor::fault_bits);
-static_assert(spoolflow::sensor::status_names.size() == 15, "a new status bit belongs into spoolflow.h, too");
+static_assert(spoolflow::sensor::status_names.size() == 16, "a new status bit belongs into spoolflow.h, too");
 
 }  // namespace
 

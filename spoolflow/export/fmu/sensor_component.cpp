@@ -8,6 +8,7 @@
 #include "spoolflow/export/fmu/component.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
+#include "spoolflow/export/running_state_bytes.hpp"
 #include "spoolflow/model/limit_check.hpp"
 
 namespace spoolflow::exports::fmu {
@@ -90,6 +91,10 @@ class SensorComponent : public Component {
   }
   [[nodiscard]] std::span<char> memory() override {
     return {reinterpret_cast<char*>(&running_.state()), sizeof(estimation::RunningState)};
+  }
+  void clear_padding() override { exports::clear_padding(running_.state()); }
+  [[nodiscard]] bool may_be_memory(std::span<const char> bytes) const override {
+    return bytes.size() == sizeof(estimation::RunningState) && may_be_running_state(bytes.data());
   }
 
  private:
