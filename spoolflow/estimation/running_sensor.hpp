@@ -66,9 +66,10 @@ struct SampleTimes {
 
 /// The same as a whole valve's sensor takes it: without the current of solenoid a there is but the active coil's, and
 /// the other is taken to carry none.
-inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<double>& b, const TimedSample& sample) {
-  sensor::WholeValveSample<double> out{b.time_step_s, sample.current_a_A, b.current_A,        sample.voltage_a_V,
-                                       b.voltage_V,   b.position_m,       b.oil_temperature_K};
+template <class T>
+sensor::WholeValveSample<T> whole_valve_sample(const sensor::Sample<T>& b, const TimedSample& sample) {
+  sensor::WholeValveSample<T> out{b.time_step_s, T(sample.current_a_A), b.current_A,        T(sample.voltage_a_V),
+                                  b.voltage_V,   b.position_m,          b.oil_temperature_K};
   if (!std::isnan(sample.current_a_A)) return out;
   out.current_a_A = 0;
   if (b.position_m < 0) {

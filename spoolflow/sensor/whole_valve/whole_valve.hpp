@@ -36,7 +36,9 @@ struct Sides {
   const ObserverParameters<T>& idle;
 };
 
+/// A pack of valves brings its own.
 template <class T>
+requires one_valve<T>
 constexpr Sides<T> sides(const WholeValveParameters<T>& valve, bool opens_a) {
   return opens_a ? Sides<T>{*valve.a, *valve.b} : Sides<T>{*valve.b, *valve.a};
 }
@@ -87,58 +89,60 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
 /// force is read in one that is.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
-                                                  const Sample<T>& sample, bool begins, bool busy) {
-  const bool just_left = !begins && idle.closed_s == T(0);
+                                                  const Sample<T>& sample, Mask<T> begins, Mask<T> busy) {
+  const Mask<T> just_left = !begins && idle.closed_s == T(0);
   idle.closed_s += sample.time_step_s;
-  if (just_left) return;
-  const bool silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
-  idle.quiet_s = silent ? idle.quiet_s + sample.time_step_s : T(0);
-  if (!begins && idle.quiet_s > T(idle_settling_s)) return;
-  idle.waiting_s += sample.time_step_s;
-  idle.charge_As += sample.current_A * sample.time_step_s;
-  if (!busy || idle.waiting_s > T(idle_patience_s)) {
-    Sample<T> mean = sample;
-    mean.time_step_s = idle.waiting_s;
-    if (idle.waiting_s > T(0)) mean.current_A = idle.charge_As / idle.waiting_s;
-    magnetise(valve.actuator, idle.actuator, mean, begins);
-    idle.waiting_s = idle.charge_As = T(0);
-  }
-  if (busy || begins) {
-    idle.magnetic_force_N =
-        valve.actuator.magnetic_force.at(idle.actuator.coil.magnetising_current_A, sample.position_m).value;
-  }
+  in_valves(!just_left, idle, [&] {
+    const Mask<T> silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
+    idle.quiet_s = select(silent, idle.quiet_s + sample.time_step_s, T(0));
+    in_valves(begins || !(idle.quiet_s > T(idle_settling_s)), idle, [&] {
+      idle.waiting_s += sample.time_step_s;
+      idle.charge_As += sample.current_A * sample.time_step_s;
+      in_valves(!busy || idle.waiting_s > T(idle_patience_s), idle, [&] {
+        Sample<T> mean = sample;
+        mean.time_step_s = idle.waiting_s;
+        mean.current_A = select(idle.waiting_s > T(0), idle.charge_As / idle.waiting_s, sample.current_A);
+        magnetise(valve.actuator, idle.actuator, mean, begins);
+        idle.waiting_s = idle.charge_As = T(0);
+      });
+      in_valves(busy || begins, idle.magnetic_force_N, [&] {
+        idle.magnetic_force_N =
+            valve.actuator.magnetic_force.at(idle.actuator.coil.magnetising_current_A, sample.position_m).value;
+      });
+    });
+  });
 }
 
 /// Both coils silent and the spool at rest near zero: the springs have centred it.
 template <class T>
-constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, bool silent, T time_step_s) {
-  const bool centred = silent && is(position.motion, Motion::rest) && magnitude(position.position_m) < T(centring_m);
-  state.centred_s = centred ? state.centred_s + time_step_s : T(0);
-  if (state.centred_s < T(centring_rest_s)) return;
-  state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
+constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, Mask<T> silent, T time_step_s) {
+  const Mask<T> centred = silent && is(position.motion, Motion::rest) && magnitude(position.position_m) < T(centring_m);
+  state.centred_s = select(centred, state.centred_s + time_step_s, T(0));
+  in_valves(!(state.centred_s < T(centring_rest_s)), state.zero_m,
+            [&] { state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1)); });
 }
 
-/// The chain of the side on which the spool stands, written out for each: with its tables' addresses a compiler knows
-/// their numbers. `position` is in the valve's signs.
-template <bool opens_a, class T>
-[[gnu::always_inline]] constexpr void observe_side(const Sides<T>& now, WholeValveState<T>& state,
-                                                   const WholeValveSample<T>& sample, PositionPoint<T> position,
-                                                   const Dither<T>& dither, bool begins) {
+/// The chain of the side on which the spool stands; one valve calls it with either side written out: with its tables'
+/// addresses a compiler knows their numbers. `position` is in the valve's signs.
+template <class T>
+[[gnu::always_inline]] constexpr void observe_side(Mask<T> opens_a, const Sides<T>& now, WholeValveState<T>& state,
+                                                   const WholeValveSample<T>& sample,
+                                                   const PositionSensor<T>& position_sensor, PositionPoint<T> position,
+                                                   const Dither<T>& dither, Mask<T> begins) {
   const Sample<T> own = sample_of(sample, opens_a);
   const Sample<T> other = sample_of(sample, !opens_a);
-  const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
-                      magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
+  const Mask<T> silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
+                         magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
   follow_zero(state, position, silent, sample.time_step_s);
-  const PositionSensor<T>& position_sensor = opens_a ? now.idle.position_sensor : now.open.position_sensor;
-  const bool near = magnitude(position.position_m) <
-                    T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
-  if constexpr (opens_a) position = mirrored(position);
+  const Mask<T> near = magnitude(position.position_m) <
+                       T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
+  position = mirrored(opens_a, position);
 
-  const bool busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
+  const Mask<T> busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
   follow_idle(now.idle, state.idle, other, begins, busy);
   observe(now.open, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
-  if constexpr (opens_a) state.open.last = mirrored(state.open.last);
-  if (near && !(position.position_m < now.open.closed_below_m)) state.open.last.status |= Status::sign_undetermined;
+  state.open.last = mirrored(opens_a, state.open.last);
+  mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
 
 }  // namespace detail
@@ -148,12 +152,15 @@ template <bool opens_a, class T>
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
-  if (const Status held = unusable(sample); held != Status::none) {
-    state.open.last.status = held;
-    return state.open.last;
+  if constexpr (one_valve<T>) {
+    if (const Status held = unusable(sample); held != Status::none) {
+      state.open.last.status = held;
+      return state.open.last;
+    }
   }
-  const bool begins = !state.open.started;
-  if (begins) detail::begin(valve, state, sample);
+  using detail::sides;
+  const Mask<T> begins = !state.open.started;
+  in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
   detail::follow_temperature(state.open, own);
@@ -161,17 +168,26 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
   signed_sample.position_m = sample.position_m - state.zero_m;
-  const Dither<T> dither = follow_dither(
-      state.open.dither, own.current_A, detail::sides(valve, state.opens_a).open.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample,
-                                          detail::quiet_coil(detail::sides(valve, state.opens_a).open),
-                                          state.open.oil_temperature_K, dither, state.open.swing.frees);
-  const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
-  if (from_centre_m < T(-centre_hysteresis_m)) detail::change_sides(valve, state);
-  if (state.opens_a) {
-    detail::observe_side<true>(detail::sides(valve, true), state, sample, position, dither, begins);
+  const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
+  const Dither<T> dither =
+      follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
+  const PositionPoint<T> position =
+      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
+            state.open.oil_temperature_K, dither, state.open.swing.frees);
+  const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
+  in_valves(from_centre_m < T(-centre_hysteresis_m), state, [&] { detail::change_sides(valve, state); });
+
+  const auto seen_from = [&](Mask<T> opens_a) __attribute__((always_inline)) {
+    detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);
+  };
+  if constexpr (one_valve<T>) {
+    if (state.opens_a) {
+      seen_from(true);
+    } else {
+      seen_from(false);
+    }
   } else {
-    detail::observe_side<false>(detail::sides(valve, false), state, sample, position, dither, begins);
+    seen_from(state.opens_a);
   }
   return state.open.last;
 }
