@@ -13,7 +13,7 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(dirname "$here")
-steps="campaign_size_6 analyse campaign_fast_dither campaign_size_10 simulate validate estimate export fmu_sensor fmu_valve c_interface
+steps="campaign_size_6 demo_whole analyse campaign_fast_dither campaign_size_10 simulate validate estimate export fmu_sensor fmu_valve c_interface
 inspect refused help"
 
 # said NAME COMMAND…: runs it and keeps what it says and its exit status in NAME.txt.
@@ -30,7 +30,7 @@ said() {
 valve_a() {
   said calibrate spoolflow calibrate examples/valve_a/campaign.toml -o valve_a/model.json --report valve_a/calibration.html
 }
-demo() { said said spoolflow demo -o demo; }
+demo() { said said spoolflow demo size_6 -o demo; }
 
 step_campaign_size_6() {
   said campaign spoolflow campaign size_6 -o bench
@@ -39,6 +39,7 @@ step_campaign_size_6() {
   said validate spoolflow validate model.json bench/temperature_sweep.csv bench/pressure_steps.csv bench/sine_sweep.csv \
     bench/fast_motion.csv --json metrics.json --report report.html
 }
+step_demo_whole() { said said spoolflow demo -o whole; }
 step_campaign_size_10() { short_bench size_10; }
 step_campaign_fast_dither() { short_bench fast_dither; }
 short_bench() {

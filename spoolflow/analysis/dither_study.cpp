@@ -193,7 +193,7 @@ DitherEffect dither_effect(const model::Model& model, const DitherPoint& point, 
   out.frees = told && out.half_swing_N > point.sliding_N;
   // Where dither frees the spool altogether, no contact grows old, and half the swing exceeds what is left.
   const sensor::FrictionBounds<double> aged{point.sliding_N, out.frees ? point.sliding_N : point.sticking_N};
-  const auto left = sensor::within_swing(valve, aged, told ? out.half_swing_N : 0.0, 1 / frequency_Hz, 0.0, false);
+  const auto left = sensor::within_swing(aged, told ? out.half_swing_N : 0.0, 0.0);
   out.band_N = left.sticking_N + point.maps_N;
   out.band_m3_per_s = flow_band_m3_per_s(valve, point.point, out.band_N);
   out.tremble_m = tremble_m(valve, point, forces_N, out.half_swing_N, frequency_Hz);

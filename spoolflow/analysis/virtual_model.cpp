@@ -42,11 +42,13 @@ model::Model virtual_model(const rig::ValveAndCampaign& asked, unsigned workers,
     if (by_protocol[protocol].empty()) throw std::logic_error(std::string("the virtual campaign has no ") + protocol);
   }
   const rig::ValveUnderTest& valve = asked.valve;
+  calibration::AxialForceMaps axial_force_maps;
+  axial_force_maps.joined = by_protocol["axial_force_map"];
   model::Model out = calibration::calibrate_valve(
       {.spring = *by_protocol["spring"].front(),
        .solenoid_force_map = *by_protocol["solenoid_force_map"].front(),
        .solenoid_dynamic = by_protocol["solenoid_dynamic"],
-       .axial_force_maps = by_protocol["axial_force_map"],
+       .axial_force_maps = axial_force_maps,
        .operation = by_protocol["operation"]},
       {valve.name, units::m3_per_s_from_L_per_min(valve.rating.flow_L_per_min), valve.plant.spool.stroke_m, "b"},
       [&](const std::string&, double share) { progress(measuring_share + (1 - measuring_share) * share); });

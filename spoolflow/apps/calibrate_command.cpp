@@ -1,4 +1,5 @@
 /// `spoolflow calibrate`: from a campaign's bench recordings to a model file.
+#include <algorithm>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
+#include "spoolflow/sensor/band.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {
@@ -49,6 +51,13 @@ void print_summary(const model::Model& model) {
       uniqueness.ambiguous_at_m.empty() ? ""
                                         : fmt::format(", but is ambiguous at {} positions (see the model's evidence)",
                                                       uniqueness.ambiguous_at_m.size()));
+  if (model.observer && std::ranges::count(model.observer->defaults, model::each_edge_alone) > 0) {
+    fmt::print(stderr,
+               "  A and B were joined, and the load passes unequal flows over both edges: they are taken as alike, and "
+               "the band is {:.2g} L/min wider to either side; measure one edge at a time to know\n",
+               units::litre_per_minute_per_m3_per_s * sensor::flow_residual_factor *
+                   model.observer->parameters.band.flow_residual_m3_per_s);
+  }
 }
 }  // namespace
 
@@ -84,7 +93,7 @@ void add_calibrate_command(CLI::App& program) {
        "make a valve's model from the bench recordings of a campaign",
        "CAMPAIGN.toml, which names the valve, the oil and the recordings with their protocols: one `spring`, one "
        "`solenoid_force_map`, `axial_force_map` at one or several oil temperatures; of a whole valve all of them in "
-       "each direction",
+       "each direction, with A and B joined or one edge at a time",
        "the model as JSON: maps, their ranges and residuals, and where they came from",
        {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json"}});
   command->add_option("campaign", arguments->campaign, "campaign file (TOML)")->required();

@@ -1,4 +1,7 @@
 /// `spoolflow demo`: the whole way from a valve to a report, on the virtual test rig.
+#include <algorithm>
+#include <array>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -13,7 +16,16 @@
 namespace spoolflow::apps {
 namespace {
 
+/// The valves that are shown, each with the recording of its campaign that calibration reads as well.
+struct Shown {
+  const char* valve;
+  const char* ramps;
+};
+constexpr std::array<Shown, 2> shown_valves{
+    {{"whole_size_6", "campaign/both_ramps_60bar.csv"}, {"size_6", "campaign/ramp_60bar.csv"}}};
+
 struct DemoArguments {
+  std::string valve = shown_valves.front().valve;
   std::string folder = "spoolflow_demo";
   std::vector<std::string> units;
   bool quiet = false;
@@ -24,12 +36,16 @@ void demo(const DemoArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   const auto in_folder = [&](const char* name) { return (folder / name).string(); };
   make_output_folder(folder);
+  const std::string from = arguments.valve + "/";
   for (const EmbeddedFile& file : demo_files()) {
-    OutputFile output(folder / file.name);
+    if (!file.name.starts_with(from)) continue;
+    OutputFile output(folder / file.name.substr(from.size()));
     output.stream() << file.bytes;
     output.commit();
   }
-  const std::vector<std::string> runs{in_folder("campaign/ramp_60bar.csv"), in_folder("duty_cycle.csv")};
+  const Shown& valve = *std::find_if(shown_valves.begin(), shown_valves.end(),
+                                     [&](const Shown& each) { return each.valve == arguments.valve; });
+  const std::vector<std::string> runs{in_folder(valve.ramps), in_folder("duty_cycle.csv")};
   campaign({.valve = in_folder("valve.toml"),
             .folder = in_folder("campaign"),
             .calibration_only = true,
@@ -75,11 +91,20 @@ void add_demo_command(CLI::App& program) {
   CLI::App* command =
       add_command(program, {"demo",
                             "from a valve on the virtual test rig to a report, with no input files",
-                            "nothing: the valve and the run are inside the program",
+                            "nothing: valves and runs are inside the program",
                             "a folder with valve.toml and its campaign, duty_cycle.csv, model.json, estimate.csv, "
                             "metrics.json, calibration.html and report.html; "
                             "the path of the report comes last on standard output",
-                            {"spoolflow demo -o demo"}});
+                            {"spoolflow demo -o demo", "spoolflow demo size_6 -o one_direction"}});
+  std::vector<std::string> valves;
+  for (const Shown& each : shown_valves) valves.emplace_back(each.valve);
+  command
+      ->add_option("valve", arguments->valve,
+                   "whole_size_6 where none is named: both directions of flow, runs through the centre; or size_6: one "
+                   "direction")
+      ->type_name("VALVE")
+      ->check(CLI::IsMember(valves))
+      ->capture_default_str();
   command->add_option("-o,--output", arguments->folder, "folder to write")->type_name("DIR")->capture_default_str();
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -37,16 +38,33 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Files of an earlier export may be replaced; whatever else bears a name that is needed is somebody's work.
+/// SHA-256 by name of what the last export into a folder wrote; empty where there was none.
+std::map<std::string, std::string> record_of(const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  std::ifstream in(folder / exports::cpp_record_name);
+  for (std::string sum, name; in >> sum >> name;) out[name] = sum;
+  return out;
+}
+
+/// Files of an earlier export may be replaced as long as nobody changed them; whatever else bears a name that is needed
+/// is somebody's work.
 void refuse_to_overwrite(const fs::path& folder, const std::vector<exports::ExportedFile>& files) {
-  if (content_of(folder / exports::cpp_model_name).starts_with(exports::cpp_model_mark)) return;
+  const std::map<std::string, std::string> record = record_of(folder);
   for (const exports::ExportedFile& file : files) {
     const fs::path target = folder / file.name;
     std::error_code unreadable;
-    if (fs::exists(target, unreadable) && content_of(target) != file.content) {
+    if (file.name == exports::cpp_record_name && !record.empty()) continue;
+    if (!fs::exists(target, unreadable) || content_of(target) == file.content) continue;
+    const auto exported = record.find(file.name);
+    if (exported == record.end()) {
       throw OutputError(
           fmt::format("cannot write {}: it is there already and comes from no earlier export; name another folder",
                       target.string()));
+    }
+    if (model::sha256_of_file(target) != exported->second) {
+      throw OutputError(fmt::format(
+          "cannot write {}: it was changed since it was exported; keep it under another name, or name another folder",
+          target.string()));
     }
   }
 }

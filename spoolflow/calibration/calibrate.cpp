@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/condensed.hpp"
+#include "spoolflow/calibration/edges_in_operation.hpp"
 #include "spoolflow/calibration/fits/bench_dither.hpp"
 #include "spoolflow/calibration/observer.hpp"
 
@@ -30,11 +31,18 @@ model::Direction calibrate_benches(const CampaignRecordings& recordings, const m
   return out;
 }
 
+/// What the runs tell of edges that were measured together.
+void tell_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& operation, const model::Valve& valve) {
+  AxialForceMaps& maps = benches.axial_force_maps;
+  if (maps.edges_are_unknown()) maps.edge_ratio = edge_ratio_in_operation(benches, operation, valve);
+}
+
 }  // namespace
 
-model::Model calibrate_valve(const CampaignRecordings& recordings, const model::Valve& valve,
+model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& valve,
                              const CalibrationProgress& progress) {
   progress("condensed model and benches", 0);
+  tell_edges(recordings, {{recordings.operation, 1}}, valve);
   model::Direction fitted = calibrate_benches(recordings, valve);
   constexpr double bench_share = 0.3;
   std::vector<OperatingRun> runs;
@@ -50,10 +58,12 @@ model::Model calibrate_valve(const CampaignRecordings& recordings, const model::
   return out;
 }
 
-model::Model calibrate_whole_valve(const CampaignRecordings& p_to_b, const CampaignRecordings& p_to_a,
+model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings p_to_a,
                                    const Recordings& through_centre, const model::Valve& valve,
                                    const CalibrationProgress& progress) {
   progress("benches of flow P to B", 0);
+  tell_edges(p_to_b, {{p_to_b.operation, 1}, {through_centre, 1}}, valve);
+  tell_edges(p_to_a, {{p_to_a.operation, 1}, {through_centre, -1}}, valve);
   model::Direction b = calibrate_benches(p_to_b, valve);
   constexpr double bench_share = 0.15;
   progress("benches of flow P to A", bench_share);
@@ -96,7 +106,8 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   const bool whole = recordings.directions().size() > 1;
   const std::string direction =
       recordings.directions().empty() ? campaign.valve.direction : recordings.directions().front();
-  const model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
+  model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
+  if (campaign.load.area_ratio != 1) valve.load_area_ratio = campaign.load.area_ratio;
   model::Model out =
       whole ? calibrate_whole_valve(recordings.of("b"), recordings.of("a"), recordings.through_centre(), valve, fitting)
             : calibrate_valve(recordings.of(direction), valve, fitting);

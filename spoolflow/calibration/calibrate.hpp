@@ -12,12 +12,12 @@ namespace spoolflow::calibration {
 using CalibrationProgress = std::function<void(const std::string& step, double share)>;
 
 /// All fits in their order: condensed sensor, observer and evidence of the valve's model. Throws CalibrationError.
-[[nodiscard]] model::Model calibrate_valve(const CampaignRecordings& recordings, const model::Valve& valve,
+[[nodiscard]] model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& valve,
                                            const CalibrationProgress& progress);
 
 /// The whole valve: each direction from its own benches and operating runs, in its own signs, and both together from
 /// runs that go through the centre.
-[[nodiscard]] model::Model calibrate_whole_valve(const CampaignRecordings& p_to_b, const CampaignRecordings& p_to_a,
+[[nodiscard]] model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings p_to_a,
                                                  const Recordings& through_centre, const model::Valve& valve,
                                                  const CalibrationProgress& progress);
 

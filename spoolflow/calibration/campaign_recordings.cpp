@@ -106,6 +106,21 @@ Recordings ReadCampaign::through_centre() const {
   return out;
 }
 
+AxialForceMaps ReadCampaign::axial_force_maps(const std::string& direction) const {
+  AxialForceMaps out;
+  const recording::PathEdges edges = recording::edges_of(direction);
+  for (const Loaded& loaded : loaded_) {
+    if (loaded.entry.protocol != Protocol::axial_force_map || loaded.entry.direction != direction) continue;
+    Recordings& of_edge = loaded.entry.edge == edges.inlet    ? out.inlet
+                          : loaded.entry.edge == edges.outlet ? out.outlet
+                                                              : out.joined;
+    of_edge.push_back(&loaded.recording);
+  }
+  const double area_ratio = campaign_.load.area_ratio;  // what B takes leaves A in this proportion
+  out.outlet_flow_ratio = direction == "a" ? 1 / area_ratio : area_ratio;
+  return out;
+}
+
 CampaignRecordings ReadCampaign::of(const std::string& direction) const {
   const std::string of_direction = directions_.size() > 1 ? fmt::format(" and direction \"{}\"", direction) : "";
   const auto only = [&](Protocol protocol) -> const recording::Recording& {
@@ -118,15 +133,14 @@ CampaignRecordings ReadCampaign::of(const std::string& direction) const {
     }
     return *found.front();
   };
-  Recordings axial_force_maps = of(Protocol::axial_force_map, direction);
-  if (axial_force_maps.empty()) {
+  if (of(Protocol::axial_force_map, direction).empty()) {
     throw CalibrationError(
         fmt::format("{}: names no recording with protocol \"axial_force_map\"{}, calibration needs at least "
                     "one; edit its [[recording]] tables",
                     campaign_.file.string(), of_direction));
   }
   return {only(Protocol::spring), only(Protocol::solenoid_force_map), of(Protocol::solenoid_dynamic, direction),
-          std::move(axial_force_maps), of(Protocol::operation, direction)};
+          axial_force_maps(direction), of(Protocol::operation, direction)};
 }
 
 }  // namespace spoolflow::calibration

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/calibration/fits/path_of_edges.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -17,8 +18,8 @@ struct CampaignRecordings {
   const recording::Recording& spring;
   const recording::Recording& solenoid_force_map;
   Recordings solenoid_dynamic;  ///< none or one
-  Recordings axial_force_maps;  ///< one an oil temperature
-  Recordings operation;         ///< may be none
+  AxialForceMaps axial_force_maps;
+  Recordings operation;  ///< may be none
 };
 
 /// A campaign's recordings, read; addresses stay valid while more are read.
@@ -45,6 +46,7 @@ class ReadCampaign {
     bool through_centre;
   };
   [[nodiscard]] Recordings of(recording::Protocol protocol, const std::string& direction) const;
+  [[nodiscard]] AxialForceMaps axial_force_maps(const std::string& direction) const;
 
   const recording::Campaign& campaign_;
   std::vector<std::string> directions_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/calibration/fits/flow_rate_fit.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/sensitivity.hpp"
@@ -15,9 +14,7 @@ namespace spoolflow::calibration {
 namespace {
 
 /// The flow-force map at the middle of the oil temperatures; recordings without temperature sort first.
-AxialForceFit middle_temperature(const std::vector<const recording::Recording*>& recordings, double stroke_m) {
-  std::vector<AxialForceFit> fits;
-  for (const recording::Recording* recording : recordings) fits.push_back(fit_axial_force(*recording, stroke_m));
+AxialForceFit middle_temperature(std::vector<AxialForceFit> fits) {
   std::sort(fits.begin(), fits.end(), [](const AxialForceFit& a, const AxialForceFit& b) {
     return std::isnan(a.oil_temperature_K) ? !std::isnan(b.oil_temperature_K)
                                            : a.oil_temperature_K < b.oil_temperature_K;
@@ -54,7 +51,8 @@ double closed_below_m(const model::AxialForceLoop& highest, double rated_flow_m3
 CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, const model::Valve& valve) {
   const SpringFit spring = fit_spring(recordings.spring, valve.stroke_m);
   const MagneticForceFit magnetic = fit_magnetic_force(recordings.solenoid_force_map, valve.stroke_m);
-  const AxialForceFit axial = middle_temperature(recordings.axial_force_maps, valve.stroke_m);
+  const AxialForceMaps& maps = recordings.axial_force_maps;
+  const AxialForceFit axial = middle_temperature(fit_path(maps, spring.spring, valve.stroke_m).path);
   const std::vector<FlowForceColumn> columns = flow_force_columns(axial.loops, spring.spring);
 
   // An averaged force is the mean of some dozen samples a grid point and direction; a fifth of the sample noise bounds
@@ -69,7 +67,8 @@ CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, 
   parameters.friction_half_width_N = friction_bound(axial.loops, spring);
   parameters.closed_below_m = closed_below_m(axial.loops.back(), valve.rated_flow_m3_per_s, axial.flow_residual.rms());
   parameters.force_residual_N = std::hypot(magnetic.residual.rms(), axial.force_residual.rms(), spring.residual.rms());
-  parameters.flow_residual_m3_per_s = axial.flow_residual.rms();
+  parameters.flow_residual_m3_per_s =
+      flow_residual_with_unknown_edges(maps, axial.flow_residual.rms(), valve.rated_flow_m3_per_s);
 
   out.condensed.current_A = {0, magnetic.largest_current_A};
   out.condensed.position_m = {0, valve.stroke_m};

@@ -1,7 +1,6 @@
 #pragma once
 /// Calibration of the paper's condensed sensor from the bench recordings of a campaign.
-#include <vector>
-
+#include "spoolflow/calibration/fits/path_of_edges.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -10,7 +9,7 @@ namespace spoolflow::calibration {
 struct CondensedRecordings {
   const recording::Recording& spring;
   const recording::Recording& solenoid_force_map;
-  std::vector<const recording::Recording*> axial_force_maps;  ///< one an oil temperature
+  AxialForceMaps axial_force_maps;
 };
 
 struct CondensedCalibration {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "spoolflow/calibration/fits/path_of_edges.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -13,7 +14,7 @@ struct ObserverRecordings {
   const recording::Recording& spring;
   const recording::Recording& solenoid_force_map;
   std::vector<const recording::Recording*> solenoid_dynamic;  ///< none or one
-  std::vector<const recording::Recording*> axial_force_maps;  ///< one an oil temperature
+  AxialForceMaps axial_force_maps;
 };
 
 struct ObserverCalibration {

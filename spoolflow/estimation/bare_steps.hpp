@@ -15,12 +15,24 @@ constexpr sensor::Sample<T> in_scalar(const sensor::Sample<float>& in) {
 }
 template <class T>
 constexpr sensor::WholeValveSample<T> in_scalar(const sensor::WholeValveSample<float>& in) {
-  return {in.time_step_s, in.current_a_A, in.current_b_A,      in.voltage_a_V,
-          in.voltage_b_V, in.position_m,  in.oil_temperature_K};
+  return {in.time_step_s,       in.current_a_A,
+          in.current_b_A,       in.voltage_a_V,
+          in.voltage_b_V,       in.position_m,
+          in.oil_temperature_K, {in.ports.p_Pa, in.ports.a_Pa, in.ports.b_Pa, in.ports.t_Pa}};
 }
 
-/// The flow rate of every answer [m3/s]. `state` is that before the first sample; parameters, state and samples are of
+/// Every answer. `state` is that before the first sample; parameters, state and samples are of
 /// one direction or of the whole valve.
+template <class Parameters, template <class> class State, class T, template <class> class Sample>
+std::vector<sensor::Estimate<T>> stepped(const Parameters& parameters, State<T> state,
+                                         const std::vector<Sample<float>>& samples) {
+  std::vector<sensor::Estimate<T>> out;
+  out.reserve(samples.size());
+  for (const Sample<float>& in : samples) out.push_back(step(parameters, state, in_scalar<T>(in)));
+  return out;
+}
+
+/// The flow rate of every answer [m3/s].
 template <class Parameters, template <class> class State, class T, template <class> class Sample>
 std::vector<T> stepped_flows(const Parameters& parameters, State<T> state, const std::vector<Sample<float>>& samples) {
   std::vector<T> out;

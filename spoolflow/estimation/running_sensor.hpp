@@ -25,6 +25,7 @@ struct TimedSample {
   double oil_temperature_K;
   double current_a_A = not_measured;  ///< of a whole valve's solenoid a
   double voltage_a_V = not_measured;
+  sensor::PortPressures<double> ports{};  ///< of a whole valve
 };
 
 /// The same as the sensor takes it.
@@ -67,8 +68,8 @@ struct SampleTimes {
 /// The same as a whole valve's sensor takes it: without the current of solenoid a there is but the active coil's, and
 /// the other is taken to carry none.
 inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<double>& b, const TimedSample& sample) {
-  sensor::WholeValveSample<double> out{b.time_step_s, sample.current_a_A, b.current_A,        sample.voltage_a_V,
-                                       b.voltage_V,   b.position_m,       b.oil_temperature_K};
+  sensor::WholeValveSample<double> out{b.time_step_s, sample.current_a_A, b.current_A,         sample.voltage_a_V,
+                                       b.voltage_V,   b.position_m,       b.oil_temperature_K, sample.ports};
   if (!std::isnan(sample.current_a_A)) return out;
   out.current_a_A = 0;
   if (b.position_m < 0) {
@@ -86,13 +87,15 @@ struct TimedWholeSample {
   double voltage_a_V, voltage_b_V;
   double position_m;
   double oil_temperature_K;
+  sensor::PortPressures<double> ports{};
 };
 
 /// What is measured of both coils, as a running sensor takes it. A current that is missing now is not one that nobody
 /// measures: infinite, it says so.
 inline TimedSample of_both_coils(const TimedWholeSample& in) {
   const double current_a_A = std::isnan(in.current_a_A) ? std::numeric_limits<double>::infinity() : in.current_a_A;
-  return {in.time_s, in.current_b_A, in.voltage_b_V, in.position_m, in.oil_temperature_K, current_a_A, in.voltage_a_V};
+  return {in.time_s,   in.current_b_A, in.voltage_b_V, in.position_m, in.oil_temperature_K,
+          current_a_A, in.voltage_a_V, in.ports};
 }
 
 /// What a running sensor remembers; trivially copyable, and so are its bytes.

@@ -1,10 +1,13 @@
 #include "spoolflow/export/cpp_folder.hpp"
 
+#include <cstdint>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/cpp_texts.hpp"
 #include "spoolflow/export/golden_points.hpp"
 #include "spoolflow/export/number_groups.hpp"
@@ -49,9 +52,33 @@ std::string made_from(const model::Model& model) {
 
 std::string definition(const std::string& type, const std::string& name, const std::vector<double>& numbers,
                        const std::vector<NumberGroup>& groups) {
+  std::vector<float> single;
+  for (const double number : numbers) single.push_back(single_precision(number));
   return fmt::format(
-      "inline constexpr auto {1} = std::bit_cast<spoolflow::sensor::{0}<float>>(std::array<float, {2}>{{\n{3}}});\n\n",
-      type, name, numbers.size(), literals(numbers, groups));
+      "inline constexpr auto {1} = std::bit_cast<spoolflow::sensor::{0}<float>>(std::array<float, {2}>{{\n{3}}});\n"
+      "inline constexpr std::uint32_t {1}_crc32 = 0x{4:08X}U;\n\n",
+      type, name, numbers.size(), literals(numbers, groups),
+      crc32(reinterpret_cast<const char*>(single.data()), single.size() * sizeof(float)));
+}
+
+/// Names of all definitions in the model's header.
+std::vector<std::string> definition_names(const model::Model& model) {
+  std::vector<std::string> names;
+  for (const std::string side : model.whole() ? std::vector<std::string>{"_b", "_a"} : std::vector<std::string>{""}) {
+    names.push_back("condensed" + side);
+    if (model.has_observer()) names.push_back("observer" + side);
+  }
+  return names;
+}
+
+/// Functions with which firmware proves its flash.
+std::string table_check(const model::Model& model) {
+  std::string all;
+  for (const std::string& name : definition_names(model)) {
+    if (!all.empty()) all += " && ";
+    all += fmt::format("crc32_of({0}) == {0}_crc32", name);
+  }
+  return text("table_check.hpp.in") + fmt::format("inline bool tables_intact() {{\n  return {};\n}}\n\n", all);
 }
 
 /// `name`: of the definition.
@@ -127,13 +154,23 @@ std::string sensor_includes(const model::Model& model) {
          (model.has_observer() ? "#include \"spoolflow/sensor/observer.hpp\"\n" : "");
 }
 
+std::string model_text(const model::Model& model) {
+  std::ostringstream out;
+  model::write_model(out, model);
+  return out.str();
+}
+
 std::string model_header(const model::Model& model) {
   const bool has_observer = model.has_observer();
-  std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <bit>\n\n" + sensor_includes(model);
+  std::string out = made_from(model) +
+                    "\n#pragma once\n#include <array>\n#include <bit>\n#include <cstddef>\n#include <cstdint>\n\n" +
+                    sensor_includes(model);
   out +=
       "\n/// One valve's numbers, SI. The arrays lie in flash as the sensor's structures do.\nnamespace valve_model "
       "{\n\n";
   out += fmt::format("inline constexpr char name[] = \"{}\";\n", in_quotes(model.valve.name));
+  out += fmt::format("inline constexpr char model_sha256[] = \"{}\";  // of the model file as spoolflow writes it\n",
+                     model::sha256_of_text(model_text(model)));
   out += fmt::format("inline constexpr float rated_flow_m3_per_s = {};  // {:.4g} L/min\n",
                      float_literal(model.valve.rated_flow_m3_per_s),
                      units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s));
@@ -141,6 +178,7 @@ std::string model_header(const model::Model& model) {
   out += fmt::format("inline constexpr bool whole_valve = {};\n", model.whole());
   out += fmt::format("inline constexpr bool has_observer = {};\n\n", has_observer);
   out += model.whole() ? whole_definitions(model) : direction_definitions(model);
+  out += table_check(model);
   const TypeNames types = type_names(model);
   return out + fmt::format(
                    "/// The best sensor that this model is calibrated for.\n"
@@ -168,24 +206,29 @@ std::string literals_of(const sensor::WholeValveSample<float>& in) {
 
 template <class Sample>
 std::string golden_header(const model::Model& model, const std::vector<GoldenPoint<Sample>>& points) {
-  std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <limits>\n\n";
+  std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <cstdint>\n#include <limits>\n\n";
   out += fmt::format(
       "#include \"spoolflow/sensor/{}\"\n\nnamespace valve_model {{\n\n"
-      "/// One sample and the flow rates [m3/s] that double precision answered on the host.\n"
+      "/// One sample and what double precision answered on the host.\n"
       "struct GoldenPoint {{\n"
       "  spoolflow::sensor::{}<float> sample;\n"
       "  float condensed_m3_per_s;\n"
       "  float best_m3_per_s;  ///< of `parameters`\n"
+      "  float best_lower_m3_per_s;\n"
+      "  float best_upper_m3_per_s;\n"
+      "  std::uint32_t best_status;\n"
       "}};\n\n"
       "inline constexpr float missing = std::numeric_limits<float>::quiet_NaN();\n\n",
       model.whole() ? "whole_valve/whole_valve_sample.hpp" : "sample.hpp", type_names(model).sample);
   out += fmt::format(
-      "/// In the order of time: time step s, {}, position m, oil temperature K; flow rates.\n"
+      "/// In the order of time: time step s, {}, position m, oil temperature K; flow rates, band, status.\n"
       "inline constexpr std::array<GoldenPoint, {}> golden_points{{{{\n",
       model.whole() ? "currents a and b A, voltages a and b V" : "current A, voltage V", points.size());
   for (const GoldenPoint<Sample>& point : points) {
-    out += fmt::format("    {{{{{}}}, {}, {}}},\n", literals_of(point.sample), float_literal(point.condensed_m3_per_s),
-                       float_literal(point.best_m3_per_s));
+    out += fmt::format("    {{{{{}}}, {}, {}, {}, {}, {:#x}U}},\n", literals_of(point.sample),
+                       float_literal(point.condensed_m3_per_s), float_literal(point.best_m3_per_s),
+                       float_literal(point.best_lower_m3_per_s), float_literal(point.best_upper_m3_per_s),
+                       static_cast<std::uint32_t>(point.best_status));
   }
   return out + "}};\n\n}  // namespace valve_model\n";
 }
@@ -225,6 +268,10 @@ std::vector<ExportedFile> cpp_folder(const model::Model& model) {
   for (const EmbeddedFile& header : sensor_headers()) {
     files.push_back({fmt::format("spoolflow/sensor/{}", header.name), std::string(header.bytes)});
   }
+  std::string record;
+  for (const ExportedFile& file : files)
+    record += fmt::format("{}  {}\n", model::sha256_of_text(file.content), file.name);
+  files.push_back({std::string(cpp_record_name), std::move(record)});
   return files;
 }
 

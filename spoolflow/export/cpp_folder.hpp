@@ -17,6 +17,8 @@ struct ExportedFile {
 
 /// The header that holds the valve's numbers, and how it begins: a folder with such a file is an earlier export.
 inline constexpr std::string_view cpp_model_name = "valve_model.hpp";
+/// What the last export wrote, each file's SHA-256 before its name, as `sha256sum -c` reads it.
+inline constexpr std::string_view cpp_record_name = "exported.sha256";
 inline constexpr std::string_view cpp_model_mark = "// Made by `spoolflow export cpp`";
 
 /// Throws std::invalid_argument where a number of the model does not fit into single precision.

@@ -39,14 +39,18 @@ std::string scalar_variable(const Variable& variable, std::size_t reference) {
       initial(variable), typed(variable));
 }
 
-/// Outputs by their place among the variables, from 1.
-std::string outputs(const std::vector<Variable>& variables) {
+/// Outputs by their place among the variables, from 1, with what else is said of each.
+std::string outputs(const std::vector<Variable>& variables, std::string_view more) {
   std::string out;
   for (std::size_t k = 0; k < variables.size(); ++k) {
-    if (variables[k].causality == Causality::output) out += fmt::format("      <Unknown index=\"{}\"/>\n", k + 1);
+    if (variables[k].causality == Causality::output)
+      out += fmt::format("      <Unknown index=\"{}\"{}/>\n", k + 1, more);
   }
   return out;
 }
+
+/// An output answers what was set a step ago: none depends on an input of its own instant.
+constexpr std::string_view no_feedthrough = " dependencies=\"\"";
 
 }  // namespace
 
@@ -54,7 +58,8 @@ std::string model_description_fmi2(const FmuContent& content) {
   std::string files, variables;
   for (const std::string& source : content.sources) files += fmt::format("      <File name=\"{}\"/>\n", source);
   for (std::size_t k = 0; k < content.variables.size(); ++k) variables += scalar_variable(content.variables[k], k);
-  const std::string unknowns = outputs(content.variables);
+  const std::string unknowns = outputs(content.variables, no_feedthrough);
+  const std::string initial_unknowns = outputs(content.variables, "");
   return fmt::format(
       R"(<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{}" guid="{}" description="{}" license="Apache-2.0" generationTool="spoolflow {}" generationDateAndTime="{}" variableNamingConvention="structured" numberOfEventIndicators="0">
@@ -77,7 +82,7 @@ std::string model_description_fmi2(const FmuContent& content) {
 )",
       xml_text(content.model_name), content.resource.token, xml_text(content.description), content.tool_version,
       content.generation_time, content.identifier, files, unit_definitions(content.variables), log_categories(),
-      number_text(content.stop_s), number_text(content.step_s), variables, unknowns, unknowns);
+      number_text(content.stop_s), number_text(content.step_s), variables, unknowns, initial_unknowns);
 }
 
 }  // namespace spoolflow::exports

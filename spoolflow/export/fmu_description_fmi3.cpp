@@ -51,7 +51,8 @@ std::string model_description_fmi3(const FmuContent& content) {
   for (std::size_t k = 0; k < content.variables.size(); ++k) {
     variables += variable_element(content.variables[k], k);
     if (content.variables[k].causality != Causality::output) continue;
-    outputs += fmt::format("    <Output valueReference=\"{}\"/>\n", k);
+    // An output answers what was set a step ago: none depends on an input of its own instant.
+    outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", k);
     initial_unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\"/>\n", k);
   }
   return fmt::format(

@@ -15,6 +15,7 @@
 
 namespace spoolflow::exports {
 
+using estimation::stepped;
 using estimation::stepped_flows;
 
 namespace {
@@ -149,35 +150,39 @@ DirectionParameters<float> in_single(const DirectionParameters<double>& paramete
   return {single_precision(parameters.condensed), single_precision(parameters.observer)};
 }
 
-/// Flow rates [m3/s] of all samples.
+/// Of all samples: the condensed sensor's flow rates [m3/s], and the best sensor's answers.
 template <class T>
-struct Flows {
+struct Answers {
   std::vector<T> condensed;
-  std::vector<T> best;
+  std::vector<sensor::Estimate<T>> best;
 };
 
 template <class T>
-Flows<T> flows(const DirectionParameters<T>& parameters, bool has_observer,
-               const std::vector<sensor::Sample<float>>& samples) {
-  Flows<T> out{stepped_flows(parameters.condensed, sensor::CondensedState<T>{}, samples), {}};
-  out.best = has_observer ? stepped_flows(parameters.observer, sensor::ObserverState<T>{}, samples) : out.condensed;
-  return out;
+Answers<T> answers(const DirectionParameters<T>& parameters, bool has_observer,
+                   const std::vector<sensor::Sample<float>>& samples) {
+  return {stepped_flows(parameters.condensed, sensor::CondensedState<T>{}, samples),
+          has_observer ? stepped(parameters.observer, sensor::ObserverState<T>{}, samples)
+                       : stepped(parameters.condensed, sensor::CondensedState<T>{}, samples)};
 }
 
 template <class T>
-Flows<T> flows(const DirectionParameters<T>& b, const DirectionParameters<T>& a, bool has_observer,
-               const std::vector<sensor::WholeValveSample<float>>& samples) {
+Answers<T> answers(const DirectionParameters<T>& b, const DirectionParameters<T>& a, bool has_observer,
+                   const std::vector<sensor::WholeValveSample<float>>& samples) {
   const sensor::WholeCondensedTables<T> tables{&b.condensed, &a.condensed};
   const sensor::WholeValveParameters<T> valve{&b.observer, &a.observer};
-  Flows<T> out{stepped_flows(tables, sensor::WholeCondensedState<T>{}, samples), {}};
-  out.best = has_observer ? stepped_flows(valve, sensor::WholeValveState<T>{}, samples) : out.condensed;
-  return out;
+  return {stepped_flows(tables, sensor::WholeCondensedState<T>{}, samples),
+          has_observer ? stepped(valve, sensor::WholeValveState<T>{}, samples)
+                       : stepped(tables, sensor::WholeCondensedState<T>{}, samples)};
 }
 
 template <class Sample>
-std::vector<GoldenPoint<Sample>> joined(const std::vector<Sample>& samples, const Flows<double>& flows) {
+std::vector<GoldenPoint<Sample>> joined(const std::vector<Sample>& samples, const Answers<double>& answers) {
   std::vector<GoldenPoint<Sample>> points;
-  for (std::size_t k = 0; k < samples.size(); ++k) points.push_back({samples[k], flows.condensed[k], flows.best[k]});
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const sensor::Estimate<double>& best = answers.best[k];
+    points.push_back({samples[k], answers.condensed[k], best.flow_m3_per_s, best.flow_lower_m3_per_s,
+                      best.flow_upper_m3_per_s, best.status});
+  }
   return points;
 }
 
@@ -190,13 +195,14 @@ std::vector<Sample> samples_of(const std::vector<GoldenPoint<Sample>>& points) {
 
 template <class Sample>
 SinglePrecisionError largest_error(const model::Model& model, const std::vector<GoldenPoint<Sample>>& points,
-                                   const Flows<float>& flows) {
+                                   const Answers<float>& answers) {
   SinglePrecisionError largest{0, 0};
   const double percent = 100.0 / model.valve.rated_flow_m3_per_s;
   for (std::size_t k = 0; k < points.size(); ++k) {
     largest.condensed_percent =
-        std::max(largest.condensed_percent, percent * std::abs(flows.condensed[k] - points[k].condensed_m3_per_s));
-    largest.best_percent = std::max(largest.best_percent, percent * std::abs(flows.best[k] - points[k].best_m3_per_s));
+        std::max(largest.condensed_percent, percent * std::abs(answers.condensed[k] - points[k].condensed_m3_per_s));
+    largest.best_percent =
+        std::max(largest.best_percent, percent * std::abs(answers.best[k].flow_m3_per_s - points[k].best_m3_per_s));
   }
   return largest;
 }
@@ -205,26 +211,26 @@ SinglePrecisionError largest_error(const model::Model& model, const std::vector<
 
 std::vector<DirectionPoint> golden_points(const model::Model& model) {
   const std::vector<sensor::Sample<float>> inputs = strokes(model);
-  return joined(inputs, flows(in_double(model.condensed, model.observer), model.has_observer(), inputs));
+  return joined(inputs, answers(in_double(model.condensed, model.observer), model.has_observer(), inputs));
 }
 
 std::vector<WholeValvePoint> whole_golden_points(const model::Model& model) {
   const std::vector<sensor::WholeValveSample<float>> inputs = whole_strokes(model);
   const model::Direction& a = model.p_to_a.value();
-  return joined(inputs, flows(in_double(model.condensed, model.observer), in_double(a.condensed, a.observer),
-                              model.has_observer(), inputs));
+  return joined(inputs, answers(in_double(model.condensed, model.observer), in_double(a.condensed, a.observer),
+                                model.has_observer(), inputs));
 }
 
 SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<DirectionPoint>& points) {
   const auto parameters = in_single(in_double(model.condensed, model.observer));
-  return largest_error(model, points, flows(parameters, model.has_observer(), samples_of(points)));
+  return largest_error(model, points, answers(parameters, model.has_observer(), samples_of(points)));
 }
 
 SinglePrecisionError single_precision_error(const model::Model& model, const std::vector<WholeValvePoint>& points) {
   const model::Direction& a = model.p_to_a.value();
   const auto b_parameters = in_single(in_double(model.condensed, model.observer));
   const auto a_parameters = in_single(in_double(a.condensed, a.observer));
-  return largest_error(model, points, flows(b_parameters, a_parameters, model.has_observer(), samples_of(points)));
+  return largest_error(model, points, answers(b_parameters, a_parameters, model.has_observer(), samples_of(points)));
 }
 
 }  // namespace spoolflow::exports

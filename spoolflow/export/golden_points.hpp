@@ -7,12 +7,15 @@
 
 namespace spoolflow::exports {
 
-/// One sample, as the target gets it, and the flow rates [m3/s] in double precision.
+/// One sample, as the target gets it, and the answers in double precision.
 template <class Sample>
 struct GoldenPoint {
   Sample sample;
   double condensed_m3_per_s;
-  double best_m3_per_s;  ///< of the observer where the model has one, else of the condensed sensor
+  double best_m3_per_s;        ///< of the observer where the model has one, else of the condensed sensor
+  double best_lower_m3_per_s;  ///< its band
+  double best_upper_m3_per_s;
+  sensor::Status best_status;
 };
 using DirectionPoint = GoldenPoint<sensor::Sample<float>>;
 using WholeValvePoint = GoldenPoint<sensor::WholeValveSample<float>>;

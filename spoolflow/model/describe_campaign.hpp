@@ -4,7 +4,7 @@
 
 namespace spoolflow::model {
 
-/// visitor.number(Parameter, value) of each; `Valve` may be const.
+/// visitor.number(Parameter, number or optional number) of each; `Valve` may be const.
 template <class Valve, class Visitor>
 void describe_valve(Valve& valve, Visitor&& visitor) {
   visitor.number({.key = "rated_flow_m3_per_s",
@@ -15,6 +15,13 @@ void describe_valve(Valve& valve, Visitor&& visitor) {
   visitor.number(
       {.key = "stroke_m", .unit = "m", .limits = {1e-5, 0.1}, .meaning = "of the spool, from closed to open"},
       valve.stroke_m);
+  visitor.number(
+      {.key = "load_area_ratio",
+       .unit = "1",
+       .limits = {0.1, 10},
+       .meaning = "of the cylinder at the ports, piston area at port A over that at port B; absent where the "
+                  "load passes the same flow over both edges"},
+      valve.load_area_ratio);
 }
 
 /// visitor.number(Parameter, optional number) of each; `Instruments` may be const.

@@ -13,7 +13,7 @@ struct MagneticForceLoop {
 };
 
 /// Axial force without solenoid, flow and pressure difference over position at one held pressure difference (paper Fig
-/// 5).
+/// 5). Of a path whose edges were measured one at a time, or whose load passes unequal flows, as the edges make it.
 struct AxialForceLoop {
   double pressure_difference_set_Pa;
   std::vector<double> position_m;

@@ -20,7 +20,8 @@ struct Valve {
   std::string name;
   double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
-  std::string direction;  ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
+  std::string direction;                    ///< "b": flow P to B; "a": flow P to A; "both": the whole valve
+  std::optional<double> load_area_ratio{};  ///< of the cylinder it is for, port A over port B; absent: equal flows
 };
 
 /// Data-sheet values; absent where the campaign does not give them.
@@ -76,6 +77,9 @@ struct Condensed {
   std::optional<double> oil_temperature_K;  ///< of the flow-force map; absent where it was not recorded
   std::vector<Residual> residuals;
 };
+
+/// Among an observer's defaults: A and B were joined on the bench, and the load passes unequal flows over both edges.
+inline constexpr const char* each_edge_alone = "each edge by itself: both are taken as alike";
 
 /// The full sensor; a model may lack it.
 struct Observer {

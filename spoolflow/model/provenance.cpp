@@ -12,22 +12,45 @@
 
 namespace spoolflow::model {
 
+namespace {
+
+/// SHA-256 of what is put in piece by piece.
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
+      throw std::runtime_error("OpenSSL offers no SHA-256");
+  }
+  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
+  [[nodiscard]] std::string hexadecimal() const {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+    unsigned length = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
+    std::string out;
+    for (unsigned k = 0; k < length; ++k) out += fmt::format("{:02x}", digest[k]);
+    return out;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-  if (!in || !context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error(fmt::format("{}: cannot be read for its checksum", file.string()));
-  }
+  if (!in) throw std::runtime_error(fmt::format("{}: cannot be read for its checksum", file.string()));
+  Sha256 sum;
   std::array<char, 1 << 16> buffer;
-  while (in.read(buffer.data(), buffer.size()), in.gcount() > 0) {
-    EVP_DigestUpdate(context.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-  unsigned length = 0;
-  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-  std::string hex;
-  for (unsigned k = 0; k < length; ++k) hex += fmt::format("{:02x}", digest[k]);
-  return hex;
+  while (in.read(buffer.data(), buffer.size()), in.gcount() > 0)
+    sum.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+  return sum.hexadecimal();
+}
+
+std::string sha256_of_text(std::string_view text) {
+  Sha256 sum;
+  sum.add(text);
+  return sum.hexadecimal();
 }
 
 std::string creation_time() {

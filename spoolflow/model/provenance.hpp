@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spoolflow::model {
@@ -22,6 +23,7 @@ struct Provenance {
 
 /// Throws std::runtime_error where the file cannot be read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+[[nodiscard]] std::string sha256_of_text(std::string_view text);
 /// The present moment in UTC, ISO 8601 to the second; SOURCE_DATE_EPOCH overrides it for reproducible models.
 [[nodiscard]] std::string creation_time();
 

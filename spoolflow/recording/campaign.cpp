@@ -75,6 +75,48 @@ CampaignInstruments instruments_of(const TomlTable& table) {
   return out;
 }
 
+CampaignLoad load_of(const TomlTable& table) {
+  table.allow_only({"area_ratio"});
+  constexpr double least = 0.1, most = 10;
+  const double ratio = table.positive("area_ratio");
+  if (ratio < least || ratio > most) {
+    throw RecordingError(
+        fmt::format("{}: an area ratio of {} is no cylinder's; give the piston's area at port A over that at port B, "
+                    "{} to {}",
+                    table.place("area_ratio"), ratio, least, most));
+  }
+  return {ratio};
+}
+
+/// The edge that an axial-force map is of, empty where it is of all that the oil passes; `direction` becomes the
+/// edge's.
+std::string edge_of(const TomlTable& entry, Protocol protocol, std::string& direction) {
+  const std::optional<std::string> edge = entry.optional_text("edge");
+  if (!edge) return {};
+  if (protocol != Protocol::axial_force_map) {
+    throw RecordingError(
+        fmt::format("{}: edge = \"{}\" stands with protocol \"{}\"; only axial_force_map is measured "
+                    "one edge at a time: leave edge out",
+                    entry.place("edge"), *edge, name(protocol)));
+  }
+  for (const char* each : {"b", "a"}) {
+    const PathEdges edges = edges_of(each);
+    if (*edge != edges.inlet && *edge != edges.outlet) continue;
+    if (const std::optional<std::string> written = direction_of(entry); written && *written != each) {
+      throw RecordingError(
+          fmt::format("{}: edge \"{}\" is of direction \"{}\", and direction = \"{}\" is given; correct "
+                      "one of the two, or leave direction out",
+                      entry.place("edge"), *edge, each, *written));
+    }
+    direction = each;
+    return *edge;
+  }
+  throw RecordingError(
+      fmt::format("{}: edge \"{}\" is not known; allowed: \"PB\" and \"AT\" (direction b), \"PA\" and "
+                  "\"BT\" (direction a), or no edge where the file is of both together",
+                  entry.place("edge"), *edge));
+}
+
 /// A campaign that came from elsewhere must not make this program read what its user can read.
 void refuse_outside(const std::filesystem::path& recording, const TomlTable& entry) {
   const std::filesystem::path folder = std::filesystem::absolute(entry.file).parent_path();  // "" for one named alone
@@ -91,12 +133,13 @@ void refuse_outside(const std::filesystem::path& recording, const TomlTable& ent
 }
 
 CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valve, OutsideFiles outside) {
-  entry.allow_only({"protocol", "file", "direction", "channels"});
+  entry.allow_only({"protocol", "file", "direction", "edge", "channels"});
   CampaignRecording out{protocol_of(entry),
                         entry.file.parent_path() / entry.text("file"),
                         {},
                         place_of(entry.table, entry.file),
                         direction_of(entry).value_or(valve.direction)};
+  out.edge = edge_of(entry, out.protocol, out.direction);
   if (outside == OutsideFiles::refused) refuse_outside(out.file, entry);
   std::error_code failure;
   if (!std::filesystem::exists(out.file, failure)) {
@@ -111,6 +154,35 @@ CampaignRecording recording_of(const TomlTable& entry, const CampaignValve& valv
     out.channels = read_channels({*table, entry.file, "[recording.channels]"});
   }
   return out;
+}
+
+/// Each direction's axial force is of both edges together, or of each of them.
+void require_whole_paths(const Campaign& campaign) {
+  const std::vector<const CampaignRecording*> maps = campaign.of(Protocol::axial_force_map);
+  for (const CampaignRecording* one : maps) {
+    if (one->edge.empty()) continue;
+    const auto [inlet, outlet] = edges_of(one->direction);
+    bool other_edge = false;
+    for (const CampaignRecording* each : maps) {
+      if (each->direction != one->direction) continue;
+      if (each->edge.empty()) {
+        throw RecordingError(fmt::format(
+            "{}: {} names no edge, and {} is of edge {} alone, both of direction \"{}\"; a direction is measured one "
+            "edge at a time ({} and {}) or both together: give each file its edge, or none",
+            each->place, each->file.filename().string(), one->file.filename().string(), one->edge, one->direction,
+            inlet, outlet));
+      }
+      other_edge = other_edge || each->edge != one->edge;
+    }
+    if (!other_edge) {
+      throw RecordingError(
+          fmt::format("{}: of direction \"{}\" edge {} alone was measured, and the oil also passes {}; add "
+                      "axial_force_map recordings "
+                      "with edge = \"{}\", or leave edge out where the files are of all that the oil passes",
+                      one->place, one->direction, one->edge, one->edge == inlet ? outlet : inlet,
+                      one->edge == inlet ? outlet : inlet));
+    }
+  }
 }
 
 /// The table `key` of the document; throws where it is missing or of another kind.
@@ -129,6 +201,10 @@ std::string_view name(Protocol protocol) {
   return protocol_names[static_cast<std::size_t>(protocol)];
 }
 
+PathEdges edges_of(std::string_view direction) {
+  return direction == "a" ? PathEdges{"PA", "BT"} : PathEdges{"PB", "AT"};
+}
+
 std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
   std::vector<const CampaignRecording*> out;
   for (const CampaignRecording& recording : recordings) {
@@ -140,12 +216,13 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
 Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the campaign"};
-  document.allow_only({"valve", "fluid", "instruments", "recording"});
+  document.allow_only({"valve", "fluid", "instruments", "load", "recording"});
   Campaign campaign;
   campaign.file = file;
   campaign.valve = valve_of(table_of(document, "valve"));
   if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
   if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
+  if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
   const toml::array* recordings = read["recording"].as_array();
   if (recordings == nullptr || recordings->empty()) {
     throw RecordingError(fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file",
@@ -158,6 +235,7 @@ Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) 
     }
     campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve, outside));
   }
+  require_whole_paths(campaign);
   return campaign;
 }
 

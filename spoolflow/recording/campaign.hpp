@@ -38,19 +38,34 @@ struct CampaignInstruments {
   std::optional<double> temperature_uncertainty_K;
 };
 
+/// What the valve moves at its ports.
+struct CampaignLoad {
+  double area_ratio = 1;  ///< the piston's area at port A over that at port B; 1: both ports pass the same flow
+};
+
 struct CampaignRecording {
   Protocol protocol;
   std::filesystem::path file;  ///< resolved against the campaign's folder
   ChannelMap channels;
   std::string place;            ///< "campaign.toml, line 17", for messages
   std::string direction = "b";  ///< of a file of one direction, whose position counts from the centre, opening > 0
+  std::string
+      edge{};  ///< of an axial-force map of one edge: "PB", "AT", "PA" or "BT"; empty: of all that the oil passes
 };
+
+/// The edges of a direction's path, in the order in which the oil passes them.
+struct PathEdges {
+  std::string_view inlet, outlet;
+};
+/// P to B and A to T of direction "b", P to A and B to T of "a".
+[[nodiscard]] PathEdges edges_of(std::string_view direction);
 
 struct Campaign {
   std::filesystem::path file;
   CampaignValve valve;
   CampaignFluid fluid;
   CampaignInstruments instruments;
+  CampaignLoad load;
   std::vector<CampaignRecording> recordings;
 
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;
@@ -60,7 +75,8 @@ struct Campaign {
 enum class OutsideFiles : std::uint8_t { refused, allowed };
 
 /// Throws RecordingError with file and line: unknown keys, missing or non-positive values, a recording that does not
-/// exist, or that stands outside where that is refused.
+/// exist, or that stands outside where that is refused, an edge that is not of its direction, a path of which one edge
+/// alone was measured.
 [[nodiscard]] Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside = OutsideFiles::refused);
 
 }  // namespace spoolflow::recording

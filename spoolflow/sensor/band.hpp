@@ -18,15 +18,6 @@ inline constexpr double slip_widening = 2;
 /// gone on by as much as it was seen to move, but by no more than this share of what friction's other bound leaves.
 inline constexpr double unseen_room_share = 0.4;
 
-/// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a
-/// supply that leaps, narrower where every sample confirms the one before. The root of the normalised innovation's
-/// size.
-template <class T>
-constexpr T band_factor(const PressureState<T>& state) {
-  return limited(sqrt(sqrt(state.innovation_squared * (T(1) / T(usual_innovation_squared)))), T(least_band_factor),
-                 T(most_band_factor));
-}
-
 /// One standard deviation of where the bounds of friction at rest lie [N]: it grows while the spool rests.
 template <class T>
 constexpr T bounds_deviation_N(const BandParameters<T>& band, T rest_s) {
@@ -81,7 +72,7 @@ template <class T>
   const T share = select(balance.sliding, band.force_share, band.rest_share);
   const T unobserved_Pa = unobserved_change_Pa(pressure, band.unseen_factor);
   const T deviation_Pa =
-      band.coverage_factor * band_factor(pressure) * select(balance.slips, T(slip_widening), T(1)) *
+      band.coverage_factor * pressure.band_factor * select(balance.slips, T(slip_widening), T(1)) *
           sqrt(squared(unobserved_Pa) + squared(pressure_deviation_Pa(edge, share * balance.noise_N))) +
       pressure_deviation_Pa(edge, motion_deviation_N(balance, velocity_m_per_s));
   const T certain_Pa = pressure_deviation_Pa(

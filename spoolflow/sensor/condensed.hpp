@@ -37,7 +37,7 @@ template <class T>
                                               point.status) &&
            find_place<Layout::current_cells>(valve.cells_per_A, sample.current_A, beyond, point.current,
                                              point.status) &&
-           within(sample.time_step_s, T(longest_step_s));
+           within(sample.time_step_s, T(endless_step_s));
   } else {
     const T position_cells = sample.position_m * valve.cells_per_m;
     const T current_cells = sample.current_A * valve.cells_per_A;
@@ -54,7 +54,7 @@ template <class T>
 constexpr Status why_held(const Sample<T>& sample) {
   const Status reason = unusable(sample);
   if (reason != Status::none) return reason;
-  return within(sample.time_step_s, T(longest_step_s)) ? Status::sample_missing : Status::time_fault;
+  return within(sample.time_step_s, T(endless_step_s)) ? Status::sample_missing : Status::time_fault;
 }
 
 /// The root of the flow force in cells; `cells2`, its square, is taken to the end of the axis where it lies beyond.

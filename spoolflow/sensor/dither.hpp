@@ -46,6 +46,7 @@ template <class T>
 struct Dither {
   Mask<T> present;
   Mask<T> begins;         ///< one of its periods, with this sample
+  Mask<T> began;          ///< with the sample before
   T sample_per_period{};  ///< time step over the last period, 0 to 1/2; where dither is present
 };
 
@@ -81,10 +82,11 @@ constexpr void turn(DitherState<T>& state, T swing_A, Mask<T> regular, T current
 
 }  // namespace detail
 
-/// To be called before the first sample, with its current.
+/// To be called before the first sample, with its current, and where time has leapt.
 template <class T>
 constexpr void begin(DitherState<T>& state, T current_A) {
   state.extreme_A = state.turned_A = current_A;
+  state.swing_A = state.since_s = state.period_s = state.alike = T(0);
   state.direction = T(1);
 }
 
@@ -92,6 +94,7 @@ constexpr void begin(DitherState<T>& state, T current_A) {
 template <class T>
 [[gnu::always_inline]] constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
                                                          T time_step_s) {
+  const Mask<T> began = state.since_s == T(0);
   state.since_s += time_step_s;
   const T back_A = state.direction * (state.extreme_A - current_A);
   state.extreme_A = select(back_A < T(0), current_A, state.extreme_A);
@@ -107,7 +110,7 @@ template <class T>
     state.since_s = select(begins, T(0), state.since_s);
   });
   in_valves(state.since_s > T(longest_dither_period_s), state, [&] { state.alike = state.swing_A = T(0); });
-  Dither<T> out{!(state.alike < T(periods_of_dither)), begins};
+  Dither<T> out{!(state.alike < T(periods_of_dither)), begins, began};
   if (any(out.present)) {
     const T period_s = larger(state.period_s, T(shortest_dither_period_s));
     out.sample_per_period = smaller(time_step_s / period_s, T(0.5));
@@ -128,19 +131,30 @@ inline constexpr double missed_middle = 2;
 /// 2 pi / sqrt(4.5): see slip_excess_N.
 inline constexpr double slip_excess_factor = 2.962;
 
-/// Extremes of what friction would have to be, in this period of dither and in the one before.
+/// Extremes of what friction would have to be, in this period of dither and in the one before, at the flow force that
+/// was believed when this one began.
 template <class T>
 struct FrictionSwingState {
+  T flow_force_N{};  ///< believed more since then
   T highest_N{};
   T lowest_N{};
   T last_highest_N{};
   T last_lowest_N{};
   T half_swing_N{};
+  T excess_N{};     ///< of the peaks over sliding friction, while the spool moves
   Mask<T> frees{};  ///< dither the spool: both ways in each period
   T periods{};      ///< since dither began, up to 2
 };
 
 static_assert(std::is_trivially_copyable_v<FrictionSwingState<float>>);
+
+/// As {} would, without a library that clears memory.
+template <class T>
+constexpr void forget(FrictionSwingState<T>& state) {
+  state.flow_force_N = state.half_swing_N = state.excess_N = state.periods = T(0);
+  state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = T(0);
+  state.frees = Mask<T>(false);
+}
 
 /// What friction would have to be, over a period of dither; without dither, at this sample.
 template <class T>
@@ -150,45 +164,42 @@ struct FrictionSwing {
   Mask<T> settled;  ///< a whole period tells
 };
 
+/// A period is over: what was told in it is kept.
+template <class T>
+[[gnu::always_inline]] constexpr void turn_swing(FrictionSwingState<T>& state, T apparent_N) {
+  const Mask<T> lone = state.periods == T(0);
+  state.periods = smaller(state.periods + T(1), T(2));
+  state.last_highest_N = select(lone, apparent_N, state.highest_N - state.flow_force_N);
+  state.last_lowest_N = select(lone, apparent_N, state.lowest_N - state.flow_force_N);
+  state.highest_N = state.lowest_N = apparent_N;
+  state.flow_force_N = T(0);
+}
+
 /// One sample. `apparent_N` is what friction would have to be.
 template <class T>
 [[gnu::always_inline]] constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
                                                                T apparent_N) {
   const Mask<T> anew = !dither.present;
   in_valves(anew, state, [&] {
-    state.periods = state.half_swing_N = T(0);
+    state.periods = state.half_swing_N = state.flow_force_N = T(0);
     state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = apparent_N;
   });
   if (!any(dither.present)) return {apparent_N, T(0), anew};
-  const Mask<T> turns = dither.begins && !anew;
-  in_valves(turns, state, [&] {
-    state.periods = smaller(state.periods + T(1), T(2));
-    const Mask<T> lone = state.periods < T(2);
-    state.last_highest_N = select(lone, apparent_N, state.highest_N);
-    state.last_lowest_N = select(lone, apparent_N, state.lowest_N);
-    state.highest_N = state.lowest_N = apparent_N;
-  });
-  state.highest_N = larger(state.highest_N, apparent_N);
-  state.lowest_N = smaller(state.lowest_N, apparent_N);
+  in_valves(dither.began && !anew, state, [&] { turn_swing(state, apparent_N); });
+  const T then_N = apparent_N + state.flow_force_N;
+  state.highest_N = larger(state.highest_N, then_N);
+  state.lowest_N = smaller(state.lowest_N, then_N);
   const Mask<T> settled = !(state.periods < T(2));
   const T highest_N = larger(state.highest_N, state.last_highest_N);
   const T lowest_N = smaller(state.lowest_N, state.last_lowest_N);
-  in_valves(turns && settled, state, [&] {
+  in_valves(dither.began && settled, state, [&] {
     const T half_N = (T(0.5) + T(0.5 * missed_swing) * squared(dither.sample_per_period)) * (highest_N - lowest_N);
     const T known_N = state.half_swing_N;
     const T reach_N = select(known_N > T(0), T(swing_following) * known_N, half_N);
     state.half_swing_N = limited(half_N, known_N - reach_N, known_N + reach_N);
   });
-  return {select(anew, apparent_N, T(0.5) * (highest_N + lowest_N)), state.half_swing_N, settled || anew};
-}
-
-/// The flow force is believed larger by so much: friction would have to be smaller, in what has been as now.
-template <class T>
-[[gnu::always_inline]] constexpr void shift_swing(FrictionSwingState<T>& state, T flow_force_N) {
-  state.highest_N -= flow_force_N;
-  state.lowest_N -= flow_force_N;
-  state.last_highest_N -= flow_force_N;
-  state.last_lowest_N -= flow_force_N;
+  return {select(anew, apparent_N, T(0.5) * (highest_N + lowest_N) - state.flow_force_N), state.half_swing_N,
+          settled || anew};
 }
 
 /// By how much the peaks of the force exceed sliding friction where dither moves the spool on in one slip a period: the

@@ -38,19 +38,19 @@ template <class T>
               squared(band.friction_share * bounds.sliding_N));
 }
 
-/// Dither takes half the swing of friction off its limits, and where it `moves` the spool adds what the slips' mass
-/// asks for.
+/// Dither takes half the swing of friction off its limits, and where it moves the spool adds what the slips' mass asks
+/// for.
 template <class T>
-[[gnu::always_inline]] constexpr FrictionBounds<T> within_swing(const ObserverParameters<T>& valve,
-                                                                const FrictionBounds<T>& bounds, T half_swing_N,
-                                                                T period_s, T velocity_m_per_s, Mask<T> moves) {
-  T excess_N{};
-  if (any(moves)) {
-    const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
-    const T slip_m = magnitude(velocity_m_per_s) * period_s - elastic_m;
-    excess_N = select(moves, slip_excess_N(valve.moving_mass_kg, half_swing_N, slip_m, period_s), T(0));
-  }
+constexpr FrictionBounds<T> within_swing(const FrictionBounds<T>& bounds, T half_swing_N, T excess_N) {
   return {larger(bounds.sliding_N + excess_N - half_swing_N, T(0)), larger(bounds.sticking_N - half_swing_N, T(0))};
+}
+
+/// What the mass of the slips asks for in each period of dither [N].
+template <class T>
+constexpr T slips_excess_N(const ObserverParameters<T>& valve, T half_swing_N, T period_s, T velocity_m_per_s) {
+  const T elastic_m = T(2) * half_swing_N / larger(valve.friction.contact_stiffness_N_per_m, T(1));
+  return slip_excess_N(valve.moving_mass_kg, half_swing_N, magnitude(velocity_m_per_s) * period_s - elastic_m,
+                       period_s);
 }
 
 /// Friction over a period of dither, or at this sample, and its bounds.
@@ -69,8 +69,11 @@ template <class T>
   if (!any(dither.present)) return;
   state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
   const Mask<T> moves = balance.freed || !is(position.motion, Motion::rest);
+  in_valves(dither.present && !position.busy, state.swing.excess_N, [&] {
+    state.swing.excess_N = slips_excess_N(valve, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s);
+  });
   const FrictionBounds<T> bounds =
-      within_swing(valve, balance.bounds, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s, moves);
+      within_swing(balance.bounds, swing.half_swing_N, select(moves, state.swing.excess_N, T(0)));
   balance.bounds.sliding_N = select(dither.present, bounds.sliding_N, balance.bounds.sliding_N);
   balance.bounds.sticking_N = select(dither.present, bounds.sticking_N, balance.bounds.sticking_N);
 }
@@ -82,10 +85,9 @@ template <class T>
                                                                 ObserverState<T>& state, const Sample<T>& sample,
                                                                 const PositionPoint<T>& position,
                                                                 const Dither<T>& dither, T opposing_N, Mask<T> begins) {
-  Sample<T> actuated = sample;
-  actuated.position_m = position.position_m;
   ForceBalance<T> out;
-  out.actuator = step(valve.actuator, state.actuator, actuated, begins);
+  out.actuator = step(valve.actuator, state.actuator,
+                      Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}}, begins);
   out.actuator.magnetic_force_N -= opposing_N;
   out.spring_N = valve.spring.at(position.position_m).value;
   const T net_N = out.actuator.magnetic_force_N - out.spring_N;  // carries flow force and friction; paper (1)
@@ -98,10 +100,7 @@ template <class T>
   out.apparent_friction_N = net_N - out.edge.flow_force_N;
   swing(valve, state, dither, position, out);
   out.resting = step(valve.friction, state.friction, out.bounds, valve.position_sensor, position,
-                     out.apparent_friction_N, sample.time_step_s);
-  // Dither lets the contacts creep: where the spool stands tells no friction.
-  out.resting.lower_N = select(out.dithered, -out.bounds.sticking_N, out.resting.lower_N);
-  out.resting.upper_N = select(out.dithered, out.bounds.sticking_N, out.resting.upper_N);
+                     out.apparent_friction_N, out.dithered, sample.time_step_s);
 
   out.closed = position.position_m < valve.closed_below_m;
   const Mask<T> travels = is(position.motion, Motion::opening) || is(position.motion, Motion::closing);

@@ -56,6 +56,8 @@ inline constexpr double drag_certainty = 0.8;
 inline constexpr double least_stiffness_share = 0.1;
 /// Standard deviations of the gauge by which friction at rest may exceed the sticking limit.
 inline constexpr double sticking_limit_deviations = 2;
+/// A longer rest [s] says no more; in single precision time steps of 50 us still add up to it.
+inline constexpr double longest_rest_s = 500;
 /// The time at rest divides [s].
 inline constexpr double least_rest_s = 1e-9;
 /// A break-away shows in the position so much later [s]: the friction before it is what counts.
@@ -99,6 +101,7 @@ template <class T>
 template <class T>
 constexpr void begin(const FrictionParameters<T>& friction, FrictionState<T>& state, T position_m) {
   state.smooth_m = state.followed_m = position_m;
+  state.gauge_N = state.dragged_m = state.dragging = state.held_N = state.earlier_N = state.held_s = T(0);
   state.rest_s = friction.ageing_s;
 }
 
@@ -112,6 +115,7 @@ struct Contact {
   T holds_N;     ///< the same, by what the gauge may be wrong more
   T slack_m;     ///< what noise may fake
   T reach_N;     ///< how far friction may lie from the gauge
+  Mask<T> creeps;
 };
 
 /// Whether the spool drags the sensor along, and which way.
@@ -132,7 +136,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void follow_displacement(const FrictionParameters<T>& friction,
                                                           FrictionState<T>& state, const Contact<T>& contact,
                                                           T position_m, T time_step_s) {
-  state.rest_s += time_step_s;
+  state.rest_s = smaller(state.rest_s + time_step_s, T(longest_rest_s));
   const T share =
       larger(time_step_s / larger(state.rest_s, T(least_rest_s)), time_step_s / (T(gauge_smoothing_s) + time_step_s));
   state.smooth_m += smaller(share, T(1)) * (position_m - state.smooth_m);
@@ -142,7 +146,7 @@ template <class T>
   const T sign = select(moved_m < T(0), T(-1), T(1));
   const T reserve = limited(T(1) - sign * contact.apparent_N / contact.holds_N, T(least_stiffness_share), T(1));
   state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
-  drag(state, moved_m, contact.slack_m, time_step_s);
+  in_valves(!contact.creeps, state, [&] { drag(state, moved_m, contact.slack_m, time_step_s); });
   // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
   const T most_N = larger(contact.sticking_N - contact.reach_N, T(0));
   state.gauge_N = limited(state.gauge_N, -most_N, most_N);
@@ -176,17 +180,18 @@ template <class T>
 }  // namespace detail
 
 /// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
-/// while the spool slips it is all there is. Returns where friction may lie at rest.
+/// while the spool slips it is all there is. Where contacts creep, as dither lets them, where the spool stands tells no
+/// friction. Returns where friction may lie at rest.
 template <class T>
 [[gnu::always_inline]] constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction,
                                                           FrictionState<T>& state, const FrictionBounds<T>& bounds,
                                                           const PositionSensor<T>& sensor,
                                                           const PositionPoint<T>& position, T apparent_N,
-                                                          T time_step_s) {
+                                                          Mask<T> creeps, T time_step_s) {
   const T slack_m = gauge_slack_m(sensor, time_step_s);
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;
-  const detail::Contact<T> contact{apparent_N, bounds.sticking_N, holds_N, slack_m, reach_N};
+  const detail::Contact<T> contact{apparent_N, bounds.sticking_N, holds_N, slack_m, reach_N, creeps};
   const T rested_s = state.rest_s;
   const Mask<T> rests = is(position.motion, Motion::rest);
   T breakaway_N{};
@@ -199,11 +204,14 @@ template <class T>
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   });
   detail::hold(state, apparent_N, time_step_s);
+  FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
+  if (!any(!creeps)) return out;
   // Friction lies on the side of the gauge to which the sensor is dragged.
   const T below_N = reach_N * (T(1) - T(drag_certainty) * larger(state.dragging, T(0)));
   const T above_N = reach_N * (T(1) + T(drag_certainty) * smaller(state.dragging, T(0)));
-  return {limited(state.gauge_N - below_N, -holds_N, holds_N), limited(state.gauge_N + above_N, -holds_N, holds_N),
-          breakaway_N, rested_s};
+  out.lower_N = select(creeps, out.lower_N, limited(state.gauge_N - below_N, -holds_N, holds_N));
+  out.upper_N = select(creeps, out.upper_N, limited(state.gauge_N + above_N, -holds_N, holds_N));
+  return out;
 }
 
 static_assert(std::is_trivially_copyable_v<FrictionState<float>>);

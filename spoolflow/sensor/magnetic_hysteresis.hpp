@@ -22,11 +22,12 @@ struct MagneticHysteresis {
   T per_full_flux{};                                        ///< 1 / full flux
 };
 
-/// The memory of the hysteresis; {} is demagnetised.
+/// The memory of the hysteresis; {} is demagnetised. A stop is kept by the flux about which it is elastic, which only
+/// its yielding changes.
 template <class T>
 struct HysteresisState {
   T flux{};
-  std::array<T, hysteresis_elements> deflection{};  ///< of each stop, within plus or minus its threshold
+  std::array<T, hysteresis_elements> centre{};  ///< flux at which each stop stands undeflected
 };
 
 static_assert(std::is_trivially_copyable_v<HysteresisState<float>>);
@@ -35,7 +36,7 @@ static_assert(std::is_trivially_copyable_v<HysteresisState<float>>);
 template <class T>
 constexpr void demagnetise(HysteresisState<T>& state) {
   state.flux = T(0);
-  for (T& deflection : state.deflection) deflection = T(0);
+  for (T& centre : state.centre) centre = T(0);
 }
 
 /// What the hysteresis would answer at another flux.
@@ -47,46 +48,41 @@ struct HysteresisPoint {
 
 namespace detail {
 
-/// How far a stop would stand, were it elastic, towards a change of this size: there it can yield at one end only.
+/// How far a stop would stand, were it elastic, on the way on which the flux comes: it can yield at one end only.
 template <bool Rising, class T>
-constexpr T elastic(T deflection, T size) {
-  if constexpr (Rising) return size + deflection;
-  return size - deflection;
+constexpr T elastic(T centre, T flux) {
+  if constexpr (Rising) return flux - centre;
+  return centre - flux;
 }
 
 /// Adds what stop K and those after it answer. Where one holds, all with higher thresholds hold: two stops never lie
 /// further apart than their thresholds do.
 template <bool Rising, unsigned K, bool Holds, class T>
 [[gnu::always_inline]] constexpr void add_stops(const MagneticHysteresis<T>& hysteresis,
-                                                const HysteresisState<T>& state, T size, T share,
+                                                const HysteresisState<T>& state, T flux, T share,
                                                 HysteresisPoint<T>& point) {
   if constexpr (K < hysteresis_elements) {
     const T stiffness = hysteresis.stiffness[K] + share * hysteresis.stiffness_increase[K];
-    const T deflection = elastic<Rising>(state.deflection[K], size);
+    const T deflection = elastic<Rising>(state.centre[K], flux);
     if (!Holds && lies_below(hysteresis.threshold[K], deflection)) {
       point.value += stiffness * hysteresis.threshold[K];
-      add_stops<Rising, K + 1, false>(hysteresis, state, size, share, point);
+      add_stops<Rising, K + 1, false>(hysteresis, state, flux, share, point);
     } else {
       point.value += stiffness * deflection;
       point.slope += stiffness;
-      add_stops<Rising, K + 1, true>(hysteresis, state, size, share, point);
+      add_stops<Rising, K + 1, true>(hysteresis, state, flux, share, point);
     }
   }
 }
 
-/// The same, moving the stops.
-template <bool Rising, unsigned K, bool Holds, class T>
+/// Moves stop K and those after it, up to the first that holds.
+template <bool Rising, unsigned K, class T>
 [[gnu::always_inline]] constexpr void move_stops(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state,
-                                                 T size) {
+                                                 T flux) {
   if constexpr (K < hysteresis_elements) {
-    const T deflection = elastic<Rising>(state.deflection[K], size);
-    if (!Holds && lies_below(hysteresis.threshold[K], deflection)) {
-      state.deflection[K] = Rising ? hysteresis.threshold[K] : -hysteresis.threshold[K];
-      move_stops<Rising, K + 1, false>(hysteresis, state, size);
-    } else {
-      state.deflection[K] = Rising ? deflection : -deflection;
-      move_stops<Rising, K + 1, true>(hysteresis, state, size);
-    }
+    if (!lies_below(hysteresis.threshold[K], elastic<Rising>(state.centre[K], flux))) return;
+    state.centre[K] = Rising ? flux - hysteresis.threshold[K] : flux + hysteresis.threshold[K];
+    move_stops<Rising, K + 1>(hysteresis, state, flux);
   }
 }
 
@@ -95,37 +91,41 @@ template <bool Rising, unsigned K, bool Holds, class T>
 template <class T>
 constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state,
                                            T flux) {
-  const T change = flux - state.flux;
   const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
   HysteresisPoint<T> point{T(0), T(0)};
   if constexpr (!one_valve<T>) {
     for (unsigned k = 0; k < hysteresis_elements; ++k) {
       const T stiffness = hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k];
-      const T deflection = change + state.deflection[k];
+      const T deflection = flux - state.centre[k];
       const T kept = limited(deflection, -hysteresis.threshold[k], hysteresis.threshold[k]);
       point.value += stiffness * kept;
       point.slope += select(kept == deflection, stiffness, T(0));
     }
-  } else if (change < T(0)) {
-    detail::add_stops<false, 0, false>(hysteresis, state, -change, share, point);
+  } else if (flux < state.flux) {
+    detail::add_stops<false, 0, false>(hysteresis, state, flux, share, point);
     point.value = -point.value;
   } else {
-    detail::add_stops<true, 0, false>(hysteresis, state, change, share, point);
+    detail::add_stops<true, 0, false>(hysteresis, state, flux, share, point);
   }
   return point;
+}
+
+/// How far a stop stands off its centre, within plus or minus its threshold.
+template <class T>
+constexpr T deflection(const HysteresisState<T>& state, unsigned k) {
+  return state.flux - state.centre[k];
 }
 
 /// Moves the memory to a new flux.
 template <class T>
 constexpr void advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
-  const T change = flux - state.flux;
   if constexpr (!one_valve<T>) {
     for (unsigned k = 0; k < hysteresis_elements; ++k)
-      state.deflection[k] = limited(change + state.deflection[k], -hysteresis.threshold[k], hysteresis.threshold[k]);
-  } else if (change < T(0)) {
-    detail::move_stops<false, 0, false>(hysteresis, state, -change);
+      state.centre[k] = limited(state.centre[k], flux - hysteresis.threshold[k], flux + hysteresis.threshold[k]);
+  } else if (flux < state.flux) {
+    detail::move_stops<false, 0>(hysteresis, state, flux);
   } else {
-    detail::move_stops<true, 0, false>(hysteresis, state, change);
+    detail::move_stops<true, 0>(hysteresis, state, flux);
   }
   state.flux = flux;
 }

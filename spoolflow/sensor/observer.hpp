@@ -10,30 +10,49 @@ namespace spoolflow::sensor {
 
 /// The oil warms slowly and its sensor is noisy [s].
 inline constexpr double temperature_smoothing_s = 2;
+/// No oil that a valve has is colder or warmer [K]: the sensor or its line is broken.
+inline constexpr double coldest_oil_K = 233.15;
+inline constexpr double warmest_oil_K = 423.15;
+/// Nor does oil leap by more than this [K] from what it was; ...
+inline constexpr double oil_leap_K = 15;
+/// ... what has lasted for longer [s] is believed.
+inline constexpr double longest_oil_fault_s = 20;
 
 namespace detail {
 
-/// To be called before the first sample goes through the stages.
+template <class T>
+constexpr Mask<T> is_oil_temperature(T temperature_K) {
+  return temperature_K > T(coldest_oil_K) && temperature_K < T(warmest_oil_K);
+}
+
+/// To be called before the first sample goes through the stages, and where time has leapt.
 template <class T>
 constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
   state.started = Mask<T>(true);
   state.oil_temperature_K =
-      select(is_number(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
+      select(is_oil_temperature(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
+  state.oil_fault_s = T(0);
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
   sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);
+  forget(state.swing);
   sensor::begin(valve.friction, state.friction, position_m);
   sensor::begin(valve.pressure, state.pressure, valve.edge.highest_pressure_difference_Pa(),
                 valve.friction.operation_ratio, valve.band.unseen_factor);
 }
 
-/// A missing oil temperature is held.
+/// Once after each block of positions. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
-constexpr void follow_temperature(ObserverState<T>& state, const Sample<T>& sample) {
-  state.oil_temperature_K += select(is_number(sample.oil_temperature_K),
-                                    (sample.oil_temperature_K - state.oil_temperature_K) *
-                                        smaller(sample.time_step_s / T(temperature_smoothing_s), T(1)),
-                                    T(0));
+constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K) {
+  in_valves(state.position.velocity_due && is_number(oil_temperature_K), state, [&] {
+    const T change_K = oil_temperature_K - state.oil_temperature_K;
+    const Mask<T> impossible = !is_oil_temperature(oil_temperature_K);
+    const Mask<T> odd = impossible || magnitude(change_K) > T(oil_leap_K);
+    state.oil_fault_s = select(odd, state.oil_fault_s + state.position.block_s, T(0));
+    const Mask<T> lasted = !impossible && state.oil_fault_s > T(longest_oil_fault_s);
+    const T pace = smaller(state.position.block_s / T(temperature_smoothing_s), T(1));
+    state.oil_temperature_K += change_K * select(lasted, T(1), select(odd, T(0), pace));
+  });
 }
 
 /// What a coil shows whose armature does not move.
@@ -58,6 +77,7 @@ template <class T>
   mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
   mark(out, position.fault, Status::position_fault);
   mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
+  mark(out, state.oil_fault_s > T(0), Status::temperature_fault);
   return out;
 }
 
@@ -96,12 +116,12 @@ template <class T>
   const T believed_Pa = state.pressure.pressure_difference_Pa;
   believe(valve, state, balance, position, sample.time_step_s);
   in_valves(balance.dithered, state.swing, [&] {
-    shift_swing(state.swing,
-                balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa));
+    state.swing.flow_force_N +=
+        balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
+  in_valves(!position.busy, state.pressure, [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  const Mask<T> busy = state.position.velocity_due && state.position.per_block_samples < T(1);
-  const Mask<T> has_time = !balance.sliding && !busy && balance.resting.breakaway_N == T(0);
+  const Mask<T> has_time = !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
   follow_coil(valve.actuator, state.actuator, sample, has_time);
   answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = status(valve, state, sample, position, balance);
@@ -123,8 +143,8 @@ template <class T>
 }  // namespace detail
 
 /// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
-/// otherwise the last answer is held. A missing oil temperature is held; the voltage tells of the coil alone and may be
-/// missing. The answer stays in the state.
+/// otherwise the last answer is held; after a leap of time it begins anew. A missing oil temperature is held; the
+/// voltage tells of the coil alone and may be missing. The answer stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& sample) {
@@ -134,15 +154,16 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
       return state.last;
     }
   }
-  const Mask<T> begins = !state.started;
+  const Mask<T> begins = !state.started || time_leapt(sample);
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
-  detail::follow_temperature(state, sample);
+  detail::follow_temperature(state, sample.oil_temperature_K);
 
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
   detail::observe(valve, state, sample, position, dither, T(0), begins);
   detail::admit_other_direction(valve, state, position.position_m);
+  if (any(begins)) mark(state.last.status, time_leapt(sample), Status::time_fault);
   return state.last;
 }
 

@@ -51,6 +51,7 @@ struct ObserverState {
   DitherState<T> dither;
   FrictionSwingState<T> swing;
   T oil_temperature_K{};  ///< smoothed
+  T oil_fault_s{};        ///< for how long its sensor has read what no oil has
   T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
   Mask<T> started{};      ///< a sample came in
   Estimate<T> last{};

@@ -139,6 +139,7 @@ struct PositionPoint {
   T travel_m;            ///< sign of the velocity of what `motion` tells
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};
+  Mask<T> busy{};  ///< this sample closed a block of several: what can wait for the next does
 };
 
 namespace detail {
@@ -307,10 +308,16 @@ constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_te
   return position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
 }
 
-/// To be called before the first sample, with its drift-free position.
+/// To be called before the first sample, with its drift-free position, and where time has leapt. The rings are read no
+/// further back than there are `blocks`.
 template <class T>
 constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
+  state.sum_m = state.sum_s = state.step_m = state.offset_m = state.fault_s = state.unsettled_s = T(0);
+  state.travel_m = state.velocity_m_per_s = state.acceleration_m_per_s2 = T(0);
+  state.velocity_due = Mask<T>(false);
+  state.samples = state.blocks = Index<T>(0);
+  state.motion = MotionOf<T>(Motion::rest);
 }
 
 /// One sample.
@@ -337,8 +344,13 @@ template <class T>
         state.velocity_due = Mask<T>(true);
         detail::tell_motion(sensor, state);
       });
-  return {position_m,     state.motion,           state.offset_m != T(0),
-          state.travel_m, state.velocity_m_per_s, state.acceleration_m_per_s2};
+  return {position_m,
+          state.motion,
+          state.offset_m != T(0),
+          state.travel_m,
+          state.velocity_m_per_s,
+          state.acceleration_m_per_s2,
+          state.velocity_due && state.per_block_samples < T(1)};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

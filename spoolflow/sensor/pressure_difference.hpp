@@ -43,6 +43,9 @@ inline constexpr double told_late_s = 0.002;
 /// A variance that reaches this [Pa2], or falls below zero, is none: rounding has broken the belief.
 inline constexpr double most_variance_Pa2 = 1e30;
 
+/// A smaller covariance of pressure difference and friction ratio [Pa] is none; its square would be no normal number.
+inline constexpr double least_covariance_Pa = 1e-3;
+
 /// How the pressure difference and the friction ratio are believed to move.
 template <class T>
 struct PressureParameters {
@@ -69,6 +72,7 @@ struct PressureState {
   T unobserved_variance_Pa2{};  ///< what of it no force has told of yet
   T yielded_Pa{};               ///< to forces that friction at rest cannot explain, one way, since last seen
   T innovation_squared{};       ///< normalised, averaged over the last seconds of sliding
+  T band_factor{};              ///< how much wider than its parts tell the band must be
 };
 
 static_assert(std::is_trivially_copyable_v<PressureState<float>>);
@@ -98,6 +102,16 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
   state.friction_ratio = calibrated_ratio;
   state.ratio_variance = squared(pressure.ratio_deviation);
   state.innovation_squared = T(usual_innovation_squared);
+  state.band_factor = T(1);
+}
+
+/// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a
+/// supply that leaps, narrower where every sample confirms the one before. The root of the normalised innovation's
+/// size, which changes within seconds.
+template <class T>
+[[gnu::always_inline]] constexpr void follow_agreement(PressureState<T>& state) {
+  state.band_factor = limited(sqrt(sqrt(state.innovation_squared * (T(1) / T(usual_innovation_squared)))),
+                              T(least_band_factor), T(most_band_factor));
 }
 
 /// Whether an update came to what is no variance: forces that are many orders of magnitude beyond their noise leave
@@ -122,6 +136,12 @@ constexpr void forget_ratio(const PressureParameters<T>& pressure, PressureState
   state.friction_ratio += share * (calibrated_ratio - state.friction_ratio);
   state.covariance_Pa -= share * state.covariance_Pa;
   state.ratio_variance += T(2) * share * (squared(pressure.ratio_deviation) - state.ratio_variance);
+}
+
+/// Freed by dither the spool tells nothing of the friction ratio, and the covariance goes to zero by and by.
+template <class T>
+constexpr void drop_covariance(PressureState<T>& state) {
+  state.covariance_Pa = select(magnitude(state.covariance_Pa) < T(least_covariance_Pa), T(0), state.covariance_Pa);
 }
 
 /// Prediction while nothing tells: as restless as the supply has shown itself.

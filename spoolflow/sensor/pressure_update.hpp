@@ -74,7 +74,10 @@ template <class T>
     in_valves(time_step_s > T(0), pressure, [&] {
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s);
     });
-    in_valves(observed(pressure, slope, balance.noise_N), pressure,
+    const Mask<T> has_time = !position.busy;
+    if (!any(has_time)) return;
+    drop_covariance(pressure);
+    in_valves(has_time && observed(pressure, slope, balance.noise_N), pressure,
               [&] { learn_process_noise(valve.pressure, pressure, balance.noise_N / slope); });
   });
   const Mask<T> breaks = !balance.closed && !balance.sliding && balance.resting.breakaway_N != T(0) &&

@@ -19,14 +19,22 @@ struct Sample {
 /// drifts as far.
 inline constexpr double other_direction_m = 50e-6;
 
-/// A time step beyond this is none.
-inline constexpr int longest_step_s = 1 << 30;
+/// After a longer time step [s] nothing counts of what was believed before: the sensor begins anew.
+inline constexpr int longest_step_s = 1;
+/// A time step of so much [s] is none.
+inline constexpr int endless_step_s = 1 << 30;
+
+/// Whether time leapt between the last sample and this one.
+template <class T>
+constexpr Mask<T> time_leapt(const Sample<T>& sample) {
+  return lies_below(T(longest_step_s), sample.time_step_s);
+}
 
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.
 template <class T>
 constexpr auto unusable(const Sample<T>& sample) {
   return when(!(is_number(sample.current_A) && is_number(sample.position_m)), Status::sample_missing) |
-         when(!(sample.time_step_s >= T(0) && is_number(sample.time_step_s)), Status::time_fault);
+         when(!within(sample.time_step_s, T(endless_step_s)), Status::time_fault);
 }
 
 /// The flow rate with its band and what led to it. Signs: magnetic force opens (+), spring and flow force close (+),

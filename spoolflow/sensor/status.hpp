@@ -18,6 +18,9 @@ enum class Status : std::uint32_t {
   current_saturated = 1U << 5,       ///< the current sits at the end of its range
   dithered = 1U << 6,                ///< the current is dithered: friction swings between its limits
   sign_undetermined = 1U << 7,       ///< the spool is so near the centre that the flow may go either way
+  ambiguous_load = 1U << 8,  ///< more flow force than the supply explains, and no port pressures tell: a load may drive
+                             ///< the oil, and the flow be larger
+  flow_reversed = 1U << 9,   ///< by the port pressures a load drives the oil against the way that the spool opens
   // faults
   position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used
   sample_missing = 1U << 17,   ///< an input is missing: the last answer is held
@@ -25,6 +28,7 @@ enum class Status : std::uint32_t {
                                ///< that may flow there
   time_fault = 1U << 19,       ///< the time does not advance: where it runs backwards the last answer is held
   coil_fault = 1U << 20,       ///< voltage and current give a resistance that no sound coil has
+  temperature_fault = 1U << 21,  ///< the oil temperature reads what no oil has, or leapt: the one before is held
 };
 
 inline constexpr std::uint32_t fault_bits = 0xFFFF0000U;
@@ -52,7 +56,7 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit, in the order in which they are listed.
-inline constexpr std::array<StatusName, 13> status_names{{
+inline constexpr std::array<StatusName, 16> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
@@ -61,11 +65,14 @@ inline constexpr std::array<StatusName, 13> status_names{{
     {Status::current_saturated, "current_saturated"},
     {Status::dithered, "dithered"},
     {Status::sign_undetermined, "sign_undetermined"},
+    {Status::ambiguous_load, "ambiguous_load"},
+    {Status::flow_reversed, "flow_reversed"},
     {Status::position_fault, "position_fault"},
     {Status::sample_missing, "sample_missing"},
     {Status::other_direction, "other_direction"},
     {Status::time_fault, "time_fault"},
     {Status::coil_fault, "coil_fault"},
+    {Status::temperature_fault, "temperature_fault"},
 }};
 
 }  // namespace spoolflow::sensor

@@ -72,8 +72,8 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
   const double slope_N_per_Pa = edge.flow_force_per_pressure_N_Pa;
   const double share = valve.band.coverage_factor * deviation_per_half_width(Distribution::normal);
   PressureBelief::Parts parts{
-      .deviation_Pa = share * sensor::band_factor(state.pressure) *
-                      sensor::unobserved_change_Pa(state.pressure, valve.band.unseen_factor),
+      .deviation_Pa =
+          share * state.pressure.band_factor * sensor::unobserved_change_Pa(state.pressure, valve.band.unseen_factor),
       .below_Pa = unbounded,
       .above_Pa = unbounded,
       .pressure_difference_Pa = believed_Pa,

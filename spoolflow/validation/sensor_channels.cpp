@@ -24,7 +24,8 @@ recording::ReadOptions sensor_channels(const model::Model& model, recording::Cha
   return {std::move(channels),
           {Channel::time, Channel::position},
           {Channel::current, Channel::current_a, Channel::current_b, Channel::voltage, Channel::voltage_a,
-           Channel::voltage_b, Channel::oil_temperature},
+           Channel::voltage_b, Channel::oil_temperature, Channel::pressure_p, Channel::pressure_a, Channel::pressure_b,
+           Channel::pressure_t},
           model.valve.stroke_m};
 }
 
@@ -55,6 +56,10 @@ estimation::Columns columns_of(const Source& source) {
     out.current_a_A = source.column(Channel::current_a);
     out.voltage_a_V = source.column(Channel::voltage_a);
   }
+  out.pressure_p_Pa = source.column(Channel::pressure_p);
+  out.pressure_a_Pa = source.column(Channel::pressure_a);
+  out.pressure_b_Pa = source.column(Channel::pressure_b);
+  out.pressure_t_Pa = source.column(Channel::pressure_t);
   return out;
 }
 

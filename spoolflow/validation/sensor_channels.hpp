@@ -1,6 +1,7 @@
 #pragma once
 /// What the sensor reads of a recording, and nothing else: time, current, position; voltage and oil temperature where
-/// they are. Of a whole valve the currents and voltages of both coils, or those of the active one.
+/// they are. Of a whole valve the currents and voltages of both coils, or those of the active one, and the pressures
+/// at its ports.
 #include <memory>
 
 #include "spoolflow/estimation/columns.hpp"

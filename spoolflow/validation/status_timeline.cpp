@@ -54,6 +54,10 @@ const char* meaning(sensor::Status bit) {
       return "The current is dithered: friction swings between its limits, and the extremes of each period tell.";
     case Status::sign_undetermined:
       return "The spool stands so near the centre that the oil may flow either way.";
+    case Status::ambiguous_load:
+      return "More flow force than the supply explains: a load may drive the oil, and the flow be larger.";
+    case Status::flow_reversed:
+      return "By the pressures at the ports a load drives the oil against the way that the spool opens.";
     case Status::position_fault:
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:
@@ -64,6 +68,9 @@ const char* meaning(sensor::Status bit) {
       return "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow "
              "there. "
              "Calibrate the whole valve, or look at the sign of the position.";
+    case Status::temperature_fault:
+      return "The oil temperature read what no oil has, or leapt; the one before was held. Look at its sensor and "
+             "line.";
     case Status::coil_fault:
       return "Voltage and current give a coil resistance that no sound coil has; look for shorted turns, a bad "
              "contact, or "

@@ -1,9 +1,12 @@
 /// The whole way from a valve on the virtual rig to a report.
+#include <algorithm>
 #include <sstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/apps/demo_files.hpp"
 #include "tests/apps/command_line.hpp"
 
 namespace spoolflow::apps {
@@ -29,6 +32,8 @@ TEST_F(Demo, GoesTheWholeWayWithoutAnyFileBesideTheProgramAndShowsTheCommandsTha
   EXPECT_THAT(content("out/model.json"), StartsWith("{"));
   EXPECT_THAT(content("out/metrics.json"), HasSubstr("\"duty_cycle.csv"));
   EXPECT_THAT(content("out/estimate.csv"), StartsWith("time_s,flow_L_min,"));
+  EXPECT_THAT(content("out/campaign/campaign.toml"), HasSubstr("direction = \"a\""));
+  EXPECT_THAT(answer.output, HasSubstr("direction of the flow"));  // a whole valve, judged over signed flow
 
   const std::string recording = content("out/duty_cycle.csv"), estimate = content("out/estimate.csv");
   std::istringstream lines(answer.output);
@@ -43,6 +48,21 @@ TEST_F(Demo, GoesTheWholeWayWithoutAnyFileBesideTheProgramAndShowsTheCommandsTha
   EXPECT_EQ(steps, 5);
   EXPECT_TRUE(content("out/duty_cycle.csv") == recording);
   EXPECT_TRUE(content("out/estimate.csv") == estimate);
+}
+
+TEST_F(Demo, HoldsAWholeValveAndOneOfOneDirectionAndRefusesOthers) {
+  for (const std::string valve : {"whole_size_6", "size_6"}) {
+    for (const char* file : {"/valve.toml", "/duty_cycle.toml"}) {
+      const auto files = demo_files();
+      EXPECT_EQ(std::count_if(files.begin(), files.end(), [&](const auto& each) { return each.name == valve + file; }),
+                1)
+          << valve << file;
+    }
+  }
+  const Answer answer = run("demo size_7 -q -o out");
+  EXPECT_EQ(answer.status, 2);
+  for (const char* part : {"size_7", "whole_size_6", "size_6"}) EXPECT_THAT(answer.message, HasSubstr(part));
+  EXPECT_THAT(files(), IsEmpty());
 }
 
 TEST_F(Demo, RefusesAFolderThatItCannotMake) {

@@ -33,11 +33,23 @@ TEST_F(Export, ReplacesAnEarlierExportAndLeavesTheRest) {
   ASSERT_EQ(run("export cpp '" + model + "' -o valve").status, 0);
   const std::string before = content("valve/valve_model.hpp");
   write("valve/notes.txt", "mine");
-  write("valve/golden_points.hpp", "damaged");
+  std::filesystem::remove(folder / "valve/golden_points.hpp");
   ASSERT_EQ(run("export cpp '" + model + "' -o valve").status, 0);
   EXPECT_EQ(content("valve/valve_model.hpp"), before);
   EXPECT_EQ(content("valve/notes.txt"), "mine");
   EXPECT_THAT(content("valve/golden_points.hpp"), StartsWith("// Made by"));
+}
+
+TEST_F(Export, KeepsWhatWasChangedSinceTheLastExport) {
+  ASSERT_EQ(run("export cpp '" + model + "' -o valve").status, 0);
+  const std::string mine = content("valve/example.cpp") + "// mine\n";
+  write("valve/example.cpp", mine);
+  std::filesystem::remove(folder / "valve/golden_points.hpp");
+  const Answer answer = run("export cpp '" + model + "' -o valve");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.message, AllOf(HasSubstr("valve/example.cpp"), HasSubstr("changed since it was exported")));
+  EXPECT_EQ(content("valve/example.cpp"), mine);
+  EXPECT_THAT(content("valve/golden_points.hpp"), IsEmpty());
 }
 
 TEST_F(Export, DoesNotTouchSomebodysFileOfTheSameName) {

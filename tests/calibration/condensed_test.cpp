@@ -121,7 +121,9 @@ TEST(Condensed, RecoversTheFlowOfAValveWithoutFrictionFromCurrentAndPosition) {
   for (Stroke& stroke : strokes) stroke.to_m = 2.5e-3;
   const auto solenoid = solenoid_recording(strokes, 1e-6);
   const auto axial = axial_force_recording(pressures, 1e-6);
-  const auto found = calibrate_condensed({spring, solenoid, {&axial}}, {"synthetic", 80 / 60000.0, stroke_m, "b"});
+  AxialForceMaps maps;
+  maps.joined = {&axial};
+  const auto found = calibrate_condensed({spring, solenoid, maps}, {"synthetic", 80 / 60000.0, stroke_m, "b"});
   const auto tables = sensor::laid_out(found.condensed.parameters);
   sensor::CondensedState<double> state;
   for (double x = 0.5e-3; x < 2.3e-3; x += 0.2e-3) {

@@ -74,8 +74,37 @@ std::vector<Sample> disturbances(Sample steady, double stroke_m) {
   return samples;
 }
 
+/// Dither on the current of a valve that rests, travels and rests again, at several frequencies.
+std::vector<Sample> dithered(Sample steady, double stroke_m) {
+  std::vector<Sample> samples;
+  steady.time_step_s = 1e-3F;
+  const auto stroke = static_cast<float>(stroke_m);
+  for (int k = 0; k < 6000; ++k) {
+    Sample sample = steady;
+    const float frequency_Hz = 90.0F + 35.0F * static_cast<float>(k / 2000);
+    const float wave = std::sin(6.2832F * frequency_Hz * 1e-3F * static_cast<float>(k));
+    sample.current_A *= 1.0F + (k % 2000 < 1000 ? 0.05F : 0.12F) * wave;
+    sample.position_m += 3e-6F * wave;
+    const int part = k / 500 % 4;  // rests, opens, rests, closes
+    const float share = static_cast<float>(k % 500) / 500.0F;
+    const std::array<float, 4> travelled = {0.0F, share, 1.0F, 1.0F - share};
+    sample.position_m += 0.3F * stroke * travelled[static_cast<std::size_t>(part)];
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+/// What follows a recording, of a valve half open.
+std::vector<Sample> hardships(const Sample& steady, double stroke_m) {
+  std::vector<Sample> samples = disturbances(steady, stroke_m);
+  const std::vector<Sample> more = dithered(steady, stroke_m);
+  samples.insert(samples.end(), more.begin(), more.end());
+  return samples;
+}
+
 constexpr float left_m = 300e-6F;  ///< the spool has left the centre
 constexpr float reached_m = 20e-6F;
+constexpr float nothing = 1e-6F;   ///< of a current [A] that has faded away
 constexpr float fading_s = 0.05F;  ///< time constant of the current of the coil that was left
 
 /// One direction's samples to both sides in turn.
@@ -92,6 +121,7 @@ std::vector<WholeValveSample> to_both_sides(const std::vector<Sample>& samples) 
     }
     const float kept = std::exp(-in.time_step_s / fading_s);
     idle_A *= kept, idle_V *= kept;
+    if (std::abs(idle_A) < nothing) idle_A = idle_V = 0;
     if (in.current_A == in.current_A) current_A = in.current_A;
     if (in.voltage_V == in.voltage_V) voltage_V = in.voltage_V;
     out.push_back({in.time_step_s, side_a ? in.current_A : idle_A, side_a ? idle_A : in.current_A,
@@ -134,7 +164,7 @@ std::string packed_direction(const model::Model& model, estimation::Estimator es
   for_each_sample(reader, [&](const auto& sample, const auto&) { samples.push_back(single(sample)); });
   cut(samples);
   const std::size_t recorded = samples.size();
-  const std::vector<Sample> added = disturbances(samples[recorded / 2], model.valve.stroke_m);
+  const std::vector<Sample> added = hardships(samples[recorded / 2], model.valve.stroke_m);
   samples.insert(samples.end(), added.begin(), added.end());
   if (estimator == estimation::Estimator::observer) {
     return packed(
@@ -159,7 +189,7 @@ std::string packed_whole(const model::Model& model, estimation::Estimator estima
   const std::size_t recorded = samples.size();
   const auto half_open = std::find_if(
       own.begin(), own.end(), [&](const Sample& sample) { return sample.position_m > 0.3 * model.valve.stroke_m; });
-  const std::vector<WholeValveSample> added = to_both_sides(disturbances(*half_open, model.valve.stroke_m));
+  const std::vector<WholeValveSample> added = to_both_sides(hardships(*half_open, model.valve.stroke_m));
   samples.insert(samples.end(), added.begin(), added.end());
   const model::Direction& a = model.p_to_a.value();
   if (estimator == estimation::Estimator::observer) {

@@ -13,7 +13,7 @@ inline constexpr std::size_t most_bytes = 3840000;
 
 /// The bytes of `Run` in firmware/replay.cpp, little-endian: samples in single precision with the flow rate that the
 /// host answers to the very same samples in double precision. Behind the recording come two seconds of disturbances:
-/// faults of the position sensor, slips, missing inputs, a current beyond its range.
+/// faults of the position sensor, slips, missing inputs, a current beyond its range; and six of dither.
 ///
 /// A whole valve takes a recording of both its coils; one of a single direction is played to both sides in turn, which
 /// change each time the spool closes, while the current of the coil that it leaves fades.

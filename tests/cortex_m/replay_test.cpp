@@ -40,8 +40,9 @@ class CortexM : public ::testing::TestWithParam<Core> {
 TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   const Replay observer = replay(model, Estimator::observer, minute, GetParam());
   expect_fit_for_a_valve(observer, {1500, 9});
-  for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_force_map,
-                              Status::outside_temperature, Status::position_fault, Status::sample_missing}) {
+  for (const Status status :
+       {Status::closed, Status::spool_at_rest, Status::outside_force_map, Status::outside_temperature,
+        Status::position_fault, Status::sample_missing, Status::dithered}) {
     EXPECT_TRUE(has(observer.statuses, status)) << static_cast<std::uint32_t>(status);
   }
 }
@@ -62,7 +63,7 @@ TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
   expect_fit_for_a_valve(valve, {1875, 9, 98304});
   EXPECT_LE(valve.state_bytes, 1536U);
   for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_temperature,
-                              Status::position_fault, Status::sample_missing}) {
+                              Status::position_fault, Status::sample_missing, Status::dithered}) {
     EXPECT_TRUE(has(valve.statuses, status)) << static_cast<std::uint32_t>(status);
   }
 }

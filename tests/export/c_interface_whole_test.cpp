@@ -75,6 +75,23 @@ TEST(CInterfaceOfAWholeValve, TakesTheActiveCoilAloneAsIfTheOtherCarriedNothing)
   }
 }
 
+TEST(CInterfaceOfAWholeValve, TakesTheFlowFromThePressuresOfAllFourPorts) {
+  const WholeSensor without = running(whole_example_model()), with = running(whole_example_model());
+  const spoolflow_port_pressures regenerative{50e5, 2e5, 70e5, 1e5};
+  spoolflow_estimate estimate{};
+  spoolflow_whole_sample in{};
+  for (int k = 0; k < 700; ++k) {
+    in = swinging(k);
+    EXPECT_EQ(spoolflow_step_whole_ports(without.get(), &in, nullptr, &estimate), SPOOLFLOW_OK);
+    EXPECT_EQ(estimate.status & SPOOLFLOW_STATUS_FLOW_REVERSED, 0U);
+    EXPECT_EQ(spoolflow_step_whole_ports(with.get(), &in, &regenerative, &estimate), SPOOLFLOW_OK);
+  }
+  EXPECT_LT(estimate.flow_upper_m3_per_s, 0);
+  EXPECT_NE(estimate.status & SPOOLFLOW_STATUS_FLOW_REVERSED, 0U);
+  EXPECT_GT(answered(without, in).flow_m3_per_s, 0);
+  EXPECT_EQ(spoolflow_step_whole_ports(with.get(), nullptr, &regenerative, &estimate), SPOOLFLOW_BAD_ARGUMENT);
+}
+
 TEST(CInterfaceOfAWholeValve, StepsColumnsExactlyAsSamples) {
   const WholeSensor one = running(whole_example_model()), all = running(whole_example_model());
   constexpr int count = 4000;

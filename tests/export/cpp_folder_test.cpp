@@ -79,6 +79,21 @@ TEST(CppFolder, SelfTestTellsWhichSensorWentAstray) {
   EXPECT_EQ(folder.run(build), 2);
 }
 
+TEST(CppFolder, SelfTestFindsASingleWrongNumberOfTheTables) {
+  const ExportedFolder folder(example_model());
+  const std::string tables = folder.content("valve_model.hpp");
+  const std::string build = std::string("g++") + strict + "self_test.cpp -o self_test && ./self_test";
+  // A number in the middle of a table of the observer loses its sign or gains one.
+  for (const char* table : {"inline constexpr auto condensed", "inline constexpr auto observer"}) {
+    const std::size_t at = tables.find("    ", tables.find("\n", tables.find(table)) + 4000) + 4;
+    ASSERT_LT(at, tables.size());
+    std::string wrong = tables;
+    wrong.insert(at, wrong[at] == '-' ? "2.0F " : "1e-4F + ");
+    folder.write("valve_model.hpp", wrong);
+    EXPECT_GE(folder.run(build), 4) << wrong.substr(at, 40);
+  }
+}
+
 TEST(CppFolder, HoldsTheSensorsHeadersUnchanged) {
   std::size_t headers = 0;
   for (const ExportedFile& file : cpp_folder(without_observer())) {

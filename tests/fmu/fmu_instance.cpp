@@ -111,8 +111,8 @@ class Fmi2 : public Instance {
     return status == FmuStatus::ok ? call("EnterInitializationMode") : status;
   }
   FmuStatus step(double time_s, double step_s) override { return call("DoStep", time_s, step_s, 1); }
-  FmuStatus set(unsigned reference, double value) override {
-    return call("SetReal", &reference, std::size_t{1}, &value);
+  FmuStatus set_all(const std::vector<unsigned>& references, const std::vector<double>& values) override {
+    return call("SetReal", references.data(), references.size(), values.data());
   }
   FmuStatus set_flag(unsigned reference, bool value) override {
     const int flag = value ? 1 : 0;
@@ -148,8 +148,8 @@ class Fmi3 : public Instance {
     if (status == FmuStatus::ok && reached_s != time_s + step_s) throw std::runtime_error("a step ended elsewhere");
     return status;
   }
-  FmuStatus set(unsigned reference, double value) override {
-    return call("SetFloat64", &reference, std::size_t{1}, &value, std::size_t{1});
+  FmuStatus set_all(const std::vector<unsigned>& references, const std::vector<double>& values) override {
+    return call("SetFloat64", references.data(), references.size(), values.data(), values.size());
   }
   FmuStatus set_flag(unsigned reference, bool value) override {
     return call("SetBoolean", &reference, std::size_t{1}, &value, std::size_t{1});

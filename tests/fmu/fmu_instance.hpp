@@ -26,7 +26,8 @@ class FmuInstance {
   virtual FmuStatus step(double time_s, double step_s) = 0;
   virtual FmuStatus terminate() = 0;
   virtual FmuStatus reset() = 0;
-  virtual FmuStatus set(unsigned reference, double value) = 0;
+  virtual FmuStatus set_all(const std::vector<unsigned>& references, const std::vector<double>& values) = 0;
+  FmuStatus set(unsigned reference, double value) { return set_all({reference}, {value}); }
   virtual FmuStatus set_flag(unsigned reference, bool value) = 0;
   virtual FmuStatus get(unsigned reference, double& value) = 0;
   virtual FmuStatus get_integer(unsigned reference, int& value) = 0;

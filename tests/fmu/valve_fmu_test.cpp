@@ -44,6 +44,15 @@ TEST_P(ValveFmu, KeepsTheRulesOfTheStandard) {
   EXPECT_THAT(description_violations(fmu), IsEmpty());
 }
 
+TEST_P(ValveFmu, RefusesASetPositionInMetresThatWasMeantInMillimetres) {
+  const auto valve = begun();
+  valve->put("position_set", 1.0);
+  EXPECT_EQ(valve->step(0, 1e-3), FmuStatus::discard);
+  EXPECT_THAT(log.messages, Contains(HasSubstr("position_set = 1 is outside")));
+  valve->put("position_set", 1e-3);
+  EXPECT_EQ(valve->step(0, 1e-3), FmuStatus::ok);
+}
+
 TEST_P(ValveFmu, OpensToItsSetPositionAndLetsOilThrough) {
   const auto valve = begun();
   EXPECT_NEAR(valve->value("flow"), 0, 1e-5);

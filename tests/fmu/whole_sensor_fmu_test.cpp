@@ -54,6 +54,26 @@ TEST_P(WholeSensorFmu, KeepsTheRulesOfTheStandardAndSaysWhatItIs) {
   EXPECT_THAT(fmu.content("documentation/index.html"), HasSubstr("solenoid a opens P to A"));
 }
 
+TEST_P(WholeSensorFmu, ReadsPortPressuresWhereTheyAreSaidToBeMeasured) {
+  const auto plain = begun(library, log);
+  const auto with = library.instantiate(log);
+  ASSERT_EQ(with->set_flag(fmu.reference("use_port_pressures"), true), FmuStatus::ok);
+  ASSERT_EQ(with->enter_initialization(0), FmuStatus::ok);
+  ASSERT_EQ(with->exit_initialization(), FmuStatus::ok);
+  for (int k = 0; k < 700; ++k) {
+    for (FmuInstance* const instance : {plain.get(), with.get()}) {
+      put(*instance, swinging(k));
+      instance->put("pressure_p", 50e5);
+      instance->put("pressure_a", 2e5);
+      instance->put("pressure_b", 70e5);  // a load drives the oil back into the supply
+      instance->put("pressure_t", 1e5);
+      ASSERT_EQ(instance->step(1e-3 * k, 1e-3), FmuStatus::ok);
+    }
+  }
+  EXPECT_GT(plain->value("flow"), 0);
+  EXPECT_LT(with->value("flow_upper"), 0);
+}
+
 TEST_P(WholeSensorFmu, AnswersWithSignedFlowAsEstimateDoes) {
   for (const auto estimator : {estimation::Estimator::observer, estimation::Estimator::condensed}) {
     model::Model own = model;

@@ -70,6 +70,16 @@ TEST(Model, KeepsWhatTheCampaignSaysOfItsInstrumentsAndNothingWhereItSaysNothing
   EXPECT_FALSE(read.instruments.current_A);
 }
 
+TEST(Model, NamesTheCylinderThatItIsForAndNothingUnderEqualFlows) {
+  Model model = small_model();
+  EXPECT_THAT(written(model), Not(HasSubstr("area_ratio")));
+  model.valve.load_area_ratio = 0.6;
+  EXPECT_EQ(parse_model(written(model), "m.json").valve.load_area_ratio, 0.6);
+  const std::string beyond = replaced(written(model), "\"load_area_ratio\": 0.6", "\"load_area_ratio\": 60");
+  EXPECT_THAT([&] { (void)parse_model(beyond, "m.json"); },
+              ThrowsMessage<ModelError>(HasSubstr("/valve/load_area_ratio")));
+}
+
 TEST(Model, ComesBackBitForBitFromItsFile) {
   const Model model = small_model();
   const std::string text = written(model);

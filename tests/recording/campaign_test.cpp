@@ -63,6 +63,56 @@ TEST(Campaign, NamesFileAndLineOfWhatItRefuses) {
               HasSubstr("campaign.toml, line 7: the recording"));
 }
 
+/// Axial-force maps, each of what its keys say.
+std::string maps_with(std::initializer_list<std::string_view> keys, std::string_view before = {}) {
+  std::string out = std::string(valve) + std::string(before);
+  for (const std::string_view each : keys)
+    out += "[[recording]]\nprotocol = \"axial_force_map\"\nfile = \"spring.csv\"\n" + std::string(each);
+  return out;
+}
+
+TEST(Campaign, KnowsTheEdgeThatAnAxialForceMapIsOfAndItsDirection) {
+  const TemporaryFile file("campaign.toml", maps_with({"edge = \"PB\"\n", "edge = \"AT\"\ndirection = \"b\"\n",
+                                                       "edge = \"PA\"\n", "edge = \"BT\"\n"},
+                                                      "[load]\narea_ratio = 0.6\n"));
+  std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+  const Campaign campaign = read_campaign(file.path());
+  EXPECT_EQ(campaign.load.area_ratio, 0.6);
+  std::string told;
+  for (const CampaignRecording& each : campaign.recordings) told += each.edge + each.direction + " ";
+  EXPECT_EQ(told, "PBb ATb PAa BTa ");
+}
+
+TEST(Campaign, TakesBothEdgesAsMeasuredTogetherAndEqualFlowsWhereNothingIsSaid) {
+  const TemporaryFile file("campaign.toml", maps_with({"", "direction = \"a\"\n"}));
+  std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+  const Campaign campaign = read_campaign(file.path());
+  EXPECT_EQ(campaign.load.area_ratio, 1);
+  EXPECT_EQ(campaign.recordings.front().edge, "");
+  EXPECT_EQ(campaign.recordings.back().direction, "a");
+}
+
+TEST(Campaign, RefusesEdgesThatMakeNoPath) {
+  EXPECT_THAT(refused_campaign(maps_with({"edge = \"PT\"\n"})),
+              HasSubstr("line 8: edge \"PT\" is not known; allowed: \"PB\" and \"AT\" (direction b)"));
+  EXPECT_THAT(refused_campaign(maps_with({"edge = \"PB\"\ndirection = \"a\"\n"})),
+              HasSubstr("line 8: edge \"PB\" is of direction \"b\", and direction = \"a\" is given"));
+  EXPECT_THAT(refused_campaign(with_recording("protocol = \"spring\"\nfile = \"spring.csv\"\nedge = \"PB\"\n")),
+              HasSubstr("line 8: edge = \"PB\" stands with protocol \"spring\""));
+  EXPECT_THAT(refused_campaign(maps_with({"edge = \"PA\"\n", "edge = \"PA\"\n"})),
+              HasSubstr("of direction \"a\" edge PA alone was measured, and the oil also passes BT"));
+  EXPECT_THAT(refused_campaign(maps_with({"edge = \"PB\"\n", "edge = \"AT\"\n", ""})),
+              HasSubstr("spring.csv names no edge, and spring.csv is of edge PB alone, both of direction \"b\""));
+}
+
+TEST(Campaign, RefusesAnAreaRatioThatIsNoCylinders) {
+  EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 60\n")),
+              HasSubstr("line 6: an area ratio of 60 is no cylinder's; give the piston's area at port A over that at "
+                        "port B, 0.1 to 10"));
+  EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\narea_ratio = 0\n")), HasSubstr("it must be above zero"));
+  EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\nratio = 0.6\n")), HasSubstr("unknown key 'ratio' in [load]"));
+}
+
 TEST(Campaign, ReadsNothingOutsideItsFolderUnlessToldTo) {
   const TemporaryFile outside("secret.csv", "time_s\n");
   const std::string climbing = "../" + outside.folder().filename().string() + "/secret.csv";

@@ -65,7 +65,7 @@ TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
   PressureState<double> pressure{};
   pressure.process_noise = 1;
   pressure.unobserved_variance_Pa2 = squared(60e5);
-  pressure.innovation_squared = usual_innovation_squared;
+  pressure.band_factor = 1;
   ForceBalance<double> balance{};
   balance.edge = parameters.edge.at(313.0, 50e5, 1.2e-3);
   balance.apparent_friction_N = 0.5;

@@ -30,7 +30,7 @@ class Friction : public testing::TestWithParam<double> {
     const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
     dragged_m_ = std::clamp(dragged_m_, position_m - fine_lvdt.backlash_m, position_m + fine_lvdt.backlash_m);
     const PositionPoint<double> point{dragged_m_ + noise_(generator_), motion, false, direction * 1e-6};
-    return step(contact, state, bounds, fine_lvdt, point, apparent_N, GetParam());
+    return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, GetParam());
   }
   /// Slides, opening or closing, then stops at 1 mm.
   void stop_after(double direction) {
@@ -40,6 +40,7 @@ class Friction : public testing::TestWithParam<double> {
     }
   }
   FrictionState<double> state{};
+  bool creeps = false;
 
  private:
   std::mt19937 generator_{11};
@@ -48,6 +49,15 @@ class Friction : public testing::TestWithParam<double> {
 };
 INSTANTIATE_TEST_SUITE_P(SampledEvery, Friction, testing::Values(50e-6, 200e-6, 1e-3, 5e-3),
                          [](const auto& rate) { return std::to_string(static_cast<int>(1e6 * rate.param)) + "us"; });
+
+TEST_P(Friction, UnderDitherMayLieAnywhereThatTheContactsHold) {
+  stop_after(1);
+  creeps = true;
+  const FrictionInterval<double> interval = sample(Motion::rest, 1e-3, spool_N + armature_N);
+  const double sticking_N = friction_bounds(contact, state, spool_N, armature_N).sticking_N;
+  EXPECT_NEAR(interval.lower_N, -sticking_N, 0.01 * sticking_N);
+  EXPECT_NEAR(interval.upper_N, sticking_N, 0.01 * sticking_N);
+}
 
 TEST_P(Friction, StartsARestWhereItsSlidingEnded) {
   for (const double direction : {1.0, -1.0}) {

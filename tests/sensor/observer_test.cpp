@@ -168,6 +168,70 @@ TEST(Observer, TellsAShortedCoilByItsResistance) {
   EXPECT_TRUE(has(last, Status::coil_fault));
 }
 
+/// Both kinds of number: the firmware's and the host's.
+template <class T>
+void leap(T step_s) {
+  const ObserverParameters<T> valve = closed_form_observer<T>(closed_form);
+  ObserverState<T> state{};
+  Sample<T> sample{T(1e-3), T(1.2), T(10), T(1e-3), T(313)};
+  for (int k = 0; k < 2000; ++k) {
+    sample.position_m = T(1e-3) + T(0.4e-3) * std::sin(T(0.01) * T(k));
+    step(valve, state, sample);
+  }
+  const Estimate<T> before = state.last;
+  sample.time_step_s = step_s;
+  const Estimate<T> after = step(valve, state, sample);
+  EXPECT_TRUE(has(after.status, Status::time_fault)) << step_s;
+  EXPECT_GT(after.flow_upper_m3_per_s - after.flow_lower_m3_per_s,
+            T(1.5) * (before.flow_upper_m3_per_s - before.flow_lower_m3_per_s));
+  sample.time_step_s = T(1e-3);
+  for (int k = 0; k < 2000; ++k) {
+    const Estimate<T> answer = step(valve, state, sample);
+    ASSERT_FALSE(has(answer.status, Status::time_fault));
+    ASSERT_TRUE(std::isfinite(answer.flow_m3_per_s));
+    ASSERT_LT(answer.flow_lower_m3_per_s, answer.flow_upper_m3_per_s);
+  }
+}
+
+TEST(Observer, BeginsAnewAndSaysSoWhereTimeLeaps) {
+  // 4 294 967 s: a counter of milliseconds in 32 bits that ran back by a tick.
+  for (const double step_s : {1.5, 100.0, 2e6, 4294967.296, 1e9}) {
+    leap<float>(static_cast<float>(step_s));
+    leap<double>(step_s);
+  }
+}
+
+/// The answer after a second at rest whose oil temperature reads `read_K` from its middle on, for `samples`.
+Estimate<double> with_oil_reading(double read_K, int samples) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  ObserverState<double> state{};
+  for (int k = 0; k < 1000; ++k) {
+    const bool broken = k >= 500 && k < 500 + samples;
+    step(valve, state, {1e-3, 1.2, 10, 1e-3 + 1e-7 * k, broken ? read_K : 313.0});
+  }
+  return state.last;
+}
+
+TEST(Observer, HoldsTheOilTemperatureWhereItsSensorIsBroken) {
+  const Estimate<double> sound = with_oil_reading(313.0, 500);
+  for (const double read_K : {223.15, 73.15, 1123.15, 1e5, 350.0}) {
+    const Estimate<double> broken = with_oil_reading(read_K, 500), once = with_oil_reading(read_K, 1);
+    EXPECT_TRUE(has(broken.status, Status::temperature_fault)) << read_K;
+    EXPECT_FALSE(has(once.status, Status::temperature_fault)) << read_K;
+    EXPECT_EQ(broken.flow_m3_per_s, sound.flow_m3_per_s) << read_K;
+    EXPECT_EQ(once.flow_m3_per_s, sound.flow_m3_per_s) << read_K;
+  }
+  EXPECT_FALSE(has(sound.status, Status::temperature_fault));
+}
+
+TEST(Observer, BelievesALeapOfTheOilTemperatureThatLasts) {
+  const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  ObserverState<double> state{};
+  for (int k = 0; k < 25000; ++k) step(valve, state, {1e-3, 1.2, 10, 1e-3, k < 1000 ? 303.0 : 333.0});
+  EXPECT_NEAR(state.oil_temperature_K, 333.0, 0.1);
+  EXPECT_FALSE(has(state.last.status, Status::temperature_fault));
+}
+
 TEST(Observer, HoldsItsAnswerWhereCurrentOrPositionIsMissingOrTimeRunsBackwards) {
   const Course course = opening();
   const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), 1e-3);

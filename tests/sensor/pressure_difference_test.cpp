@@ -28,6 +28,7 @@ PressureState<double> begin(double pressure_Pa) {
   state.ratio_variance = std::pow(supply.ratio_deviation, 2);
   state.process_noise = supply.first_process_noise;
   state.innovation_squared = usual_innovation_squared;
+  follow_agreement(state);
   return state;
 }
 
@@ -81,17 +82,18 @@ PressureState<double> swung(double amplitude_N) {
         slope_N_per_Pa * (60e5 - state.pressure_difference_Pa) + amplitude_N * std::sin(0.126 * k);
     update_sliding(supply, state, {innovation_N, slope_N_per_Pa, friction_N, 0.7}, 1e-3);
   }
+  follow_agreement(state);
   return state;
 }
 
 TEST(Band, NarrowsWhereEverySampleConfirmsTheOneBefore) {
-  EXPECT_DOUBLE_EQ(band_factor(begin(60e5)), 1);
-  EXPECT_LT(band_factor(swung(0.05)), 0.65);
+  EXPECT_DOUBLE_EQ(begin(60e5).band_factor, 1);
+  EXPECT_LT(swung(0.05).band_factor, 0.65);
 }
 
 TEST(Band, WidensWhereForcesSwingBeyondTheirNoise) {
-  EXPECT_GT(band_factor(swung(3)), 1.5);
-  EXPECT_LE(band_factor(swung(1000)), 2.5);
+  EXPECT_GT(swung(3).band_factor, 1.5);
+  EXPECT_LE(swung(1000).band_factor, 2.5);
 }
 
 TEST(PressureDifference, IsNotBlamedForFrictionThatChangedOnceTheSpoolHasTurnedOftenEnough) {

@@ -176,5 +176,84 @@ TEST(Observer, NamesTheOtherDirectionInsteadOfASilentZero) {
   EXPECT_LT(state.last.flow_lower_m3_per_s, -0.9 * closed_form.flow_m3_per_s(2.04e-3, 70e5, 313));
 }
 
+/// A run to one side that ends open, without port pressures.
+WholeValveState<double> opened(const Sides& sides, bool side_a) {
+  WholeValveState<double> state{};
+  const Course course = Course({.position_m = 0.05e-3, .pressure_difference_Pa = 60e5}).slide(1.5e-3, 1.5);
+  for (const ValveSample& sample : run_of(sides.law, course))
+    step(sides.whole, state, to_side(sample.measured, side_a));
+  return state;
+}
+
+WholeValveSample<double> held_open(const Sides& sides, bool side_a) {
+  const Course course = Course({.position_m = 1.5e-3, .pressure_difference_Pa = 60e5}).rest(0.02, 1);
+  return to_side(run_of(sides.law, course).back().measured, side_a);
+}
+
+TEST(WholeValve, TakesTheFlowFromPortPressuresWhereALoadDrivesTheOilBack) {
+  const Sides sides;
+  for (const bool side_a : {false, true}) {
+    WholeValveState<double> state = opened(sides, side_a);
+    WholeValveSample<double> sample = held_open(sides, side_a);
+    // The load holds 20 bar more than the supply in the chamber that is fed, and 20 bar less than the tank's line
+    // gives.
+    const double fed_Pa = 70e5, other_Pa = 5e5;
+    sample.ports = {50e5, side_a ? fed_Pa : other_Pa, side_a ? other_Pa : fed_Pa, 25e5};
+    const Estimate<double> answer = step(sides.whole, state, sample);
+    const double conductance = sides.b.edge.at(sample.oil_temperature_K, 40e5, 1.5e-3).conductance;
+    const double expected = (side_a ? 1 : -1) * conductance * std::sqrt(40e5);
+    EXPECT_NEAR(answer.flow_m3_per_s, expected, 0.02 * std::abs(expected));
+    EXPECT_LT(answer.flow_lower_m3_per_s, expected);
+    EXPECT_GT(answer.flow_upper_m3_per_s, expected);
+    EXPECT_TRUE(has(answer.status, Status::flow_reversed));
+    EXPECT_FALSE(has(answer.status, Status::ambiguous_load));
+  }
+}
+
+TEST(WholeValve, KnowsTheFlowCloserByPortPressuresThanByForces) {
+  const Sides sides;
+  WholeValveState<double> by_forces = opened(sides, false), by_pressures = by_forces;
+  WholeValveSample<double> sample = held_open(sides, false);
+  const Estimate<double> without = step(sides.whole, by_forces, sample);
+  sample.ports = {70e5, 31e5, 40e5, 1e5};
+  const Estimate<double> with = step(sides.whole, by_pressures, sample);
+  EXPECT_NEAR(with.flow_m3_per_s, without.flow_m3_per_s, 0.1 * without.flow_m3_per_s);
+  EXPECT_LT(with.flow_upper_m3_per_s - with.flow_lower_m3_per_s,
+            without.flow_upper_m3_per_s - without.flow_lower_m3_per_s);
+  EXPECT_FALSE(has(with.status, Status::flow_reversed));
+}
+
+TEST(WholeValve, FindsHowTheEdgesShareThePressureDrop) {
+  const Sides sides;
+  WholeValveState<double> state = opened(sides, false);
+  WholeValveSample<double> sample = held_open(sides, false);
+  sample.ports = {70e5, 41e5, 50e5, 1e5};  // the inlet takes a third of 60 bar
+  Estimate<double> answer{};
+  for (int k = 0; k < 10000; ++k) answer = step(sides.whole, state, sample);
+  const double conductance = sides.b.edge.at(sample.oil_temperature_K, 60e5, 1.5e-3).conductance;
+  EXPECT_NEAR(answer.flow_m3_per_s, conductance * std::sqrt(60e5), 0.02 * conductance * std::sqrt(60e5));
+}
+
+TEST(WholeValve, NeedsThePressuresOfAllFourPorts) {
+  const Sides sides;
+  WholeValveState<double> none = opened(sides, true), three = none;
+  WholeValveSample<double> sample = held_open(sides, true);
+  const Estimate<double> without = step(sides.whole, none, sample);
+  sample.ports.p_Pa = sample.ports.a_Pa = sample.ports.b_Pa = 20e5;
+  const Estimate<double> with = step(sides.whole, three, sample);
+  EXPECT_EQ(with.flow_m3_per_s, without.flow_m3_per_s);
+  EXPECT_EQ(with.flow_lower_m3_per_s, without.flow_lower_m3_per_s);
+}
+
+TEST(WholeValve, SaysWhereMoreForceActsThanTheSupplyExplains) {
+  const Sides sides;
+  const double highest_Pa = sides.b.edge.highest_pressure_difference_Pa();
+  const Course course = Course({.position_m = 0.05e-3, .pressure_difference_Pa = 1.3 * highest_Pa}).slide(1.5e-3, 1.5);
+  WholeValveState<double> state{};
+  for (const ValveSample& sample : run_of(sides.law, course)) step(sides.whole, state, to_side(sample.measured, false));
+  EXPECT_TRUE(has(state.open.last.status, Status::ambiguous_load));
+  EXPECT_FALSE(has(opened(sides, false).open.last.status, Status::ambiguous_load));
+}
+
 }  // namespace
 }  // namespace spoolflow::sensor

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { numberText } from './src/number_text';
 import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
+import { tickTexts } from './src/plot_options';
 import { choices, ReadersUnits } from './src/readers_units';
 import { SampleTimes } from './src/sample_times';
 import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './src/thinning';
@@ -17,6 +18,12 @@ function spike(length: number, at: number, code: number): number[] {
   codes[at] = code;
   return codes;
 }
+
+test('marks of an axis carry the decimals of their step', () => {
+  assert.deepEqual(tickTexts([-2.5, 0, 2.5], 2.5), ['\u22122.5', '0.0', '2.5']);
+  assert.deepEqual(tickTexts([0, 25, 50], 25), ['0', '25', '50']);
+  assert.deepEqual(tickTexts([0, 0.05], 0.05), ['0.00', '0.05']);
+});
 
 test('a peak of one sample in a million is drawn, at its time', () => {
   const times = new SampleTimes({ start: 0, count: 1_000_000, step: 0.001 });

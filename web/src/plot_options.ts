@@ -9,11 +9,16 @@ export const rightMargin = 12;
 const font = '12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 const xAxisHeight = 46;
 
+/** Steps are 1, 2, 2.5 or 5 times a power of ten. */
 function decimalsOf(step: number): number {
-  return Math.max(0, Math.min(9, Math.ceil(-Math.log10(step) - 1e-9)));
+  for (let decimals = 0; decimals < 9; ++decimals) {
+    const shifted = step * 10 ** decimals;
+    if (Math.abs(shifted - Math.round(shifted)) < 1e-6 * shifted) return decimals;
+  }
+  return 9;
 }
 
-function tickTexts(splits: number[], step: number): string[] {
+export function tickTexts(splits: number[], step: number): string[] {
   return splits.map((value) => numberText(value, decimalsOf(step)));
 }
 

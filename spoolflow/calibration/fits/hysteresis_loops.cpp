@@ -38,7 +38,7 @@ void visit_rows(std::span<const HysteresisHistory> histories, const sensor::Magn
       if (!(weight > 0)) continue;
       const double share = std::min(1.0, std::abs(history.flux[n]) * hysteresis.per_full_flux);
       for (int k = 0; k < sensor::hysteresis_elements; ++k) {
-        const double deflection = state.deflection[static_cast<std::size_t>(k)];
+        const double deflection = sensor::deflection(state, static_cast<unsigned>(k));
         row(k) = weight * (1 - share) * deflection;
         row(sensor::hysteresis_elements + k) = weight * share * deflection;
       }

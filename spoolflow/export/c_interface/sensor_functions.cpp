@@ -1,5 +1,6 @@
 /// The functions of spoolflow.h that make and drive a sensor. Nothing thrown leaves them.
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
+#include "spoolflow/export/running_state_bytes.hpp"
 #include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/model.hpp"
@@ -191,11 +193,18 @@ spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample
 
 spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
                                       spoolflow_estimate* estimate) {
+  return spoolflow_step_whole_ports(sensor, sample, nullptr, estimate);
+}
+
+spoolflow_result spoolflow_step_whole_ports(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
+                                            const spoolflow_port_pressures* ports, spoolflow_estimate* estimate) {
   if (sensor == nullptr || sample == nullptr || estimate == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
   if (!sensor->shared->model.whole()) return SPOOLFLOW_BAD_ARGUMENT;
+  sensor::PortPressures<double> measured;
+  if (ports != nullptr) measured = {ports->p_Pa, ports->a_Pa, ports->b_Pa, ports->t_Pa};
   *estimate = told(sensor->running.step(spoolflow::estimation::of_both_coils(
       {sample->time_s, sample->current_a_A, sample->current_b_A, sample->voltage_a_V, sample->voltage_b_V,
-       sample->position_m, sample->oil_temperature_K})));
+       sample->position_m, sample->oil_temperature_K, measured})));
   return SPOOLFLOW_OK;
 }
 
@@ -282,7 +291,9 @@ size_t spoolflow_state_size(const spoolflow_sensor* sensor) {
 spoolflow_result spoolflow_get_state(const spoolflow_sensor* sensor, void* bytes, size_t size) {
   if (sensor == nullptr || bytes == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
   if (size < spoolflow_state_size(sensor)) return SPOOLFLOW_TOO_SMALL;
-  exports::pack_state(sensor->owner(), &sensor->running.state(), sizeof(RunningState), static_cast<char*>(bytes));
+  RunningState state = sensor->running.state();
+  exports::clear_padding(state);
+  exports::pack_state(sensor->owner(), &state, sizeof state, static_cast<char*>(bytes));
   return SPOOLFLOW_OK;
 }
 
@@ -292,8 +303,12 @@ spoolflow_result spoolflow_set_state(spoolflow_sensor* sensor, const void* bytes
     return refuse("sensor and bytes must not be NULL", message, message_size);
   }
   return guarded(message, message_size, [&] {
+    std::array<char, sizeof(RunningState)> plain;
+    exports::unpack_state(sensor->owner(), static_cast<const char*>(bytes), size, plain.data(), plain.size());
+    if (!exports::may_be_running_state(plain.data()))
+      throw exports::StateError("the state's bytes are damaged: they hold what no state can");
     RunningState state;
-    exports::unpack_state(sensor->owner(), static_cast<const char*>(bytes), size, &state, sizeof state);
+    std::memcpy(&state, plain.data(), sizeof state);
     sensor->running.set_state(state);
   });
 }

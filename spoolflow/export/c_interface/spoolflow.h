@@ -76,12 +76,15 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_CURRENT_SATURATED (UINT32_C(1) << 5)      /* the current is at the end of its range */
 #define SPOOLFLOW_STATUS_DITHERED (UINT32_C(1) << 6)               /* the current is dithered: friction swings */
 #define SPOOLFLOW_STATUS_SIGN_UNDETERMINED (UINT32_C(1) << 7)      /* so near the centre that the flow may go either way */
+#define SPOOLFLOW_STATUS_AMBIGUOUS_LOAD (UINT32_C(1) << 8)         /* a load may drive the oil: the flow may be larger */
+#define SPOOLFLOW_STATUS_FLOW_REVERSED (UINT32_C(1) << 9)          /* by the port pressures a load drives the oil back */
 /* Faults: an input or the model cannot be trusted. */
 #define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used */
 #define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last answer is held */
 #define SPOOLFLOW_STATUS_OTHER_DIRECTION (UINT32_C(1) << 18) /* the spool opens the direction that the model does not know */
 #define SPOOLFLOW_STATUS_TIME_FAULT (UINT32_C(1) << 19)     /* time stood still, ran backwards, or is NaN; see spoolflow_step */
 #define SPOOLFLOW_STATUS_COIL_FAULT (UINT32_C(1) << 20)     /* voltage and current give a resistance that no sound coil has */
+#define SPOOLFLOW_STATUS_TEMPERATURE_FAULT (UINT32_C(1) << 21) /* the oil temperature reads what no oil has: the one before is held */
 /* Any of the faults. */
 #define SPOOLFLOW_STATUS_FAULTS UINT32_C(0xFFFF0000)
 
@@ -175,6 +178,22 @@ typedef struct spoolflow_whole_sample {
  * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a pointer is NULL or the model is of one direction. */
 SPOOLFLOW_API spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
                                                     spoolflow_estimate* estimate);
+
+/* Pressures [Pa] at a whole valve's ports; only all four together tell, NaN: not measured. */
+typedef struct spoolflow_port_pressures {
+  double p_Pa;
+  double a_Pa;
+  double b_Pa;
+  double t_Pa;
+} spoolflow_port_pressures;
+
+/* As spoolflow_step_whole, with the pressures measured at the ports: the observer then takes the flow from them and its
+ * metering edges, with its sign where a load drives the oil, and learns friction meanwhile. `ports` may be NULL: not
+ * measured. Returns SPOOLFLOW_OK, or BAD_ARGUMENT where another pointer is NULL or the model is of one direction. */
+SPOOLFLOW_API spoolflow_result spoolflow_step_whole_ports(spoolflow_sensor* sensor,
+                                                          const spoolflow_whole_sample* sample,
+                                                          const spoolflow_port_pressures* ports,
+                                                          spoolflow_estimate* estimate);
 
 /* Columns of samples, `count` entries each. voltage_V and oil_temperature_K may be NULL: not measured. */
 typedef struct spoolflow_inputs {

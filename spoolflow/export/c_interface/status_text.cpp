@@ -21,13 +21,16 @@ static_assert(same(SPOOLFLOW_STATUS_OUTSIDE_TEMPERATURE, Status::outside_tempera
 static_assert(same(SPOOLFLOW_STATUS_CURRENT_SATURATED, Status::current_saturated));
 static_assert(same(SPOOLFLOW_STATUS_DITHERED, Status::dithered));
 static_assert(same(SPOOLFLOW_STATUS_SIGN_UNDETERMINED, Status::sign_undetermined));
+static_assert(same(SPOOLFLOW_STATUS_AMBIGUOUS_LOAD, Status::ambiguous_load));
+static_assert(same(SPOOLFLOW_STATUS_FLOW_REVERSED, Status::flow_reversed));
 static_assert(same(SPOOLFLOW_STATUS_OTHER_DIRECTION, Status::other_direction));
 static_assert(same(SPOOLFLOW_STATUS_POSITION_FAULT, Status::position_fault));
 static_assert(same(SPOOLFLOW_STATUS_SAMPLE_MISSING, Status::sample_missing));
 static_assert(same(SPOOLFLOW_STATUS_TIME_FAULT, Status::time_fault));
 static_assert(same(SPOOLFLOW_STATUS_COIL_FAULT, Status::coil_fault));
+static_assert(same(SPOOLFLOW_STATUS_TEMPERATURE_FAULT, Status::temperature_fault));
 static_assert(SPOOLFLOW_STATUS_FAULTS == spoolflow::sensor::fault_bits);
-static_assert(spoolflow::sensor::status_names.size() == 13, "a new status bit belongs into spoolflow.h, too");
+static_assert(spoolflow::sensor::status_names.size() == 16, "a new status bit belongs into spoolflow.h, too");
 
 }  // namespace
 

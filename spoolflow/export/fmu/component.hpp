@@ -40,6 +40,10 @@ class Component {
   virtual void sample(std::span<double> values, std::int64_t number) = 0;
   /// Everything that a state has to keep beside `values`; trivially copyable bytes.
   [[nodiscard]] virtual std::span<char> memory() = 0;
+  /// Bytes of the memory that are no value become zero, so that equal states have equal bytes.
+  virtual void clear_padding() = 0;
+  /// Whether bytes that came from elsewhere can be this memory at all.
+  [[nodiscard]] virtual bool may_be_memory(std::span<const char> bytes) const = 0;
 };
 
 /// Reads the FMU's resource. `token` is what the importer took from modelDescription.xml. Throws ResourceError.

@@ -82,7 +82,7 @@ template <class Value>
 fmi2Status set(fmi2Component component, const fmi2ValueReference* references, std::size_t count, const Value* values,
                fmu::Type type) {
   return on_fmi2(component, [&](Instance& instance) {
-    for (std::size_t k = 0; k < count; ++k) instance.set(references[k], type, static_cast<double>(values[k]));
+    instance.set({references, count}, type, [&](std::size_t k) { return static_cast<double>(values[k]); });
   });
 }
 
@@ -127,7 +127,7 @@ SPOOLFLOW_FMI fmi2Status fmi2SetInteger(fmi2Component component, const fmi2Value
 SPOOLFLOW_FMI fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference references[],
                                         std::size_t count, const fmi2Boolean values[]) {
   return on_fmi2(component, [&](Instance& instance) {
-    for (std::size_t k = 0; k < count; ++k) instance.set(references[k], fmu::Type::boolean, values[k] != 0 ? 1 : 0);
+    instance.set({references, count}, fmu::Type::boolean, [&](std::size_t k) { return values[k] != 0 ? 1.0 : 0.0; });
   });
 }
 

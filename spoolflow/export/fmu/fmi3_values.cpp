@@ -28,7 +28,7 @@ fmi3Status set(fmi3Instance handle, const fmi3ValueReference* references, size_t
                size_t value_count, fmu::Type type) {
   return on_fmi3(handle, [&](Instance& instance) {
     require(count, value_count);
-    for (size_t k = 0; k < count; ++k) instance.set(references[k], type, static_cast<double>(values[k]));
+    instance.set({references, count}, type, [&](size_t k) { return static_cast<double>(values[k]); });
   });
 }
 

@@ -30,6 +30,11 @@ std::vector<double> starts(const std::vector<Variable>& variables) {
   return values;
 }
 
+/// A longer communication step is a mistake in its unit, and would be computed for minutes.
+constexpr double most_samples_a_step = 1e7;
+/// No instance has come so far: 50 us for 14 000 years.
+constexpr std::int64_t most_sample = 9'000'000'000'000'000;
+
 /// What rounding may do to a time near `time_s`, where samples are `step_s` apart.
 double rounding_s(double time_s, double step_s) {
   return 1e-6 * step_s + 2e-15 * std::abs(time_s);
@@ -108,6 +113,11 @@ void Instance::do_step(double time_s, double step_s) {
     clock_.tuned = 0;
   }
   const double due = std::ceil((end_s - rounding_s(end_s, clock_.step_s) - clock_.start_s) / clock_.step_s);
+  if (due - static_cast<double>(clock_.next) > most_samples_a_step) {
+    throw StepRefused("a step of " + number_text(step_s) + " s takes " +
+                      number_text(due - static_cast<double>(clock_.next)) + " samples, more than " +
+                      number_text(most_samples_a_step) + ": cut it into shorter ones");
+  }
   const auto until = static_cast<std::int64_t>(std::min(due, 9e15));
   for (; clock_.next < until; ++clock_.next) component_->sample(values_, clock_.next);
   clock_.reached_s = end_s;
@@ -130,7 +140,7 @@ double Instance::get(std::uint32_t reference, Type type) {
   return values_[reference];
 }
 
-void Instance::set(std::uint32_t reference, Type type, double value) {
+void Instance::check(std::uint32_t reference, Type type, double value) const {
   const Variable& asked = variable(reference, type);
   const bool parameter = asked.causality == Causality::parameter;
   if (!parameter && asked.causality != Causality::input) throw CallError(asked.name + " cannot be set");
@@ -142,8 +152,11 @@ void Instance::set(std::uint32_t reference, Type type, double value) {
     throw CallError(asked.name + " = " + number_text(value) + " is outside " + number_text(asked.lowest) + " to " +
                     number_text(asked.highest) + (asked.unit.empty() || asked.unit == "1" ? "" : " " + asked.unit));
   }
+}
+
+void Instance::put(std::uint32_t reference, double value) {
   values_[reference] = value;
-  if (parameter) clock_.tuned = 1;
+  if (component_->variables()[reference].causality == Causality::parameter) clock_.tuned = 1;
   clock_.stale = 1;
 }
 
@@ -152,6 +165,7 @@ std::size_t Instance::state_size() {
 }
 
 StateBytes Instance::state() {
+  component_->clear_padding();
   const std::span<char> memory = component_->memory();
   StateBytes plain(state_size());
   char* to = plain.data();
@@ -163,14 +177,28 @@ StateBytes Instance::state() {
   return packed;
 }
 
-void Instance::check_state(const StateBytes& state) {
+StateBytes Instance::unpacked(const StateBytes& state) {
   StateBytes plain(state_size());
   unpack_state({component_->identity(), 0}, state.data(), state.size(), plain.data(), plain.size());
+  Clock clock;
+  std::memcpy(&clock, plain.data(), sizeof clock);
+  const auto flags = {clock.stop_defined, clock.tuned, clock.stale};
+  const bool holds = clock.mode >= Mode::instantiated && clock.mode <= Mode::terminated && clock.next >= 0 &&
+                     clock.next < most_sample && std::isfinite(clock.start_s) && std::isfinite(clock.reached_s) &&
+                     std::isfinite(clock.stop_s) && (clock.mode < Mode::step || clock.step_s > 0) &&
+                     std::all_of(flags.begin(), flags.end(), [](std::uint32_t flag) { return flag <= 1; });
+  const std::size_t before = sizeof clock + values_.size() * sizeof(double);
+  if (!holds || !component_->may_be_memory(std::span<const char>(plain).subspan(before)))
+    throw StateError("the state's bytes are damaged: they hold what no state can");
+  return plain;
+}
+
+void Instance::check_state(const StateBytes& state) {
+  unpacked(state);
 }
 
 void Instance::set_state(const StateBytes& state) {
-  StateBytes plain(state_size());
-  unpack_state({component_->identity(), 0}, state.data(), state.size(), plain.data(), plain.size());
+  const StateBytes plain = unpacked(state);
   const char* from = plain.data();
   std::memcpy(&clock_, from, sizeof clock_);
   std::memcpy(values_.data(), from + sizeof clock_, values_.size() * sizeof(double));

@@ -49,10 +49,16 @@ class Instance {
   void terminate();
   /// As just instantiated.
   void reset();
+  /// Throws StepRefused for a step of more than ten million samples.
   void do_step(double time_s, double step_s);
 
   [[nodiscard]] double get(std::uint32_t reference, Type type);
-  void set(std::uint32_t reference, Type type, double value);
+  /// All of them or, where one cannot be set, none: throws CallError. `value(k)` is that for `references[k]`.
+  template <class Value>
+  void set(std::span<const std::uint32_t> references, Type type, const Value& value) {
+    for (std::size_t k = 0; k < references.size(); ++k) check(references[k], type, value(k));
+    for (std::size_t k = 0; k < references.size(); ++k) put(references[k], value(k));
+  }
 
   [[nodiscard]] StateBytes state();
   /// Throws StateError; the instance is untouched then.
@@ -78,8 +84,12 @@ class Instance {
 
   [[nodiscard]] const Variable& variable(std::uint32_t reference, Type type) const;
   void require(Mode mode, const char* call) const;
+  void check(std::uint32_t reference, Type type, double value) const;
+  void put(std::uint32_t reference, double value);
   void preview();
   [[nodiscard]] std::size_t state_size();
+  /// Clock, values and memory one behind the other. Throws StateError for what no state can hold.
+  [[nodiscard]] StateBytes unpacked(const StateBytes& state);
 
   std::unique_ptr<Component> component_;
   std::vector<double> values_;

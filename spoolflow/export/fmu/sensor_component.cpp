@@ -8,6 +8,7 @@
 #include "spoolflow/export/fmu/component.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
+#include "spoolflow/export/running_state_bytes.hpp"
 #include "spoolflow/model/limit_check.hpp"
 
 namespace spoolflow::exports::fmu {
@@ -91,6 +92,10 @@ class SensorComponent : public Component {
   [[nodiscard]] std::span<char> memory() override {
     return {reinterpret_cast<char*>(&running_.state()), sizeof(estimation::RunningState)};
   }
+  void clear_padding() override { exports::clear_padding(running_.state()); }
+  [[nodiscard]] bool may_be_memory(std::span<const char> bytes) const override {
+    return bytes.size() == sizeof(estimation::RunningState) && may_be_running_state(bytes.data());
+  }
 
  private:
   static constexpr bool whole = of_both<Parameters>;
@@ -103,13 +108,18 @@ class SensorComponent : public Component {
     const double voltage_V = use_voltage ? values[sensor_voltage] : nothing;
     const double oil_temperature_K = values[sensor_use_oil_temperature] != 0 ? values[sensor_oil_temperature] : nothing;
     if constexpr (whole) {
+      const auto pressure_Pa = [&](std::size_t port) {
+        return values[whole_use_port_pressures] != 0 ? values[port] : nothing;
+      };
       return estimation::of_both_coils({.time_s = time_s,
                                         .current_a_A = values[whole_current_a],
                                         .current_b_A = values[sensor_current],
                                         .voltage_a_V = use_voltage ? values[whole_voltage_a] : nothing,
                                         .voltage_b_V = voltage_V,
                                         .position_m = values[sensor_position],
-                                        .oil_temperature_K = oil_temperature_K});
+                                        .oil_temperature_K = oil_temperature_K,
+                                        .ports = {pressure_Pa(whole_pressure_p), pressure_Pa(whole_pressure_a),
+                                                  pressure_Pa(whole_pressure_b), pressure_Pa(whole_pressure_t)}});
     }
     return {.time_s = time_s,
             .current_A = values[sensor_current],

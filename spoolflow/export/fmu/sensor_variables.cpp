@@ -1,7 +1,8 @@
 #include "spoolflow/export/fmu/sensor_variables.hpp"
 
 #include <algorithm>
-#include <array>
+#include <string>
+#include <vector>
 
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 
@@ -65,13 +66,13 @@ std::vector<TunableNumber> found_in(BothDirections<Parameters>& parameters) {
   return found;
 }
 
-Variable flag(const char* name, const char* description) {
+Variable flag(const char* name, const char* description, bool start = true) {
   return {.name = name,
           .description = description,
           .causality = Causality::parameter,
           .variability = Variability::fixed,
           .type = Type::boolean,
-          .start = 1,
+          .start = start ? 1.0 : 0.0,
           .lowest = 0,
           .highest = 1};
 }
@@ -89,11 +90,19 @@ Variable tunable_parameter(const TunableNumber& number) {
 }
 
 /// What a whole valve has beside one direction's inputs.
-std::array<Variable, 2> inputs_of_coil_a() {
+std::vector<Variable> whole_valve_inputs() {
+  const auto pressure = [](const char* name, const char* port) {
+    return input(name, (std::string("pressure at port ") + port + "; NaN: not measured").c_str(), "Pa", "bar", 0, 5e6);
+  };
   return {input("current_a", "current of the coil that opens P to A, mean since the sample before; NaN: missing", "A",
                 "", 0, 1),
           input("voltage_a", "voltage of the coil that opens P to A, mean since the sample before; NaN: not measured",
-                "V", "", 0, 10)};
+                "V", "", 0, 10),
+          pressure("pressure_p", "P"),
+          pressure("pressure_a", "A"),
+          pressure("pressure_b", "B"),
+          pressure("pressure_t", "T"),
+          flag("use_port_pressures", "whether the pressures at all four ports are measured", false)};
 }
 
 }  // namespace
@@ -164,7 +173,7 @@ std::vector<Variable> sensor_variables(const SensorScale& scale, const std::vect
       flag("use_voltage", "whether the coil voltage is measured"),
       flag("use_oil_temperature", "whether the oil temperature is measured")};
   if (whole) {
-    for (const Variable& each : inputs_of_coil_a()) all.push_back(each);
+    for (const Variable& each : whole_valve_inputs()) all.push_back(each);
   }
   for (const TunableNumber& number : tunable) all.push_back(tunable_parameter(number));
   return all;

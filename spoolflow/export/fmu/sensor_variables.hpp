@@ -37,6 +37,11 @@ enum SensorReference : std::uint32_t {
   sensor_first_tunable,
   whole_current_a = sensor_first_tunable,
   whole_voltage_a,
+  whole_pressure_p,
+  whole_pressure_a,
+  whole_pressure_b,
+  whole_pressure_t,
+  whole_use_port_pressures,
   whole_first_tunable
 };
 

@@ -1,6 +1,7 @@
 /// The virtual valve inside an FMU: plant, on-board electronics and instruments, stepped at the electronics' period.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,7 @@
 #include "spoolflow/export/fmu/number_text.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
+#include "spoolflow/export/padding.hpp"
 #include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/plant/winding_current.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -113,6 +115,14 @@ class ValveComponent : public Component {
     }
   }
 
+  void clear_padding() override { exports::clear_padding(*memory_); }
+  [[nodiscard]] bool may_be_memory(std::span<const char> bytes) const override {
+    if (bytes.size() != sizeof(ValveMemory)) return false;
+    ValveMemory memory = *memory_;
+    std::memcpy(&memory, bytes.data(), sizeof memory);
+    return is_bool(memory.electronics.position.on) && memory.conversions >= 0 &&
+           std::isfinite(memory.plant.position_m) && std::isfinite(memory.plant.velocity_m_per_s);
+  }
   [[nodiscard]] std::span<char> memory() override { return {reinterpret_cast<char*>(&*memory_), sizeof(ValveMemory)}; }
 
  private:

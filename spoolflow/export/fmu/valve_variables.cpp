@@ -16,6 +16,9 @@ Variable tunable(const char* name, const char* description, const char* unit, co
           .highest = highest};
 }
 
+/// A set position further than so many strokes is a mistake in its unit.
+constexpr double furthest_set = 1.5;
+
 /// Beyond these the plant's laws have no answer.
 Variable within(double lowest, double highest, Variable input) {
   input.lowest = lowest;
@@ -35,7 +38,9 @@ std::vector<Variable> valve_variables(const VirtualValve& valve, double rated_fl
   const double stroke_m = valve.plant.spool.stroke_m;
   return {
       {.name = "time", .description = "simulation time", .causality = Causality::independent, .unit = "s"},
-      input("position_set", "set position of the spool, > 0 opens P to B, < 0 opens P to A", "m", "mm", 0, stroke_m),
+      within(-furthest_set * stroke_m, furthest_set * stroke_m,
+             input("position_set", "set position of the spool, > 0 opens P to B, < 0 opens P to A", "m", "mm", 0,
+                   stroke_m)),
       pressure("pressure_difference_set", "difference that the bench holds over the open edge (load: held difference)",
                5e6),
       pressure("supply_pressure", "set pressure of the supply, gauge (loads: orifice, cylinder, motor)", 1e7),

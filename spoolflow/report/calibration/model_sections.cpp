@@ -99,6 +99,13 @@ void add_residuals(HtmlTable& table, const std::string& estimator, const std::ve
   }
 }
 
+/// The cylinder that the maps are for.
+Text load_of(const model::Model& model) {
+  if (!model.valve.load_area_ratio) return Text();
+  return phrase(", behind a cylinder with {} of port B's piston area at port A",
+                three_digits(*model.valve.load_area_ratio));
+}
+
 }  // namespace
 
 std::string origin_of(const model::Model& model) {
@@ -111,9 +118,10 @@ const char* flow_name(const model::Model& model) {
 
 void show_valve(HtmlPage& page, const model::Model& model, const std::vector<validation::RunResult>& runs) {
   page.section("The valve and the data");
-  page.paragraph(phrase("{}: full scale {}, stroke {}, flow {}. Oil: {}{}.", model.valve.name,
+  page.paragraph(phrase("{}: full scale {}, stroke {}, flow {}{}. Oil: {}{}.", model.valve.name,
                         three_digits(units::flow(model.valve.rated_flow_m3_per_s)),
-                        fixed(units::length(model.valve.stroke_m), 2), flows_of(model), model.fluid.name,
+                        fixed(units::length(model.valve.stroke_m), 2), flows_of(model), load_of(model),
+                        model.fluid.name,
                         model.fluid.viscosity_40C_m2_per_s
                             ? phrase(", {} mm\u00b2/s at {}",
                                      three_digits(*model.fluid.viscosity_40C_m2_per_s / units::m2_per_s_per_mm2_per_s),

@@ -14,6 +14,7 @@ struct CampaignSettings {
   std::vector<double> oil_temperatures_C{30, 50, 70};
   std::vector<double> pressure_differences_bar{5, 10, 20, 30, 40, 50, 60, 70};
   double ramp_pressure_bar = 60.0;
+  double ramp_rate_percent_per_s = 5.0;
   std::vector<double> ramps_pressures_bar{30, 40, 50, 60, 70};
   double ramps_position_faults_per_s = 0.1;
   double sweep_pressure_bar = 50.0;
@@ -32,6 +33,8 @@ struct CampaignSettings {
           self.pressure_differences_bar);
     visit(Parameter{"ramp_pressure_bar", "bar", 0.5, 350, "of the run that goes into campaign.toml"},
           self.ramp_pressure_bar);
+    visit(Parameter{"ramp_rate_percent_per_s", "%/s", 0.1, 1000, "of that run's set position; 5 %/s in the paper"},
+          self.ramp_rate_percent_per_s);
     visit(Parameter{"ramps_pressures_bar", "bar", 0.5, 350, "one triangle each"}, self.ramps_pressures_bar);
     visit(Parameter{"ramps_position_faults_per_s", "1/s", 0, 10, "acquisition faults in that run (paper, Fig 10)"},
           self.ramps_position_faults_per_s);

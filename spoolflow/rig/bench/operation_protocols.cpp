@@ -87,7 +87,8 @@ BenchRun plan(const DutyCycleProtocol& protocol, std::uint64_t seed) {
   BenchRun run;
   Noise positions(seed, "duty cycle positions");
   const double rate_span = natural_logarithm(protocol.fastest_percent_per_s / protocol.slowest_percent_per_s);
-  run.position_set = Course(share(protocol.lowest_percent));
+  // A valve that opens to both sides begins in its centre, where its springs hold it before the run.
+  run.position_set = Course(share(std::fmax(protocol.lowest_percent, std::fmin(0.0, protocol.highest_percent))));
   run.position_set.hold(0.5);
   while (run.position_set.duration_s() < protocol.duration_s) {
     const double to_percent = positions.uniform(protocol.lowest_percent, protocol.highest_percent);

@@ -27,7 +27,9 @@ void add_calibration(CampaignItems& items, const CampaignSettings& settings) {
                                  .oil_temperature_C = temperature_C});
   }
   items.add(fmt::format("ramp_{:g}bar.csv", settings.ramp_pressure_bar), "operation",
-            RampsProtocol{.conditions = {}, .pressure_differences_bar = {settings.ramp_pressure_bar}});
+            RampsProtocol{.conditions = {},
+                          .pressure_differences_bar = {settings.ramp_pressure_bar},
+                          .rate_percent_per_s = settings.ramp_rate_percent_per_s});
 }
 
 /// One dithered duty cycle under each kind of load.
@@ -97,7 +99,9 @@ std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const Camp
                          .frequency_end_Hz = settings.sweep_frequency_Hz,
                          .pressure_difference_bar = settings.sweep_pressure_bar});
   items.add_with(dithered(items.valve(), settings), "dither.csv", "",
-                 RampsProtocol{.conditions = {}, .pressure_differences_bar = {settings.ramp_pressure_bar}});
+                 RampsProtocol{.conditions = {},
+                               .pressure_differences_bar = {settings.ramp_pressure_bar},
+                               .rate_percent_per_s = settings.ramp_rate_percent_per_s});
   items.add("fast_motion.csv", "", protocol_named("fast_motion"));
   add_dithered_duty(items, settings);
   return items.take();

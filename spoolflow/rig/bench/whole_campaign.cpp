@@ -79,6 +79,7 @@ void add_whole_calibration(CampaignItems& items, const CampaignSettings& setting
   items.add(fmt::format("both_ramps_{:g}bar.csv", settings.ramp_pressure_bar), "operation",
             RampsProtocol{.conditions = at_work(),
                           .pressure_differences_bar = {settings.ramp_pressure_bar},
+                          .rate_percent_per_s = settings.ramp_rate_percent_per_s,
                           .second_peak_percent = -100});
 }
 

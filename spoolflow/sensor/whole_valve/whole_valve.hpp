@@ -53,6 +53,8 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.edge.highest_pressure_difference_Pa(),
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
+  state.idle.waiting_s = state.idle.charge_As = T(0);
+  state.inlet_share = state.idle.inlet_share = T(inlet_share);
 }
 
 /// In pieces so small that no compiler wants a library to move them.
@@ -73,8 +75,9 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   exchange(state.open.actuator, state.idle.actuator);
   std::swap(state.open.pressure, state.idle.pressure);
   std::swap(state.open.dither, state.idle.dither);
+  std::swap(state.inlet_share, state.idle.inlet_share);
   mirror(state.open.friction);
-  state.open.swing = {};
+  forget(state.open.swing);
   PressureState<T>& pressure = state.open.pressure;
   expect_change(open.pressure, pressure);
   drift_unseen(open.pressure, pressure, state.idle.closed_s, open.edge.highest_pressure_difference_Pa());
@@ -118,6 +121,30 @@ constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& po
   state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
 }
 
+/// The flow rate by measured port pressures, signed in the direction's own sense.
+template <class T>
+constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState<T>& state, const PathDrops<T>& drops,
+                               T share, T position_m) {
+  const DrivingDrop<T> drop = driving_drop(drops, share);
+  const T conductance = valve.edge.at(state.oil_temperature_K, magnitude(drop.drop_Pa), position_m).conductance;
+  const T uncertain_Pa = valve.band.coverage_factor * drop.deviation_Pa;
+  const T residual = T(flow_residual_factor) * valve.band.flow_residual_m3_per_s;
+  Estimate<T>& out = state.last;
+  out.flow_m3_per_s = conductance * signed_root(drop.drop_Pa);
+  out.flow_lower_m3_per_s = conductance * signed_root(drop.drop_Pa - uncertain_Pa) - residual;
+  out.flow_upper_m3_per_s = conductance * signed_root(drop.drop_Pa + uncertain_Pa) + residual;
+  out.pressure_difference_Pa = drops.inlet_Pa + drops.outlet_Pa;
+  if (flow_reversed(drops)) out.status |= Status::flow_reversed;
+}
+
+/// Where no pressures are measured. A pressure difference at the end of what was calibrated may be of a load that helps
+/// the supply.
+template <class T>
+constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state) {
+  const bool within_supply = state.pressure.pressure_difference_Pa < valve.edge.highest_pressure_difference_Pa();
+  if (!within_supply && !has(state.last.status, Status::closed)) state.last.status |= Status::ambiguous_load;
+}
+
 /// The chain of the side on which the spool stands, written out for each: with its tables' addresses a compiler knows
 /// their numbers. `position` is in the valve's signs.
 template <bool opens_a, class T>
@@ -136,7 +163,18 @@ template <bool opens_a, class T>
 
   const bool busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
   follow_idle(now.idle, state.idle, other, begins, busy);
+  const bool pressures_measured = measured(sample.ports);
+  const PathDrops<T> drops = path_drops(sample.ports, opens_a);
+  const T forcing_Pa = limited(drops.forcing_Pa(), T(0), now.open.edge.highest_pressure_difference_Pa());
+  if (pressures_measured) believe_measured(state.open.pressure, forcing_Pa);
   observe(now.open, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+  if (pressures_measured) {
+    believe_measured(state.open.pressure, forcing_Pa);
+    follow_share(state.inlet_share, drops, sample.time_step_s);
+    answer_measured(now.open, state.open, drops, state.inlet_share, position.position_m);
+  } else {
+    doubt_load(now.open, state.open);
+  }
   if constexpr (opens_a) state.open.last = mirrored(state.open.last);
   if (near && !(position.position_m < now.open.closed_below_m)) state.open.last.status |= Status::sign_undetermined;
 }
@@ -152,11 +190,12 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
     state.open.last.status = held;
     return state.open.last;
   }
-  const bool begins = !state.open.started;
+  const bool leapt = lies_below(T(longest_step_s), sample.time_step_s);
+  const bool begins = !state.open.started || leapt;
   if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
-  detail::follow_temperature(state.open, own);
+  detail::follow_temperature(state.open, own.oil_temperature_K);
 
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
@@ -173,6 +212,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   } else {
     detail::observe_side<false>(detail::sides(valve, false), state, sample, position, dither, begins);
   }
+  if (begins && leapt) state.open.last.status |= Status::time_fault;
   return state.open.last;
 }
 

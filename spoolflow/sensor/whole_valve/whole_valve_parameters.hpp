@@ -26,6 +26,7 @@ struct IdleSide {
   T closed_s{};          ///< since the spool left its side
   T waiting_s{};         ///< since its solenoid was last stepped
   T charge_As{};         ///< through its coil since
+  T inlet_share{};       ///< as of the open path
 };
 
 template <class T>
@@ -35,6 +36,7 @@ struct WholeValveState {
   IdleSide<T> idle;
   T zero_m{};         ///< of the position sensor, found at rest in the centre
   T centred_s{};      ///< for how long the spool has rested there
+  T inlet_share{};    ///< of the open path's pressure drop, as measured port pressures have shown it
   Mask<T> opens_a{};  ///< it stands on the side that opens P to A
 };
 

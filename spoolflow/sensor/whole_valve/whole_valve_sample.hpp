@@ -1,6 +1,7 @@
 #pragma once
 /// What the electronics of a whole 4/3 valve have, each sample.
 #include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/whole_valve/port_pressures.hpp"
 
 namespace spoolflow::sensor {
 
@@ -13,6 +14,7 @@ struct WholeValveSample {
   T voltage_b_V{};
   T position_m{};  ///< of the spool from the centre, > 0 opens P to B
   T oil_temperature_K{};
+  PortPressures<T> ports{};  ///< optional
 };
 
 /// What one side's electronics have, in that direction's signs.

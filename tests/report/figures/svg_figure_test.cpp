@@ -32,6 +32,7 @@ TEST(Ticks, AreRoundAndCarryAsManyDecimalsAsTheirStepNeeds) {
   EXPECT_THAT(round_ticks(0, 80, 4).text, ElementsAre("0", "20", "40", "60", "80"));
   EXPECT_THAT(round_ticks(-0.3, 0.31, 4).text, ElementsAre("\u22120.2", "0.0", "0.2"));
   EXPECT_THAT(round_ticks(49.8, 50.2, 2).text, ElementsAre("49.8", "50.0", "50.2"));
+  EXPECT_THAT(round_ticks(-28, 29, 2).text, ElementsAre("\u221220", "0", "20"));  // 50 would show 0 alone
   EXPECT_TRUE(round_ticks(1, 1, 4).at.empty());
 }
 

@@ -1,0 +1,153 @@
+#pragma once
+/// The sensor's constants of its signals, from maps and coil to position, each described once; see parameter.hpp.
+#include "spoolflow/model/parameter.hpp"
+#include "spoolflow/sensor/condensed.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::model {
+
+template <class Visitor>
+void describe_map_constants(Visitor& visitor) {
+  visitor.constant({.name = "noise_cells",
+                    .unit = "cells",
+                    .meaning = "how far beyond the end of an axis is still noise and no extrapolation"},
+                   sensor::noise_cells);
+  visitor.constant({.name = "wild_cells", .unit = "cells", .meaning = "what is this far from an axis was not measured"},
+                   sensor::wild_cells<double>);
+  visitor.constant({.name = "least_force_per_pressure_N_Pa",
+                    .unit = "N/Pa",
+                    .meaning = "no less is taken for the slope of the flow force over the pressure difference",
+                    .evidence = "none of the runs"},
+                   sensor::least_force_per_pressure_N_Pa);
+}
+
+template <class Visitor>
+void describe_coil_constants(Visitor& visitor) {
+  visitor.constant(
+      {.name = "shortest_step_s", .unit = "s", .meaning = "a step of time is taken for no shorter by the coil"},
+      sensor::shortest_step_s);
+  visitor.constant({.name = "slow_magnetisation_s",
+                    .unit = "s",
+                    .meaning = "in which the coil is taken to have been brought to its first current"},
+                   sensor::slow_magnetisation_s);
+  visitor.constant(
+      {.name = "flux_rate_error_share",
+       .unit = "1",
+       .meaning = "share of the flux rate that its model may be wrong by, where the coil's resistance is followed"},
+      sensor::flux_rate_error_share);
+  visitor.constant({.name = "coil_averaging_s",
+                    .unit = "s",
+                    .meaning = "voltage, current and flux rate are averaged over this before they tell the resistance"},
+                   sensor::coil_averaging_s);
+  visitor.constant({.name = "least_voltage_variance_V2s",
+                    .unit = "V2 s",
+                    .meaning = "variance density of the voltage that is always assumed"},
+                   sensor::least_voltage_variance_V2s);
+  visitor.constant({.name = "coldest_resistance_ratio",
+                    .unit = "1",
+                    .meaning = "least resistance over the calibrated one that copper can have"},
+                   sensor::coldest_resistance_ratio);
+  visitor.constant({.name = "warmest_resistance_ratio",
+                    .unit = "1",
+                    .meaning = "largest resistance over the calibrated one that copper can have"},
+                   sensor::warmest_resistance_ratio);
+  visitor.constant(
+      {.name = "known_resistance_share",
+       .unit = "1",
+       .meaning = "how well the resistance must be known, as a share of it, before it is called implausible"},
+      sensor::known_resistance_share);
+}
+
+template <class Visitor>
+// long: a list, one entry a constant
+void describe_position_constants(Visitor& visitor) {
+  visitor.constant({.name = "block_length_s",
+                    .unit = "s",
+                    .meaning = "length of the blocks over which the position is averaged",
+                    .evidence = "ramp_60bar: p95 15.70, 0.27, 0.31 % FS, band 86.3, 99.5, 99.3 %"},
+                   sensor::block_length_s);
+  visitor.constant(
+      {.name = "short_window_deviations",
+       .unit = "1",
+       .meaning = "standard deviations of the noise beyond which short windows must travel for the spool to slide",
+       .evidence = "orifice_duty_dither: p95 0.93, 0.94, 0.89 % FS, band 97.9, 97.6, 97.2 %"},
+      sensor::short_window_deviations);
+  visitor.constant({.name = "long_window_deviations",
+                    .unit = "1",
+                    .meaning = "the same of long windows, for a spool that creeps",
+                    .evidence = "ramp_60bar: p95 0.34, 0.27, 16.40 % FS, band 99.3, 99.5, 79.5 %"},
+                   sensor::long_window_deviations);
+  visitor.constant({.name = "even_travel_ratio",
+                    .unit = "1",
+                    .meaning = "windows travel evenly where the longest is no more than so many times the shortest",
+                    .evidence = "fast_10kHz: p95 3.33, 2.38, 1.99 % FS, band 90.3, 91.2, 92.0 %"},
+                   sensor::even_travel_ratio);
+  visitor.constant(
+      {.name = "slowing_travel_ratio",
+       .unit = "1",
+       .meaning = "a spool whose newest window travels less than one over this of the others is about to stop",
+       .evidence = "fast_10kHz: p95 3.65, 2.38, 2.40 % FS, band 94.0, 91.2, 84.8 %"},
+      sensor::slowing_travel_ratio);
+  visitor.constant({.name = "longest_tremble_block_s",
+                    .unit = "s",
+                    .meaning = "a block of positions under dither ends after so long at the latest"},
+                   sensor::longest_tremble_block_s);
+  visitor.constant({.name = "shortest_block_s",
+                    .unit = "s",
+                    .meaning = "a block of positions is taken for no shorter: velocities divide by it"},
+                   sensor::shortest_block_s);
+  visitor.constant({.name = "fastest_m_per_s", .unit = "m/s", .meaning = "no spool moves faster"},
+                   sensor::fastest_m_per_s);
+  visitor.constant({.name = "velocity_smoothing_s",
+                    .unit = "s",
+                    .meaning = "smoothing of the velocity",
+                    .evidence = "orifice_duty_dither: p95 0.88, 0.94, 1.02 % FS, band 97.9, 97.6, 96.8 %"},
+                   sensor::velocity_smoothing_s);
+  visitor.constant({.name = "slip_speed_m_per_s",
+                    .unit = "m/s",
+                    .meaning = "a slip is faster than this",
+                    .evidence = "ramps_30_to_70bar: p95 0.38, 0.38, 0.35 % FS, band 93.2, 93.2, 94.4 %"},
+                   sensor::slip_speed_m_per_s);
+  visitor.constant({.name = "slip_deviations",
+                    .unit = "1",
+                    .meaning = "standard deviations of the noise beyond which a slip moves",
+                    .evidence = "temperature_sweep: p95 2.41, 0.27, 0.27 % FS, band 60.9, 98.2, 98.2 %"},
+                   sensor::slip_deviations);
+  visitor.constant({.name = "slip_settling_s",
+                    .unit = "s",
+                    .meaning = "how long friction and inertia are in motion after a slip",
+                    .evidence = "ramps_30_to_70bar: p95 0.39, 0.38, 0.37 % FS, band 92.1, 93.2, 93.5 %"},
+                   sensor::slip_settling_s);
+  visitor.constant(
+      {.name = "credible_jump_deviations",
+       .unit = "1",
+       .meaning = "standard deviations of the noise up to which a change of the position signal is credible"},
+      sensor::credible_jump_deviations);
+  visitor.constant({.name = "credible_jump_m",
+                    .unit = "m",
+                    .meaning = "and so much more",
+                    .evidence = "ramps_30_to_70bar: p95 0.38, 0.38, 0.53 % FS, band 93.2, 93.2, 93.8 %"},
+                   sensor::credible_jump_m);
+  visitor.constant(
+      {.name = "quiet_current_share",
+       .unit = "1",
+       .meaning = "share of the largest current: a smaller change from sample to sample tells of no motion"},
+      sensor::quiet_current_share);
+  visitor.constant({.name = "quiet_voltage_share",
+                    .unit = "1",
+                    .meaning = "the same for the voltage, as a share of what holds the largest current"},
+                   sensor::quiet_voltage_share);
+  visitor.constant({.name = "quiet_jump_m",
+                    .unit = "m",
+                    .meaning = "no acceleration is credible for more than this where neither changed"},
+                   sensor::quiet_jump_m);
+  visitor.constant({.name = "longest_position_fault_s",
+                    .unit = "s",
+                    .meaning = "a jump of the position signal that lasts longer is believed"},
+                   sensor::longest_position_fault_s);
+  visitor.constant(
+      {.name = "direction_only_m", .unit = "m", .meaning = "size of a travel that tells a direction and nothing else"},
+      sensor::direction_only_m);
+}
+
+}  // namespace spoolflow::model
