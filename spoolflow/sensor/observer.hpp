@@ -150,7 +150,8 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
                                   const Sample<T>& sample) {
   if constexpr (one_valve<T>) {
     if (const Status held = unusable(sample); held != Status::none) {
-      state.last.status = held;
+      state.last.status = held | when(time_leapt(sample), Status::time_fault);
+      state.started = state.started && !time_leapt(sample);
       return state.last;
     }
   }

@@ -194,7 +194,7 @@ StateBytes Instance::unpacked(const StateBytes& state) {
 }
 
 void Instance::check_state(const StateBytes& state) {
-  unpacked(state);
+  (void)unpacked(state);
 }
 
 void Instance::set_state(const StateBytes& state) {

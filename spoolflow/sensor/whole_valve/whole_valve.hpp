@@ -186,11 +186,12 @@ template <bool opens_a, class T>
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
+  const bool leapt = lies_below(T(longest_step_s), sample.time_step_s);
   if (const Status held = unusable(sample); held != Status::none) {
-    state.open.last.status = held;
+    state.open.last.status = held | when(leapt, Status::time_fault);
+    state.open.started = state.open.started && !leapt;
     return state.open.last;
   }
-  const bool leapt = lies_below(T(longest_step_s), sample.time_step_s);
   const bool begins = !state.open.started || leapt;
   if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
