@@ -150,8 +150,9 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
                                   const Sample<T>& sample) {
   if constexpr (one_valve<T>) {
     if (const Status held = unusable(sample); held != Status::none) {
-      state.last.status = held | when(time_leapt(sample), Status::time_fault);
-      state.started = state.started && !time_leapt(sample);
+      const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
+      state.last.status = held | when(leapt, Status::time_fault);
+      state.started = state.started && !leapt;
       return state.last;
     }
   }

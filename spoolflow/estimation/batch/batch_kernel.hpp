@@ -150,6 +150,14 @@ class SideBySide {
 template <class Parameters, class State, class SampleOfAll>
 struct Together {
   using Sample = SampleOfAll;
+  template <class Input>
+  static Sample sample(const Input& input) {
+    return {input(0), input(1), input(2), input(3), input(4)};
+  }
+  /// Where time leapt, and the sample could not be used either, an observer begins anew; a condensed sensor remembers
+  /// nothing.
+  static constexpr bool remembers = requires(State state) { state.started; };
+  void forget(const Pack::Mask& leapt) { state.started = state.started && !leapt; }
   Parameters parameters;
   State state;
   static auto unusable(const Sample& sample) { return sensor::unusable(sample); }
@@ -161,6 +169,13 @@ struct Together {
 template <class Parameters, class State, class Sides>
 struct WholeTogether : Together<Parameters, State, sensor::WholeValveSample<Pack>> {
   Sides sides;
+  /// Without port pressures.
+  template <class Input>
+  static sensor::WholeValveSample<Pack> sample(const Input& input) {
+    return {input(0), input(1), input(2), input(3), input(4), input(5), input(6)};
+  }
+  static constexpr bool remembers = requires(State state) { state.open.started; };
+  void forget(const Pack::Mask& leapt) { this->state.open.started = this->state.open.started && !leapt; }
   /// The condensed sensor needs the current of the side on which the spool stands, and no other.
   static auto unusable(const sensor::WholeValveSample<Pack>& sample) {
     if constexpr (std::same_as<State, sensor::WholeCondensedState<Pack>>) {
@@ -199,20 +214,21 @@ template <class Valves>
   auto& status = valves.answer().status;
   auto reason = status;
   reason = held;
+  if constexpr (Valves::remembers) {
+    const auto leapt = hold && sample.time_step_s > Pack(sensor::longest_step_s);
+    valves.forget(leapt);
+    mark(reason, leapt, sensor::Status::time_fault);
+  }
   keep(hold, reason, status);
 }
 
 template <class Valves>
 [[gnu::flatten]] void step_rows(void* memory, const BatchRows& rows) {
   Valves& valves = *static_cast<Valves*>(memory);
-  using Sample = typename Valves::Sample;
-  constexpr std::size_t inputs = sizeof(Sample) / sizeof(Pack);
   const auto* const last = reinterpret_cast<const char*>(&std::as_const(valves).answer());
   for (std::size_t k = 0; k < rows.count; ++k) {
     const std::size_t at = k * rows.stride;
-    std::array<Pack, inputs> input;
-    for (std::size_t row = 0; row < inputs; ++row) input[row] = Pack::read(rows.samples[row] + at);
-    step_one(valves, std::bit_cast<Sample>(input));
+    step_one(valves, Valves::sample([&](std::size_t row) { return Pack::read(rows.samples[row] + at); }));
     for (std::size_t wanted = 0; wanted < rows.wanted; ++wanted) {
       const WantedAnswer& answer = rows.answers[wanted];
       std::memcpy(static_cast<float*>(answer.to) + at, last + answer.number * sizeof(Pack), sizeof(Pack));

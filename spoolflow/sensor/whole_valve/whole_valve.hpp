@@ -204,14 +204,15 @@ template <class T>
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
-  const Mask<T> leapt = lies_below(T(longest_step_s), sample.time_step_s);
   if constexpr (one_valve<T>) {
     if (const Status held = unusable(sample); held != Status::none) {
+      const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
       state.open.last.status = held | when(leapt, Status::time_fault);
       state.open.started = state.open.started && !leapt;
       return state.open.last;
     }
   }
+  const Mask<T> leapt = lies_below(T(longest_step_s), sample.time_step_s);
   using detail::sides;
   const Mask<T> begins = !state.open.started || leapt;
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
