@@ -1,6 +1,7 @@
 #include "spoolflow/estimation/running_batch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -23,19 +24,18 @@ std::vector<const Parameters*> filled_up(std::span<const BatchedValve<Parameters
 
 template <class Parameters>
 RunningBatch<Parameters>::Rows::Rows(std::size_t numbers) {
-  for (std::vector<float>* row : {&time_step_s, &current_A, &voltage_V, &position_m, &oil_temperature_K, &flow_m3_per_s,
-                                  &flow_lower_m3_per_s, &flow_upper_m3_per_s, &pressure_difference_Pa,
-                                  &magnetic_force_N, &spring_force_N, &flow_force_N, &friction_force_N}) {
+  for (std::vector<float>* row :
+       {&time_step_s, &current_A, &voltage_V, &position_m, &oil_temperature_K, &current_a_A, &voltage_a_V,
+        &flow_m3_per_s, &flow_lower_m3_per_s, &flow_upper_m3_per_s, &pressure_difference_Pa, &magnetic_force_N,
+        &spring_force_N, &flow_force_N, &friction_force_N}) {
     row->resize(numbers, std::numeric_limits<float>::quiet_NaN());
   }
   status.resize(numbers);
-  repeated.resize(numbers);
+  given.resize(numbers);
 }
 
 template <class Parameters>
-void RunningBatch<Parameters>::Rows::put(std::size_t at, const SteppedSample<float>& given) {
-  const sensor::Sample<float>& sample = given.sample;
-  repeated[at] = given.repeated ? 1 : 0;
+void RunningBatch<Parameters>::Rows::put(std::size_t at, const sensor::Sample<float>& sample) {
   time_step_s[at] = sample.time_step_s;
   current_A[at] = sample.current_A;
   voltage_V[at] = sample.voltage_V;
@@ -44,8 +44,10 @@ void RunningBatch<Parameters>::Rows::put(std::size_t at, const SteppedSample<flo
 }
 
 template <class Parameters>
-SteppedSample<float> RunningBatch<Parameters>::Rows::given(std::size_t at) const {
-  return {{time_step_s[at], current_A[at], voltage_V[at], position_m[at], oil_temperature_K[at]}, repeated[at] != 0};
+void RunningBatch<Parameters>::Rows::put(std::size_t at, const sensor::WholeValveSample<float>& sample) {
+  put(at, sample_of(sample, false));
+  current_a_A[at] = sample.current_a_A;
+  voltage_a_V[at] = sample.voltage_a_V;
 }
 
 template <class Parameters>
@@ -65,15 +67,29 @@ RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>>
   for (const BatchedValve<Parameters>& valve : valves) rated_flow_m3_per_s_.push_back(valve.rated_flow_m3_per_s);
 }
 
+template <class Parameters>
+void RunningBatch<Parameters>::put(std::size_t at, SampleTimes& times, const TimedSample& sample) {
+  SteppedSample<float>& given = rows_.given[at] = times.next<float>(sample);
+  if constexpr (whole) {
+    if (std::isinf(sample.current_a_A)) given.sample.current_A = std::numeric_limits<float>::quiet_NaN();
+    rows_.put(at, whole_valve_sample(given.sample, sample));
+  } else {
+    rows_.put(at, given.sample);
+  }
+}
+
 /// A valve without a sample, or that only fills up, measures nothing: the sensor holds what it knows.
 template <class Parameters>
 void RunningBatch<Parameters>::fill(std::span<const Columns> runs, std::size_t from, std::size_t count) {
   constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t valve = 0; valve < runs.size(); ++valve) {
     for (std::size_t k = 0; k < count; ++k) {
-      const bool over = from + k >= runs[valve].size();
-      rows_.put(k * places_ + valve, over ? SteppedSample<float>{{nothing, nothing, nothing, nothing, nothing}, false}
-                                          : times_[valve].template next<float>(runs[valve][from + k]));
+      const std::size_t at = k * places_ + valve;
+      if (from + k < runs[valve].size()) {
+        put(at, times_[valve], runs[valve][from + k]);
+      } else {
+        rows_.put(at, sensor::Sample<float>{nothing, nothing, nothing, nothing, nothing});
+      }
     }
   }
 }
@@ -83,20 +99,32 @@ void RunningBatch<Parameters>::step(std::size_t count) {
   const std::size_t numbers = count * places_;
   const auto given = [&](const std::vector<float>& row) { return std::span<const float>(row).first(numbers); };
   const auto wanted = [&](auto& row) { return std::span(row).first(numbers); };
-  batch_.step({.time_step_s = given(rows_.time_step_s),
-               .current_A = given(rows_.current_A),
-               .voltage_V = given(rows_.voltage_V),
-               .position_m = given(rows_.position_m),
-               .oil_temperature_K = given(rows_.oil_temperature_K)},
-              {.flow_m3_per_s = wanted(rows_.flow_m3_per_s),
-               .flow_lower_m3_per_s = wanted(rows_.flow_lower_m3_per_s),
-               .flow_upper_m3_per_s = wanted(rows_.flow_upper_m3_per_s),
-               .pressure_difference_Pa = wanted(rows_.pressure_difference_Pa),
-               .magnetic_force_N = wanted(rows_.magnetic_force_N),
-               .spring_force_N = wanted(rows_.spring_force_N),
-               .flow_force_N = wanted(rows_.flow_force_N),
-               .friction_force_N = wanted(rows_.friction_force_N),
-               .status = wanted(rows_.status)});
+  const batch::EstimateRows estimates{.flow_m3_per_s = wanted(rows_.flow_m3_per_s),
+                                      .flow_lower_m3_per_s = wanted(rows_.flow_lower_m3_per_s),
+                                      .flow_upper_m3_per_s = wanted(rows_.flow_upper_m3_per_s),
+                                      .pressure_difference_Pa = wanted(rows_.pressure_difference_Pa),
+                                      .magnetic_force_N = wanted(rows_.magnetic_force_N),
+                                      .spring_force_N = wanted(rows_.spring_force_N),
+                                      .flow_force_N = wanted(rows_.flow_force_N),
+                                      .friction_force_N = wanted(rows_.friction_force_N),
+                                      .status = wanted(rows_.status)};
+  if constexpr (whole) {
+    batch_.step({.time_step_s = given(rows_.time_step_s),
+                 .current_a_A = given(rows_.current_a_A),
+                 .current_b_A = given(rows_.current_A),
+                 .voltage_a_V = given(rows_.voltage_a_V),
+                 .voltage_b_V = given(rows_.voltage_V),
+                 .position_m = given(rows_.position_m),
+                 .oil_temperature_K = given(rows_.oil_temperature_K)},
+                estimates);
+  } else {
+    batch_.step({.time_step_s = given(rows_.time_step_s),
+                 .current_A = given(rows_.current_A),
+                 .voltage_V = given(rows_.voltage_V),
+                 .position_m = given(rows_.position_m),
+                 .oil_temperature_K = given(rows_.oil_temperature_K)},
+                estimates);
+  }
 }
 
 template <class Parameters>
@@ -109,10 +137,16 @@ void RunningBatch<Parameters>::run(std::span<const Columns> runs,
   std::size_t longest = 0;
   for (std::size_t valve = 0; valve < size(); ++valve) {
     longest = std::max(longest, runs[valve].size());
-    if (!runs[valve].current_a_A.empty()) {
+    if (!whole && !runs[valve].current_a_A.empty()) {
       throw std::invalid_argument("the run of valve " + std::to_string(valve) +
-                                  " has the currents of both coils, and a batch steps sensors of one direction; run a "
-                                  "whole valve by itself (estimation::running_sensor)");
+                                  " has the currents of both coils, and these are sensors of one direction; a batch of "
+                                  "whole valves takes it (RunningBatch of WholeValveParameters)");
+    }
+    if (whole && !runs[valve].pressure_p_Pa.empty()) {
+      throw std::invalid_argument(
+          "the run of valve " + std::to_string(valve) +
+          " has port pressures, which a batch does not read; leave them away, or step the valve "
+          "alone");
     }
     if (answers[valve].size() == runs[valve].size()) continue;
     throw std::invalid_argument("valve " + std::to_string(valve) + " has " + std::to_string(runs[valve].size()) +
@@ -125,7 +159,9 @@ void RunningBatch<Parameters>::run(std::span<const Columns> runs,
     for (std::size_t valve = 0; valve < size(); ++valve) {
       for (std::size_t k = 0; k < count && from + k < runs[valve].size(); ++k) {
         sensor::Estimate<float>& answer = answers[valve][from + k] = rows_.answer(k * places_ + valve);
-        times_[valve].finish(answer, rows_.given(k * places_ + valve), rated_flow_m3_per_s_[valve]);
+        times_[valve].finish(answer, rows_.given[k * places_ + valve], rated_flow_m3_per_s_[valve]);
+        if (whole && !times_[valve].answered)
+          answer.flow_lower_m3_per_s = -static_cast<float>(rated_flow_m3_per_s_[valve]);
       }
     }
   }
@@ -133,5 +169,7 @@ void RunningBatch<Parameters>::run(std::span<const Columns> runs,
 
 template class RunningBatch<sensor::CondensedTables<float>>;
 template class RunningBatch<sensor::ObserverParameters<float>>;
+template class RunningBatch<sensor::WholeCondensedTables<float>>;
+template class RunningBatch<sensor::WholeValveParameters<float>>;
 
 }  // namespace spoolflow::estimation

@@ -1,6 +1,7 @@
 #pragma once
 /// Runs of many valves through sensors that are stepped together, each run of its own length and sampling rate.
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "spoolflow/estimation/batch/valve_batch.hpp"
@@ -15,8 +16,8 @@ struct BatchedValve {
   double rated_flow_m3_per_s;
 };
 
-/// As many RunningSensors as there are valves, in single precision: the same rules for times and for what is told
-/// before the first complete sample.
+/// As many RunningSensors as there are valves, in single precision: the same rules for times, for what is told before
+/// the first complete sample, and for the coils of whole valves.
 template <class Parameters>
 class RunningBatch {
  public:
@@ -30,23 +31,26 @@ class RunningBatch {
   /// The next samples of every valve, as many as each has: one estimate a sample, in answers[valve], which is as long
   /// as runs[valve]. A valve whose samples are over waits for the others; runs of about one length waste least. Throws
   /// std::invalid_argument where there are not as many runs and answers as valves, or their lengths differ, and where a
-  /// run is of a whole valve's two coils: a batch steps sensors of one direction.
+  /// run is of a whole valve's two coils and the valves are of one direction.
   void run(std::span<const Columns> runs, std::span<const std::span<sensor::Estimate<float>>> answers);
 
  private:
   /// The valves that run side by side, sample after sample.
   struct Rows {
     std::vector<float> time_step_s, current_A, voltage_V, position_m, oil_temperature_K;
+    std::vector<float> current_a_A, voltage_a_V;  ///< of whole valves, whose others are those of coil b
     std::vector<float> flow_m3_per_s, flow_lower_m3_per_s, flow_upper_m3_per_s, pressure_difference_Pa;
     std::vector<float> magnetic_force_N, spring_force_N, flow_force_N, friction_force_N;
     std::vector<sensor::Status> status;
-    std::vector<char> repeated;
+    std::vector<SteppedSample<float>> given;
     explicit Rows(std::size_t numbers);
-    void put(std::size_t at, const SteppedSample<float>& given);
-    [[nodiscard]] SteppedSample<float> given(std::size_t at) const;
+    void put(std::size_t at, const sensor::Sample<float>& sample);
+    void put(std::size_t at, const sensor::WholeValveSample<float>& sample);
     [[nodiscard]] sensor::Estimate<float> answer(std::size_t at) const;
   };
+  static constexpr bool whole = std::is_same_v<typename batch::BatchedKind<Parameters>::Rows, batch::WholeSampleRows>;
   void fill(std::span<const Columns> runs, std::size_t from, std::size_t count);
+  void put(std::size_t at, SampleTimes& times, const TimedSample& sample);
   void step(std::size_t count);
 
   std::vector<double> rated_flow_m3_per_s_;
@@ -58,5 +62,7 @@ class RunningBatch {
 
 extern template class RunningBatch<sensor::CondensedTables<float>>;
 extern template class RunningBatch<sensor::ObserverParameters<float>>;
+extern template class RunningBatch<sensor::WholeCondensedTables<float>>;
+extern template class RunningBatch<sensor::WholeValveParameters<float>>;
 
 }  // namespace spoolflow::estimation

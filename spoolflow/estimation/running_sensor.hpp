@@ -67,9 +67,12 @@ struct SampleTimes {
 
 /// The same as a whole valve's sensor takes it: without the current of solenoid a there is but the active coil's, and
 /// the other is taken to carry none.
-inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<double>& b, const TimedSample& sample) {
-  sensor::WholeValveSample<double> out{b.time_step_s, sample.current_a_A, b.current_A,         sample.voltage_a_V,
-                                       b.voltage_V,   b.position_m,       b.oil_temperature_K, sample.ports};
+template <class T>
+sensor::WholeValveSample<T> whole_valve_sample(const sensor::Sample<T>& b, const TimedSample& sample) {
+  sensor::WholeValveSample<T> out{b.time_step_s, T(sample.current_a_A), b.current_A,        T(sample.voltage_a_V),
+                                  b.voltage_V,   b.position_m,          b.oil_temperature_K};
+  const auto& [p_Pa, a_Pa, b_Pa, t_Pa] = sample.ports;
+  out.ports = {T(p_Pa), T(a_Pa), T(b_Pa), T(t_Pa)};
   if (!std::isnan(sample.current_a_A)) return out;
   out.current_a_A = 0;
   if (b.position_m < 0) {

@@ -64,7 +64,9 @@ std::string definition(const std::string& type, const std::string& name, const s
 /// Names of all definitions in the model's header.
 std::vector<std::string> definition_names(const model::Model& model) {
   std::vector<std::string> names;
-  for (const std::string side : model.whole() ? std::vector<std::string>{"_b", "_a"} : std::vector<std::string>{""}) {
+  const std::vector<std::string> sides =
+      model.whole() ? std::vector<std::string>{"_b", "_a"} : std::vector<std::string>{""};
+  for (const std::string& side : sides) {
     names.push_back("condensed" + side);
     if (model.has_observer()) names.push_back("observer" + side);
   }

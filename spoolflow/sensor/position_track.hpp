@@ -1,7 +1,6 @@
 #pragma once
 /// What the spool does, from a position signal with noise, drift and acquisition faults.
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -48,12 +47,9 @@ inline constexpr double longest_position_fault_s = 0.25;
 inline constexpr double longest_tremble_block_s = 0.015;
 /// A block is taken for no shorter [s]: velocities divide by it.
 inline constexpr double shortest_block_s = 1e-6;
-/// No spool moves faster [m/s].
-inline constexpr double fastest_m_per_s = 10;
-/// The velocity is smoothed over this [s].
-inline constexpr double velocity_smoothing_s = 0.03;
-/// The size of a travel that tells a direction and nothing else [m].
-inline constexpr double direction_only_m = 1e-6;
+inline constexpr double fastest_m_per_s = 10;         ///< no spool moves faster
+inline constexpr double velocity_smoothing_s = 0.03;  ///< of the velocity
+inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that tells a direction and nothing else
 
 /// The valve's position sensor.
 template <class T>
@@ -82,10 +78,9 @@ enum class Motion : std::uint8_t {
 constexpr bool is(Motion motion, Motion which) {
   return motion == which;
 }
-constexpr Motion select(bool condition, Motion yes, Motion no) {
-  return condition ? yes : no;
-}
-constexpr int select(bool condition, int yes, int no) {
+template <class Choice>
+requires std::same_as<Choice, Motion> || std::same_as<Choice, int>
+constexpr Choice select(bool condition, Choice yes, Choice no) {
   return condition ? yes : no;
 }
 
@@ -308,8 +303,7 @@ constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_te
   return position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
 }
 
-/// To be called before the first sample, with its drift-free position, and where time has leapt. The rings are read no
-/// further back than there are `blocks`.
+/// To be called before the first sample, with its drift-free position, and where time has leapt.
 template <class T>
 constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
@@ -344,13 +338,10 @@ template <class T>
         state.velocity_due = Mask<T>(true);
         detail::tell_motion(sensor, state);
       });
-  return {position_m,
-          state.motion,
-          state.offset_m != T(0),
-          state.travel_m,
-          state.velocity_m_per_s,
-          state.acceleration_m_per_s2,
-          state.velocity_due && state.per_block_samples < T(1)};
+  const Mask<T> busy = state.velocity_due && state.per_block_samples < T(1);
+  const Mask<T> fault = state.offset_m != T(0);
+  const T velocity_m_per_s = state.velocity_m_per_s;
+  return {position_m, state.motion, fault, state.travel_m, velocity_m_per_s, state.acceleration_m_per_s2, busy};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

@@ -60,7 +60,7 @@ constexpr int table_index(T value) {
 /// The root of a number >= 0. On an Arm core with a floating-point unit it is the unit's instruction and nothing else:
 /// for the sake of errno a compiler would also call the library's sqrtf, which firmware need not have.
 inline float sqrt(float value) {
-#if defined(__ARM_FP) && defined(__thumb__)
+#if defined(__ARM_FP) && defined(__arm__)
   float root;
   __asm__("vsqrt.f32 %0, %1" : "=t"(root) : "t"(value));
   return root;

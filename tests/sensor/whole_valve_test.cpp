@@ -248,7 +248,8 @@ TEST(WholeValve, NeedsThePressuresOfAllFourPorts) {
 TEST(WholeValve, SaysWhereMoreForceActsThanTheSupplyExplains) {
   const Sides sides;
   const double calibrated_Pa = sides.b.edge.highest_pressure_difference_Pa();
-  const Course course = Course({.position_m = 0.05e-3, .pressure_difference_Pa = 1.3 * calibrated_Pa}).slide(1.5e-3, 1.5);
+  const Course course =
+      Course({.position_m = 0.05e-3, .pressure_difference_Pa = 1.3 * calibrated_Pa}).slide(1.5e-3, 1.5);
   WholeValveState<double> state{};
   for (const ValveSample& sample : run_of(sides.law, course)) step(sides.whole, state, to_side(sample.measured, false));
   EXPECT_TRUE(has(state.open.last.status, Status::ambiguous_load));

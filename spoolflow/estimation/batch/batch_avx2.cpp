@@ -6,6 +6,8 @@ namespace spoolflow::estimation::batch {
 
 const BatchSteps condensed_avx2 = condensed_steps;
 const BatchSteps observer_avx2 = observer_steps;
+const BatchSteps whole_condensed_avx2 = whole_condensed_steps;
+const BatchSteps whole_valve_avx2 = whole_valve_steps;
 
 }  // namespace spoolflow::estimation::batch
 #else
@@ -15,6 +17,8 @@ namespace spoolflow::estimation::batch {
 
 const BatchSteps condensed_avx2{};
 const BatchSteps observer_avx2{};
+const BatchSteps whole_condensed_avx2{};
+const BatchSteps whole_valve_avx2{};
 
 }  // namespace spoolflow::estimation::batch
 #endif

@@ -1,12 +1,13 @@
 #pragma once
 /// The steps of a ValveBatch for the instruction set that the including translation unit is compiled for. All that
 /// stands here has internal linkage or the target's register in its type.
+#include <concepts>
 #include <cstddef>
 #include <experimental/simd>
 #include <new>
 
 #include "spoolflow/estimation/batch/batch_steps.hpp"
-#include "spoolflow/estimation/batch/pack_tables.hpp"
+#include "spoolflow/estimation/batch/pack_sides.hpp"
 #include "spoolflow/estimation/batch/valve_batch.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
@@ -22,11 +23,19 @@ using Pack = ValvePack<Register, valves_together / Register::size()>;
 static_assert(sizeof(Pack) == valves_together * sizeof(float) && sizeof(Pack::Index) == sizeof(Pack));
 // Inputs are given, and answers fetched, by their number.
 using Answers = sensor::Estimate<Pack>;
-static_assert(sizeof(sensor::Sample<Pack>) == 5 * sizeof(Pack) && sizeof(Answers) == 9 * sizeof(Pack));
+static_assert(sizeof(sensor::Sample<Pack>) == 5 * sizeof(Pack) &&
+              sizeof(sensor::WholeValveSample<Pack>) == 7 * sizeof(Pack));
+static_assert(sizeof(Answers) == 9 * sizeof(Pack));
 static_assert(offsetof(sensor::Sample<Pack>, current_A) == 1 * sizeof(Pack));
 static_assert(offsetof(sensor::Sample<Pack>, voltage_V) == 2 * sizeof(Pack));
 static_assert(offsetof(sensor::Sample<Pack>, position_m) == 3 * sizeof(Pack));
 static_assert(offsetof(sensor::Sample<Pack>, oil_temperature_K) == 4 * sizeof(Pack));
+static_assert(offsetof(sensor::WholeValveSample<Pack>, current_a_A) == 1 * sizeof(Pack));
+static_assert(offsetof(sensor::WholeValveSample<Pack>, current_b_A) == 2 * sizeof(Pack));
+static_assert(offsetof(sensor::WholeValveSample<Pack>, voltage_a_V) == 3 * sizeof(Pack));
+static_assert(offsetof(sensor::WholeValveSample<Pack>, voltage_b_V) == 4 * sizeof(Pack));
+static_assert(offsetof(sensor::WholeValveSample<Pack>, position_m) == 5 * sizeof(Pack));
+static_assert(offsetof(sensor::WholeValveSample<Pack>, oil_temperature_K) == 6 * sizeof(Pack));
 static_assert(offsetof(Answers, flow_lower_m3_per_s) == 1 * sizeof(Pack));
 static_assert(offsetof(Answers, flow_upper_m3_per_s) == 2 * sizeof(Pack));
 static_assert(offsetof(Answers, pressure_difference_Pa) == 3 * sizeof(Pack));
@@ -138,17 +147,47 @@ class SideBySide {
 };
 
 /// The valves that are stepped together.
-template <class Parameters, class State>
+template <class Parameters, class State, class SampleOfAll>
 struct Together {
+  using Sample = SampleOfAll;
   Parameters parameters;
   State state;
+  static auto unusable(const Sample& sample) { return sensor::unusable(sample); }
+  [[nodiscard]] const sensor::Estimate<Pack>& answer() const { return state.last; }
+  sensor::Estimate<Pack>& answer() { return state.last; }
+};
+
+/// The same of whole valves; the parameters refer to the sides.
+template <class Parameters, class State, class Sides>
+struct WholeTogether : Together<Parameters, State, sensor::WholeValveSample<Pack>> {
+  Sides sides;
+  /// The condensed sensor needs the current of the side on which the spool stands, and no other.
+  static auto unusable(const sensor::WholeValveSample<Pack>& sample) {
+    if constexpr (std::same_as<State, sensor::WholeCondensedState<Pack>>) {
+      return sensor::unusable(sample_of(sample, sample.position_m < Pack(0)));
+    } else {
+      return sensor::unusable(sample);
+    }
+  }
+  [[nodiscard]] const sensor::Estimate<Pack>& answer() const { return last_of(this->state); }
+  sensor::Estimate<Pack>& answer() { return last_of(this->state); }
+
+ private:
+  template <class Whole>
+  static auto& last_of(Whole& state) {
+    if constexpr (requires { state.open.last; }) {
+      return state.open.last;
+    } else {
+      return state.last;
+    }
+  }
 };
 
 /// Valves whose sample is unusable keep what they had before, with the reason as status. Flattened: a call with packs
 /// as arguments would carry them through memory.
 template <class Valves>
-[[gnu::flatten]] inline void step_one(Valves& valves, const sensor::Sample<Pack>& sample) {
-  const auto held = sensor::unusable(sample);
+[[gnu::flatten]] inline void step_one(Valves& valves, const typename Valves::Sample& sample) {
+  const auto held = Valves::unusable(sample);
   const auto hold = is_any(held);
   if (!any(hold)) {
     sensor::step(valves.parameters, valves.state, sample);
@@ -157,7 +196,7 @@ template <class Valves>
   const auto before = valves.state;
   sensor::step(valves.parameters, valves.state, sample);
   keep(hold, before, valves.state);
-  auto& status = valves.state.last.status;
+  auto& status = valves.answer().status;
   auto reason = status;
   reason = held;
   keep(hold, reason, status);
@@ -166,11 +205,14 @@ template <class Valves>
 template <class Valves>
 [[gnu::flatten]] void step_rows(void* memory, const BatchRows& rows) {
   Valves& valves = *static_cast<Valves*>(memory);
-  const auto* const last = reinterpret_cast<const char*>(&valves.state.last);
+  using Sample = typename Valves::Sample;
+  constexpr std::size_t inputs = sizeof(Sample) / sizeof(Pack);
+  const auto* const last = reinterpret_cast<const char*>(&std::as_const(valves).answer());
   for (std::size_t k = 0; k < rows.count; ++k) {
     const std::size_t at = k * rows.stride;
-    const auto input = [&](std::size_t row) { return Pack::read(rows.samples[row] + at); };
-    step_one(valves, {input(0), input(1), input(2), input(3), input(4)});
+    std::array<Pack, inputs> input;
+    for (std::size_t row = 0; row < inputs; ++row) input[row] = Pack::read(rows.samples[row] + at);
+    step_one(valves, std::bit_cast<Sample>(input));
     for (std::size_t wanted = 0; wanted < rows.wanted; ++wanted) {
       const WantedAnswer& answer = rows.answers[wanted];
       std::memcpy(static_cast<float*>(answer.to) + at, last + answer.number * sizeof(Pack), sizeof(Pack));
@@ -178,41 +220,84 @@ template <class Valves>
   }
 }
 
-template <class Float, class Parameters, class State, class Describe>
-bool begin_valves(void* memory, const void* const* valves, const float* numbers, const Describe& describe) {
-  auto& together = *new (memory) Together<Parameters, State>{};
+/// Puts the numbers of `valves` side by side into `parameters`.
+template <class Float, class Parameters, class Describe>
+bool put_together(Parameters& parameters, const void* const* valves, const float* numbers, const Describe& describe) {
   // Each number is a pack of the parameters, each table more than one: described once, they cannot be more.
   constexpr std::size_t capacity = sizeof(Parameters) / sizeof(Pack);
   std::array<Described<capacity>, valves_together> described{};
   for (std::size_t k = 0; k < valves_together; ++k) describe(*static_cast<const Float*>(valves[k]), described[k]);
   if (!described[0].all_held()) return false;
   SideBySide<capacity> side_by_side(described, numbers);
-  describe(together.parameters, side_by_side);
+  describe(parameters, side_by_side);
   return true;
 }
 
-using CondensedTogether = Together<sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>>;
+template <class Valves, class Float, class Describe>
+bool begin_valves(void* memory, const void* const* valves, const float* numbers, const Describe& describe) {
+  return put_together<Float>((new (memory) Valves{})->parameters, valves, numbers, describe);
+}
 
-constexpr BatchSteps condensed_steps{
-    sizeof(CondensedTogether), alignof(CondensedTogether),
+/// Flattened: a constructor of its own would be a function that others may share.
+template <class Valves, class Float, class Describe>
+[[gnu::flatten]] bool begin_whole_valves(void* memory, const void* const* valves, const float* numbers,
+                                         const Describe& describe) {
+  auto& together = *new (memory) Valves{};
+  auto& sides = together.sides;
+  if (!put_together<Float>(sides.b, valves, numbers, describe) ||
+      !put_together<Float>(sides.a, valves + valves_together, numbers, describe)) {
+    return false;
+  }
+  sides.begin();
+  together.parameters.sides = &sides;
+  if constexpr (requires { together.parameters.b; }) {
+    together.parameters.b = &sides.b;
+    together.parameters.a = &sides.a;
+  }
+  return true;
+}
+
+constexpr auto describe_tables = [](auto& tables, auto& visitor) { model::describe_condensed_tables(tables, visitor); };
+constexpr auto describe_parameters = [](auto& parameters, auto& visitor) {
+  model::describe_observer(parameters, visitor);
+};
+
+using CondensedTogether = Together<sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>, sensor::Sample<Pack>>;
+constexpr BatchSteps condensed_steps{sizeof(CondensedTogether), alignof(CondensedTogether),
+                                     [](void* memory, const void* const* valves, const float* numbers) {
+                                       return begin_valves<CondensedTogether, sensor::CondensedTables<float>>(
+                                           memory, valves, numbers, describe_tables);
+                                     },
+                                     step_rows<CondensedTogether>};
+
+using ObserverTogether = Together<sensor::ObserverParameters<Pack>, sensor::ObserverState<Pack>, sensor::Sample<Pack>>;
+constexpr BatchSteps observer_steps{sizeof(ObserverTogether), alignof(ObserverTogether),
+                                    [](void* memory, const void* const* valves, const float* numbers) {
+                                      return begin_valves<ObserverTogether, sensor::ObserverParameters<float>>(
+                                          memory, valves, numbers, describe_parameters);
+                                    },
+                                    step_rows<ObserverTogether>};
+
+constexpr int registers = valves_together / static_cast<int>(Register::size());
+using WholeCondensedTogether = WholeTogether<sensor::WholeCondensedTables<Pack>, sensor::WholeCondensedState<Pack>,
+                                             CondensedSides<Register, registers>>;
+constexpr BatchSteps whole_condensed_steps{
+    sizeof(WholeCondensedTogether), alignof(WholeCondensedTogether),
     [](void* memory, const void* const* valves, const float* numbers) {
-      return begin_valves<sensor::CondensedTables<float>, sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>>(
-          memory, valves, numbers,
-          [](auto& tables, auto& visitor) { model::describe_condensed_tables(tables, visitor); });
+      return begin_whole_valves<WholeCondensedTogether, sensor::CondensedTables<float>>(memory, valves, numbers,
+                                                                                        describe_tables);
     },
-    step_rows<CondensedTogether>};
+    step_rows<WholeCondensedTogether>};
 
-using ObserverTogether = Together<sensor::ObserverParameters<Pack>, sensor::ObserverState<Pack>>;
-
-constexpr BatchSteps observer_steps{
-    sizeof(ObserverTogether), alignof(ObserverTogether),
+using WholeValveTogether = WholeTogether<sensor::WholeValveParameters<Pack>, sensor::WholeValveState<Pack>,
+                                         ObserverSides<Register, registers>>;
+constexpr BatchSteps whole_valve_steps{
+    sizeof(WholeValveTogether), alignof(WholeValveTogether),
     [](void* memory, const void* const* valves, const float* numbers) {
-      return begin_valves<sensor::ObserverParameters<float>, sensor::ObserverParameters<Pack>,
-                          sensor::ObserverState<Pack>>(memory, valves, numbers, [](auto& parameters, auto& visitor) {
-        model::describe_observer(parameters, visitor);
-      });
+      return begin_whole_valves<WholeValveTogether, sensor::ObserverParameters<float>>(memory, valves, numbers,
+                                                                                       describe_parameters);
     },
-    step_rows<ObserverTogether>};
+    step_rows<WholeValveTogether>};
 
 }  // namespace
 }  // namespace spoolflow::estimation::batch

@@ -16,7 +16,7 @@ struct WantedAnswer {
 
 /// Where a row's numbers of the first valve lie.
 struct BatchRows {
-  std::array<const float*, 5> samples;  ///< in the order of sensor::Sample
+  std::array<const float*, 7> samples;  ///< in the order of sensor::Sample (5) or sensor::WholeValveSample
   std::array<WantedAnswer, 9> answers;
   std::size_t wanted;  ///< of the answers
   std::size_t stride;  ///< from sample to sample
@@ -26,6 +26,7 @@ struct BatchRows {
 struct BatchSteps {
   std::size_t bytes;
   std::size_t alignment;
+  /// `valves`: the parameters of each; of whole valves those of direction b of all, then those of a.
   /// `numbers`: a beginning that all valves' numbers have in common. False where the description of the numbers names
   /// more of them than there is room for.
   bool (*begin)(void* memory, const void* const* valves, const float* numbers);
@@ -36,5 +37,9 @@ extern const BatchSteps condensed_baseline;
 extern const BatchSteps observer_baseline;
 extern const BatchSteps observer_avx2;
 extern const BatchSteps condensed_avx2;  ///< bytes = 0 where the compiler's target has none
+extern const BatchSteps whole_condensed_baseline;
+extern const BatchSteps whole_condensed_avx2;
+extern const BatchSteps whole_valve_baseline;
+extern const BatchSteps whole_valve_avx2;
 
 }  // namespace spoolflow::estimation::batch

@@ -5,11 +5,12 @@
 
 namespace spoolflow::estimation::batch {
 
-/// The same table of each valve, counted from a beginning that all valves' numbers have in common.
+/// The same table of each valve, counted from a beginning that all valves' numbers have in common. Both lie as packs
+/// do, so that `keep` may take some valves' tables from here and others' from another PackTable of the same beginning.
 template <class Register, int Count>
 struct PackTable {
-  const float* numbers = nullptr;
-  PackIndex<Register, Count> first;
+  alignas(sizeof(PackIndex<Register, Count>)) const float* numbers = nullptr;
+  alignas(sizeof(PackIndex<Register, Count>)) PackIndex<Register, Count> first;
 
   [[nodiscard]] const PackTable& data() const { return *this; }
 };

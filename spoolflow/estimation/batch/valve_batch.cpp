@@ -1,11 +1,13 @@
 #include "spoolflow/estimation/batch/valve_batch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "spoolflow/estimation/batch/batch_steps.hpp"
 
@@ -18,6 +20,48 @@ const BatchSteps& steps_of(const sensor::CondensedTables<float>* /*kind*/, Instr
 
 const BatchSteps& steps_of(const sensor::ObserverParameters<float>* /*kind*/, InstructionSet instructions) {
   return instructions == InstructionSet::avx2 ? observer_avx2 : observer_baseline;
+}
+
+const BatchSteps& steps_of(const sensor::WholeCondensedTables<float>* /*kind*/, InstructionSet instructions) {
+  return instructions == InstructionSet::avx2 ? whole_condensed_avx2 : whole_condensed_baseline;
+}
+
+const BatchSteps& steps_of(const sensor::WholeValveParameters<float>* /*kind*/, InstructionSet instructions) {
+  return instructions == InstructionSet::avx2 ? whole_valve_avx2 : whole_valve_baseline;
+}
+
+/// The models of a valve: of its one direction, or those of b and a.
+template <class Parameters>
+auto models_of(const Parameters& valve) {
+  using Model = typename BatchedKind<Parameters>::Model;
+  if constexpr (std::is_same_v<Model, Parameters>) {
+    return std::array<const Model*, 1>{&valve};
+  } else {
+    return std::array<const Model*, 2>{valve.b, valve.a};
+  }
+}
+
+struct NamedRow {
+  const char* name;
+  std::span<const float> numbers;
+};
+
+std::array<NamedRow, 5> rows_of(const SampleRows& samples) {
+  return {{{"time_step_s", samples.time_step_s},
+           {"current_A", samples.current_A},
+           {"voltage_V", samples.voltage_V},
+           {"position_m", samples.position_m},
+           {"oil_temperature_K", samples.oil_temperature_K}}};
+}
+
+std::array<NamedRow, 7> rows_of(const WholeSampleRows& samples) {
+  return {{{"time_step_s", samples.time_step_s},
+           {"current_a_A", samples.current_a_A},
+           {"current_b_A", samples.current_b_A},
+           {"voltage_a_V", samples.voltage_a_V},
+           {"voltage_b_V", samples.voltage_b_V},
+           {"position_m", samples.position_m},
+           {"oil_temperature_K", samples.oil_temperature_K}}};
 }
 
 /// So many samples of some valves are done before those of the next: what they read and write stays in the cache.
@@ -41,26 +85,29 @@ template <class Parameters>
 struct ValveBatch<Parameters>::Memory {
   /// From a cache line on: no row of four numbers lies in two.
   struct alignas(64) Model {
-    Parameters parameters;
+    typename BatchedKind<Parameters>::Model parameters;
   };
   const BatchSteps& steps;
   std::vector<Model> models;  ///< each once
   std::vector<void*> groups;  ///< of valves_together each
 
   Memory(std::span<const Parameters* const> valves, const BatchSteps& batch_steps) : steps(batch_steps) {
-    std::map<const Parameters*, std::size_t> known;
+    std::map<const void*, std::size_t> known;
     for (const Parameters* valve : valves)
-      if (known.try_emplace(valve, models.size()).second) models.push_back({*valve});
+      for (const auto* model : models_of(*valve))
+        if (known.try_emplace(model, models.size()).second) models.push_back({*model});
     // Places of numbers are counted in 32 bits.
     if (models.size() > std::numeric_limits<std::int32_t>::max() / (sizeof(Model) / sizeof(float))) {
       throw std::length_error("a batch of " + std::to_string(models.size()) +
                               " different models: their tables are more than one batch can reach; make several");
     }
-    std::vector<const void*> addresses;
-    for (const Parameters* valve : valves) addresses.push_back(&models[known.at(valve)].parameters);
     for (std::size_t first = 0; first < valves.size(); first += valves_together) {
+      std::vector<const void*> addresses;
+      for (std::size_t side = 0; side < models_of(*valves.front()).size(); ++side)
+        for (const Parameters* valve : valves.subspan(first, valves_together))
+          addresses.push_back(&models[known.at(models_of(*valve)[side])].parameters);
       groups.push_back(::operator new(steps.bytes, std::align_val_t(steps.alignment)));
-      if (!steps.begin(groups.back(), addresses.data() + first, reinterpret_cast<const float*>(models.data()))) {
+      if (!steps.begin(groups.back(), addresses.data(), reinterpret_cast<const float*>(models.data()))) {
         forget();
         throw std::length_error("a batch of valves: the description of their parameters names one of them twice");
       }
@@ -97,27 +144,25 @@ template <class Parameters>
 ValveBatch<Parameters>& ValveBatch<Parameters>::operator=(ValveBatch&&) noexcept = default;
 
 template <class Parameters>
-void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows& estimates) {
+void ValveBatch<Parameters>::step(const typename BatchedKind<Parameters>::Rows& samples,
+                                  const EstimateRows& estimates) {
   const std::size_t valves = memory_->groups.size() * valves_together;
-  const std::size_t numbers = samples.current_A.size();
+  const auto rows_in = rows_of(samples);
+  const char* const current = rows_in[1].name;
+  const std::size_t numbers = rows_in[1].numbers.size();
   if (numbers % valves != 0)
     throw std::invalid_argument(std::to_string(numbers) + " numbers a row are no whole samples of " +
                                 std::to_string(valves) + " valves");
   BatchRows all{{}, {}, 0, valves, 0};
   const auto check = [&](const char* channel, std::size_t size) {
     if (size == numbers) return;
-    throw std::invalid_argument(std::string(channel) + " has " + std::to_string(size) + " numbers, but current_A has " +
-                                std::to_string(numbers));
+    throw std::invalid_argument(std::string(channel) + " has " + std::to_string(size) + " numbers, but " + current +
+                                " has " + std::to_string(numbers));
   };
-  const auto input = [&](std::size_t row, const char* channel, std::span<const float> from) {
-    check(channel, from.size());
-    all.samples[row] = from.data();
-  };
-  input(0, "time_step_s", samples.time_step_s);
-  input(1, "current_A", samples.current_A);
-  input(2, "voltage_V", samples.voltage_V);
-  input(3, "position_m", samples.position_m);
-  input(4, "oil_temperature_K", samples.oil_temperature_K);
+  for (std::size_t row = 0; row < rows_in.size(); ++row) {
+    check(rows_in[row].name, rows_in[row].numbers.size());
+    all.samples[row] = rows_in[row].numbers.data();
+  }
   const auto output = [&](std::size_t number, const char* answer, auto to) {
     if (to.empty()) return;
     check(answer, to.size());
@@ -138,7 +183,7 @@ void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows&
     for (std::size_t group = 0; group < memory_->groups.size(); ++group) {
       const std::size_t from = begin * valves + group * valves_together;
       BatchRows rows = all;
-      for (const float*& row : rows.samples) row += from;
+      for (std::size_t row = 0; row < rows_in.size(); ++row) rows.samples[row] += from;
       for (std::size_t k = 0; k < rows.wanted; ++k) rows.answers[k].to = static_cast<float*>(rows.answers[k].to) + from;
       rows.count = std::min(samples_in_block, count - begin);
       memory_->steps.step(memory_->groups[group], rows);
@@ -148,5 +193,7 @@ void ValveBatch<Parameters>::step(const SampleRows& samples, const EstimateRows&
 
 template class ValveBatch<sensor::CondensedTables<float>>;
 template class ValveBatch<sensor::ObserverParameters<float>>;
+template class ValveBatch<sensor::WholeCondensedTables<float>>;
+template class ValveBatch<sensor::WholeValveParameters<float>>;
 
 }  // namespace spoolflow::estimation::batch

@@ -9,6 +9,8 @@
 
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
+#include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
 namespace spoolflow::estimation::batch {
 
@@ -28,6 +30,34 @@ struct SampleRows {
   std::span<const float> voltage_V;
   std::span<const float> position_m;
   std::span<const float> oil_temperature_K;
+};
+
+/// The same of whole valves; see sensor::WholeValveSample.
+struct WholeSampleRows {
+  std::span<const float> time_step_s;
+  std::span<const float> current_a_A;
+  std::span<const float> current_b_A;
+  std::span<const float> voltage_a_V;
+  std::span<const float> voltage_b_V;
+  std::span<const float> position_m;  ///< > 0 opens P to B
+  std::span<const float> oil_temperature_K;
+};
+
+/// What a valve of a batch is made of, and what it measures.
+template <class Parameters>
+struct BatchedKind {
+  using Model = Parameters;  ///< of one direction
+  using Rows = SampleRows;
+};
+template <>
+struct BatchedKind<sensor::WholeCondensedTables<float>> {
+  using Model = sensor::CondensedTables<float>;
+  using Rows = WholeSampleRows;
+};
+template <>
+struct BatchedKind<sensor::WholeValveParameters<float>> {
+  using Model = sensor::ObserverParameters<float>;
+  using Rows = WholeSampleRows;
 };
 
 /// Room for the answers, in the same order. What is not wanted is left empty.
@@ -50,7 +80,9 @@ inline constexpr std::size_t valves_together = 8;
 struct BatchSteps;
 
 /// Sensors of several valves, in single precision: what they answer is what single sensors of float answer.
-/// `Parameters` is sensor::CondensedTables<float> or sensor::ObserverParameters<float>.
+/// `Parameters` is sensor::CondensedTables<float> or sensor::ObserverParameters<float>, or of valves that open to both
+/// sides sensor::WholeCondensedTables<float> or sensor::WholeValveParameters<float>: each stands where it stands,
+/// whatever the others do, and its flow is > 0 for P to B.
 template <class Parameters>
 class ValveBatch {
  public:
@@ -64,7 +96,7 @@ class ValveBatch {
   ValveBatch& operator=(ValveBatch&&) noexcept;
 
   /// All samples of the rows. Throws std::invalid_argument where rows differ in length or end within a sample.
-  void step(const SampleRows& samples, const EstimateRows& estimates);
+  void step(const typename BatchedKind<Parameters>::Rows& samples, const EstimateRows& estimates);
 
  private:
   struct Memory;
@@ -73,5 +105,7 @@ class ValveBatch {
 
 extern template class ValveBatch<sensor::CondensedTables<float>>;
 extern template class ValveBatch<sensor::ObserverParameters<float>>;
+extern template class ValveBatch<sensor::WholeCondensedTables<float>>;
+extern template class ValveBatch<sensor::WholeValveParameters<float>>;
 
 }  // namespace spoolflow::estimation::batch

@@ -13,6 +13,13 @@ struct WholeCondensedTables {
   const CondensedTables<T>* a;  ///< flow P to A
 };
 
+/// Those of the side into which the spool stands. A pack of valves brings its own.
+template <class T>
+requires one_valve<T>
+constexpr const CondensedTables<T>& of_side(const WholeCondensedTables<T>& valve, bool opens_a) {
+  return opens_a ? *valve.a : *valve.b;
+}
+
 /// It remembers only its last answer, in the valve's signs.
 template <class T>
 struct WholeCondensedState {
@@ -23,10 +30,15 @@ struct WholeCondensedState {
 template <class T>
 constexpr const Estimate<T>& step(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                   const WholeValveSample<T>& sample) {
-  const bool opens_a = sample.position_m < T(0);
-  CondensedState<T> direction{opens_a ? mirrored(state.last) : state.last};
-  const Estimate<T>& answer = step(opens_a ? *valve.a : *valve.b, direction, sample_of(sample, opens_a));
-  state.last = opens_a ? mirrored(answer) : answer;
+  const Mask<T> opens_a = sample.position_m < T(0);
+  const auto turned = [&](const Estimate<T>& estimate) {
+    if constexpr (one_valve<T>) {
+      if (!opens_a) return estimate;
+    }
+    return mirrored(opens_a, estimate);
+  };
+  CondensedState<T> direction{turned(state.last)};
+  state.last = turned(step(of_side(valve, opens_a), direction, sample_of(sample, opens_a)));
   return state.last;
 }
 

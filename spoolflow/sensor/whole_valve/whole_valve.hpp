@@ -36,7 +36,9 @@ struct Sides {
   const ObserverParameters<T>& idle;
 };
 
+/// A pack of valves brings its own.
 template <class T>
+requires one_valve<T>
 constexpr Sides<T> sides(const WholeValveParameters<T>& valve, bool opens_a) {
   return opens_a ? Sides<T>{*valve.a, *valve.b} : Sides<T>{*valve.b, *valve.a};
 }
@@ -90,35 +92,37 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
 /// force is read in one that is.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
-                                                  const Sample<T>& sample, bool begins, bool busy) {
-  const bool just_left = !begins && idle.closed_s == T(0);
+                                                  const Sample<T>& sample, Mask<T> begins, Mask<T> busy) {
+  const Mask<T> just_left = !begins && idle.closed_s == T(0);
   idle.closed_s += sample.time_step_s;
-  if (just_left) return;
-  const bool silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
-  idle.quiet_s = silent ? idle.quiet_s + sample.time_step_s : T(0);
-  if (!begins && idle.quiet_s > T(idle_settling_s)) return;
-  idle.waiting_s += sample.time_step_s;
-  idle.charge_As += sample.current_A * sample.time_step_s;
-  if (!busy || idle.waiting_s > T(idle_patience_s)) {
-    Sample<T> mean = sample;
-    mean.time_step_s = idle.waiting_s;
-    if (idle.waiting_s > T(0)) mean.current_A = idle.charge_As / idle.waiting_s;
-    magnetise(valve.actuator, idle.actuator, mean, begins);
-    idle.waiting_s = idle.charge_As = T(0);
-  }
-  if (busy || begins) {
-    idle.magnetic_force_N =
-        valve.actuator.magnetic_force.at(idle.actuator.coil.magnetising_current_A, sample.position_m).value;
-  }
+  in_valves(!just_left, idle, [&] {
+    const Mask<T> silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
+    idle.quiet_s = select(silent, idle.quiet_s + sample.time_step_s, T(0));
+    in_valves(begins || !(idle.quiet_s > T(idle_settling_s)), idle, [&] {
+      idle.waiting_s += sample.time_step_s;
+      idle.charge_As += sample.current_A * sample.time_step_s;
+      in_valves(!busy || idle.waiting_s > T(idle_patience_s), idle, [&] {
+        Sample<T> mean = sample;
+        mean.time_step_s = idle.waiting_s;
+        mean.current_A = select(idle.waiting_s > T(0), idle.charge_As / idle.waiting_s, sample.current_A);
+        magnetise(valve.actuator, idle.actuator, mean, begins);
+        idle.waiting_s = idle.charge_As = T(0);
+      });
+      in_valves(busy || begins, idle.magnetic_force_N, [&] {
+        idle.magnetic_force_N =
+            valve.actuator.magnetic_force.at(idle.actuator.coil.magnetising_current_A, sample.position_m).value;
+      });
+    });
+  });
 }
 
 /// Both coils silent and the spool at rest near zero: the springs have centred it.
 template <class T>
-constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, bool silent, T time_step_s) {
-  const bool centred = silent && is(position.motion, Motion::rest) && magnitude(position.position_m) < T(centring_m);
-  state.centred_s = centred ? state.centred_s + time_step_s : T(0);
-  if (state.centred_s < T(centring_rest_s)) return;
-  state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
+constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, Mask<T> silent, T time_step_s) {
+  const Mask<T> centred = silent && is(position.motion, Motion::rest) && magnitude(position.position_m) < T(centring_m);
+  state.centred_s = select(centred, state.centred_s + time_step_s, T(0));
+  in_valves(!(state.centred_s < T(centring_rest_s)), state.zero_m,
+            [&] { state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1)); });
 }
 
 /// The flow rate by measured port pressures, signed in the direction's own sense.
@@ -134,49 +138,63 @@ constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState
   out.flow_lower_m3_per_s = conductance * signed_root(drop.drop_Pa - uncertain_Pa) - residual;
   out.flow_upper_m3_per_s = conductance * signed_root(drop.drop_Pa + uncertain_Pa) + residual;
   out.pressure_difference_Pa = drops.inlet_Pa + drops.outlet_Pa;
-  if (flow_reversed(drops)) out.status |= Status::flow_reversed;
+  mark(out.status, flow_reversed(drops), Status::flow_reversed);
 }
 
 /// Where no pressures are measured. A pressure difference at the end of what was calibrated may be of a load that helps
 /// the supply.
 template <class T>
-constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state) {
-  const bool within_supply = state.pressure.pressure_difference_Pa < valve.edge.highest_pressure_difference_Pa();
-  if (!within_supply && !has(state.last.status, Status::closed)) state.last.status |= Status::ambiguous_load;
+constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
+  const Mask<T> within_supply = state.pressure.pressure_difference_Pa < valve.edge.highest_pressure_difference_Pa();
+  mark(state.last.status, !within_supply && !(position_m < valve.closed_below_m), Status::ambiguous_load);
 }
 
-/// The chain of the side on which the spool stands, written out for each: with its tables' addresses a compiler knows
-/// their numbers. `position` is in the valve's signs.
-template <bool opens_a, class T>
-[[gnu::always_inline]] constexpr void observe_side(const Sides<T>& now, WholeValveState<T>& state,
-                                                   const WholeValveSample<T>& sample, PositionPoint<T> position,
-                                                   const Dither<T>& dither, bool begins) {
+/// The observer of the open side, with measured port pressures where they are. A pack of valves has none.
+template <class T>
+[[gnu::always_inline]] constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
+                                                   const WholeValveSample<T>& sample, const Sample<T>& own,
+                                                   const PositionPoint<T>& position, const Dither<T>& dither,
+                                                   Mask<T> opens_a, Mask<T> begins) {
+  if constexpr (one_valve<T>) {
+    const bool ports_measured = measured(sample.ports);
+    const PathDrops<T> drops = path_drops(sample.ports, opens_a);
+    const T forcing_Pa = limited(drops.forcing_Pa(), T(0), valve.edge.highest_pressure_difference_Pa());
+    if (ports_measured) believe_measured(state.open.pressure, forcing_Pa);
+    observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+    if (ports_measured) {
+      believe_measured(state.open.pressure, forcing_Pa);
+      follow_share(state.inlet_share, drops, sample.time_step_s);
+      answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
+    } else {
+      doubt_load(valve, state.open, position.position_m);
+    }
+  } else {
+    observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+    doubt_load(valve, state.open, position.position_m);
+  }
+}
+
+/// The chain of the side on which the spool stands; one valve calls it with either side written out: with its tables'
+/// addresses a compiler knows their numbers. `position` is in the valve's signs.
+template <class T>
+[[gnu::always_inline]] constexpr void observe_side(Mask<T> opens_a, const Sides<T>& now, WholeValveState<T>& state,
+                                                   const WholeValveSample<T>& sample,
+                                                   const PositionSensor<T>& position_sensor, PositionPoint<T> position,
+                                                   const Dither<T>& dither, Mask<T> begins) {
   const Sample<T> own = sample_of(sample, opens_a);
   const Sample<T> other = sample_of(sample, !opens_a);
-  const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
-                      magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
+  const Mask<T> silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
+                         magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
   follow_zero(state, position, silent, sample.time_step_s);
-  const PositionSensor<T>& position_sensor = opens_a ? now.idle.position_sensor : now.open.position_sensor;
-  const bool near = magnitude(position.position_m) <
-                    T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
-  if constexpr (opens_a) position = mirrored(position);
+  const Mask<T> near = magnitude(position.position_m) <
+                       T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
+  position = mirrored(opens_a, position);
 
-  const bool busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
+  const Mask<T> busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
   follow_idle(now.idle, state.idle, other, begins, busy);
-  const bool pressures_measured = measured(sample.ports);
-  const PathDrops<T> drops = path_drops(sample.ports, opens_a);
-  const T forcing_Pa = limited(drops.forcing_Pa(), T(0), now.open.edge.highest_pressure_difference_Pa());
-  if (pressures_measured) believe_measured(state.open.pressure, forcing_Pa);
-  observe(now.open, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
-  if (pressures_measured) {
-    believe_measured(state.open.pressure, forcing_Pa);
-    follow_share(state.inlet_share, drops, sample.time_step_s);
-    answer_measured(now.open, state.open, drops, state.inlet_share, position.position_m);
-  } else {
-    doubt_load(now.open, state.open);
-  }
-  if constexpr (opens_a) state.open.last = mirrored(state.open.last);
-  if (near && !(position.position_m < now.open.closed_below_m)) state.open.last.status |= Status::sign_undetermined;
+  observe_path(now.open, state, sample, own, position, dither, opens_a, begins);
+  state.open.last = mirrored(opens_a, state.open.last);
+  mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
 
 }  // namespace detail
@@ -186,14 +204,17 @@ template <bool opens_a, class T>
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
-  const bool leapt = lies_below(T(longest_step_s), sample.time_step_s);
-  if (const Status held = unusable(sample); held != Status::none) {
-    state.open.last.status = held | when(leapt, Status::time_fault);
-    state.open.started = state.open.started && !leapt;
-    return state.open.last;
+  const Mask<T> leapt = lies_below(T(longest_step_s), sample.time_step_s);
+  if constexpr (one_valve<T>) {
+    if (const Status held = unusable(sample); held != Status::none) {
+      state.open.last.status = held | when(leapt, Status::time_fault);
+      state.open.started = state.open.started && !leapt;
+      return state.open.last;
+    }
   }
-  const bool begins = !state.open.started || leapt;
-  if (begins) detail::begin(valve, state, sample);
+  using detail::sides;
+  const Mask<T> begins = !state.open.started || leapt;
+  in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
   detail::follow_temperature(state.open, own.oil_temperature_K);
@@ -201,19 +222,28 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
   signed_sample.position_m = sample.position_m - state.zero_m;
-  const Dither<T> dither = follow_dither(
-      state.open.dither, own.current_A, detail::sides(valve, state.opens_a).open.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample,
-                                          detail::quiet_coil(detail::sides(valve, state.opens_a).open),
-                                          state.open.oil_temperature_K, dither, state.open.swing.frees);
-  const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
-  if (from_centre_m < T(-centre_hysteresis_m)) detail::change_sides(valve, state);
-  if (state.opens_a) {
-    detail::observe_side<true>(detail::sides(valve, true), state, sample, position, dither, begins);
+  const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
+  const Dither<T> dither =
+      follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
+  const PositionPoint<T> position =
+      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
+            state.open.oil_temperature_K, dither, state.open.swing.frees);
+  const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
+  in_valves(from_centre_m < T(-centre_hysteresis_m), state, [&] { detail::change_sides(valve, state); });
+
+  const auto seen_from = [&](Mask<T> opens_a) __attribute__((always_inline)) {
+    detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);
+  };
+  if constexpr (one_valve<T>) {
+    if (state.opens_a) {
+      seen_from(true);
+    } else {
+      seen_from(false);
+    }
   } else {
-    detail::observe_side<false>(detail::sides(valve, false), state, sample, position, dither, begins);
+    seen_from(state.opens_a);
   }
-  if (begins && leapt) state.open.last.status |= Status::time_fault;
+  if (any(begins)) mark(state.open.last.status, leapt, Status::time_fault);
   return state.open.last;
 }
 
