@@ -24,7 +24,7 @@ static_assert(sizeof(Pack) == valves_together * sizeof(float) && sizeof(Pack::In
 // Inputs are given, and answers fetched, by their number.
 using Answers = sensor::Estimate<Pack>;
 static_assert(sizeof(sensor::Sample<Pack>) == 5 * sizeof(Pack) &&
-              sizeof(sensor::WholeValveSample<Pack>) == 7 * sizeof(Pack));
+              sizeof(sensor::WholeValveSample<Pack>) == 7 * sizeof(Pack) + sizeof(sensor::PortPressures<Pack>));
 static_assert(sizeof(Answers) == 9 * sizeof(Pack));
 static_assert(offsetof(sensor::Sample<Pack>, current_A) == 1 * sizeof(Pack));
 static_assert(offsetof(sensor::Sample<Pack>, voltage_V) == 2 * sizeof(Pack));
