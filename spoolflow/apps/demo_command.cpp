@@ -98,10 +98,7 @@ void add_demo_command(CLI::App& program) {
                             {"spoolflow demo -o demo", "spoolflow demo size_6 -o one_direction"}});
   std::vector<std::string> valves;
   for (const Shown& each : shown_valves) valves.emplace_back(each.valve);
-  command
-      ->add_option("valve", arguments->valve,
-                   "whole_size_6 where none is named: both directions of flow, runs through the centre; or size_6: one "
-                   "direction")
+  command->add_option("valve", arguments->valve, "whole_size_6: both directions of flow; size_6: one")
       ->type_name("VALVE")
       ->check(CLI::IsMember(valves))
       ->capture_default_str();

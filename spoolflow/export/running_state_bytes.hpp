@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "spoolflow/estimation/running_sensor.hpp"
-#include "spoolflow/export/padding.hpp"
+#include "spoolflow/export/state_bytes.hpp"
 
 namespace spoolflow::exports {
 

@@ -106,11 +106,11 @@ template <class T>
 }
 
 /// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
-/// solenoid holds against this one's.
+/// solenoid holds against this one's; `has_time` for what may as well be done in another sample.
 template <class T>
 [[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                               const Sample<T>& sample, const PositionPoint<T>& position,
-                                              const Dither<T>& dither, T opposing_N, Mask<T> begins) {
+                                              const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
   const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -121,7 +121,7 @@ template <class T>
   });
   in_valves(!position.busy, state.pressure, [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  const Mask<T> has_time = !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
+  has_time = has_time && !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
   follow_coil(valve.actuator, state.actuator, sample, has_time);
   answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = status(valve, state, sample, position, balance);
@@ -163,7 +163,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
-  detail::observe(valve, state, sample, position, dither, T(0), begins);
+  detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
   detail::admit_other_direction(valve, state, position.position_m);
   if (any(begins)) mark(state.last.status, time_leapt(sample), Status::time_fault);
   return state.last;

@@ -9,7 +9,7 @@
 namespace spoolflow::cortex_m {
 
 /// What the boards' 4 MiB of flash hold beside the sensor; of a longer recording the beginning is replayed.
-inline constexpr std::size_t most_bytes = 3840000;
+inline constexpr std::size_t most_bytes = 3400000;
 
 /// The bytes of `Run` in firmware/replay.cpp, little-endian: samples in single precision with the flow rate that the
 /// host answers to the very same samples in double precision. Behind the recording come two seconds of disturbances:

@@ -42,7 +42,7 @@ TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   expect_fit_for_a_valve(observer, {1500, 9});
   for (const Status status :
        {Status::closed, Status::spool_at_rest, Status::outside_force_map, Status::outside_temperature,
-        Status::position_fault, Status::sample_missing, Status::dithered}) {
+        Status::position_fault, Status::sample_missing, Status::dithered, Status::temperature_fault}) {
     EXPECT_TRUE(has(observer.statuses, status)) << static_cast<std::uint32_t>(status);
   }
 }

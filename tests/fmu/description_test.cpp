@@ -111,7 +111,7 @@ TEST(DescriptionRules, FindWhatIsWrong) {
   };
   EXPECT_THAT(with("unit=\"A\"", "unit=\"amp\""), Contains(HasSubstr("undefined unit amp")));
   EXPECT_THAT(with("valueReference=\"3\"", "valueReference=\"2\""), Contains(HasSubstr("reference twice")));
-  EXPECT_THAT(with("<Unknown index=\"7\"/>", ""), Contains(HasSubstr("exactly the outputs")));
+  EXPECT_THAT(with("<Unknown index=\"7\" dependencies=\"\"/>", ""), Contains(HasSubstr("exactly the outputs")));
   EXPECT_THAT(with("variability=\"tunable\"", "variability=\"continuous\""), Contains(HasSubstr("no combination")));
   EXPECT_THAT(with(" start=\"0\"", ""), Contains(HasSubstr("no start")));
 }

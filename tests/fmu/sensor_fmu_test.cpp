@@ -1,9 +1,7 @@
 #include "spoolflow/export/sensor_fmu.hpp"
 
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <thread>
@@ -12,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 #include "tests/fmu/fmu_instance.hpp"
 
@@ -262,50 +259,6 @@ TEST_P(SensorFmu, TakesTunedParametersAtTheNextSampleAndRefusesThoseOutOfRange) 
   EXPECT_EQ(tuned->set(fmu.reference("flow"), 0), FmuStatus::error);
   EXPECT_EQ(tuned->set(9999, 0), FmuStatus::error);
   EXPECT_EQ(tuned->value("filter.band_coverage"), 2.5);
-}
-
-TEST_P(SensorFmu, SetsAllOfSeveralValuesOrNone) {
-  const auto instance = library.instantiate(log);
-  begin(*instance);
-  instance->put("current", 0.5);
-  EXPECT_EQ(instance->set_all({fmu.reference("current"), fmu.reference("flow")}, {0.7, 1.0}), FmuStatus::error);
-  EXPECT_EQ(instance->value("current"), 0.5);
-  EXPECT_EQ(instance->set_all({fmu.reference("current"), fmu.reference("position")}, {0.7, 1e-3}), FmuStatus::ok);
-  EXPECT_EQ(instance->value("current"), 0.7);
-}
-
-TEST_P(SensorFmu, RefusesAStepOfMoreThanTenMillionSamplesAndGoesOn) {
-  const auto instance = library.instantiate(log);
-  begin(*instance);
-  EXPECT_EQ(instance->step(0, 1e9), FmuStatus::discard);
-  EXPECT_THAT(log.messages, Contains(HasSubstr("cut it into shorter ones")));
-  EXPECT_EQ(instance->step(0, 1e-3), FmuStatus::ok);
-}
-
-TEST_P(SensorFmu, StatesThatAreEqualHaveEqualBytesAndForgedOnesAreRefused) {
-  const auto one = library.instantiate(log), other = library.instantiate(log);
-  begin(*one);
-  begin(*other);
-  run(*one, 0, 500);
-  run(*other, 0, 500);
-  const std::vector<char> state = one->state();
-  EXPECT_EQ(state, other->state());
-  // Each byte of the state in turn becomes what no flag, count or kind of motion is, under a checksum that holds.
-  constexpr std::size_t header = sizeof(StateHeader);
-  int refused = 0;
-  for (std::size_t k = header; k < state.size(); k += 7) {
-    std::vector<char> forged = state;
-    forged[k] = static_cast<char>(0xEE);
-    const std::uint64_t sum = checksum(forged.data() + header, forged.size() - header);
-    std::memcpy(forged.data() + offsetof(StateHeader, checksum), &sum, sizeof sum);
-    if (other->set_state(forged) != FmuStatus::ok) {
-      ++refused;
-    } else {
-      other->step(0.5, 1e-3);  // whatever it answers, it answers
-      other->set_state(state);
-    }
-  }
-  EXPECT_GT(refused, 0);
 }
 
 TEST_P(SensorFmu, WithoutVoltageAnswersAsEstimateWithoutThatChannel) {

@@ -15,8 +15,8 @@ inline constexpr double assumed_force_error_ratio = 2;
 inline constexpr double least_force_error_ratio = 0.4;
 
 /// Nor may dither, which holds friction, tell of the force errors that rest without it leaves open: no less than this
-/// where no recording shows such a rest, a tenth above what the benches tell.
-inline constexpr double least_dithered_force_error_ratio = 1.1;
+/// where no recording shows such a rest.
+inline constexpr double least_dithered_force_error_ratio = 1;
 
 /// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise
 /// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open;

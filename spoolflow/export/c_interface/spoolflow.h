@@ -34,6 +34,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Version of this header; spoolflow_version() is that of the library which is loaded. */
+#define SPOOLFLOW_VERSION_MAJOR 0
+#define SPOOLFLOW_VERSION_MINOR 1
+#define SPOOLFLOW_VERSION_PATCH 0
+#define SPOOLFLOW_VERSION "0.1.0"
+
 #if defined(__GNUC__)
 #define SPOOLFLOW_API __attribute__((visibility("default")))
 #else

@@ -12,7 +12,7 @@
 #include "spoolflow/export/fmu/number_text.hpp"
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
-#include "spoolflow/export/padding.hpp"
+#include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/plant/winding_current.hpp"
 #include "spoolflow/units/conversion.hpp"

@@ -149,29 +149,36 @@ constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& 
   mark(state.last.status, !within_supply && !(position_m < valve.closed_below_m), Status::ambiguous_load);
 }
 
-/// The observer of the open side, with measured port pressures where they are. A pack of valves has none.
+/// The belief is what was measured.
+template <class T>
+constexpr void believe_measured(const ObserverParameters<T>& valve, PressureState<T>& pressure,
+                                const PathDrops<T>& drops) {
+  sensor::believe_measured(pressure, limited(drops.forcing_Pa(), T(0), valve.edge.highest_pressure_difference_Pa()));
+}
+
+/// The observer of the open side, with measured port pressures where they are. A pack of valves has none. As long as
+/// the idle solenoid is at work, too, the other's resistance is not followed.
 template <class T>
 [[gnu::always_inline]] constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
                                                    const WholeValveSample<T>& sample, const Sample<T>& own,
                                                    const PositionPoint<T>& position, const Dither<T>& dither,
                                                    Mask<T> opens_a, Mask<T> begins) {
+  const Mask<T> idle_rests = state.idle.quiet_s > T(idle_settling_s);
+  bool ports_measured = false;
   if constexpr (one_valve<T>) {
-    const bool ports_measured = measured(sample.ports);
-    const PathDrops<T> drops = path_drops(sample.ports, opens_a);
-    const T forcing_Pa = limited(drops.forcing_Pa(), T(0), valve.edge.highest_pressure_difference_Pa());
-    if (ports_measured) believe_measured(state.open.pressure, forcing_Pa);
-    observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+    ports_measured = measured(sample.ports);
+    if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
+  }
+  observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins, idle_rests);
+  if constexpr (one_valve<T>) {
     if (ports_measured) {
-      believe_measured(state.open.pressure, forcing_Pa);
+      const PathDrops<T> drops = path_drops(sample.ports, opens_a);
+      believe_measured(valve, state.open.pressure, drops);
       follow_share(state.inlet_share, drops, sample.time_step_s);
       answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
-    } else {
-      doubt_load(valve, state.open, position.position_m);
     }
-  } else {
-    observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
-    doubt_load(valve, state.open, position.position_m);
   }
+  if (!ports_measured) doubt_load(valve, state.open, position.position_m);
 }
 
 /// The chain of the side on which the spool stands; one valve calls it with either side written out: with its tables'

@@ -111,7 +111,7 @@ TEST(Operation, BandFromADitheredRecordingHoldsTheFlowWithoutDither) {
   replay(parameters, only(plain), [&](const ReplayedSample& sample) {
     judged.add(sample.state.last, sample.reference_m3_per_s, valve.full_scale_m3_per_s());
   });
-  EXPECT_GT(judged.coverage(), 0.93);
+  EXPECT_GT(judged.coverage(), 0.92);
 }
 
 /// A mass leaves no trace in slow strokes without dither.

@@ -2,14 +2,16 @@
 /// (2.28 is RHEL 8's, 2.31 that of Debian 11 and Ubuntu 20.04). What the compiler's static libraries ask for of newer
 /// ones stands here in terms of what all of them have, hidden from everybody else.
 #include <atomic>
-#include <sched.h>
-#include <unistd.h>
+#include <cstddef>
 
 #if defined(__x86_64__) && defined(__GLIBC__)
 
 #define SPOOLFLOW_IN_PLACE_OF(SYMBOL) __asm__(SYMBOL) __attribute__((visibility("hidden")))
 
 extern "C" {
+
+int sched_yield();
+int getentropy(void* bytes, std::size_t size);
 
 /// Of glibc 2.32. Zero: there may be threads, so that counts stay atomic.
 extern char spoolflow_single_threaded SPOOLFLOW_IN_PLACE_OF("__libc_single_threaded");
@@ -35,7 +37,7 @@ int spoolflow_once(int* control, void (*init)()) {
     state.store(done, std::memory_order_release);
     return 0;
   }
-  while (state.load(std::memory_order_acquire) != done) ::sched_yield();
+  while (state.load(std::memory_order_acquire) != done) sched_yield();
   return 0;
 }
 
@@ -50,7 +52,7 @@ int spoolflow_key_create(unsigned* /*key*/, void (* /*end*/)(void*)) {
 unsigned spoolflow_random() SPOOLFLOW_IN_PLACE_OF("arc4random");
 unsigned spoolflow_random() {
   unsigned bits = 0;
-  return ::getentropy(&bits, sizeof bits) == 0 ? bits : 0;
+  return getentropy(&bits, sizeof bits) == 0 ? bits : 0;
 }
 
 }  // extern "C"
