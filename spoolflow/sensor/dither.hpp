@@ -86,7 +86,7 @@ constexpr void turn(DitherState<T>& state, T swing_A, Mask<T> regular, T current
 template <class T>
 constexpr void begin(DitherState<T>& state, T current_A) {
   state.extreme_A = state.turned_A = current_A;
-  state.swing_A = state.since_s = state.period_s = state.alike = T(0);
+  state.since_s = state.alike = T(0);
   state.direction = T(1);
 }
 

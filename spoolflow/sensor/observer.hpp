@@ -34,24 +34,31 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   state.oil_fault_s = T(0);
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
   sensor::begin(state.position, position_m);
-  sensor::begin(state.dither, sample.current_A);
-  forget(state.swing);
+  sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
   sensor::begin(valve.pressure, state.pressure, valve.edge.highest_pressure_difference_Pa(),
                 valve.friction.operation_ratio, valve.band.unseen_factor);
 }
 
-/// Once after each block of positions. A missing oil temperature is held, and one that no oil has, too.
+/// The oil temperature reads what no oil has, or leapt, or did so before: believed only where a leap has lasted.
+template <class T>
+constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, Mask<T> odd, T since_s) {
+  state.oil_fault_s = select(odd, state.oil_fault_s + since_s, T(0));
+  const Mask<T> lasted = is_oil_temperature(oil_temperature_K) && state.oil_fault_s > T(longest_oil_fault_s);
+  state.oil_temperature_K = select(lasted, oil_temperature_K, state.oil_temperature_K);
+}
+
+/// Once after every other block of positions. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
 constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K) {
-  in_valves(state.position.velocity_due && is_number(oil_temperature_K), state, [&] {
+  const Mask<T> due = state.position.velocity_due && (state.position.newest & 1) == 0;
+  in_valves(due && is_number(oil_temperature_K), state, [&] {
+    const T since_s = T(2) * state.position.block_s;
     const T change_K = oil_temperature_K - state.oil_temperature_K;
-    const Mask<T> impossible = !is_oil_temperature(oil_temperature_K);
-    const Mask<T> odd = impossible || magnitude(change_K) > T(oil_leap_K);
-    state.oil_fault_s = select(odd, state.oil_fault_s + state.position.block_s, T(0));
-    const Mask<T> lasted = !impossible && state.oil_fault_s > T(longest_oil_fault_s);
-    const T pace = smaller(state.position.block_s / T(temperature_smoothing_s), T(1));
-    state.oil_temperature_K += change_K * select(lasted, T(1), select(odd, T(0), pace));
+    const Mask<T> odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
+    const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
+    state.oil_temperature_K += select(odd, T(0), pace) * change_K;
+    if (any(odd || state.oil_fault_s > T(0))) judge_temperature(state, oil_temperature_K, odd, since_s);
   });
 }
 
@@ -119,7 +126,9 @@ template <class T>
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
-  in_valves(!position.busy, state.pressure, [&] { follow_agreement(state.pressure); });
+  // In those samples in which the oil temperature is not.
+  in_valves(!position.busy && (state.position.newest & 1) != 0, state.pressure,
+            [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
   has_time = has_time && !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
   follow_coil(valve.actuator, state.actuator, sample, has_time);
@@ -148,15 +157,20 @@ template <class T>
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& sample) {
+  Mask<T> begins = !state.started;
   if constexpr (one_valve<T>) {
-    if (const Status held = unusable(sample); held != Status::none) {
+    if (!ordinary(sample)) [[unlikely]] {
       const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
-      state.last.status = held | when(leapt, Status::time_fault);
       state.started = state.started && !leapt;
-      return state.last;
+      begins = begins || leapt;
+      if (const Status held = unusable(sample); held != Status::none) {
+        state.last.status = held | when(leapt, Status::time_fault);
+        return state.last;
+      }
     }
+  } else {
+    begins = begins || time_leapt(sample);
   }
-  const Mask<T> begins = !state.started || time_leapt(sample);
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   detail::follow_temperature(state, sample.oil_temperature_K);
 

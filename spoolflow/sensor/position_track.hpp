@@ -307,8 +307,7 @@ constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_te
 template <class T>
 constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
-  state.sum_m = state.sum_s = state.step_m = state.offset_m = state.fault_s = state.unsettled_s = T(0);
-  state.travel_m = state.velocity_m_per_s = state.acceleration_m_per_s2 = T(0);
+  state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
   state.velocity_due = Mask<T>(false);
   state.samples = state.blocks = Index<T>(0);
   state.motion = MotionOf<T>(Motion::rest);

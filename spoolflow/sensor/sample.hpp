@@ -30,6 +30,12 @@ constexpr Mask<T> time_leapt(const Sample<T>& sample) {
   return lies_below(T(longest_step_s), sample.time_step_s);
 }
 
+/// What nearly always holds: nothing is missing, and time has advanced by an ordinary step.
+template <class T>
+constexpr bool ordinary(const Sample<T>& sample) {
+  return is_number(sample.current_A) && is_number(sample.position_m) && within(sample.time_step_s, T(longest_step_s));
+}
+
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.
 template <class T>
 constexpr auto unusable(const Sample<T>& sample) {
