@@ -127,7 +127,7 @@ template <class T>
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
   // In those samples in which the oil temperature is not.
-  in_valves(!position.busy && (state.position.newest & 1) != 0, state.pressure,
+  in_valves(!position.busy && !((state.position.newest & 1) == 0), state.pressure,
             [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
   has_time = has_time && !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
