@@ -17,13 +17,25 @@ int getentropy(void* bytes, std::size_t size);
 extern char spoolflow_single_threaded SPOOLFLOW_IN_PLACE_OF("__libc_single_threaded");
 char spoolflow_single_threaded = 0;
 
-/// Of glibc 2.33; before, headers made this call of it, with the version of the structure on x86-64.
+/// Of glibc 2.33; before, headers made these calls of them, with the version of the structure on x86-64.
+constexpr int structure_version = 1;
 __asm__(".symver spoolflow_fxstat64, __fxstat64@GLIBC_2.2.5");
+__asm__(".symver spoolflow_xstat, __xstat@GLIBC_2.2.5");
+__asm__(".symver spoolflow_lxstat, __lxstat@GLIBC_2.2.5");
 int spoolflow_fxstat64(int version, int file, void* status);
+int spoolflow_xstat(int version, const char* path, void* status);
+int spoolflow_lxstat(int version, const char* path, void* status);
 int spoolflow_fstat64(int file, void* status) SPOOLFLOW_IN_PLACE_OF("fstat64");
 int spoolflow_fstat64(int file, void* status) {
-  constexpr int structure_version = 1;
   return spoolflow_fxstat64(structure_version, file, status);
+}
+int spoolflow_stat(const char* path, void* status) SPOOLFLOW_IN_PLACE_OF("stat");
+int spoolflow_stat(const char* path, void* status) {
+  return spoolflow_xstat(structure_version, path, status);
+}
+int spoolflow_lstat(const char* path, void* status) SPOOLFLOW_IN_PLACE_OF("lstat");
+int spoolflow_lstat(const char* path, void* status) {
+  return spoolflow_lxstat(structure_version, path, status);
 }
 
 /// In the C library proper from 2.34 on, before that in libpthread, which a program in C may not have loaded.
