@@ -89,7 +89,7 @@ std::vector<Sample> dithered(Sample steady, double stroke_m) {
     const float share = static_cast<float>(k % 500) / 500.0F;
     const std::array<float, 4> travelled = {0.0F, share, 1.0F, 1.0F - share};
     sample.position_m += 0.3F * stroke * travelled[static_cast<std::size_t>(part)];
-    sample.oil_temperature_K -= 0.006F * static_cast<float>(k);  // as oil does, and out of the map
+    sample.oil_temperature_K -= 0.0068F * static_cast<float>(k);  // as oil does, and out of the map
     samples.push_back(sample);
   }
   return samples;
