@@ -16,7 +16,7 @@ inline constexpr double sure_drop_Pa = 4 * port_pressure_deviation_Pa;
 /// While both edges pass the same flow the inlet has this share of the path's drop, if the edges are alike, ...
 inline constexpr double inlet_share = 0.5;
 /// ... else one that differs by no more than this, which is found from the pressures at this pace [s] ...
-inline constexpr double most_share_difference = 0.35;
+inline constexpr double most_share_difference = 0.25;
 inline constexpr double share_following_s = 2;
 /// ... to this standard deviation.
 inline constexpr double inlet_share_deviation = 0.03;
