@@ -50,4 +50,14 @@ void read_or_refuse(Work&& work) {
   }
 }
 
+/// Bytes as a file that the process for HDF5 and MATLAB files reads; others are left to the target of CSV.
+inline void read_in_child(const InputFile& file, const std::uint8_t* data, std::size_t size) {
+  read_or_refuse([&] {
+    const auto format = recording::format_of({reinterpret_cast<const char*>(data), size}, file.path());
+    if (format == recording::FileFormat::csv) return;
+    file.write(data, size);
+    read_a_column(file.path());
+  });
+}
+
 }  // namespace spoolflow::fuzz
