@@ -37,7 +37,7 @@ template <class Parameters, template <class> class State, class T, template <cla
 std::vector<T> stepped_flows(const Parameters& parameters, State<T> state, const std::vector<Sample<float>>& samples) {
   std::vector<T> out;
   out.reserve(samples.size());
-  for (const Sample<float>& in : samples) out.push_back(step(parameters, state, in_scalar<T>(in)).flow_m3_per_s);
+  for (const sensor::Estimate<T>& answer : stepped(parameters, state, samples)) out.push_back(answer.flow_m3_per_s);
   return out;
 }
 
