@@ -80,7 +80,8 @@ void describe_pressure_constants(Visitor& visitor) {
                    sensor::first_deviation_share);
   visitor.constant({.name = "most_deviation_share",
                     .unit = "1",
-                    .meaning = "share of the same up to which the standard deviation grows by drift"},
+                    .meaning = "share of the same up to which the standard deviation grows, by drift or by forces "
+                               "that it does not explain"},
                    sensor::most_deviation_share);
   visitor.constant({.name = "innovation_averaging_s",
                     .unit = "s",
@@ -129,6 +130,11 @@ void describe_pressure_constants(Visitor& visitor) {
                     .meaning = "the same of one that is less",
                     .evidence = "motor_load: p95 2.93, 3.04, 3.50 % FS, band 99.0, 97.5, 94.1 %"},
                    sensor::process_noise_fall);
+  visitor.constant({.name = "first_seen_process_noise",
+                    .unit = "1",
+                    .meaning = "least process noise when the pressure difference is first seen",
+                    .evidence = "EVIDENCE"},
+                   sensor::first_seen_process_noise);
   visitor.constant(
       {.name = "telling_drift_share",
        .unit = "1",
@@ -174,6 +180,23 @@ void describe_answer_constants(Visitor& visitor) {
                     .meaning = "drag in motion that the band allows for",
                     .evidence = "fast_10kHz: p95 2.38, 2.38, 2.38 % FS, band 90.7, 91.2, 91.9 %"},
                    sensor::unmodelled_drag_N_s_per_m);
+  visitor.constant({.name = "innovation_factor",
+                    .unit = "1",
+                    .meaning = "half the width that an innovation takes in the band while the spool slides, over it",
+                    .evidence = "EVIDENCE"},
+                   sensor::innovation_factor);
+  visitor.constant(
+      {.name = "yielded_factor",
+       .unit = "1",
+       .meaning = "half the width that what the pressure difference yielded to at rest takes in the band, over it",
+       .evidence = "EVIDENCE"},
+      sensor::yielded_factor);
+  visitor.constant({.name = "lopsided_share",
+                    .unit = "1",
+                    .meaning = "share of the difference between what is left open to either side at rest, by which "
+                               "the pressure difference is expected beyond the believed one",
+                    .evidence = "EVIDENCE"},
+                   sensor::lopsided_share);
   visitor.constant({.name = "slip_widening",
                     .unit = "1",
                     .meaning = "the band is so many times wider while the spool slips",

@@ -6,17 +6,25 @@
 namespace spoolflow::sensor {
 
 /// Half the width that the flow's own residual takes in the band, over its standard deviation.
-inline constexpr double flow_residual_factor = 1.5;
+inline constexpr double flow_residual_factor = 2.2;
 
 /// Half the width that the swing of friction under dither takes, as a share of half of it: peaks that no sample met.
-inline constexpr double swing_deviation_share = 0.02;
+inline constexpr double swing_deviation_share = 0.03;
 /// Drag of spool and armature in motion, which no bench shows [N s/m].
-inline constexpr double unmodelled_drag_N_s_per_m = 15;
+inline constexpr double unmodelled_drag_N_s_per_m = 22;
+/// Half the width that an innovation takes while the spool slides, over the innovation.
+inline constexpr double innovation_factor = 1.5;
 /// While the spool slips the pressure difference may move with it: the band is so many times wider.
-inline constexpr double slip_widening = 2;
+inline constexpr double slip_widening = 3.1;
 /// A supply that moved while the spool rested, told by friction at its bound, may go on unseen: it is taken to have
 /// gone on by as much as it was seen to move, but by no more than this share of what friction's other bound leaves.
-inline constexpr double unseen_room_share = 0.4;
+inline constexpr double unseen_room_share = 0.25;
+/// Half the width that what the pressure difference yielded to at rest takes, over it: what friction was not thought
+/// able to hold it may have held.
+inline constexpr double yielded_factor = 2;
+/// At rest more may be left open to one side than to the other: the pressure difference is expected so much of their
+/// difference beyond the believed one.
+inline constexpr double lopsided_share = 0.15;
 
 /// One standard deviation of where the bounds of friction at rest lie [N]: it grows while the spool rests.
 template <class T>
@@ -30,64 +38,89 @@ template <class T>
   return force_N / edge.flow_force_per_pressure_N_Pa;
 }
 
-/// What is left open of the pressure difference, to either side [Pa, >= 0].
+/// What is left open of the pressure difference [Pa].
 template <class T>
 struct PressureBand {
-  T below_Pa;
-  T above_Pa;
+  T least_Pa;     ///< >= 0
+  T expected_Pa;  ///< to answer with
+  T most_Pa;      ///< <= the highest that was calibrated
 };
 
-/// The pressure difference to answer with [Pa]: the believed one, and beyond it what may have gone on unseen.
+/// The pressure difference to answer with [Pa], from 0 to the highest that was calibrated: the believed one,
+/// `further_Pa` to the side to which more is left open, and beyond it what may have gone on unseen.
 template <class T>
 [[gnu::always_inline]] constexpr T expected_pressure_Pa(const PressureState<T>& pressure,
-                                                        const ForceBalance<T>& balance, T highest_Pa) {
+                                                        const ForceBalance<T>& balance, T further_Pa, T highest_Pa) {
+  T expected_Pa = pressure.pressure_difference_Pa + further_Pa;
   const T yielded_Pa = pressure.yielded_Pa;
-  if (!any(yielded_Pa != T(0))) return pressure.pressure_difference_Pa;
-  const Mask<T> rises = yielded_Pa > T(0);
-  const T room_N = select(rises, balance.apparent_friction_N - balance.resting.lower_N,
-                          balance.resting.upper_N - balance.apparent_friction_N);
-  const T room_Pa = T(unseen_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
-  const T further_Pa = smaller(magnitude(yielded_Pa), room_Pa);
-  const T expected_Pa = pressure.pressure_difference_Pa + select(rises, further_Pa, -further_Pa);
-  return select(balance.sliding || balance.closed, pressure.pressure_difference_Pa,
-                limited(expected_Pa, T(0), highest_Pa));
+  const Mask<T> yielded = yielded_Pa != T(0) && !balance.sliding && !balance.closed;
+  if (any(yielded)) {
+    const Mask<T> rises = yielded_Pa > T(0);
+    const T room_N = select(rises, balance.apparent_friction_N - balance.resting.lower_N,
+                            balance.resting.upper_N - balance.apparent_friction_N);
+    const T room_Pa = T(unseen_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
+    const T unseen_Pa = smaller(magnitude(yielded_Pa), room_Pa);
+    expected_Pa += select(yielded, select(rises, unseen_Pa, -unseen_Pa), T(0));
+  }
+  return limited(expected_Pa, T(0), highest_Pa);
 }
 
 /// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, drag, and the
 /// swing of friction under dither.
 template <class T>
 [[gnu::always_inline]] constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s) {
-  const T sliding_N = magnitude(balance.apparent_friction_N - balance.friction_N) +
+  const T sliding_N = T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
                       T(unmodelled_drag_N_s_per_m) * magnitude(velocity_m_per_s);
   return select(balance.sliding, sliding_N, T(0)) + T(swing_deviation_share) * balance.half_swing_N;
 }
 
-/// After the pressure difference was believed. At rest no further than friction's bounds and their uncertainty.
+/// Half the width [Pa] where both what is open (one over its square) and how far friction's bound lies limit the error.
+template <class T>
+[[gnu::always_inline]] constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open_1_N2, T bound_N) {
+  return pressure_deviation_Pa(edge, bound_N / sqrt(T(1) + squared(bound_N) * per_open_1_N2));
+}
+
+/// After the pressure difference was believed. At rest both what is open and how far friction's bounds and their
+/// uncertainty reach limit the error: each side lies below either.
 template <class T>
 [[gnu::always_inline]] constexpr PressureBand<T> pressure_band(const BandParameters<T>& band,
                                                                const PressureState<T>& pressure,
                                                                const ForceBalance<T>& balance, T rest_s,
-                                                               T velocity_m_per_s) {
-  const EdgePoint<T>& edge = balance.edge;
+                                                               T velocity_m_per_s, T highest_Pa) {
   const T share = select(balance.sliding, band.force_share, band.rest_share);
-  const T unobserved_Pa = unobserved_change_Pa(pressure, band.unseen_factor);
-  const T deviation_Pa =
-      band.coverage_factor * pressure.band_factor * select(balance.slips, T(slip_widening), T(1)) *
-          sqrt(squared(unobserved_Pa) + squared(pressure_deviation_Pa(edge, share * balance.noise_N))) +
-      pressure_deviation_Pa(edge, motion_deviation_N(balance, velocity_m_per_s));
-  const T certain_Pa = pressure_deviation_Pa(
-      edge, band.coverage_factor * (band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s)));
-  PressureBand<T> out{deviation_Pa, deviation_Pa};
+  const T slope = balance.edge.flow_force_per_pressure_N_Pa;
+  const T unobserved_N2 =
+      squared(slope * band.unseen_factor * pressure.process_noise) * pressure.unobserved_variance_Pa2;
+  const T factor = band.coverage_factor * pressure.band_factor * select(balance.slips, T(slip_widening), T(1));
+  T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
+  if (any(balance.sliding || balance.dithered)) open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s));
+  const T believed_Pa = pressure.pressure_difference_Pa;
+  const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
+  T below_Pa = open_Pa, above_Pa = open_Pa, further_Pa = T(0);
   const Mask<T> bounded = !balance.sliding && !balance.slips && !balance.closed;
   if (any(bounded)) {
-    const T below_N = larger(balance.resting.upper_N - balance.apparent_friction_N, T(0));
-    const T above_N = larger(balance.apparent_friction_N - balance.resting.lower_N, T(0));
-    out.below_Pa =
-        select(bounded, smaller(deviation_Pa, pressure_deviation_Pa(edge, below_N) + certain_Pa), deviation_Pa);
-    out.above_Pa =
-        select(bounded, smaller(deviation_Pa, pressure_deviation_Pa(edge, above_N) + certain_Pa), deviation_Pa);
+    open_N2 += squared(T(yielded_factor) * slope * pressure.yielded_Pa);
+    const T certain_N = band.coverage_factor * (band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s));
+    const T to_upper_N = larger(balance.resting.upper_N - balance.apparent_friction_N, T(0)) + certain_N;
+    const T to_lower_N = larger(balance.apparent_friction_N - balance.resting.lower_N, T(0)) + certain_N;
+    const T per_open_1_N2 = T(1) / open_N2;
+    below_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_upper_N), open_Pa);
+    above_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_lower_N), open_Pa);
+    further_Pa = T(lopsided_share) * (above_Pa - below_Pa);
   }
-  return out;
+  return {larger(believed_Pa - below_Pa, T(0)), expected_pressure_Pa(pressure, balance, further_Pa, highest_Pa),
+          smaller(believed_Pa + above_Pa, highest_Pa)};
+}
+
+/// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
+/// flow's own residual, which knows nothing of it.
+template <class T>
+[[gnu::always_inline]] constexpr void band_of_flow(const BandParameters<T>& band, T least_m3_per_s, T most_m3_per_s,
+                                                   Estimate<T>& out) {
+  const T residual2 = squared(T(flow_residual_factor) * band.flow_residual_m3_per_s);
+  const T flow = out.flow_m3_per_s;
+  out.flow_lower_m3_per_s = flow - sqrt(squared(flow - least_m3_per_s) + residual2);
+  out.flow_upper_m3_per_s = flow + sqrt(squared(most_m3_per_s - flow) + residual2);
 }
 
 }  // namespace spoolflow::sensor

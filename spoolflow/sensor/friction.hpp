@@ -209,8 +209,8 @@ template <class T>
   // Friction lies on the side of the gauge to which the sensor is dragged.
   const T below_N = reach_N * (T(1) - T(drag_certainty) * larger(state.dragging, T(0)));
   const T above_N = reach_N * (T(1) + T(drag_certainty) * smaller(state.dragging, T(0)));
-  out.lower_N = select(creeps, out.lower_N, limited(state.gauge_N - below_N, -holds_N, holds_N));
-  out.upper_N = select(creeps, out.upper_N, limited(state.gauge_N + above_N, -holds_N, holds_N));
+  out.lower_N = select(creeps, out.lower_N, larger(state.gauge_N - below_N, -holds_N));
+  out.upper_N = select(creeps, out.upper_N, smaller(state.gauge_N + above_N, holds_N));
   return out;
 }
 

@@ -92,20 +92,13 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                              const ForceBalance<T>& balance, T velocity_m_per_s) {
-  const T believed_Pa = state.pressure.pressure_difference_Pa;
-  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
-  const T expected_Pa = expected_pressure_Pa(state.pressure, balance, highest_Pa);
-  const PressureBand<T> band =
-      pressure_band(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s);
-  const T least_Pa = larger(believed_Pa - band.below_Pa, T(0));
-  const T most_Pa = smaller(believed_Pa + band.above_Pa, highest_Pa);
-  const T residual = T(flow_residual_factor) * valve.band.flow_residual_m3_per_s;
+  const PressureBand<T> band = pressure_band(valve.band, state.pressure, balance, state.friction.rest_s,
+                                             velocity_m_per_s, valve.edge.highest_pressure_difference_Pa());
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
-  out.flow_m3_per_s = larger(conductance * sqrt(expected_Pa), T(0));
-  out.flow_lower_m3_per_s = smaller(conductance * sqrt(least_Pa), out.flow_m3_per_s) - residual;
-  out.flow_upper_m3_per_s = larger(conductance * sqrt(most_Pa), out.flow_m3_per_s) + residual;
-  out.pressure_difference_Pa = expected_Pa;
+  out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));
+  band_of_flow(valve.band, conductance * sqrt(band.least_Pa), conductance * sqrt(band.most_Pa), out);
+  out.pressure_difference_Pa = band.expected_Pa;
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;
   out.flow_force_N = balance.edge.flow_force_N;

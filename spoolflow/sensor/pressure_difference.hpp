@@ -11,9 +11,9 @@
 namespace spoolflow::sensor {
 
 /// Belief before the first sample, and its standard deviation, as shares of the highest pressure difference.
-inline constexpr double first_pressure_share = 0.35;
+inline constexpr double first_pressure_share = 0.33;
 inline constexpr double first_deviation_share = 0.3;
-/// The standard deviation grows by drift up to this share of the highest pressure difference: more says no more.
+/// The standard deviation grows up to this share of the highest pressure difference: more says no more.
 inline constexpr double most_deviation_share = 0.4;
 /// Normalised innovations squared are averaged over so much sliding [s].
 inline constexpr double innovation_averaging_s = 5;
@@ -21,7 +21,7 @@ inline constexpr double innovation_averaging_s = 5;
 /// many samples and taken up by the pressure difference.
 inline constexpr double usual_innovation_squared = 0.3;
 /// The band becomes narrower or wider than its parts tell by no more than these factors.
-inline constexpr double least_band_factor = 0.35;
+inline constexpr double least_band_factor = 0.7;
 inline constexpr double most_band_factor = 2.5;
 /// Innovations beyond so many standard deviations open the variance: the pressure has changed, ...
 inline constexpr double innovation_gate = 1.2;
@@ -35,6 +35,8 @@ inline constexpr double seen_deviation_share = 0.5;
 /// How fast the process noise follows what an observed change shows, where it is more than thought, and where less.
 inline constexpr double process_noise_rise = 0.8;
 inline constexpr double process_noise_fall = 0.2;
+/// When the pressure difference is first seen, nothing is known yet of how it moves: no less process noise than this.
+inline constexpr double first_seen_process_noise = 0.2;
 /// A change tells half of that where its drift variance is so many times the variance of the forces' noise.
 inline constexpr double telling_drift_share = 5;
 /// The forces tell of a change of the pressure difference so much later [s]: what it did since is unobserved at any
@@ -67,7 +69,7 @@ struct PressureState {
   T ratio_variance{};
   T covariance_Pa{};            ///< of pressure difference and friction ratio
   T process_noise{};            ///< variance of unobserved changes over that of the resting drift
-  T observed_Pa{};              ///< when last seen
+  T observed_Pa{};              ///< when last seen; < 0 before
   T drift_variance_Pa2{};       ///< of the resting drift since
   T unobserved_variance_Pa2{};  ///< what of it no force has told of yet
   T yielded_Pa{};               ///< to forces that friction at rest cannot explain, one way, since last seen
@@ -95,7 +97,7 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
   state.variance_Pa2 = squared(T(first_deviation_share) * highest_Pa);
   state.covariance_Pa = T(0);
   state.process_noise = pressure.first_process_noise;
-  state.observed_Pa = T(0);
+  state.observed_Pa = T(-1);
   state.drift_variance_Pa2 = T(0);
   state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unseen_factor * pressure.first_process_noise);
   state.yielded_Pa = T(0);
@@ -169,9 +171,13 @@ constexpr T unobserved_change_Pa(const PressureState<T>& state, T unseen_factor)
 }
 
 /// The pressure difference is seen again: what it did meanwhile, beyond what the forces' errors make of it, tells the
-/// process noise.
+/// process noise. When first seen it tells nothing yet.
 template <class T>
 constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
+  in_valves(state.observed_Pa < T(0), state, [&] {
+    state.drift_variance_Pa2 = T(0);
+    state.process_noise = larger(state.process_noise, T(first_seen_process_noise));
+  });
   in_valves(state.drift_variance_Pa2 > squared(noise_Pa), state, [&] {
     const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
     const T shown = smaller(
@@ -198,10 +204,10 @@ struct KalmanUpdate {
 };
 
 /// Weighs an innovation against what is believed. Where its test ratio exceeds 1 the variance is opened at the pace of
-/// `time_step_s`.
+/// `time_step_s`, to no more than drift opens it: what no pressure difference could explain, friction must.
 template <class T>
 constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T>& innovation, T noise_N2,
-                                T time_step_s) {
+                                T time_step_s, T highest_Pa) {
   const T slope = innovation.slope_N_per_Pa;
   T with_pressure = state.variance_Pa2 * slope + state.covariance_Pa * innovation.ratio_slope_N;
   const T with_ratio = state.covariance_Pa * slope + state.ratio_variance * innovation.ratio_slope_N;
@@ -210,10 +216,12 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
                     squared(innovation.noise_N);
   const Mask<T> exceeds = excess2 > T(0);
   if (any(exceeds)) {
-    const T opened2 = select(exceeds, excess2 * smaller(time_step_s / T(gate_opening_s), T(1)), T(0));
-    state.variance_Pa2 += opened2 / squared(slope);
-    with_pressure += opened2 / slope;
-    believed2 += opened2;
+    const T room_Pa2 = squared(T(most_deviation_share) * highest_Pa) - state.variance_Pa2;
+    const T opened_N2 = excess2 * smaller(time_step_s / T(gate_opening_s), T(1));
+    const T opened_Pa2 = select(exceeds, smaller(opened_N2 / squared(slope), room_Pa2), T(0));
+    state.variance_Pa2 += opened_Pa2;
+    with_pressure += opened_Pa2 * slope;
+    believed2 += opened_Pa2 * squared(slope);
   }
   const T variance2 = believed2 + noise_N2;
   const T gain_Pa_per_N = with_pressure / variance2;
@@ -222,8 +230,9 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
 
 template <class T>
 constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureState<T>& state,
-                                const KalmanUpdate<T>& update) {
-  state.pressure_difference_Pa += update.gain_Pa_per_N * update.innovation_N;
+                                const KalmanUpdate<T>& update, T highest_Pa) {
+  const T corrected_Pa = state.pressure_difference_Pa + update.gain_Pa_per_N * update.innovation_N;
+  state.pressure_difference_Pa = limited(corrected_Pa, T(0), highest_Pa);
   state.yielded_Pa = T(0);
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
@@ -242,22 +251,23 @@ constexpr void correct_ratio(PressureState<T>& state, const KalmanUpdate<T>& upd
 /// While the spool slides: Kalman update of pressure difference and friction ratio, no matter how often it is sampled.
 template <class T>
 constexpr void update_sliding(const PressureParameters<T>& pressure, PressureState<T>& state,
-                              const ForceInnovation<T>& innovation, T time_step_s) {
+                              const ForceInnovation<T>& innovation, T time_step_s, T highest_Pa) {
   // Samples within the correlation of the errors share one piece of evidence; a longer step is still no more than one.
   const T noise_N2 = squared(innovation.noise_N) * larger(pressure.force_correlation_s / time_step_s, T(1));
   const T expected_N2 = squared(innovation.slope_N_per_Pa) * state.variance_Pa2 + squared(innovation.noise_N);
   state.innovation_squared += (squared(innovation.force_N) / expected_N2 - state.innovation_squared) *
                               smaller(time_step_s / T(innovation_averaging_s), T(1));
-  const KalmanUpdate<T> update = weigh(state, innovation, noise_N2, time_step_s);
+  const KalmanUpdate<T> update = weigh(state, innovation, noise_N2, time_step_s, highest_Pa);
   correct_ratio(state, update);
-  correct_pressure(pressure, state, update);
+  correct_pressure(pressure, state, update, highest_Pa);
 }
 
 /// At a break-away: of the pressure difference alone, since stiction says little of sliding friction.
 template <class T>
 constexpr void update_breakaway(const PressureParameters<T>& pressure, PressureState<T>& state,
-                                const ForceInnovation<T>& innovation) {
-  correct_pressure(pressure, state, weigh(state, innovation, squared(innovation.noise_N), T(0)));
+                                const ForceInnovation<T>& innovation, T highest_Pa) {
+  correct_pressure(pressure, state, weigh(state, innovation, squared(innovation.noise_N), T(0), highest_Pa),
+                   highest_Pa);
 }
 
 /// Whether the pressure difference, at a given friction ratio, is known better than `noise_N` makes of it.
@@ -272,12 +282,12 @@ constexpr Mask<T> observed(const PressureState<T>& state, T slope_N_per_Pa, T no
 /// returns the force left to the other explanation, friction.
 template <class T>
 constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state, const ForceInnovation<T>& beyond,
-                  T time_step_s) {
+                  T time_step_s, T highest_Pa) {
   const T believed2 = squared(beyond.slope_N_per_Pa) * state.variance_Pa2;
   const T share = believed2 / (believed2 + squared(beyond.noise_N));
   const T force_N = smaller(time_step_s / pressure.yielding_s, T(1)) * beyond.force_N;
   const T yields_Pa = share * force_N / beyond.slope_N_per_Pa;
-  state.pressure_difference_Pa += yields_Pa;
+  state.pressure_difference_Pa = limited(state.pressure_difference_Pa + yields_Pa, T(0), highest_Pa);
   state.yielded_Pa = yields_Pa + select(yields_Pa * state.yielded_Pa < T(0), T(0), state.yielded_Pa);
   return (T(1) - share) * force_N;
 }

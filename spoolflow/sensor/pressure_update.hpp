@@ -49,13 +49,15 @@ template <class T>
 
 /// Prediction over one sample: the supply may have moved.
 template <class T>
-[[gnu::always_inline]] constexpr void predict(const ObserverParameters<T>& valve, PressureState<T>& pressure,
-                                              const ForceBalance<T>& balance, T time_step_s, T highest_Pa) {
+[[gnu::always_inline]] constexpr void predict(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                              const ForceBalance<T>& balance, Mask<T> busy, T time_step_s,
+                                              T highest_Pa) {
+  PressureState<T>& pressure = state.pressure;
   in_valves(balance.closed, pressure, [&] { expect_change(valve.pressure, pressure); });
-  in_valves(balance.sliding, pressure, [&] {
-    drift(valve.pressure, pressure, time_step_s, highest_Pa);
-    forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, time_step_s);
-  });
+  in_valves(balance.sliding, pressure, [&] { drift(valve.pressure, pressure, time_step_s, highest_Pa); });
+  // Once a block of positions, in its first sample.
+  in_valves(balance.sliding && !busy && state.position.samples < 2, pressure,
+            [&] { forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, state.position.block_s); });
   in_valves(!balance.sliding, pressure, [&] { drift_unseen(valve.pressure, pressure, time_step_s, highest_Pa); });
 }
 
@@ -68,11 +70,11 @@ template <class T>
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
-  predict(valve, pressure, balance, time_step_s, highest_Pa);
+  predict(valve, state, balance, position.busy, time_step_s, highest_Pa);
 
   in_valves(balance.settled && !balance.closed && balance.sliding, pressure, [&] {
     in_valves(time_step_s > T(0), pressure, [&] {
-      update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s);
+      update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s, highest_Pa);
     });
     const Mask<T> has_time = !position.busy;
     if (!any(has_time)) return;
@@ -83,20 +85,21 @@ template <class T>
   const Mask<T> breaks = !balance.closed && !balance.sliding && balance.resting.breakaway_N != T(0) &&
                          balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
   in_valves(breaks, pressure, [&] {
-    update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope));
+    update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope),
+                     highest_Pa);
   });
   const T beyond_N = balance.apparent_friction_N - balance.friction_N;
   const Mask<T> yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
                          is(position.motion, Motion::rest) && beyond_N != T(0);
   in_valves(yields, pressure, [&] {
-    const T left_N = yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s);
+    const T left_N =
+        yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s, highest_Pa);
     const Mask<T> holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
     state.friction.gauge_N += select(yields && holds, left_N, T(0));
   });
   in_valves(broken(pressure), pressure, [&] {
     begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unseen_factor);
   });
-  pressure.pressure_difference_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
 }
 
 }  // namespace spoolflow::sensor

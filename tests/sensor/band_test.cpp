@@ -1,6 +1,7 @@
 /// The band over many valves whose calibration is wrong by just what it says: 95 % is a promise.
 #include "spoolflow/sensor/band.hpp"
 
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -59,24 +60,71 @@ TEST(Band, IsAsWideAsTheForcesAreWrong) {
   EXPECT_LT(wide, 4 * narrow);
 }
 
-TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
-  // Of the pressure nothing is known but that friction lies within 1 N to one and 3 N to the other side.
-  const ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
+/// At rest in the middle of a supply of which nothing is known; friction lies within 1 N to one side and 3 N to the
+/// other of where it would have to be.
+struct RestingSpool {
+  RestingSpool() {
+    pressure.pressure_difference_Pa = 40e5;
+    pressure.process_noise = 1;
+    pressure.unobserved_variance_Pa2 = squared(600e5);
+    pressure.band_factor = 1;
+    balance.edge = parameters.edge.at(313.0, 50e5, 1.2e-3);
+    balance.apparent_friction_N = 0.5;
+    balance.resting = {-2.5, 1.5, 0, 0};
+  }
+  [[nodiscard]] PressureBand<double> band() const {
+    return pressure_band(parameters.band, pressure, balance, 3.0, 0.0, 1000e5);
+  }
+
+  ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
   PressureState<double> pressure{};
-  pressure.process_noise = 1;
-  pressure.unobserved_variance_Pa2 = squared(60e5);
-  pressure.band_factor = 1;
   ForceBalance<double> balance{};
-  balance.edge = parameters.edge.at(313.0, 50e5, 1.2e-3);
-  balance.apparent_friction_N = 0.5;
-  balance.resting = {-2.5, 1.5, 0, 0};
+};
+
+TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
+  RestingSpool spool;
   const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
-  const double uncertain_N = 2 * 0.4 * (1 + 3.0);  // two deviations of the bounds, grown in 3 s
-  const PressureBand<double> band = pressure_band(parameters.band, pressure, balance, 3.0, 0.0);
-  EXPECT_NEAR(band.below_Pa, (1 + uncertain_N) / slope, 1);
-  EXPECT_NEAR(band.above_Pa, (3 + uncertain_N) / slope, 1);
-  balance.sliding = true;
-  EXPECT_GT(pressure_band(parameters.band, pressure, balance, 3.0, 0.0).below_Pa, 60e5);
+  const double uncertain_N = 2 * bounds_deviation_N(spool.parameters.band, 3.0);
+  EXPECT_NEAR(40e5 - spool.band().least_Pa, (1 + uncertain_N) / slope, 0.01e5);
+  EXPECT_NEAR(spool.band().most_Pa - 40e5, (3 + uncertain_N) / slope, 0.01e5);
+  spool.balance.sliding = true;
+  EXPECT_EQ(spool.band().least_Pa, 0);
+  EXPECT_EQ(spool.band().most_Pa, 1000e5);
+}
+
+TEST(Band, AtRestIsNarrowerThanWhatIsOpenAndWhatFrictionAllowsAlone) {
+  RestingSpool spool;
+  const double friction_Pa = 40e5 - spool.band().least_Pa;
+  const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
+  spool.parameters.band.unseen_factor = 0.5;
+  spool.pressure.unobserved_variance_Pa2 = squared(friction_Pa);  // two deviations of half of it
+  EXPECT_NEAR(40e5 - spool.band().least_Pa, friction_Pa / std::sqrt(2), 0.02 * friction_Pa);
+  spool.pressure.unobserved_variance_Pa2 = 0;
+  const double noise_Pa = 40e5 - spool.band().least_Pa;
+  EXPECT_LT(noise_Pa, 0.1 / slope);
+}
+
+TEST(Band, ExpectsThePressureDifferenceTowardsWhereMoreIsOpen) {
+  RestingSpool spool;
+  const PressureBand<double> band = spool.band();
+  EXPECT_GT(band.expected_Pa, 40e5);
+  EXPECT_LT(band.expected_Pa, (band.least_Pa + band.most_Pa) / 2);
+  spool.balance.resting = {-0.5, 1.5, 0, 0};  // friction as far from either bound
+  EXPECT_DOUBLE_EQ(spool.band().expected_Pa, 40e5);
+  spool.pressure.unobserved_variance_Pa2 = 0;  // and of a supply that was just seen
+  spool.balance.resting = {-2.5, 1.5, 0, 0};
+  EXPECT_NEAR(spool.band().expected_Pa, 40e5, 0.02e5);
+}
+
+TEST(Band, OfTheFlowCountsItsOwnResidualAsIndependentOfThePressure) {
+  BandParameters<double> parameters{.flow_residual_m3_per_s = 1e-6};
+  Estimate<double> answer{.flow_m3_per_s = 5e-4};
+  band_of_flow(parameters, 5e-4, 5e-4, answer);
+  EXPECT_NEAR(answer.flow_upper_m3_per_s - 5e-4, flow_residual_factor * 1e-6, 1e-12);
+  EXPECT_NEAR(5e-4 - answer.flow_lower_m3_per_s, flow_residual_factor * 1e-6, 1e-12);
+  band_of_flow(parameters, 5e-4 - 4e-6, 5e-4 + 3e-6, answer);
+  EXPECT_NEAR(answer.flow_upper_m3_per_s - 5e-4, std::hypot(flow_residual_factor, 3) * 1e-6, 1e-12);
+  EXPECT_NEAR(5e-4 - answer.flow_lower_m3_per_s, std::hypot(flow_residual_factor, 4) * 1e-6, 1e-12);
 }
 
 }  // namespace

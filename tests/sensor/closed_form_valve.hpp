@@ -149,7 +149,7 @@ ObserverParameters<T> closed_form_observer(const ClosedFormValve& valve) {
                   T(0.12),
                   T(1)};
   out.pressure = {T(3e5), T(1e6), T(0.01), T(0.05), T(0.03), T(2e-3), T(0.03), T(10)};
-  out.band = {T(0.03), T(0.2), static_cast<T>(0.001 * valve.full_scale_m3_per_s()), T(2), T(0.8), T(1.75), T(0.4),
+  out.band = {T(0.03), T(0.2), static_cast<T>(0.001 * valve.full_scale_m3_per_s()), T(2), T(0.8), T(3), T(0.8),
               T(1),    T(2.4)};
   out.moving_mass_kg = T(0.1);
   out.closed_below_m = static_cast<T>(ClosedFormValve::overlap_m + 0.02e-3);

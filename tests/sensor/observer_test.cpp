@@ -80,7 +80,7 @@ TEST_P(Observer, HoldsTheFlowAtRestAndItsBandHoldsWhatTheSupplyDidUnseen) {
   Course course = opening().rest(0.3, 0.8).rest(0.4, 0.4, 64e5).rest(0.5, 0.4);
   const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   const Judgement before = judge(run, {2.2, 2.4});
-  EXPECT_LT(before.largest, 0.035);  // the end of sliding is taken for sliding for some milliseconds
+  EXPECT_LT(before.largest, 0.04);  // the end of sliding is taken for sliding for some milliseconds
   const Judgement resting = judge(run, {2.2, course.end_s()});
   EXPECT_GT(resting.coverage(), 0.95);
   EXPECT_LT(resting.largest, 0.05);

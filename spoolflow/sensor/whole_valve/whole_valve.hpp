@@ -132,11 +132,10 @@ constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState
   const DrivingDrop<T> drop = driving_drop(drops, share);
   const T conductance = valve.edge.at(state.oil_temperature_K, magnitude(drop.drop_Pa), position_m).conductance;
   const T uncertain_Pa = valve.band.coverage_factor * drop.deviation_Pa;
-  const T residual = T(flow_residual_factor) * valve.band.flow_residual_m3_per_s;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = conductance * signed_root(drop.drop_Pa);
-  out.flow_lower_m3_per_s = conductance * signed_root(drop.drop_Pa - uncertain_Pa) - residual;
-  out.flow_upper_m3_per_s = conductance * signed_root(drop.drop_Pa + uncertain_Pa) + residual;
+  band_of_flow(valve.band, conductance * signed_root(drop.drop_Pa - uncertain_Pa),
+               conductance * signed_root(drop.drop_Pa + uncertain_Pa), out);
   out.pressure_difference_Pa = drops.inlet_Pa + drops.outlet_Pa;
   mark(out.status, flow_reversed(drops), Status::flow_reversed);
 }
