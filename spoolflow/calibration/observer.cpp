@@ -147,6 +147,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
               .unseen_factor = 2.0};
+  out.inlet = fits.axial.inlet;
   out.moving_mass_kg = assumed_moving_mass_kg;
   out.closed_below_m = closed_below_m;
   out.largest_current_A = fits.magnetic.largest_current_A;
