@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/actuator_fit.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/map_residuals.hpp"
-#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"

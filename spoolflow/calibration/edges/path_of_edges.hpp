@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
+#include "spoolflow/recording/recording.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/spring.hpp"
 

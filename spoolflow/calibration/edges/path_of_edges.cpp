@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 
 #include <algorithm>
 #include <cmath>

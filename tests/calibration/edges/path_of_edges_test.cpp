@@ -1,9 +1,9 @@
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/sensor/band.hpp"
