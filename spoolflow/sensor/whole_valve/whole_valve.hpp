@@ -220,7 +220,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
       return state.open.last;
     }
   }
-  const Mask<T> leapt = lies_below(T(longest_step_s), sample.time_step_s);
+  const Mask<T> leapt = time_leapt(sample.time_step_s);
   using detail::sides;
   const Mask<T> begins = !state.open.started || leapt;
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
