@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/recording.hpp"
 

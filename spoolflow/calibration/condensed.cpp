@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
+#include "spoolflow/calibration/edges/flow_rate_fit.hpp"
+#include "spoolflow/calibration/edges/sensitivity.hpp"
+#include "spoolflow/calibration/edges/uniqueness.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
-#include "spoolflow/calibration/fits/sensitivity.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
-#include "spoolflow/calibration/fits/uniqueness.hpp"
 #include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {

@@ -1,6 +1,6 @@
 #pragma once
 /// Calibration of the paper's condensed sensor from the bench recordings of a campaign.
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/numerics/median.hpp"

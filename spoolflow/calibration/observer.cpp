@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/actuator_fit.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/map_residuals.hpp"
-#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
@@ -147,6 +147,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
               .unseen_factor = 1.85};
+  out.inlet = fits.axial.inlet;
   out.moving_mass_kg = assumed_moving_mass_kg;
   out.closed_below_m = closed_below_m;
   out.largest_current_A = fits.magnetic.largest_current_A;

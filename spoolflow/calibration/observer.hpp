@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"

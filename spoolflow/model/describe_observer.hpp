@@ -267,6 +267,23 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
       pressure.yielding_s);
 }
 
+template <class Inlet, class Visitor>
+void describe_inlet_share(Inlet& inlet, Visitor& visitor) {
+  visitor.number({.key = "inlet_pressure_share",
+                  .unit = "1",
+                  .limits = {0.02, 0.98},
+                  .meaning = "share of the path's pressure difference that lies over its inlet edge, P to B or P to A, "
+                             "under the calibrated load",
+                  .otherwise = 0.5},
+                 inlet.share);
+  visitor.number({.key = "inlet_pressure_share_range",
+                  .unit = "1",
+                  .limits = {0, 0.5},
+                  .meaning = "measured port pressures may tell a share that differs from it by so much",
+                  .otherwise = 0.25},
+                 inlet.range);
+}
+
 /// Calls visitor for every parameter as describe_condensed, describe_coil and describe_edge say.
 template <class Parameters, class Visitor>
 void describe_observer(Parameters& parameters, Visitor&& visitor) {
@@ -277,6 +294,7 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   describe_friction(parameters.friction, visitor);
   describe_pressure(parameters.pressure, visitor);
   describe_band(parameters.band, visitor);
+  describe_inlet_share(parameters.inlet, visitor);
   visitor.number({.key = "moving_mass_kg",
                   .unit = "kg",
                   .limits = {1e-3, 100},

@@ -14,15 +14,9 @@ void describe_port_pressure_constants(Visitor& visitor) {
                    sensor::port_pressure_deviation_Pa);
   visitor.constant({.name = "sure_drop_Pa", .unit = "Pa", .meaning = "a pressure drop of this size has a sure sign"},
                    sensor::sure_drop_Pa);
-  visitor.constant({.name = "inlet_share",
-                    .unit = "1",
-                    .meaning = "share of the inlet edge in the path's pressure drop, of edges alike"},
-                   sensor::inlet_share);
-  visitor.constant({.name = "most_share_difference",
-                    .unit = "1",
-                    .meaning = "one flow through both edges gives a share no further from that"},
-                   sensor::most_share_difference);
-  visitor.constant({.name = "share_following_s", .unit = "s", .meaning = "pace at which measured pressures tell it"},
+  visitor.constant({.name = "share_following_s",
+                    .unit = "s",
+                    .meaning = "pace at which measured pressures tell the inlet edge's share of the path's drop"},
                    sensor::share_following_s);
   visitor.constant({.name = "inlet_share_deviation", .unit = "1", .meaning = "one standard deviation of it then"},
                    sensor::inlet_share_deviation);

@@ -162,7 +162,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
       }
     }
   } else {
-    begins = begins || time_leapt(sample);
+    begins = begins || time_leapt(sample.time_step_s);
   }
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   detail::follow_temperature(state, sample.oil_temperature_K);
@@ -172,7 +172,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
                                           state.oil_temperature_K, dither, state.swing.frees);
   detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
   detail::admit_other_direction(valve, state, position.position_m);
-  if (any(begins)) mark(state.last.status, time_leapt(sample), Status::time_fault);
+  if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);
   return state.last;
 }
 

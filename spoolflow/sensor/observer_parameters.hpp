@@ -27,6 +27,14 @@ struct BandParameters {
   T unseen_factor{};  ///< standard deviation of unobserved changes of pressure over the resting drift's, at its most
 };
 
+/// How the open path's pressure difference lies over its two edges while both pass the flows of the calibrated load.
+/// Asked for only where a whole valve's port pressures are measured.
+template <class T>
+struct InletShare {
+  T share = T(0.5);   ///< that lies over the inlet edge, P to B or P to A
+  T range = T(0.25);  ///< measured pressures may tell one that differs from it by so much
+};
+
 /// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
 template <class T>
 struct ObserverParameters {
@@ -37,6 +45,7 @@ struct ObserverParameters {
   FrictionParameters<T> friction;
   PressureParameters<T> pressure;
   BandParameters<T> band;
+  InletShare<T> inlet;
   T moving_mass_kg{};  ///< spool, push rod and armature together
   T closed_below_m{};
   T largest_current_A{};

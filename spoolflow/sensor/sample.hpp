@@ -26,8 +26,8 @@ inline constexpr int endless_step_s = 1 << 30;
 
 /// Whether time leapt between the last sample and this one.
 template <class T>
-constexpr Mask<T> time_leapt(const Sample<T>& sample) {
-  return lies_below(T(longest_step_s), sample.time_step_s);
+constexpr Mask<T> time_leapt(T time_step_s) {
+  return lies_below(T(longest_step_s), time_step_s);
 }
 
 /// What nearly always holds: nothing is missing, and time has advanced by an ordinary step.

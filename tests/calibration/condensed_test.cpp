@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/edges/flow_rate_fit.hpp"
+#include "spoolflow/calibration/edges/uniqueness.hpp"
 #include "spoolflow/calibration/fits/axial_force.hpp"
-#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
 #include "spoolflow/calibration/fits/magnetic_force_fit.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
-#include "spoolflow/calibration/fits/uniqueness.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "synthetic_bench.hpp"
 

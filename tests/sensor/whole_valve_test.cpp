@@ -233,6 +233,20 @@ TEST(WholeValve, FindsHowTheEdgesShareThePressureDrop) {
   EXPECT_NEAR(answer.flow_m3_per_s, conductance * std::sqrt(60e5), 0.02 * conductance * std::sqrt(60e5));
 }
 
+TEST(WholeValve, WhoseEdgesAreCalibratedTellsTheInletsFlowUnderAnyLoad) {
+  Sides sides;
+  sides.b.inlet = {.share = 0.6, .range = 0.02};
+  WholeValveState<double> state = opened(sides, false);
+  WholeValveSample<double> sample = held_open(sides, false);
+  const double expected = sides.b.edge.at(sample.oil_temperature_K, 40e5, 1.5e-3).conductance * std::sqrt(40e5);
+  for (const double outlet_Pa : {2e5, 16e5, 24e5, 60e5}) {
+    sample.ports = {70e5, outlet_Pa + 1e5, 46e5, 1e5};  // 24 bar over the inlet
+    Estimate<double> answer{};
+    for (int k = 0; k < 1000; ++k) answer = step(sides.whole, state, sample);
+    EXPECT_NEAR(answer.flow_m3_per_s, expected, 0.02 * expected) << outlet_Pa;
+  }
+}
+
 TEST(WholeValve, NeedsThePressuresOfAllFourPorts) {
   const Sides sides;
   WholeValveState<double> none = opened(sides, true), three = none;

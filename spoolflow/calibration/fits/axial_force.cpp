@@ -53,7 +53,8 @@ AxialForceFit fit_axial_force(const recording::Recording& recording, double stro
   const sensor::Axis<double> axis{0, grid_m[1], 1 / grid_m[1]};
   for (const Level& level : levels) {
     const std::string what = fmt::format("{}: {} {}", file, held_quantity.name, held_quantity.written(level.value));
-    const BothDirections force = average_both_directions({level, position_m, force_N}, grid_m, what);
+    const BothDirections force = without_breakaway(average_both_directions({level, position_m, force_N}, grid_m, what),
+                                                   wearing_stroke_share * stroke_m);
     const BothDirections flow = average_both_directions({level, position_m, flow_m3_per_s}, grid_m, what);
     const BothDirections pressure = average_both_directions({level, position_m, pressure_Pa}, grid_m, what);
     fit.loops.push_back({level.value, grid_m, force.opening, force.closing, flow.mean(), pressure.mean()});
@@ -67,10 +68,10 @@ AxialForceFit fit_axial_force(const recording::Recording& recording, double stro
       };
       const auto force_curve = curve(opening ? force.opening : force.closing);
       const auto flow_curve = curve(opening ? flow.opening : flow.closing);
-      for (std::size_t k = sweep.begin; k < sweep.end; ++k) {
+      for (std::size_t k = sliding_part(sweep, position_m, stroke_m).begin; k < sweep.end; ++k)
         fit.force_residual.add(force_N[k] - force_curve.at(position_m[k]).value);
+      for (std::size_t k = sweep.begin; k < sweep.end; ++k)
         fit.flow_residual.add(flow_m3_per_s[k] - flow_curve.at(position_m[k]).value);
-      }
     }
   }
   return fit;

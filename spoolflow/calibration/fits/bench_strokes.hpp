@@ -12,6 +12,13 @@ namespace spoolflow::calibration {
 /// within some ten micrometres after each reversal.
 [[nodiscard]] std::vector<Sweep> find_bench_strokes(std::span<const double> position_m, double stroke_m);
 
+/// What a stroke's friction has grown by at rest has worn off within so much of the valve's stroke: some 0.1 mm, where
+/// films renew over some ten micrometres of sliding.
+inline constexpr double wearing_stroke_share = 0.05;
+
+/// The stroke from there on.
+[[nodiscard]] Sweep sliding_part(Sweep sweep, std::span<const double> position_m, double stroke_m);
+
 /// Mean over the recording; NaN where the channel is absent.
 [[nodiscard]] double mean_oil_temperature_K(const recording::Recording& recording);
 

@@ -54,6 +54,27 @@ std::vector<double> over_grid(const Sweep& sweep, const LevelSamples& samples, s
   return values;
 }
 
+/// The straight line through the `count` values from `first` on, carried on to `at`; all are places in an even grid.
+class LineThrough {
+ public:
+  LineThrough(std::span<const double> values, std::size_t first, std::size_t count) {
+    const double middle = 0.5 * static_cast<double>(count - 1);
+    centre_ = static_cast<double>(first) + middle;
+    double moment = 0, spread = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double away = static_cast<double>(k) - middle;
+      mean_ += values[first + k] / static_cast<double>(count);
+      moment += away * values[first + k];
+      spread += away * away;
+    }
+    slope_ = moment / spread;
+  }
+  [[nodiscard]] double at(std::size_t place) const { return mean_ + slope_ * (static_cast<double>(place) - centre_); }
+
+ private:
+  double mean_ = 0, slope_ = 0, centre_ = 0;
+};
+
 std::vector<double> average_strokes(Direction direction, const LevelSamples& samples, std::span<const double> grid_m,
                                     const std::string& what) {
   std::vector<double> sum(grid_m.size(), 0.0);
@@ -113,6 +134,21 @@ BothDirections average_both_directions(const LevelSamples& samples, std::span<co
   return {{grid_m.begin(), grid_m.end()},
           average_strokes(Direction::opening, samples, grid_m, what),
           average_strokes(Direction::closing, samples, grid_m, what)};
+}
+
+BothDirections without_breakaway(BothDirections force, double wearing_m) {
+  constexpr std::size_t line_positions = 3;  // more would not follow friction that rises towards the stroke's end
+  const double distance_m = force.position_m[1] - force.position_m[0];
+  const auto worn = static_cast<std::size_t>(wearing_m / distance_m) + 1;  // the first position beyond
+  const std::size_t last = force.position_m.size() - 1;
+  const std::vector<double> half_width = force.half_width();
+  const LineThrough opened(half_width, worn, line_positions);
+  const LineThrough closed(half_width, last - worn - line_positions + 1, line_positions);
+  for (std::size_t k = 0; k < worn; ++k) {
+    force.opening[k] = force.closing[k] + 2 * opened.at(k);
+    force.closing[last - k] = force.opening[last - k] - 2 * closed.at(last - k);
+  }
+  return force;
 }
 
 }  // namespace spoolflow::calibration

@@ -34,4 +34,10 @@ struct LevelSamples {
 [[nodiscard]] BothDirections average_both_directions(const LevelSamples& samples, std::span<const double> grid_m,
                                                      const std::string& what);
 
+/// Of a force in which friction is what differs between both directions. A stroke begins from rest, and what its
+/// friction has grown by there wears off over some ten micrometres of sliding. As far as `wearing_m` from where each
+/// direction begins, the other direction, which comes sliding, tells the force, and friction follows the straight line
+/// through the next positions. Positions as `average_both_directions` has them.
+[[nodiscard]] BothDirections without_breakaway(BothDirections force, double wearing_m);
+
 }  // namespace spoolflow::calibration

@@ -64,7 +64,9 @@ SpringFit fit_spring(const recording::Recording& recording, double stroke_m) {
   require_both_directions(level, file);
 
   const std::vector<double> grid_m = equally_spaced(0, stroke_m, sensor::spring_positions);
-  const BothDirections force = average_both_directions({level, position_m, force_N}, grid_m, file + ": spring force");
+  const BothDirections force =
+      without_breakaway(average_both_directions({level, position_m, force_N}, grid_m, file + ": spring force"),
+                        wearing_stroke_share * stroke_m);
   const std::vector<double> mean_N = force.mean();
 
   SpringFit fit{};
@@ -75,7 +77,7 @@ SpringFit fit_spring(const recording::Recording& recording, double stroke_m) {
   std::copy(fit.friction_half_width_N.begin(), fit.friction_half_width_N.end(), half_width.values.begin());
   for (const Sweep& sweep : level.sweeps) {
     const double sign = sweep.direction == Direction::opening ? 1 : -1;
-    for (std::size_t k = sweep.begin; k < sweep.end; ++k) {
+    for (std::size_t k = sliding_part(sweep, position_m, stroke_m).begin; k < sweep.end; ++k) {
       fit.residual.add(force_N[k] - fit.spring.at(position_m[k]).value - sign * half_width.at(position_m[k]).value);
     }
   }

@@ -4,6 +4,7 @@
 /// do.
 #include <limits>
 
+#include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
@@ -13,10 +14,8 @@ namespace spoolflow::sensor {
 inline constexpr double port_pressure_deviation_Pa = 0.5e5;
 /// Four of them make the drop over both edges: beyond so much [Pa] its sign is sure.
 inline constexpr double sure_drop_Pa = 4 * port_pressure_deviation_Pa;
-/// While both edges pass the same flow the inlet has this share of the path's drop, if the edges are alike, ...
-inline constexpr double inlet_share = 0.5;
-/// ... else one that differs by no more than this, which is found from the pressures at this pace [s] ...
-inline constexpr double most_share_difference = 0.25;
+/// Where calibration leaves it open, the inlet edge's share of the path's drop is found from the pressures at this pace
+/// [s] ...
 inline constexpr double share_following_s = 2;
 /// ... to this standard deviation.
 inline constexpr double inlet_share_deviation = 0.03;
@@ -62,23 +61,24 @@ constexpr bool flow_reversed(const PathDrops<T>& drops) {
   return drops.inlet_Pa < T(-sure_drop_Pa) || drops.outlet_Pa < T(-sure_drop_Pa);
 }
 
-/// Whether the drops are those of one flow through both edges, and large enough to tell.
+/// Whether the drops may be those of the calibrated load's flows through both edges, and are large enough to tell.
 template <class T>
-constexpr bool of_one_flow(const PathDrops<T>& drops) {
+constexpr bool of_calibrated_load(const InletShare<T>& inlet, const PathDrops<T>& drops) {
   const T total_Pa = drops.inlet_Pa + drops.outlet_Pa;
-  return magnitude(drops.inlet_Pa - T(inlet_share) * total_Pa) < T(most_share_difference) * magnitude(total_Pa) &&
+  return magnitude(drops.inlet_Pa - inlet.share * total_Pa) < inlet.range * magnitude(total_Pa) &&
          magnitude(total_Pa) > T(sure_drop_Pa);
 }
 
-/// The inlet edge's share of the path's drop, `share`, as one flow through both edges shows it.
+/// The inlet edge's share of the path's drop, `share`, as such a load shows it.
 template <class T>
-constexpr void follow_share(T& share, const PathDrops<T>& drops, T time_step_s) {
-  if (!of_one_flow(drops)) return;
+constexpr void follow_share(const InletShare<T>& inlet, T& share, const PathDrops<T>& drops, T time_step_s) {
+  if (!of_calibrated_load(inlet, drops)) return;
   share +=
       (drops.inlet_Pa / (drops.inlet_Pa + drops.outlet_Pa) - share) * smaller(time_step_s / T(share_following_s), T(1));
 }
 
-/// What drives the flow through the inlet edge, as a drop over the whole path [Pa], and one standard deviation of it.
+/// What drives the flow through the inlet edge, as a drop over the whole path under the calibrated load [Pa], and one
+/// standard deviation of it: with a share from calibration this is the inlet edge's own flow, whatever the load.
 /// The outlet's drop says less: a moving load, compressed oil and a chamber that runs empty give it another flow.
 template <class T>
 struct DrivingDrop {

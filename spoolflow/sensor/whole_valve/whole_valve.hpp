@@ -56,7 +56,8 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
   state.idle.waiting_s = state.idle.charge_As = T(0);
-  state.inlet_share = state.idle.inlet_share = T(inlet_share);
+  state.inlet_share = now.open.inlet.share;
+  state.idle.inlet_share = now.idle.inlet.share;
 }
 
 /// In pieces so small that no compiler wants a library to move them.
@@ -173,7 +174,7 @@ template <class T>
     if (ports_measured) {
       const PathDrops<T> drops = path_drops(sample.ports, opens_a);
       believe_measured(valve, state.open.pressure, drops);
-      follow_share(state.inlet_share, drops, sample.time_step_s);
+      follow_share(valve.inlet, state.inlet_share, drops, sample.time_step_s);
       answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
     }
   }
@@ -218,7 +219,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
       return state.open.last;
     }
   }
-  const Mask<T> leapt = lies_below(T(longest_step_s), sample.time_step_s);
+  const Mask<T> leapt = time_leapt(sample.time_step_s);
   using detail::sides;
   const Mask<T> begins = !state.open.started || leapt;
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });

@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
+#include "spoolflow/calibration/edges/flow_rate_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

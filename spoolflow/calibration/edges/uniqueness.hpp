@@ -2,7 +2,7 @@
 /// Whether one flow force at one position means one flow rate, as the paper found for its valve (section 3, Fig 5).
 #include <vector>
 
-#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
+#include "spoolflow/calibration/edges/flow_rate_fit.hpp"
 #include "spoolflow/model/evidence.hpp"
 
 namespace spoolflow::calibration {

@@ -13,6 +13,8 @@
 ///     C/C_joined = sqrt((e^2 + 1)/(e^2 + k^2)),   F/F_joined = (e + k^2)/(e + 1) (e^2 + 1)/(e^2 + k^2)   at the same
 ///     dp
 ///
+///     dp1/dp = e^2/(e^2 + k^2)
+///
 /// Nothing on such a bench tells e; a run at work whose flow and pressure difference were recorded does
 /// (edges_in_operation.hpp). Else it is taken as 1, both edges alike: C/C_joined = sqrt(2/(1 + k^2)), F as it was.
 /// Edges cut for their cylinder have e = k; what lies between both is what the flow may be wrong by.
@@ -20,6 +22,8 @@
 #include <vector>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/spring.hpp"
 
 namespace spoolflow::calibration {
@@ -54,6 +58,7 @@ struct AxialForceMaps {
 struct PathFit {
   std::vector<std::vector<AxialForceFit>> measured;  ///< of both edges joined, or of inlet and outlet
   std::vector<AxialForceFit> path;                   ///< as the load uses it
+  sensor::InletShare<double> inlet;                  ///< dp1/dp; a half, with a wide range, where nothing tells e
 };
 
 /// Each inlet is taken together with the outlet at the nearest oil temperature. Throws CalibrationError where an edge

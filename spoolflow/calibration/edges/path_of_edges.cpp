@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/numerics/interpolation.hpp"
+#include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/band.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -14,6 +15,7 @@ namespace spoolflow::calibration {
 namespace {
 
 constexpr double same_temperature_K = 5;
+constexpr double least_share_range = 0.02;  // two edges' flow meters and pressures
 
 /// One edge at one position, over the pressure difference across it.
 class EdgeAtPosition {
@@ -193,6 +195,35 @@ double flow_of_force(double outlet_flow_ratio, double edge_ratio) {
   return factors.conductance / std::sqrt(factors.force);
 }
 
+/// The inlet's shares of the path's highest pressure difference, over the open half of the stroke.
+void add_inlet_shares(const AxialForceFit& inlet, const AxialForceFit& outlet, const AxialForceFit& path,
+                      const sensor::Spring<double>& spring, double outlet_flow_ratio, std::vector<double>& shares) {
+  const std::vector<double>& grid_m = inlet.loops.front().position_m;
+  const double path_Pa = path.loops.back().pressure_difference_set_Pa;
+  for (std::size_t p = grid_m.size() / 2; p < grid_m.size(); ++p) {
+    const double spring_N = spring.at(grid_m[p]).value;
+    shares.push_back(inlet_share({inlet, p, spring_N}, {outlet, p, spring_N}, path_Pa, outlet_flow_ratio));
+  }
+}
+
+/// Their median, and how much they differ from it.
+sensor::InletShare<double> measured_inlet_share(const std::vector<double>& shares) {
+  const double middle = numerics::median(shares);
+  double range = least_share_range;
+  for (const double share : shares) range = std::max(range, std::abs(share - middle));
+  return {middle, range};
+}
+
+/// Of edges measured joined. Where nothing tells their ratio it is left as of edges cut for the load's flows.
+sensor::InletShare<double> inlet_share_of_joined(const AxialForceMaps& maps) {
+  if (!maps.edge_ratio) return {};
+  const double k2 = maps.outlet_flow_ratio * maps.outlet_flow_ratio;
+  const auto share = [&](double e) { return e * e / (e * e + k2); };
+  const double middle = share(maps.edge_ratio->value);
+  const double range = std::max(share(maps.edge_ratio->highest) - middle, middle - share(maps.edge_ratio->lowest));
+  return {middle, std::max(least_share_range, range)};
+}
+
 }  // namespace
 
 std::vector<const recording::Recording*> AxialForceMaps::recordings() const {
@@ -247,6 +278,7 @@ PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& sprin
   if (maps.inlet.empty()) {
     out.measured = {fits_of(maps.joined)};
     out.path = out.measured.front();
+    out.inlet = inlet_share_of_joined(maps);
     if (maps.edges_are_unknown()) {
       const double edge_ratio = maps.edge_ratio ? maps.edge_ratio->value : 1;
       for (AxialForceFit& fit : out.path) fit = joined_under_load(std::move(fit), spring, ratio, edge_ratio);
@@ -255,6 +287,7 @@ PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& sprin
   }
   out.measured = {fits_of(maps.inlet), fits_of(maps.outlet)};
   const std::vector<AxialForceFit>&inlet = out.measured[0], &outlet = out.measured[1];
+  std::vector<double> inlet_shares;
   for (std::size_t k = 0; k < outlet.size(); ++k) {
     require_flow(outlet[k], *maps.outlet[k]);
     (void)partner(outlet[k], *maps.outlet[k], inlet, maps.inlet);
@@ -263,7 +296,9 @@ PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& sprin
     require_flow(inlet[k], *maps.inlet[k]);
     const AxialForceFit& other = partner(inlet[k], *maps.inlet[k], outlet, maps.outlet);
     out.path.push_back(path_of_edges(inlet[k], other, spring, ratio));
+    add_inlet_shares(inlet[k], other, out.path.back(), spring, ratio, inlet_shares);
   }
+  out.inlet = measured_inlet_share(inlet_shares);
   return out;
 }
 

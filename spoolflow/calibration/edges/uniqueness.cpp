@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/uniqueness.hpp"
+#include "spoolflow/calibration/edges/uniqueness.hpp"
 
 namespace spoolflow::calibration {
 

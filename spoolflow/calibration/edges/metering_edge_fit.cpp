@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

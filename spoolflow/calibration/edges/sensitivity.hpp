@@ -3,7 +3,7 @@
 /// position).
 #include <vector>
 
-#include "spoolflow/calibration/fits/flow_rate_fit.hpp"
+#include "spoolflow/calibration/edges/flow_rate_fit.hpp"
 #include "spoolflow/model/evidence.hpp"
 
 namespace spoolflow::calibration {

@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/fits/sensitivity.hpp"
+#include "spoolflow/calibration/edges/sensitivity.hpp"
 
 #include <algorithm>
 #include <array>

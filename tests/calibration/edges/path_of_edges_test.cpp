@@ -1,9 +1,9 @@
-#include "spoolflow/calibration/fits/path_of_edges.hpp"
+#include "spoolflow/calibration/edges/path_of_edges.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/calibration/fits/metering_edge_fit.hpp"
+#include "spoolflow/calibration/edges/metering_edge_fit.hpp"
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/sensor/band.hpp"
@@ -71,6 +71,29 @@ TEST(PathOfEdges, SharesThePressureDifferenceAsTheCylinderPassesTheFlow) {
       }
     }
   }
+}
+
+TEST(PathOfEdges, TellsWhatOfThePressureDifferenceLiesOverTheInlet) {
+  const recording::Recording of_inlet = recorded("PB.csv", wide), of_outlet = recorded("AT.csv", narrow);
+  const SpringFit spring = unloaded_spring();
+  for (const double k : {0.6, 1.0}) {
+    AxialForceMaps maps;
+    maps.inlet = {&of_inlet};
+    maps.outlet = {&of_outlet};
+    maps.outlet_flow_ratio = k;
+    const sensor::InletShare<double> apart = fit_path(maps, spring.spring, stroke_m).inlet;
+    EXPECT_NEAR(apart.share, 0.36 / (0.36 + k * k), 1e-3) << k;  // the outlet's conductance is 0.6 of the inlet's
+    EXPECT_NEAR(apart.range, 0.02, 1e-9) << k;
+    // Joined, only operation tells.
+    const sensor::InletShare<double> assumed = fit_path(joined_maps(of_inlet, k), spring.spring, stroke_m).inlet;
+    EXPECT_EQ(assumed.share, 0.5) << k;
+    EXPECT_EQ(assumed.range, 0.25) << k;
+  }
+  AxialForceMaps told = joined_maps(of_inlet, 0.6);
+  told.edge_ratio = EdgeRatio{0.6, 0.5, 0.7};
+  const sensor::InletShare<double> inlet = fit_path(told, spring.spring, stroke_m).inlet;
+  EXPECT_NEAR(inlet.share, 0.5, 1e-9);
+  EXPECT_NEAR(inlet.range, 0.5 - 0.25 / (0.25 + 0.36), 1e-9);
 }
 
 TEST(PathOfEdges, ReachesAsFarAsBothEdgesWereMeasured) {
