@@ -170,6 +170,8 @@ TEST(Limits, RefuseByPathWhatTheEquationsCannotLiveWith) {
         Broken{"/observer/least_liveliness", 1, "first_liveliness"},
         Broken{"/observer/hysteresis_stiffness_increase_A_per_Wb/0", -1e6, "hysteresis_stiffness_A_per_Wb"},
         Broken{"/condensed/largest_flow_force_N/values/7", 0, "is outside"},
+        Broken{"/fluid/density_15C_kg_per_m3", 1e16, "larger than any quantity"},
+        Broken{"/condensed/current_range_A/1", 1e300, "larger than any quantity"},
         Broken{"/condensed/flow_m3_per_s/values/4/16", -0.1, "falls below"}}) {
     auto damaged = good;
     damaged[Pointer("/observer/first_liveliness")] = 0.5;
