@@ -10,7 +10,7 @@ cpack --config "$build/CPackConfig.cmake" -B "$folder/made" >cpack.log 2>&1 || {
 tool=$(ls made/spoolflow_*.deb) runtime=$(ls made/libspoolflow0_*.deb) development=$(ls made/libspoolflow-dev_*.deb)
 holds() {
   dpkg-deb --contents "$1" >contents
-  grep -q "[ /]$2\( -> .*\)\?$" contents
+  grep -q "/$2\( -> .*\)\?$" contents
 }
 holds_not() { if holds "$1" "$2"; then echo "$1 holds $2" && exit 1; fi; }
 dpkg-deb --field "$tool" Depends | grep -q 'libc6'
