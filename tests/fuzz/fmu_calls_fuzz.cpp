@@ -246,8 +246,10 @@ class Calls {
   }
   void take() {
     std::vector<char> bytes = kept_;
-    fuzz::forge_state(in_, bytes);
-    if (fmu_.read(bytes, &state_) == ok && fmu_.take(state_) == ok) look_for_time();
+    const bool forged = fuzz::forge_state(in_, bytes);
+    if (fmu_.read(bytes, &state_) != ok || fmu_.take(state_) != ok) return;
+    forged_ = forged_ || forged;
+    look_for_time();
   }
   void look_for_time() {
     const unsigned time = exports::fmu::sensor_time;
@@ -270,7 +272,7 @@ class Calls {
     if (step_s > 0.1 && step_s < 1e5) return;  // allowed, and takes long
     if (fmu_.step(in_.byte() % 16 == 0 ? in_.number(time_s_, 1) : time_s_, step_s) != ok) return;
     look_for_time();
-    hold();
+    if (!forged_) hold();
   }
   void hold() {
     const unsigned of[3]{exports::fmu::sensor_flow_lower, exports::fmu::sensor_flow, exports::fmu::sensor_flow_upper};
@@ -284,6 +286,7 @@ class Calls {
   const Fmi& fmu_;
   void* state_ = nullptr;
   std::vector<char> kept_;
+  bool forged_ = false;  ///< a changed state was taken
   double time_s_ = 0;
 };
 

@@ -10,8 +10,10 @@
 
 namespace spoolflow::fuzz {
 
-/// None to three of its numbers or bytes; now and then it is cut short or too long.
-inline void forge_state(Input& in, std::vector<char>& state) {
+/// None to three of its numbers or bytes; now and then it is cut short or too long. Whether it is another state now:
+/// plausible hidden numbers that no sample led to make answers that none would.
+inline bool forge_state(Input& in, std::vector<char>& state) {
+  const std::vector<char> kept = state;
   constexpr std::size_t header = sizeof(exports::StateHeader);
   if (state.size() > header) {
     const std::size_t numbers = (state.size() - header) / sizeof(double);
@@ -29,6 +31,7 @@ inline void forge_state(Input& in, std::vector<char>& state) {
     std::memcpy(state.data() + offsetof(exports::StateHeader, checksum), &sum, sizeof sum);
   }
   if (in.byte() % 8 == 0) state.resize(in.below(state.size() + 2));
+  return state != kept;
 }
 
 }  // namespace spoolflow::fuzz
