@@ -118,7 +118,7 @@ void Instance::do_step(double time_s, double step_s) {
                       number_text(due - static_cast<double>(clock_.next)) + " samples, more than " +
                       number_text(most_samples_a_step) + ": cut it into shorter ones");
   }
-  const auto until = static_cast<std::int64_t>(std::min(due, 9e15));
+  const std::int64_t until = due > 0 ? static_cast<std::int64_t>(std::min(due, 9e15)) : 0;  // of a wild start time
   for (; clock_.next < until; ++clock_.next) component_->sample(values_, clock_.next);
   clock_.reached_s = end_s;
   values_[0] = end_s;
