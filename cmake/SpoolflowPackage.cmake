@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, and the Debian packages that `cpack` makes of it: the tool (component tool), and what
-# other programs build against (component development).
+# What `cmake --install` puts where, and the Debian packages that `cpack` makes of it: the tool (component tool), the shared
+# library for programs that run with it (runtime), and what other programs build against (development).
 include(CMakePackageConfigHelpers)
 
 # Manual page and completion are made from the built command's own help.
@@ -13,16 +13,17 @@ foreach(page IN ITEMS man_page:spoolflow.1 completion:spoolflow.bash)
     COMMAND ${PROJECT_SOURCE_DIR}/ci/${script}.sh $<TARGET_FILE:spoolflow> > ${made}/${file}
     DEPENDS spoolflow ${PROJECT_SOURCE_DIR}/ci/${script}.sh)
 endforeach()
-add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1 ${made}/spoolflow.bash)
+add_custom_command(OUTPUT ${made}/spoolflow.1.gz COMMAND gzip -9n < spoolflow.1 > spoolflow.1.gz DEPENDS ${made}/spoolflow.1
+                   WORKING_DIRECTORY ${made})
+add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1.gz ${made}/spoolflow.bash)
 # All that is installed, for those who build no tests.
 add_custom_target(installable DEPENDS spoolflow spoolflow_pages spoolflow_c_shared spoolflow_c_static)
 
 # The tool.
 install(TARGETS spoolflow RUNTIME COMPONENT tool)
-install(FILES ${made}/spoolflow.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
+install(FILES ${made}/spoolflow.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
 install(FILES ${made}/spoolflow.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME spoolflow
         COMPONENT tool)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spoolflow RENAME copyright COMPONENT tool)
 
 # Libraries, headers, and how other builds find them. The sensor's core is headers only.
 add_library(spoolflow_core INTERFACE)
@@ -32,14 +33,12 @@ set_target_properties(spoolflow_core PROPERTIES EXPORT_NAME sensor)
 set_target_properties(spoolflow_c_shared PROPERTIES EXPORT_NAME spoolflow)
 set_target_properties(spoolflow_c_static PROPERTIES EXPORT_NAME spoolflow_static)
 install(TARGETS spoolflow_c_shared spoolflow_c_static spoolflow_core EXPORT spoolflow
-        LIBRARY COMPONENT development NAMELINK_COMPONENT development
+        LIBRARY COMPONENT runtime NAMELINK_COMPONENT development
         ARCHIVE COMPONENT development)
 install(FILES spoolflow/export/c_interface/spoolflow.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(DIRECTORY spoolflow/sensor DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spoolflow COMPONENT development
         FILES_MATCHING PATTERN *.hpp)
 install(DIRECTORY examples/c_interface DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libspoolflow-dev/examples COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libspoolflow-dev RENAME copyright
-        COMPONENT development)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/spoolflow)
 install(EXPORT spoolflow NAMESPACE spoolflow:: FILE spoolflowTargets.cmake DESTINATION ${config} COMPONENT development)
 configure_package_config_file(cmake/spoolflowConfig.cmake.in ${made}/spoolflowConfig.cmake INSTALL_DESTINATION ${config})
@@ -49,26 +48,48 @@ configure_file(cmake/spoolflow.pc.in ${made}/spoolflow.pc @ONLY)
 install(FILES ${made}/spoolflowConfig.cmake ${made}/spoolflowConfigVersion.cmake DESTINATION ${config} COMPONENT development)
 install(FILES ${made}/spoolflow.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
+# Who may do what with it, and what has changed, of each package.
+set(library libspoolflow${PROJECT_VERSION_MAJOR})
+string(TIMESTAMP SPOOLFLOW_BUILD_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
+foreach(package IN ITEMS tool:spoolflow runtime:${library} development:libspoolflow-dev)
+  string(REGEX MATCH "^[^:]+" component ${package})
+  string(REGEX REPLACE "^[^:]+:" "" SPOOLFLOW_PACKAGE ${package})
+  configure_file(cmake/debian/changelog.in ${made}/${component}/changelog @ONLY)
+  file(ARCHIVE_CREATE OUTPUT ${made}/${component}/changelog.gz PATHS ${made}/${component}/changelog FORMAT raw COMPRESSION GZip
+       COMPRESSION_LEVEL 9)
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian/copyright ${made}/${component}/changelog.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${SPOOLFLOW_PACKAGE} COMPONENT ${component})
+endforeach()
+
 # cpack -G DEB
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME spoolflow)
 set(CPACK_PACKAGE_VENDOR "the spoolflow authors")
-set(CPACK_PACKAGE_CONTACT "the spoolflow authors <spoolflow@localhost>")
+set(CPACK_PACKAGE_CONTACT "the spoolflow authors <spoolflow@example.org>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL tool development)
+set(CPACK_COMPONENTS_ALL tool runtime development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${library})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/triggers)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library} (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME spoolflow)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libspoolflow-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)
 include(CPack)
-cpack_add_component(tool DESCRIPTION "Soft flow-rate sensor for solenoid-operated spool valves
+cpack_add_component(tool DESCRIPTION "Soft flow-rate sensor for spool valves: the command
  Calibrates a valve from bench recordings, estimates its flow rate from coil
  current, coil voltage and spool position, and exports the sensor as FMU or C++.")
+cpack_add_component(runtime DESCRIPTION "Soft flow-rate sensor for spool valves: shared C library
+ For programs that estimate the flow rate of a solenoid-operated spool valve
+ from its coil current, coil voltage and spool position through spoolflow.h.")
 cpack_add_component(development DESCRIPTION "Soft flow-rate sensor for spool valves: C library and C++ core
  spoolflow.h with shared and static library, the sensor's C++ headers, and the
  files by which CMake and pkg-config find them.")

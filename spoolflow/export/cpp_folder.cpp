@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "spoolflow/export/checksum.hpp"
+#include "spoolflow/export/cpp/cell_sums.hpp"
 #include "spoolflow/export/cpp_texts.hpp"
 #include "spoolflow/export/golden_points.hpp"
 #include "spoolflow/export/number_groups.hpp"
@@ -206,11 +208,48 @@ std::string literals_of(const sensor::WholeValveSample<float>& in) {
                      sample_literal(in.position_m), sample_literal(in.oil_temperature_K));
 }
 
+/// What one definition's tables answer, in double precision.
+template <class Tables>
+std::string cell_sums(const std::string& name, const Tables& tables) {
+  std::string sums;
+  std::size_t count = 0;
+  sensor::CondensedState<double> state{};
+  sum_cells(tables, state, [&](const CellSum<double>& row) {
+    sums += fmt::format("{}{},", count % 10 == 0 ? "\n    " : " ", float_literal(row.sum));
+    ++count;
+  });
+  return fmt::format("inline constexpr std::array<float, {}> {}_cells{{{{{}\n}}}};\n\n", count, name, sums);
+}
+
+/// The sums of every table, and the functions that compare them.
+std::string cell_proof(const model::Model& model) {
+  std::string out = "/// What the tables answer in the middle of their cells, summed up along each row.\n";
+  const auto add = [&out](const std::string& side, const model::Condensed& condensed,
+                          const std::optional<model::Observer>& observer) {
+    const auto tables = std::make_unique<sensor::CondensedTables<double>>();
+    sensor::lay_out(condensed.parameters, *tables);
+    out += cell_sums("condensed" + side, *tables);
+    if (observer) out += cell_sums("observer" + side, observer->parameters);
+  };
+  add(model.whole() ? "_b" : "", model.condensed, model.has_observer() ? model.observer : std::nullopt);
+  if (model.whole()) add("_a", model.p_to_a->condensed, model.has_observer() ? model.p_to_a->observer : std::nullopt);
+  for (const std::string sensor : {"condensed", "observer"}) {
+    std::string all;
+    for (const std::string& name : definition_names(model)) {
+      if (name.starts_with(sensor))
+        all += fmt::format("{}spoolflow::exports::cells_agree({}, {}_cells)", all.empty() ? "" : " && ", name, name);
+    }
+    out += fmt::format("inline bool {}_cells_agree() {{\n  return {};\n}}\n\n", sensor, all.empty() ? "true" : all);
+  }
+  return out;
+}
+
 template <class Sample>
 std::string golden_header(const model::Model& model, const std::vector<GoldenPoint<Sample>>& points) {
   std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <cstdint>\n#include <limits>\n\n";
   out += fmt::format(
-      "#include \"spoolflow/sensor/{}\"\n\nnamespace valve_model {{\n\n"
+      "#include \"cell_sums.hpp\"\n#include \"spoolflow/sensor/{}\"\n#include \"valve_model.hpp\"\n\n"
+      "namespace valve_model {{\n\n"
       "/// One sample and what double precision answered on the host.\n"
       "struct GoldenPoint {{\n"
       "  spoolflow::sensor::{}<float> sample;\n"
@@ -232,7 +271,7 @@ std::string golden_header(const model::Model& model, const std::vector<GoldenPoi
                        float_literal(point.best_lower_m3_per_s), float_literal(point.best_upper_m3_per_s),
                        static_cast<std::uint32_t>(point.best_status));
   }
-  return out + "}};\n\n}  // namespace valve_model\n";
+  return out + "}};\n\n" + cell_proof(model) + "}  // namespace valve_model\n";
 }
 
 std::string readme(const model::Model& model, const SinglePrecisionError& error) {
@@ -266,6 +305,7 @@ std::vector<ExportedFile> cpp_folder(const model::Model& model) {
       model.whole() ? proof(model, whole_golden_points(model)) : proof(model, golden_points(model));
   files.push_back({"example.cpp", text(model.whole() ? "whole_example.cpp.in" : "example.cpp.in")});
   files.push_back({"self_test.cpp", text("self_test.cpp.in")});
+  files.push_back({"cell_sums.hpp", text("cell_sums.hpp")});
   files.push_back({std::string(cpp_model_name), model_header(model)});
   for (const EmbeddedFile& header : sensor_headers()) {
     files.push_back({fmt::format("spoolflow/sensor/{}", header.name), std::string(header.bytes)});

@@ -9,6 +9,9 @@
 namespace spoolflow::model {
 namespace {
 
+/// No quantity of a model is larger in SI units; figures of larger ones are no figures any more.
+constexpr double largest_number = 1e15;
+
 std::string shown(const nlohmann::ordered_json& value) {
   std::string text = value.dump();
   if (text.size() > 40) text = text.substr(0, 37) + "...";
@@ -52,6 +55,10 @@ double JsonNode::number() const {
   if (!value_.is_number()) refuse(fmt::format("{} is no number", shown(value_)));
   const double number = value_.get<double>();
   if (!std::isfinite(number)) refuse("the number is not finite");
+  if (std::abs(number) > largest_number) {
+    refuse(fmt::format("{} is larger than any quantity of a valve, {}; make the model again with `spoolflow calibrate`",
+                       shown(value_), largest_number));
+  }
   return number;
 }
 

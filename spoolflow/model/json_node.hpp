@@ -17,6 +17,7 @@ class JsonNode {
   [[nodiscard]] bool has(const std::string& key) const;
   [[nodiscard]] std::vector<JsonNode> elements() const;
   [[nodiscard]] std::string text() const;
+  /// Finite and no larger than any quantity of a valve (1e15).
   [[nodiscard]] double number() const;
   [[nodiscard]] double number(double lowest, double highest) const;
   [[nodiscard]] std::vector<double> numbers() const;

@@ -1,5 +1,4 @@
 #include <fstream>
-#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,9 +47,8 @@ std::vector<Residual> residuals(const JsonNode& node) {
 Fit fit(const JsonNode& node) {
   Fit out{node.at("of").text(), {}, {}};
   for (const JsonNode& each : node.at("parameters").elements()) {
-    constexpr double any = std::numeric_limits<double>::max();
     out.parameters.push_back(
-        {each.at("name").text(), each.at("value").number(), each.at("uncertainty").number(0, any)});
+        {each.at("name").text(), each.at("value").number(), each.at("uncertainty").number(0, 1e15)});
   }
   out.correlation = node.at("correlation").numbers();
   const std::size_t wanted = out.parameters.size() * out.parameters.size();

@@ -12,62 +12,12 @@
 #include "spoolflow/model/limit_check.hpp"
 #include "spoolflow/model/model.hpp"
 #include "tests/estimation/random_valve.hpp"
+#include "tests/estimation/sound_answer.hpp"
 
 namespace spoolflow::estimation {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// What is wrong with an answer; empty where nothing is.
-template <class T>
-std::string fault(const sensor::Estimate<T>& estimate) {
-  for (const T value : {estimate.flow_m3_per_s, estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s,
-                        estimate.pressure_difference_Pa, estimate.magnetic_force_N, estimate.spring_force_N,
-                        estimate.flow_force_N, estimate.friction_force_N}) {
-    if (!std::isfinite(value)) return "not finite";
-  }
-  if (!(estimate.flow_lower_m3_per_s <= estimate.flow_m3_per_s)) return "lower end above the flow";
-  if (!(estimate.flow_m3_per_s <= estimate.flow_upper_m3_per_s)) return "upper end below the flow";
-  return estimate.pressure_difference_Pa < 0 ? "negative pressure difference" : "";
-}
-
-/// Numbers as the valve has them.
-template <template <class> class Parameters>
-std::unique_ptr<Parameters<float>> in_single_precision(const Parameters<double>& valve) {
-  constexpr std::size_t count = sizeof(Parameters<float>) / sizeof(float);
-  const auto numbers = std::bit_cast<std::array<double, count>>(valve);
-  auto single = std::make_unique<std::array<float, count>>();
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto number = static_cast<float>(numbers[k]);
-    (*single)[k] = std::abs(number) < std::numeric_limits<float>::min() ? 0.0F : number;
-  }
-  return std::make_unique<Parameters<float>>(std::bit_cast<Parameters<float>>(*single));
-}
-
-std::string fault_in_double(RunningSensor::Parameters valve, RandomSamples samples, int count) {
-  RunningSensor sensor(valve, 1e-3);
-  for (int k = 0; k < count; ++k) {
-    const std::string found = fault(sensor.step(samples.next()));
-    if (!found.empty()) return found + " at sample " + std::to_string(k);
-  }
-  return "";
-}
-
-template <class Valve, class State>
-std::string fault_in_single(const Valve& valve, State state, RandomSamples samples, int count) {
-  double last_s = 0;
-  for (int k = 0; k < count; ++k) {
-    const TimedSample sample = samples.next();
-    const std::string found =
-        fault(step(valve, state,
-                   {static_cast<float>(sample.time_s - last_s), static_cast<float>(sample.current_A),
-                    static_cast<float>(sample.voltage_V), static_cast<float>(sample.position_m),
-                    static_cast<float>(sample.oil_temperature_K)}));
-    if (!found.empty()) return found + " at sample " + std::to_string(k);
-    if (std::isfinite(sample.time_s)) last_s = sample.time_s;
-  }
-  return "";
-}
 
 constexpr auto described = [](auto& valve, auto& visitor) { describe(valve, visitor); };
 
@@ -77,10 +27,10 @@ TEST(Limits, CondensedSensorsWithinThemAnswerWithNumbersWhateverComes) {
     auto valve = std::make_unique<sensor::CondensedParameters<double>>();
     fill(*valve, dice);
     const RandomSamples samples(dice, largest_current_A(*valve), largest_position_m(*valve));
-    EXPECT_EQ(fault_in_double(valve.get(), samples, 1000), "") << seed;
+    EXPECT_EQ(flaw_in_double(valve.get(), samples, 1000), "") << seed;
     const auto tables = std::make_unique<sensor::CondensedTables<double>>();
     sensor::lay_out(*valve, *tables);
-    EXPECT_EQ(fault_in_single(*in_single_precision(*tables), sensor::CondensedState<float>{}, samples, 1000), "")
+    EXPECT_EQ(flaw_in_single(*in_single_precision(*tables), sensor::CondensedState<float>{}, samples, 1000), "")
         << seed;
   }
 }
@@ -92,11 +42,11 @@ TEST(Limits, ObserversWithinThemAnswerWithNumbersWhateverComes) {
     auto valve = std::make_unique<sensor::ObserverParameters<double>>();
     fill(*valve, dice);
     const RandomSamples samples(dice, largest_current_A(*valve), largest_position_m(*valve));
-    EXPECT_EQ(fault_in_double(valve.get(), samples, 1000), "") << seed;
+    EXPECT_EQ(flaw_in_double(valve.get(), samples, 1000), "") << seed;
     const auto rounded = in_single_precision(*valve);
     if (model::violation(*rounded, described)) continue;  // as the C++ export does
     ++single;
-    EXPECT_EQ(fault_in_single(*rounded, sensor::ObserverState<float>{}, samples, 1000), "") << seed;
+    EXPECT_EQ(flaw_in_single(*rounded, sensor::ObserverState<float>{}, samples, 1000), "") << seed;
   }
   EXPECT_GT(single, 150);
 }
@@ -175,9 +125,9 @@ class Damage {
       const auto& valve = model.condensed.parameters;
       Dice dice(2);
       const RandomSamples samples(dice, largest_current_A(valve), largest_position_m(valve));
-      EXPECT_EQ(fault_in_double(&valve, samples, 200), "") << what;
+      EXPECT_EQ(flaw_in_double(&valve, samples, 200), "") << what;
       if (model.observer) {
-        EXPECT_EQ(fault_in_double(&model.observer->parameters, samples, 200), "") << what;
+        EXPECT_EQ(flaw_in_double(&model.observer->parameters, samples, 200), "") << what;
       }
     } catch (const model::ModelError& error) {
       ++refused_;
@@ -220,6 +170,8 @@ TEST(Limits, RefuseByPathWhatTheEquationsCannotLiveWith) {
         Broken{"/observer/least_liveliness", 1, "first_liveliness"},
         Broken{"/observer/hysteresis_stiffness_increase_A_per_Wb/0", -1e6, "hysteresis_stiffness_A_per_Wb"},
         Broken{"/condensed/largest_flow_force_N/values/7", 0, "is outside"},
+        Broken{"/fluid/density_15C_kg_per_m3", 1e16, "larger than any quantity"},
+        Broken{"/condensed/current_range_A/1", 1e300, "larger than any quantity"},
         Broken{"/condensed/flow_m3_per_s/values/4/16", -0.1, "falls below"}}) {
     auto damaged = good;
     damaged[Pointer("/observer/first_liveliness")] = 0.5;

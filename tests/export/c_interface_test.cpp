@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,9 +13,11 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/export/c_interface/spoolflow.h"
+#include "spoolflow/export/state_bytes.hpp"
 
 namespace {
 
+namespace exports = spoolflow::exports;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -217,6 +221,29 @@ TEST(CInterface, RefusesAStateThatIsDamagedOrOfAnotherEstimator) {
   EXPECT_EQ(spoolflow_set_state(sensor.get(), state.data(), state.size(), message, sizeof message),
             SPOOLFLOW_BAD_STATE);
   EXPECT_THAT(message, HasSubstr("damaged"));
+}
+
+TEST(CInterface, RefusesAStateWhoseHeldAnswerLiesOutsideOfItsBand) {
+  const Sensor sensor = sensor_of();
+  (void)flows(sensor, 0, 100);
+  std::vector<char> state(spoolflow_state_size(sensor.get()));
+  ASSERT_EQ(spoolflow_get_state(sensor.get(), state.data(), state.size()), SPOOLFLOW_OK);
+  const spoolflow_sample missing{0.1, NAN, 5, 1e-3, 313};
+  spoolflow_estimate held{};
+  ASSERT_EQ(spoolflow_step(sensor.get(), &missing, &held), SPOOLFLOW_OK);
+  // The flow that is held, wherever it lies, becomes 10 m3/s under a checksum that holds.
+  constexpr std::size_t header = sizeof(exports::StateHeader);
+  const double forged = 10;
+  int found = 0;
+  for (std::size_t at = header; at + sizeof(double) <= state.size(); at += sizeof(double)) {
+    if (std::memcmp(state.data() + at, &held.flow_m3_per_s, sizeof(double)) != 0) continue;
+    std::memcpy(state.data() + at, &forged, sizeof forged);
+    ++found;
+  }
+  ASSERT_GT(found, 0);
+  const std::uint64_t sum = exports::checksum(state.data() + header, state.size() - header);
+  std::memcpy(state.data() + offsetof(exports::StateHeader, checksum), &sum, sizeof sum);
+  EXPECT_EQ(spoolflow_set_state(sensor.get(), state.data(), state.size(), nullptr, 0), SPOOLFLOW_BAD_STATE);
 }
 
 TEST(CInterface, SensorsInManyThreadsDoNotDisturbEachOther) {

@@ -78,6 +78,28 @@ TEST_P(StateFmu, StatesThatAreEqualHaveEqualBytesAndForgedOnesAreRefused) {
   EXPECT_GT(refused, 0);
 }
 
+TEST_P(StateFmu, AStateOfWhichOneNumberCannotBeLeavesTheInstanceAsItWas) {
+  const auto instance = begun();
+  run(*instance, 500);
+  const std::vector<char> state = instance->state();
+  constexpr std::size_t header = sizeof(StateHeader);
+  int refused = 0;
+  for (std::size_t k = header; k + sizeof(double) <= state.size(); k += sizeof(double)) {
+    std::vector<char> forged = state;
+    const double odd = -1e300;
+    std::memcpy(forged.data() + k, &odd, sizeof odd);
+    const std::uint64_t sum = checksum(forged.data() + header, forged.size() - header);
+    std::memcpy(forged.data() + offsetof(StateHeader, checksum), &sum, sizeof sum);
+    if (instance->set_state(forged) == FmuStatus::ok) {
+      EXPECT_EQ(instance->set_state(state), FmuStatus::ok);
+    } else {
+      ++refused;
+      ASSERT_EQ(instance->state(), state) << k;
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Versions, StateFmu, ::testing::Values(FmiVersion::fmi2, FmiVersion::fmi3));
 
 }  // namespace

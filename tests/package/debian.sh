@@ -1,19 +1,42 @@
 #!/bin/sh
-# debian.sh BUILD MODEL: makes the packages and looks into them; the command runs from where it was unpacked.
+# debian.sh BUILD MODEL: makes the packages and looks into them, by lintian too where it is there; the command runs from
+# where it was unpacked.
 set -eu
 build=$1 model=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 cpack --config "$build/CPackConfig.cmake" -B "$folder/made" >cpack.log 2>&1 || { cat cpack.log; exit 1; }
-tool=$(ls made/spoolflow_*.deb) development=$(ls made/libspoolflow-dev_*.deb)
+tool=$(ls made/spoolflow_*.deb) runtime=$(ls made/libspoolflow0_*.deb) development=$(ls made/libspoolflow-dev_*.deb)
+holds() {
+  dpkg-deb --contents "$1" >contents
+  grep -q "/$2\( -> .*\)\?$" contents
+}
+holds_not() { if holds "$1" "$2"; then echo "$1 holds $2" && exit 1; fi; }
 dpkg-deb --field "$tool" Depends | grep -q 'libc6'
-for file in usr/bin/spoolflow usr/share/man/man1/spoolflow.1 usr/share/bash-completion/completions/spoolflow; do
-  dpkg-deb --contents "$tool" | grep -q " ./$file$"
+dpkg-deb --field "$development" Depends | grep -q 'libspoolflow0 (= '
+for file in usr/bin/spoolflow usr/share/man/man1/spoolflow.1.gz usr/share/bash-completion/completions/spoolflow; do
+  holds "$tool" $file
 done
-for file in usr/include/spoolflow.h usr/include/spoolflow/sensor/observer.hpp spoolflow.pc spoolflowConfig.cmake libspoolflow.a libspoolflow.so; do
-  dpkg-deb --contents "$development" | grep -q "[ /]$(basename $file)\( -> .*\)\?$"
+for file in spoolflow.h spoolflow/sensor/observer.hpp spoolflow.pc spoolflowConfig.cmake libspoolflow.a libspoolflow.so; do
+  holds "$development" $file
+done
+# Programs need the shared library alone: by its name for them, known to dpkg-shlibdeps and to the loader's cache.
+holds "$runtime" libspoolflow.so.0
+dpkg-deb --info "$runtime" shlibs | grep -q '^libspoolflow 0 libspoolflow0'
+dpkg-deb --info "$runtime" triggers | grep -q 'ldconfig'
+for package in "$tool" "$development"; do
+  holds_not "$package" libspoolflow.so.0
+done
+for package in "$tool" "$runtime" "$development"; do
+  dpkg-deb --field "$package" Maintainer | grep -q '@'
+  holds "$package" copyright
+  holds "$package" changelog.gz
 done
 dpkg-deb --extract "$tool" root
 root/usr/bin/spoolflow --version
-! dpkg-deb --contents "$tool" | grep -q 'spoolflow\.h'
+holds_not "$tool" spoolflow.h
+# Not among packages.txt: it brings 124 packages of Perl for three that are looked at.
+if command -v lintian >/dev/null; then
+  lintian --allow-root --fail-on error "$tool" "$runtime" "$development"
+fi

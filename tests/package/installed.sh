@@ -11,7 +11,7 @@ mv first prefix
 prefix=$folder/prefix
 
 "$prefix/bin/spoolflow" --version
-grep -q '^.SS spoolflow estimate' "$prefix/share/man/man1/spoolflow.1"
+gzip -dc "$prefix/share/man/man1/spoolflow.1.gz" | grep -q '^.SS spoolflow estimate'
 complete() {
   bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _spoolflow; echo "${COMPREPLY[@]}"' \
     "$prefix/share/bash-completion/completions/spoolflow" "$@"

@@ -118,7 +118,7 @@ void Instance::do_step(double time_s, double step_s) {
                       number_text(due - static_cast<double>(clock_.next)) + " samples, more than " +
                       number_text(most_samples_a_step) + ": cut it into shorter ones");
   }
-  const auto until = static_cast<std::int64_t>(std::min(due, 9e15));
+  const std::int64_t until = due > 0 ? static_cast<std::int64_t>(std::min(due, 9e15)) : 0;  // of a wild start time
   for (; clock_.next < until; ++clock_.next) component_->sample(values_, clock_.next);
   clock_.reached_s = end_s;
   values_[0] = end_s;
@@ -185,7 +185,8 @@ StateBytes Instance::unpacked(const StateBytes& state) {
   const auto flags = {clock.stop_defined, clock.tuned, clock.stale};
   const bool holds = clock.mode >= Mode::instantiated && clock.mode <= Mode::terminated && clock.next >= 0 &&
                      clock.next < most_sample && std::isfinite(clock.start_s) && std::isfinite(clock.reached_s) &&
-                     std::isfinite(clock.stop_s) && (clock.mode < Mode::step || clock.step_s > 0) &&
+                     std::isfinite(clock.stop_s) && std::isfinite(clock.step_s) &&
+                     (clock.mode < Mode::step || clock.step_s > 0) &&
                      std::all_of(flags.begin(), flags.end(), [](std::uint32_t flag) { return flag <= 1; });
   const std::size_t before = sizeof clock + values_.size() * sizeof(double);
   if (!holds || !component_->may_be_memory(std::span<const char>(plain).subspan(before)))
@@ -199,12 +200,16 @@ void Instance::check_state(const StateBytes& state) {
 
 void Instance::set_state(const StateBytes& state) {
   const StateBytes plain = unpacked(state);
+  Clock clock;
+  std::vector<double> values(values_.size());
   const char* from = plain.data();
-  std::memcpy(&clock_, from, sizeof clock_);
-  std::memcpy(values_.data(), from + sizeof clock_, values_.size() * sizeof(double));
+  std::memcpy(&clock, from, sizeof clock);
+  std::memcpy(values.data(), from + sizeof clock, values.size() * sizeof(double));
+  if (clock.mode != Mode::instantiated) component_->tune(values);  // what does not fit together throws: nothing is set
+  clock_ = clock;
+  values_ = std::move(values);
   const std::span<char> memory = component_->memory();
-  std::memcpy(memory.data(), from + sizeof clock_ + values_.size() * sizeof(double), memory.size());
-  if (clock_.mode != Mode::instantiated) component_->tune(values_);
+  std::memcpy(memory.data(), from + sizeof clock + values_.size() * sizeof(double), memory.size());
 }
 
 }  // namespace spoolflow::exports::fmu
