@@ -27,7 +27,10 @@ struct SampleBlock {
 struct ReadNotes {
   std::uint64_t rows = 0;
   std::uint64_t duplicate_times = 0;  ///< equal to the time stamp before
-  std::uint64_t missing_values = 0;   ///< empty cells in channels that were asked for
+  std::uint64_t missing_values = 0;   ///< empty cells in channels that were asked for, but for time
+  std::uint64_t missing_times = 0;    ///< these and what follows only of a source that runs on
+  std::uint64_t backward_times = 0;   ///< before the time stamp before
+  std::uint64_t left_out = 0;         ///< lines that could not be read
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; MAT and HDF5 are read in slabs).
@@ -35,9 +38,9 @@ class Reader {
  public:
   virtual ~Reader() = default;
   [[nodiscard]] virtual bool has(Channel channel) const = 0;
-  /// Fills the next block (capacities are reused); false at the end. Throws RecordingError: text in a number column,
-  /// NaN or infinity written out, time running backwards, values implausible for their unit; with file, line and
-  /// column.
+  /// Fills the next block (capacities are reused), of a pipe with the rows that have come; false at the end. Throws
+  /// RecordingError: text in a number column, NaN or infinity written out, time running backwards, values implausible
+  /// for their unit; with file, line and column.
   virtual bool next(SampleBlock& block) = 0;
   [[nodiscard]] virtual const ReadNotes& notes() const = 0;
   /// Share of the file read so far, 0 to 1; nothing where the length is unknown (a pipe).

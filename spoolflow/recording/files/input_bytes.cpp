@@ -47,18 +47,24 @@ InputBytes::~InputBytes() {
 std::size_t InputBytes::read(char* out, std::size_t room) {
   std::size_t filled = 0;
   while (filled < room) {
-    const ::ssize_t got = ::read(descriptor_, out + filled, room - filled);
+    const std::size_t got = read_some(out + filled, room - filled);
     if (got == 0) break;
-    if (got < 0) {
-      if (errno == EINTR) continue;
-      if (errno == EBADF) throw RecordingError(fmt::format("{}: cannot be read: it is closed", name_));
-      throw std::runtime_error(
-          fmt::format("{}: reading failed after {} bytes: {}", name_, position_ + filled, reason(errno)));
-    }
-    filled += static_cast<std::size_t>(got);
+    filled += got;
   }
-  position_ += filled;
   return filled;
+}
+
+std::size_t InputBytes::read_some(char* out, std::size_t room) {
+  for (;;) {
+    const ::ssize_t got = ::read(descriptor_, out, room);
+    if (got >= 0) {
+      position_ += static_cast<std::uint64_t>(got);
+      return static_cast<std::size_t>(got);
+    }
+    if (errno == EINTR) continue;
+    if (errno == EBADF) throw RecordingError(fmt::format("{}: cannot be read: it is closed", name_));
+    throw std::runtime_error(fmt::format("{}: reading failed after {} bytes: {}", name_, position_, reason(errno)));
+  }
 }
 
 }  // namespace spoolflow::recording

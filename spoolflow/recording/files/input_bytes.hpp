@@ -18,8 +18,12 @@ class InputBytes {
 
   /// Up to `room` bytes; fewer only at the end. Throws std::runtime_error where the device fails.
   std::size_t read(char* out, std::size_t room);
+  /// What has come so far, up to `room` > 0 bytes; waits for the first. Zero only at the end. Throws as read() does.
+  std::size_t read_some(char* out, std::size_t room);
   /// As the user named it; "standard input" for "-".
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Whether bytes come while others are still to be made: a pipe, a terminal, a socket.
+  [[nodiscard]] bool comes_bit_by_bit() const { return !size_; }
   /// The length of a regular file; nothing for a pipe or a terminal.
   [[nodiscard]] std::optional<std::uint64_t> size() const { return size_; }
   [[nodiscard]] std::uint64_t position() const { return position_; }

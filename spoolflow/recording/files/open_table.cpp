@@ -13,7 +13,14 @@ namespace spoolflow::recording {
 OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text text) {
   auto input = std::make_unique<InputBytes>(file);
   std::vector<char> beginning(format_bytes);
-  beginning.resize(input->read(beginning.data(), beginning.size()));
+  std::size_t begun = 0;
+  const auto enough = [&] {
+    return begun == format_bytes || (input->comes_bit_by_bit() && header_is_whole({beginning.data(), begun}));
+  };
+  for (std::size_t got = 1; got > 0 && !enough(); begun += got) {
+    got = input->read_some(beginning.data() + begun, format_bytes - begun);
+  }
+  beginning.resize(begun);
   const FileFormat format = format_of({beginning.data(), beginning.size()}, input->name());
   if (format == FileFormat::csv) {
     return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
