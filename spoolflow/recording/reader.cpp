@@ -150,9 +150,13 @@ FileContents contents_of(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options) {
+  return open_reader(std::make_unique<InputBytes>(file), options);
+}
+
+std::unique_ptr<Reader> open_reader(std::unique_ptr<InputBytes> input, const ReadOptions& options) {
   const CsvTable::Text text = options.runs_on ? CsvTable::Text::left_out : CsvTable::Text::refused;
-  return std::make_unique<ChannelReader>(open_sample_table(file, text).table, options,
-                                         file == "-" ? std::string("standard input") : file.string());
+  const std::string name = input->name();
+  return std::make_unique<ChannelReader>(open_sample_table(std::move(input), text).table, options, name);
 }
 
 Recording read_recording(const std::filesystem::path& file, const ReadOptions& options) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -49,6 +50,9 @@ class Reader {
 
 /// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV.
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
+
+/// The same of an input that is open.
+[[nodiscard]] std::unique_ptr<Reader> open_reader(std::unique_ptr<InputBytes> input, const ReadOptions& options);
 
 /// What a file is and what its columns are called, whether they are channels or not.
 struct FileContents {

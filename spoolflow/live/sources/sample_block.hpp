@@ -15,8 +15,8 @@ struct SourcePosition {
 
 /// Consecutive samples of one valve.
 struct SampleBlock {
-  std::vector<estimation::TimedSample> samples;
-  SourcePosition after;           ///< behind its last sample
+  std::vector<estimation::TimedSample> samples{};
+  SourcePosition after{};         ///< behind its last sample
   std::int64_t arrived_ns = 0;    ///< when it came in, by the steady clock
   std::uint64_t lost_before = 0;  ///< samples that were sent before it and never came, told by sequence numbers
 };

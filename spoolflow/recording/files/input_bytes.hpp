@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,9 @@ class InputBytes {
  public:
   /// "-" is standard input. Throws RecordingError: no such file, a folder, no permission.
   explicit InputBytes(const std::filesystem::path& file);
+  /// Of a pipe or a connection that is open; closes it. A wait for bytes ends as if nothing more came within a tenth of
+  /// a second after `given_up` says so.
+  InputBytes(int descriptor, std::string name, std::function<bool()> given_up);
   ~InputBytes();
   InputBytes(const InputBytes&) = delete;
   InputBytes& operator=(const InputBytes&) = delete;
@@ -32,6 +36,9 @@ class InputBytes {
   std::string name_;
   int descriptor_;
   bool owned_;
+  [[nodiscard]] bool wait() const;
+
+  std::function<bool()> given_up_;
   std::optional<std::uint64_t> size_;
   std::uint64_t position_ = 0;
 };

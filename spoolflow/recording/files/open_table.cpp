@@ -5,13 +5,15 @@
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
-#include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/mat_table.hpp"
 
 namespace spoolflow::recording {
 
 OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text text) {
-  auto input = std::make_unique<InputBytes>(file);
+  return open_sample_table(std::make_unique<InputBytes>(file), text);
+}
+
+OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text text) {
   std::vector<char> beginning(format_bytes);
   std::size_t begun = 0;
   const auto enough = [&] {
@@ -31,7 +33,8 @@ OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text te
                     "and name it",
                     input->name(), name(format)));
   }
-  return {format, open_confined(file, *input->size(), format == FileFormat::mat ? open_mat_table : open_hdf5_table)};
+  return {format,
+          open_confined(input->name(), *input->size(), format == FileFormat::mat ? open_mat_table : open_hdf5_table)};
 }
 
 }  // namespace spoolflow::recording

@@ -79,7 +79,8 @@ Simulation nothing_yet(bool whole_valve) {
 
 Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed,
                     const SimulationOptions& options) {
-  PlantParameters plant = valve.plant;
+  ValveUnderTest tested = valve;
+  PlantParameters& plant = tested.plant;
   plant.arrangement = run.arrangement;
   if (run.load) plant.load.kind = *run.load;
   Instruments instruments = valve.instruments;
@@ -89,7 +90,7 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
   PlantState state = plant_at_rest(plant, input);
   PlantOutput truth = observe(plant, state, input);
   InstrumentPanel panel(instruments, seed, run, truth, input.oil_temperature_C);
-  CoilSupply coil_supply(valve, run, seed);
+  CoilSupply coil_supply(tested, run, seed);
   SpanReader<double> sample_rate(run.sample_rate_Hz);
   SpanReader<double> test(run.test);
 
@@ -115,7 +116,13 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
                    .current_A = run.current_A.at(time_s),
                    .pressure_difference_Pa = input.held_pressure_difference_Pa,
                    .test = test.at(time_s, 0)});
-      if (options.dither) coil_supply.set_dither(options.dither(measured(out.recording, run, time_s)));
+      const MeasuredSample newest = measured(out.recording, run, time_s);
+      if (options.dither) coil_supply.set_dither(options.dither(newest));
+      if (options.each_sample) options.each_sample(newest);
+      if (options.age) options.age(time_s, plant);
+      if (!options.keeps_recording) {
+        for (const recording::Channel channel : run.channels) out.recording.column(channel).clear();
+      }
       if (options.with_truth) {
         truth.time_s = time_s;
         out.truth.add(truth);
