@@ -18,5 +18,7 @@ void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
 void add_analyse_command(CLI::App& program);
 void add_export_command(CLI::App& program);
+void add_live_command(CLI::App& program);
+void add_history_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -38,6 +38,8 @@ void add_commands(CLI::App& program) {
   add_campaign_command(program);
   add_analyse_command(program);
   add_export_command(program);
+  add_live_command(program);
+  add_history_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

@@ -17,6 +17,7 @@ class TcpSource {
   TcpSource(const Address& address, std::vector<std::string> allowed, recording::ReadOptions options,
             SourcePosition after, Intake& intake);
   [[nodiscard]] std::uint16_t port() const { return socket_.port; }
+  void ask_to_stop() { thread_.request_stop(); }
 
  private:
   void run(const std::stop_token& stop);
@@ -36,6 +37,7 @@ class PipeSource {
  public:
   /// Throws SiteError where the path is no pipe.
   PipeSource(std::filesystem::path path, recording::ReadOptions options, SourcePosition after, Intake& intake);
+  void ask_to_stop() { thread_.request_stop(); }
 
  private:
   void run(const std::stop_token& stop);

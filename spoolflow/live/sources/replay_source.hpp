@@ -20,6 +20,7 @@ class ReplaySource {
   ReplaySource(ReplaySettings settings, recording::ReadOptions options, SourcePosition after, Intake& intake);
   /// Whether the recording was played to its end; never where it repeats.
   [[nodiscard]] bool ended() const { return ended_; }
+  void ask_to_stop() { thread_.request_stop(); }
 
  private:
   void run(const std::stop_token& stop);

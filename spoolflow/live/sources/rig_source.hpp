@@ -28,6 +28,7 @@ struct RigSettings {
 class RigSource {
  public:
   RigSource(RigSettings settings, SourcePosition after, Intake& intake);
+  void ask_to_stop() { thread_.request_stop(); }
 
  private:
   void run(const std::stop_token& stop);

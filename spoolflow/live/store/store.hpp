@@ -33,7 +33,7 @@ struct KeptIndicator {
 
 /// From where a valve goes on.
 struct KeptState {
-  std::string valve;
+  std::string valve{};
   std::uint64_t session = 0, next = 0;  ///< of its source
   std::uint64_t samples = 0;            ///< worked on since the store began
   double energy_J = 0;                  ///< since then
@@ -50,10 +50,10 @@ struct ValveCommit {
 struct Event {
   std::int64_t id = 0;       ///< ascending; given by the store
   std::int64_t wall_ms = 0;  ///< since 1970-01-01 UTC
-  std::string valve;
+  std::string valve{};
   double time_s = 0;  ///< by the source's clock
   std::string kind;   ///< "condition", "source", "program"
-  std::string text;
+  std::string text{};
   std::int64_t acknowledged_ms = 0;  ///< 0: not yet
 };
 
