@@ -1,13 +1,23 @@
 #pragma once
 /// Every command of the program, one file each. A new one is declared here, defined in NAME_command.cpp and named in
 /// main.cpp; its callback does the work and throws where it cannot (std::invalid_argument: unusable input, status 2;
-/// anything else: status 1).
+/// anything else: status 1; SeveralFailures: what went wrong with each of several inputs).
+#include <exception>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
 }
 
 namespace spoolflow::apps {
+
+/// Failures of one command that goes on after each, every one told as if it had come alone.
+struct SeveralFailures : std::exception {
+  std::vector<std::string> messages;
+  bool of_the_work = false;  ///< one at least is no unusable input: exit status 1 instead of 2
+  [[nodiscard]] const char* what() const noexcept override { return "several failures"; }
+};
 
 void add_demo_command(CLI::App& program);
 void add_inspect_command(CLI::App& program);

@@ -11,11 +11,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/help_page.hpp"
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/several_failures.hpp"
 #include "spoolflow/apps/standard_streams.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"

@@ -23,9 +23,10 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-/// Of a measured figure: so many digits tell no more than is known.
-Json rounded(double value, double step) {
-  return number(std::round(value / step) * step);
+/// With so many decimals: further digits tell no more than is known.
+Json rounded(double value, int decimals) {
+  const double power = std::pow(10.0, decimals);
+  return number(std::round(value * power) / power);
 }
 
 std::string utc(std::int64_t wall_ms) {
@@ -47,7 +48,7 @@ Json source_of(const SourceView& source) {
   const IntakeCounters& counted = source.counters;
   Json out{{"kind", source.kind},
            {"stalled", source.stalled},
-           {"age_s", rounded(source.age_s, 1e-3)},
+           {"age_s", rounded(source.age_s, 3)},
            {"trouble", source.trouble},
            {"received", counted.received},
            {"dropped", counted.dropped},
@@ -85,15 +86,15 @@ Json valve_of(const Engine& engine, std::size_t k) {
   const SourceView source = engine.source(k);
   const bool known = std::isfinite(valve.time_s);
   const auto flow = [&](double m3_per_s) {
-    return known ? rounded(m3_per_s * litre_per_minute_per_m3_per_s, 1e-6) : Json(nullptr);
+    return known ? rounded(m3_per_s * litre_per_minute_per_m3_per_s, 6) : Json(nullptr);
   };
   return {{"id", valve.id},
-          {"time_s", number(valve.time_s)},
+          {"time_s", rounded(valve.time_s, 6)},
           {"flow_L_min", flow(valve.answer.flow_m3_per_s)},
           {"flow_lower_L_min", flow(valve.answer.flow_lower_m3_per_s)},
           {"flow_upper_L_min", flow(valve.answer.flow_upper_m3_per_s)},
-          {"pressure_difference_bar", rounded(valve.answer.pressure_difference_Pa / units::pascal_per_bar, 1e-4)},
-          {"rated_flow_L_min", rounded(valve.rated_flow_m3_per_s * litre_per_minute_per_m3_per_s, 1e-6)},
+          {"pressure_difference_bar", rounded(valve.answer.pressure_difference_Pa / units::pascal_per_bar, 4)},
+          {"rated_flow_L_min", rounded(valve.rated_flow_m3_per_s * litre_per_minute_per_m3_per_s, 6)},
           {"status", status_of(valve, source)},
           {"ne107", monitor::name(valve.condition)},
           {"causes", causes_of(valve)},
@@ -149,8 +150,8 @@ std::string site_json(const Engine& engine) {
   const UdpCounters udp = engine.udp_counters();
   return Json{{"valves", engine.size()},
               {"stalled", stalled},
-              {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 1e-3)},
-              {"hydraulic_power_W", rounded(power_W, 0.1)},
+              {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
+              {"hydraulic_power_W", rounded(power_W, 1)},
               {"store", engine.site().store},
               {"store_trouble", engine.store_trouble()},
               {"udp",

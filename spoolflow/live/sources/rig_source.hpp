@@ -12,7 +12,7 @@ namespace spoolflow::live {
 
 /// Wear that grows in proportion to time.
 struct Ageing {
-  rig::Wear until;      ///< what it comes to, on top of the valve's own
+  rig::Wear until{};    ///< what it comes to, on top of the valve's own
   double after_s = 0;   ///< of work that change nothing
   double over_s = 600;  ///< of work from no wear to all of it, > 0
 };
@@ -21,7 +21,7 @@ struct RigSettings {
   rig::ValveUnderTest valve;  ///< before spread and wear
   std::uint64_t seed = 1;     ///< of its work and its instruments' noise
   double speed = 1.0;         ///< seconds of work a second, > 0
-  Ageing ageing;
+  Ageing ageing{};
 };
 
 /// Drives the valve through random strokes and loads without end.

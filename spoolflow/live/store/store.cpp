@@ -202,11 +202,26 @@ void Store::retain(std::int64_t wall_ms, const Retention& retention) {
     const std::int64_t pages = database_->number("PRAGMA page_count") - database_->number("PRAGMA freelist_count");
     return 1e-6 * static_cast<double>(pages) * static_cast<double>(database_->number("PRAGMA page_size"));
   };
+  const auto extreme = [&](const char* which) {  // of the rows' times; by the table's key, valve by valve
+    std::optional<std::int64_t> out;
+    Statement one(*database_, fmt::format("SELECT {}(wall_ms) FROM second WHERE valve = ?", which));
+    for (const auto& entry : statements_->numbers) {
+      one.put(entry.second);
+      if (!one.next()) continue;
+      const std::int64_t time_ms = one.integer(0);
+      while (one.next()) {
+      }
+      if (time_ms == 0) continue;  // no rows
+      const bool smallest = std::string_view(which) == "min";
+      out = !out ? time_ms : smallest ? std::min(*out, time_ms) : std::max(*out, time_ms);
+    }
+    return out.value_or(0);
+  };
   constexpr int most_rounds = 20;  // the next time comes in a minute
   for (int round = 0; round < most_rounds && used_MB() > retention.largest_MB; ++round) {
-    const std::int64_t oldest_ms = database_->number("SELECT min(wall_ms) FROM second");
-    if (oldest_ms == 0) return;
-    delete_before(oldest_ms + std::max<std::int64_t>(60000, (wall_ms - oldest_ms) / 20));
+    const std::int64_t oldest_ms = extreme("min"), newest_ms = extreme("max");
+    if (oldest_ms >= newest_ms) return;
+    delete_before(oldest_ms + std::max<std::int64_t>(1, (newest_ms - oldest_ms) / 20));
   }
 }
 
