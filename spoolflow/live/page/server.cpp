@@ -30,7 +30,7 @@ using asio::ip::tcp;
 constexpr std::uint32_t largest_header = 8192;
 constexpr std::uint64_t largest_request_body = 1024;
 constexpr auto patience = std::chrono::seconds(30);
-constexpr auto frame_period = std::chrono::milliseconds(40);
+constexpr auto frame_period = std::chrono::milliseconds(25);
 constexpr int most_connections = 256;
 
 /// The page asks nobody but this server for anything, and no page may frame it.
