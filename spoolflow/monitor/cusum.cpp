@@ -43,6 +43,16 @@ double average_run_length(double allowance, double limit, double mean, int state
   return length[0];
 }
 
+double single_limit_for(double run_length) {
+  double low = 0;
+  double high = 12;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (normal_below(-middle) * run_length > 1 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 double limit_for(double allowance, double run_length) {
   double low = 0.1;
   double high = 30;

@@ -30,6 +30,9 @@ ForceEvent event(const FinderMean& of, double time_s, double direction, EventKin
           .kind = kind};
 }
 
+/// A stretch that travels less is noise [m].
+constexpr double least_travel_m = 3e-6;
+
 bool tells(double position_m, double stroke_m) {
   return position_m > lowest_event_share * stroke_m && position_m < highest_event_share * stroke_m;
 }
@@ -53,7 +56,8 @@ std::optional<ForceEvent> close_slide(FinderState& state, double stroke_m) {
   const double time_s = state.still_s - state.slide_begin_s;
   if (slide.weight < sliding_blocks || !tells(slide.position_m, stroke_m) || slide.friction_N == 0) return {};
   if (std::abs(travel_m) > fastest_sliding_m_per_s * std::max(time_s, event_block_s)) return {};
-  const double direction = travel_m > 0 ? 1 : -1;
+  const double direction = slide.friction_N > 0 ? 1 : -1;  // the sensor tells it from more than this stretch
+  if (direction * travel_m < least_travel_m) return {};
   if (dithered > 0 && dithered < slide.weight) return {};
   return event(slide, state.still_s, direction, dithered > 0 ? EventKind::dithered : EventKind::sliding);
 }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#ifdef SPOOLFLOW_DBG
+#include <cstdio>
+#include <cstdlib>
+#endif
 #include <vector>
 
 #include "spoolflow/monitor/dense.hpp"
@@ -178,6 +182,14 @@ double middle_pressure_Pa(const WindowState& window) {
   return *middle;
 }
 
+/// The share of events that go the rarer way.
+double return_share(const WindowState& window) {
+  double opening = 0;
+  for (std::size_t k = 0; k < window.count; ++k) opening += window.events[k].direction > 0 ? 1 : 0;
+  const double share = opening / static_cast<double>(window.count);
+  return std::min(share, 1 - share);
+}
+
 /// Friction alone, the other magnitudes unknown to the size of usual faults.
 Evidence friction_only(const Evidence& all) {
   constexpr std::size_t O = magnitudes - 1;
@@ -203,6 +215,7 @@ Evidence friction_only(const Evidence& all) {
 std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>& valve, double stroke_m,
                                        const WindowState& window) {
   if (window.count < least_window_events) return {};
+  if (return_share(window) < least_return_share) return {};
   const double highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const double margin_Pa = 0.03 * highest_Pa;
   double pressure_Pa = middle_pressure_Pa(window);
@@ -226,6 +239,17 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   out.misfit = misfit_of(equations, factor, out.evidence);
   const bool at_end = pressure_Pa > highest_Pa - 1.5 * margin_Pa;
   if (std::abs(error_Pa) > unsettled_share * highest_Pa && !at_end) out.shape_tells = false;
+#ifdef SPOOLFLOW_DBG
+  if (std::getenv("DUMP")) {
+    std::fprintf(stderr, "kind %zu error %.1f bar misfit %.2f\n", kind, error_Pa / 1e5, out.misfit);
+    for (std::size_t k = 0; k < window.count; ++k) {
+      const ForceEvent& e = window.events[k];
+      std::fprintf(stderr, "  t=%.2f x=%.3f d=%+.0f kind=%d N=%.2f res=%.2f lim=%.2f rest=%.2f believed=%.1f w=%.1f\n", e.time_s,
+                   e.position_m * 1e3, e.direction, int(e.kind), e.net_force_N, equations.row[k].residual_N,
+                   equations.row[k].friction_limit_N, e.rested_s, e.pressure_difference_Pa / 1e5, weight[k]);
+    }
+  }
+#endif
   if (out.misfit > largest_misfit) return {};
   if (!out.shape_tells) out.evidence = friction_only(out.evidence);
   const double scale = 1 / std::max(out.misfit, least_misfit);
@@ -238,31 +262,45 @@ std::optional<WindowResult> end_window(const sensor::ObserverParameters<double>&
                                        WindowState& window) {
   const std::optional<WindowResult> out = fit_window(valve, stroke_m, window);
   window.count = 0;
-  window.merging = false;
   return out;
 }
+
+namespace {
+
+/// Break-aways and sliding are alike but for their rests; under dither friction is another.
+bool alike(const ForceEvent& a, const ForceEvent& b, double stroke_m) {
+  return a.direction == b.direction && (a.kind == EventKind::dithered) == (b.kind == EventKind::dithered) &&
+         std::abs(a.position_m - b.position_m) < alike_position_share * stroke_m && b.time_s - a.time_s < alike_time_s;
+}
+
+void merge(ForceEvent& into, const ForceEvent& event) {
+  into.count += 1;
+  const double share = 1 / into.count;
+  const auto mean = [&](double& value, double other) { value += share * (other - value); };
+  mean(into.time_s, event.time_s);
+  mean(into.position_m, event.position_m);
+  mean(into.net_force_N, event.net_force_N);
+  mean(into.rested_s, event.rested_s);
+  mean(into.friction_N, event.friction_N);
+  mean(into.current_A, event.current_A);
+  mean(into.oil_temperature_K, event.oil_temperature_K);
+  mean(into.pressure_difference_Pa, event.pressure_difference_Pa);
+}
+
+}  // namespace
 
 std::optional<WindowResult> add_event(const sensor::ObserverParameters<double>& valve, double stroke_m,
                                       WindowState& window, const ForceEvent& event) {
   std::optional<WindowResult> out;
+  // A hunting spool breaks away to and fro: the one before the last may be alike, too.
+  for (std::size_t back = 1; back <= 2 && back <= window.count; ++back) {
+    ForceEvent& before = window.events[window.count - back];
+    if (!alike(before, event, stroke_m)) continue;
+    merge(before, event);
+    return out;
+  }
   if (window.count > 0) {
-    ForceEvent& last = window.events[window.count - 1];
-    const bool pauses = event.time_s - last.time_s > longest_event_gap_s;
-    if (!pauses && last.direction == event.direction && last.kind == event.kind &&
-        std::abs(last.position_m - event.position_m) < alike_position_share * stroke_m &&
-        event.time_s - last.time_s < alike_time_s) {
-      last.count += 1;
-      const double share = 1 / last.count;
-      last.time_s += share * (event.time_s - last.time_s);
-      last.position_m += share * (event.position_m - last.position_m);
-      last.net_force_N += share * (event.net_force_N - last.net_force_N);
-      last.rested_s += share * (event.rested_s - last.rested_s);
-      last.friction_N += share * (event.friction_N - last.friction_N);
-      last.current_A += share * (event.current_A - last.current_A);
-      last.oil_temperature_K += share * (event.oil_temperature_K - last.oil_temperature_K);
-      last.pressure_difference_Pa += share * (event.pressure_difference_Pa - last.pressure_difference_Pa);
-      return out;
-    }
+    const bool pauses = event.time_s - window.events[window.count - 1].time_s > longest_event_gap_s;
     if (pauses || window.count == window_events || event.time_s - window.events[0].time_s > longest_window_s)
       out = end_window(valve, stroke_m, window);
   }

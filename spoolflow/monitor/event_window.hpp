@@ -14,15 +14,16 @@ inline constexpr std::size_t least_window_events = 8;
 inline constexpr double longest_window_s = 60;
 inline constexpr double longest_event_gap_s = 12;  ///< a longer pause ends the window
 /// Events in one direction within this share of the stroke and this time [s] count as one.
-inline constexpr double alike_position_share = 0.02;
+inline constexpr double alike_position_share = 0.025;
 inline constexpr double alike_time_s = 1.0;
+/// A window whose events go one way but for this share tells nothing: friction and pressure difference are one there.
+inline constexpr double least_return_share = 0.1;
 /// A valve that stays closed so long [s] ends the window: behind it the pressure may do as it likes.
 inline constexpr double closing_pause_s = 0.3;
 
 struct WindowState {
   std::array<ForceEvent, window_events> events{};
   std::size_t count = 0;
-  bool merging = false;  ///< the last event may still grow
   double closed_s = 0;
 };
 static_assert(std::is_trivially_copyable_v<WindowState>);

@@ -34,25 +34,50 @@ Magnitudes pull_about(const Evidence& evidence, const Magnitudes& centre) {
   return out;
 }
 
-Magnitudes variances(unsigned set, const Magnitudes& spread) {
-  Magnitudes out{};
+/// What is known before: variances and, of preload and rate, their covariance.
+struct Prior {
+  Magnitudes variance{};
+  double spring_covariance = 0;
+};
+
+/// A spring loses preload and rate together: one loss for both, and half as much apart.
+constexpr double rate_beside_preload = 0.8;
+constexpr double spring_apart = 0.5;
+
+Prior prior_of(unsigned set, const Magnitudes& spread) {
+  Prior out;
   for (std::size_t k = 0; k < magnitudes; ++k) {
-    out[k] = spread[k] * spread[k];
+    out.variance[k] = spread[k] * spread[k];
     for (std::size_t f = 0; f < isolated_faults; ++f) {
-      if ((set >> f & 1U) != 0 && belongs(f, k)) out[k] += 1;
+      if ((set >> f & 1U) == 0 || !belongs(f, k)) continue;
+      const bool rate = k == index(Magnitude::rate_loss);
+      const bool spring = f == static_cast<std::size_t>(Fault::spring);
+      const double together = rate ? rate_beside_preload : 1.0;
+      out.variance[k] += spring ? together * together + spring_apart * spring_apart : 1.0;
+      if (rate) out.spring_covariance = rate_beside_preload;
     }
   }
   return out;
 }
 
-Explanation explain_by(const Evidence& evidence, const Magnitudes& pull, const Magnitudes& variance) {
+Explanation explain_by(const Evidence& evidence, const Magnitudes& pull, const Prior& prior) {
   Explanation out;
   MagnitudeMatrix factor = evidence.information;
   double scale = 0;  // ln det(1 + V H) = ln det(H + V^-1) + ln det V
+  constexpr std::size_t preload = index(Magnitude::preload_loss);
+  constexpr std::size_t rate = index(Magnitude::rate_loss);
   for (std::size_t k = 0; k < magnitudes; ++k) {
-    factor[k * magnitudes + k] += 1 / variance[k];
-    scale += std::log(variance[k]);
+    if (k == preload || k == rate) continue;
+    factor[k * magnitudes + k] += 1 / prior.variance[k];
+    scale += std::log(prior.variance[k]);
   }
+  const double determinant =
+      prior.variance[preload] * prior.variance[rate] - prior.spring_covariance * prior.spring_covariance;
+  factor[preload * magnitudes + preload] += prior.variance[rate] / determinant;
+  factor[rate * magnitudes + rate] += prior.variance[preload] / determinant;
+  factor[preload * magnitudes + rate] -= prior.spring_covariance / determinant;
+  factor[rate * magnitudes + preload] -= prior.spring_covariance / determinant;
+  scale += std::log(determinant);
   if (!factorise(factor, magnitudes)) return out;
   out.value = pull;
   solve_in_place(factor, magnitudes, out.value);
@@ -72,7 +97,7 @@ bool possible(unsigned set, const Magnitudes& value) {
   const auto of = [&](Magnitude magnitude) { return value[index(magnitude)]; };
   if (has(Fault::friction) && of(Magnitude::friction) < 0) return false;
   if (has(Fault::edge_wear) && of(Magnitude::edge_rounding) < 0) return false;
-  if (has(Fault::spring) && (of(Magnitude::preload_loss) < 0 || of(Magnitude::rate_loss) < -0.5)) return false;
+  if (has(Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0) return false;
   return !(has(Fault::coil) && of(Magnitude::shorted_turns) < 0);
 }
 
@@ -86,7 +111,7 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
   unsigned best = 0;
   for (unsigned set = 0; set < sets; ++set) {
     if (std::popcount(set) > largest_set) continue;
-    of_set[set] = explain_by(evidence, pull, variances(set, spread));
+    of_set[set] = explain_by(evidence, pull, prior_of(set, spread));
     if (!possible(set, of_set[set].value)) of_set[set].evidence = -1e300;
     weight[set] = of_set[set].evidence + std::popcount(set) * std::log(prior_odds);
     if (weight[set] > most) {
@@ -115,7 +140,6 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
 Score score(const Evidence& evidence, const Magnitudes& centre, const Magnitudes& spread, Fault fault) {
   const Magnitudes pull = pull_about(evidence, centre);
   const auto own = static_cast<std::size_t>(fault);
-  constexpr double rate_beside_preload = 0.6;
   Magnitudes along{};
   for (std::size_t k = 0; k < magnitudes; ++k) {
     if (belongs(own, k)) along[k] = k == index(Magnitude::rate_loss) ? rate_beside_preload : 1.0;

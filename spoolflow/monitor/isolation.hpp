@@ -13,7 +13,7 @@
 namespace spoolflow::monitor {
 
 /// The odds of each fault before anything is seen, to one.
-inline constexpr double prior_odds = 0.01;
+inline constexpr double prior_odds = 0.05;
 inline constexpr double most_odds = 1e6;
 /// Faults whose magnitudes the forces tell: friction, edge wear, spring, coil, position sensor.
 inline constexpr std::size_t isolated_faults = 5;

@@ -1,6 +1,7 @@
 #pragma once
 /// What one side of a valve has shown so far: evidence of its windows, where it rests closed, its winding.
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 #include "spoolflow/monitor/condition.hpp"
@@ -22,6 +23,7 @@ struct MeanEvidence {
 /// Readings of the closed stop: the coil is silent, springs centre the spool.
 struct RestReading {
   double mean_m = 0;
+  double lowest_m = 0;  ///< of the last readings: friction holds the spool open, never beyond the stop
   double weight = 0;
   double silent_s = 0;  ///< for how long it is so now
   double sum_m = 0;
@@ -29,6 +31,8 @@ struct RestReading {
 };
 /// Of one reading, one standard deviation: where friction leaves the spool. A spool further off was held by friction.
 inline constexpr double rest_deviation_m = 6e-6;
+/// The lowest reading is forgotten by this share of the distance with each that is higher.
+inline constexpr double lowest_forgetting = 0.1;
 inline constexpr double farthest_rest_m = 60e-6;
 /// A coil is silent below this share of its largest current; a reading takes the position from the first of these times
 /// [s] after it fell silent to the second.
@@ -74,7 +78,10 @@ inline Evidence evidence_of(const Learnt& learnt) {
   add(out, learnt.friction);
   if (learnt.rest.weight > 0) {
     const double unit_m = usual_fault[index(Magnitude::position_zero)];
-    add(out, {reading(Magnitude::position_zero, learnt.rest.mean_m / unit_m, rest_deviation_m / unit_m), 1});
+    const double readings = std::fmin(learnt.rest.weight, independent_windows);
+    add(out, {reading(Magnitude::position_zero, learnt.rest.lowest_m / unit_m,
+                      rest_deviation_m / unit_m / std::sqrt(readings)),
+              1});
   }
   return out;
 }

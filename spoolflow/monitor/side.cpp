@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#ifdef SPOOLFLOW_DBG
+#include <cstdio>
+#include <string>
+#endif
 
 #include "spoolflow/monitor/dense.hpp"
 
@@ -33,10 +37,10 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
                                                            Magnitude::preload_loss, Magnitude::shorted_turns,
                                                            Magnitude::position_zero};
     const double spread = base.spread[index(first[f])];
-    follow(state.chart[f], beyond(found.value, spread, found.deviation), cusum_allowance, limits.sum);
+    follow(state.chart[f], beyond(found.value, spread, found.deviation), cusum_allowance, limits.sum, limits.single);
     const double below = beyond(-found.value, spread, found.deviation);
     if (f == static_cast<std::size_t>(Fault::position_sensor)) {
-      follow(state.chart[zero_below], below, cusum_allowance, limits.sum);
+      follow(state.chart[zero_below], below, cusum_allowance, limits.sum, limits.single);
     } else {
       against = std::max(against, below);
       judged = true;
@@ -47,6 +51,16 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
 
 void close(const SideReference& reference, const Limits& limits, SideState& state,
            const std::optional<WindowResult>& result) {
+#ifdef SPOOLFLOW_DBG
+  if (!result) return;
+  std::fprintf(stderr, "window n=%zu p=%.1f misfit=%.2f shape=%d |", result->events, result->pressure_difference_Pa / 1e5,
+               result->misfit, result->shape_tells);
+  for (std::size_t f = 0; f < isolated_faults; ++f) {
+    const Score q = score(result->evidence, reference.baseline.centre, reference.baseline.spread, static_cast<Fault>(f));
+    std::fprintf(stderr, " %s %.2f+-%.2f", std::string(name(static_cast<Fault>(f))).c_str(), q.value, q.deviation);
+  }
+  std::fprintf(stderr, "\n");
+#endif
   if (!result) return;
   ++state.windows;
   state.pressure_Pa = result->pressure_difference_Pa;
@@ -73,9 +87,12 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   const double left = 1 - 1 / memory_windows;
   rest.weight = rest.weight * left + 1;
   rest.mean_m += (position_m - rest.mean_m) / rest.weight;
+  const bool lowest = rest.weight <= 1 || position_m < rest.lowest_m;
+  rest.lowest_m = lowest ? position_m : rest.lowest_m + lowest_forgetting * (position_m - rest.lowest_m);
+  if (rest.weight <= 1) return;  // the first may be held by friction
   const std::size_t k = index(Magnitude::position_zero);
   const double unit_m = usual_fault[k];
-  const double value = position_m / unit_m - reference.baseline.centre[k];
+  const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
   const double deviation = rest_deviation_m / unit_m;
   const double spread = reference.baseline.spread[k];
   follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], beyond(value, spread, deviation),
@@ -95,8 +112,8 @@ void follow_closing(const SideReference& reference, const Limits& limits, SideSt
 }  // namespace
 
 Limits limits_for(double false_alarms_per_year) {
-  const double run_length = windows_per_year * static_cast<double>(charts) / false_alarms_per_year;
-  return {limit_for(cusum_allowance, run_length)};
+  const double run_length = 2 * windows_per_year * static_cast<double>(charts) / false_alarms_per_year;
+  return {limit_for(cusum_allowance, run_length), single_limit_for(run_length)};
 }
 
 void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {

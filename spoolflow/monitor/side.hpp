@@ -22,9 +22,10 @@ inline constexpr double cusum_allowance = 1.5;
 /// Windows that a valve makes in a year of work day and night: one in thirty seconds.
 inline constexpr double windows_per_year = 365.25 * 24 * 120;
 
-/// Limits of the charts.
+/// Limits of the charts: half of the false alarms are those of the sum, half those of single scores.
 struct Limits {
   double sum;
+  double single;
 };
 [[nodiscard]] Limits limits_for(double false_alarms_per_year);
 

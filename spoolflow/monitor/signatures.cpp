@@ -35,7 +35,7 @@ Explained explain(const sensor::ObserverParameters<double>& valve, double stroke
   const double x = std::max(event.position_m, 0.0);
   const double T = event.oil_temperature_K;
   const double operation = valve.friction.operation_ratio;
-  const double aged = event.kind == EventKind::breakaway ? sensor::ageing(valve.friction, event.rested_s) : 1.0;
+  const double aged = event.kind == EventKind::dithered ? 1.0 : sensor::ageing(valve.friction, event.rested_s);
   const double armature_N = valve.actuator.friction_N.at(event.current_A, x).value;
   const auto limit = [&](double pressure_Pa) {
     const double spool_N = valve.edge.at(T, pressure_Pa, x).friction_N;
