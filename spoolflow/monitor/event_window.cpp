@@ -35,7 +35,7 @@ constexpr double unsettled_share = 0.06;  ///< beyond it is not
 constexpr double unusual_deviations = 2;
 constexpr double largest_misfit = 2.5;
 /// A misfit below this is not believed.
-constexpr double least_misfit = 0.7;
+constexpr double least_misfit = 0.35;
 
 /// The window's equations about one pressure difference.
 struct Equations {

@@ -91,6 +91,30 @@ Explanation explain_by(const Evidence& evidence, const Magnitudes& pull, const P
   return out;
 }
 
+/// Signatures are no truer than a share of the fault: the larger it is, the more of it seems to be others.
+constexpr double leaking_share = 0.0;
+
+Magnitudes with_leaks(unsigned set, const Magnitudes& spread, const Magnitudes& value) {
+  double largest = 0;
+  for (std::size_t k = 0; k < magnitudes; ++k) {
+    for (std::size_t f = 0; f < isolated_faults; ++f) {
+      if ((set >> f & 1U) != 0 && belongs(f, k)) largest = std::max(largest, std::abs(value[k]));
+    }
+  }
+  Magnitudes out{};
+  for (std::size_t k = 0; k < magnitudes; ++k) out[k] = std::hypot(spread[k], leaking_share * largest);
+  return out;
+}
+
+/// Lost spring force and shorted turns pull opposite ways with much the same shape over the position: together they
+/// imitate small errors of the maps, and are believed only where nothing else will do.
+constexpr double cancelling_odds = 0.01;
+
+bool cancels(unsigned set) {
+  const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
+  return has(Fault::spring) && has(Fault::coil);
+}
+
 /// Whether wear can go that way.
 bool possible(unsigned set, const Magnitudes& value) {
   const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
@@ -112,8 +136,11 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
   for (unsigned set = 0; set < sets; ++set) {
     if (std::popcount(set) > largest_set) continue;
     of_set[set] = explain_by(evidence, pull, prior_of(set, spread));
+    const Magnitudes leaking = with_leaks(set, spread, of_set[set].value);
+    of_set[set] = explain_by(evidence, pull, prior_of(set, leaking));
     if (!possible(set, of_set[set].value)) of_set[set].evidence = -1e300;
     weight[set] = of_set[set].evidence + std::popcount(set) * std::log(prior_odds);
+    if (cancels(set)) weight[set] += std::log(cancelling_odds);
     if (weight[set] > most) {
       most = weight[set];
       best = set;

@@ -18,9 +18,12 @@ constexpr double usual_resistance_ratio = 1.04;
 constexpr double resistance_spread = 0.035;
 constexpr double learnt_resistance_spread = 0.025;
 
-/// How much further than chance a value lies beyond what healthy ones do, in standard deviations of the window.
+/// So many spreads of healthy valves are no change.
+constexpr double tolerated_spreads = 2;
+
+/// How far a value lies beyond what healthy ones do, in standard deviations of the window.
 double beyond(double value, double spread, double deviation) {
-  return (value - spread) / deviation;
+  return (value - tolerated_spreads * spread) / deviation;
 }
 
 /// One score for each chart a window, or a reading, tells of.
@@ -95,9 +98,9 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
   const double deviation = rest_deviation_m / unit_m;
   const double spread = reference.baseline.spread[k];
-  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], beyond(value, spread, deviation),
+  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], (value - spread) / deviation,
          cusum_allowance, limits.sum);
-  follow(state.chart[zero_below], beyond(-value, spread, deviation), cusum_allowance, limits.sum);
+  follow(state.chart[zero_below], (-value - spread) / deviation, cusum_allowance, limits.sum);
 }
 
 void follow_closing(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
