@@ -19,8 +19,10 @@ namespace {
 struct Restlessness {
   double walk_share;
   double load_share;
+  double before;  ///< ln of how likely it is before anything is seen, to the first
 };
-constexpr std::array<Restlessness, 4> restless{{{0.004, 0.03}, {0.004, 0.3}, {0.04, 0.3}, {0.17, 0.5}}};
+constexpr std::array<Restlessness, 4> restless{
+    {{0.004, 0.03, 0}, {0.004, 0.3, -1}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
 /// Beyond the third only friction is told.
 constexpr std::size_t steady_kinds = 3;
 /// What is known of the pressure difference at first, as a share of the highest.
@@ -40,9 +42,15 @@ constexpr double least_misfit = 0.35;
 /// The window's equations about one pressure difference.
 struct Equations {
   std::size_t size = 0;
+  double stroke_m = 0;
   std::array<Explained, window_events> row;
   std::array<double, window_events> variance_N2;
 };
+
+/// Friction over its map differs from place to place: one standard deviation as a share of the limit, alike within this
+/// share of the stroke, and the same both ways.
+constexpr double friction_shape_share = 0.08;
+constexpr double friction_shape_length = 0.25;
 
 /// Covariance of the residuals with magnitudes of standard deviations `magnitude_scale`, factorised; empty on failure.
 std::vector<double> factor_of(const Equations& equations, const WindowState& window, const Restlessness& how,
@@ -59,6 +67,11 @@ std::vector<double> factor_of(const Equations& equations, const WindowState& win
       const double since_s = std::min(window.events[r].time_s, window.events[c].time_s) - begin_s;
       double sum = a.per_pressure_N_Pa * b.per_pressure_N_Pa * (first2 + walk2 * since_s) +
                    how.load_share * how.load_share * a.load_slope_N * b.load_slope_N;
+      const double apart =
+          std::abs(window.events[r].position_m - window.events[c].position_m) / (friction_shape_length * equations.stroke_m);
+      const double friction = friction_shape_share * friction_shape_share * window.events[r].direction *
+                              window.events[c].direction * a.friction_limit_N * b.friction_limit_N;
+      sum += friction * std::exp(-apart);
       for (std::size_t k = 0; k < magnitudes; ++k)
         sum += a.slope_N[k] * b.slope_N[k] * magnitude_scale[k] * magnitude_scale[k];
       out[r * n + c] = sum;
@@ -127,7 +140,8 @@ std::size_t likeliest(const Equations& equations, const WindowState& window, dou
     std::vector<double> solved = residuals(equations);
     const std::vector<double> y = solved;
     solve_in_place(factor, equations.size, solved);
-    const double likelihood = -0.5 * (log_determinant(factor, equations.size) + product(y, solved));
+    const double likelihood =
+        restless[k].before - 0.5 * (log_determinant(factor, equations.size) + product(y, solved));
     if (likelihood > most) {
       most = likelihood;
       best = k;
@@ -167,6 +181,7 @@ void weigh_unusual(const Equations& equations, const WindowState& window, const 
 void set_up(const sensor::ObserverParameters<double>& valve, double stroke_m, const WindowState& window,
             double pressure_Pa, const std::array<double, window_events>& weight, Equations& equations) {
   equations.size = window.count;
+  equations.stroke_m = stroke_m;
   for (std::size_t k = 0; k < window.count; ++k) {
     const ForceEvent& event = window.events[k];
     equations.row[k] = explain(valve, stroke_m, event, pressure_Pa);
