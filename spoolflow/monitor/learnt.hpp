@@ -12,7 +12,7 @@ namespace spoolflow::monitor {
 /// Windows are forgotten by and by: this many count.
 inline constexpr double memory_windows = 20;
 /// What windows share (errors of maps and signatures) does not average out: together they tell no more than so many.
-inline constexpr double independent_windows = 1;
+inline constexpr double independent_windows = 2;
 
 /// A mean that forgets, with how much it rests on.
 struct MeanEvidence {
