@@ -23,8 +23,8 @@ struct Restlessness {
 };
 constexpr std::array<Restlessness, 4> restless{
     {{0.004, 0.03, 0}, {0.004, 0.3, -1}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
-/// Beyond the third only friction is told.
-constexpr std::size_t steady_kinds = 3;
+/// Beyond the first only friction is told: what a load takes has the shape of faults.
+constexpr std::size_t steady_kinds = 1;
 /// What is known of the pressure difference at first, as a share of the highest.
 constexpr double pressure_deviation_share = 0.35;
 /// The pressure difference is sought with friction free and all else as near to the model as this share of a fault.
@@ -246,14 +246,13 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
     error_Pa = pressure_error_Pa(equations, window, restless[kind], highest_Pa);
     const bool settled = std::abs(error_Pa) < settled_share * highest_Pa;
     if (iteration + 1 >= least_iterations && (settled || iteration + 1 >= most_iterations)) break;
-    pressure_Pa = std::clamp(pressure_Pa + error_Pa, margin_Pa, highest_Pa - margin_Pa);
+    pressure_Pa = std::clamp(pressure_Pa + error_Pa, margin_Pa, extrapolated_share * highest_Pa);
   }
   const std::vector<double> factor = factor_of(equations, window, restless[kind], highest_Pa, filled(0));
   if (factor.empty()) return {};
   WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count};
   out.misfit = misfit_of(equations, factor, out.evidence);
-  const bool at_end = pressure_Pa > highest_Pa - 1.5 * margin_Pa;
-  if (std::abs(error_Pa) > unsettled_share * highest_Pa && !at_end) out.shape_tells = false;
+  if (std::abs(error_Pa) > unsettled_share * highest_Pa) out.shape_tells = false;
 #ifdef SPOOLFLOW_DBG
   if (std::getenv("DUMP")) {
     std::fprintf(stderr, "kind %zu error %.1f bar misfit %.2f\n", kind, error_Pa / 1e5, out.misfit);

@@ -46,7 +46,7 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
       follow(state.chart[zero_below], below, cusum_allowance, limits.sum, limits.single);
     } else {
       against = std::max(against, below);
-      judged = true;
+      judged = shape_tells;
     }
   }
   if (judged) follow(state.chart[against_faults], against, 2 * cusum_allowance, limits.sum);

@@ -37,19 +37,22 @@ Explained explain(const sensor::ObserverParameters<double>& valve, double stroke
   const double operation = valve.friction.operation_ratio;
   const double aged = event.kind == EventKind::dithered ? 1.0 : sensor::ageing(valve.friction, event.rested_s);
   const double armature_N = valve.actuator.friction_N.at(event.current_A, x).value;
+  const double highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const auto beyond_Pa = [&](double pressure_Pa) { return std::max(pressure_Pa - highest_Pa, 0.0); };
   const auto limit = [&](double pressure_Pa) {
-    const double spool_N = valve.edge.at(T, pressure_Pa, x).friction_N;
+    const sensor::EdgePoint<double> edge = valve.edge.at(T, pressure_Pa, x);
+    const double spool_N = edge.friction_N + edge.friction_per_pressure_N_Pa * beyond_Pa(pressure_Pa);
     return Limit{spool_N + armature_N, aged * spool_N + armature_N};
   };
   const auto flow_force = [&](double pressure_Pa, double position_m) {
-    return valve.edge.at(T, pressure_Pa, position_m).flow_force_N;
+    const sensor::EdgePoint<double> edge = valve.edge.at(T, pressure_Pa, position_m);
+    return edge.flow_force_N + edge.flow_force_per_pressure_N_Pa * beyond_Pa(pressure_Pa);
   };
   const auto magnetic = [&](double current_A, double position_m) {
     return valve.actuator.magnetic_force.at(current_A, position_m).value;
   };
-  const double highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const double step_Pa = pressure_step_share * highest_Pa;
-  const double p = std::clamp(pressure_difference_Pa, step_Pa, highest_Pa - step_Pa);
+  const double p = std::clamp(pressure_difference_Pa, step_Pa, extrapolated_share * highest_Pa);
   const Limit at_p = limit(p);
   const bool dithered = event.kind == EventKind::dithered;
   const double friction_N = dithered ? event.friction_N : event.direction * operation * at_p.aged_N;

@@ -17,6 +17,9 @@ struct Explained {
   Magnitudes slope_N;        ///< over each magnitude, in its units of usual_fault
 };
 
+/// Pressure differences are followed beyond the highest calibrated one by the maps' last slopes, up to this multiple.
+inline constexpr double extrapolated_share = 1.3;
+
 /// Signatures: friction grows in proportion to its limit; rounded edges turn the jet and so add flow force in
 /// proportion to the pressure difference wherever the edge is open (von Mises' jet angle falls by the share that the
 /// rounding has in the opening, while the area grows with the opening: their product is constant); springs lose a share
