@@ -33,6 +33,7 @@ void add_commands(CLI::App& program) {
   add_calibrate_command(program);
   add_estimate_command(program);
   add_validate_command(program);
+  add_monitor_command(program);
   add_simulate_command(program);
   add_campaign_command(program);
   add_analyse_command(program);
