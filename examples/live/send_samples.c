@@ -54,7 +54,7 @@ size_t spoolflow_datagram(uint8_t out[SPOOLFLOW_LARGEST], const spoolflow_block*
   at = spoolflow_put(at, block->sequence, 8);
   at = spoolflow_put(at, (uint64_t)block->time_ns, 8);
   at = spoolflow_put(at, block->period_ns, 4);
-  strncpy((char*)at, block->valve, 32);
+  for (int k = 0; k < 32 && block->valve[k] != '\0'; ++k) at[k] = (uint8_t)block->valve[k];
   at = out + SPOOLFLOW_HEADER;
   for (uint16_t k = 0; k < count; ++k) {
     const float values[SPOOLFLOW_CHANNELS] = {samples[k].current_A, samples[k].voltage_V, samples[k].position_m,

@@ -25,6 +25,7 @@ namespace {
 
 struct HistoryArguments {
   std::string store, valve, from, to, output;
+  std::int64_t recording = 0;  ///< of raw samples; 0: the history
 };
 
 /// Milliseconds since 1970 of "2026-11-22", "2026-11-22T10:30", "2026-11-22T10:30:00Z" (all UTC) or seconds since 1970.
@@ -46,7 +47,27 @@ std::string utc(std::int64_t wall_ms) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(second), wall_ms - std::int64_t{1000} * second);
 }
 
+/// Raw samples that were kept around an alarm.
+void raw_samples(const HistoryArguments& arguments) {
+  const auto recording = live::read_recording(arguments.store, arguments.recording);
+  if (!recording) {
+    throw std::invalid_argument(
+        fmt::format("{}: holds no recording {}; /api/v1/recordings of spoolflow live lists them, "
+                    "and its events name them",
+                    arguments.store, arguments.recording));
+  }
+  OutputFile output(arguments.output, {arguments.store});
+  output.stream() << recording->csv;
+  output.commit();
+}
+
 void history(const HistoryArguments& arguments) {
+  if (arguments.recording != 0) {
+    raw_samples(arguments);
+    return;
+  }
+  if (arguments.valve.empty())
+    throw std::invalid_argument("name a valve with --valve, or raw samples with --recording");
   constexpr std::int64_t all = std::numeric_limits<std::int64_t>::max();
   const std::int64_t from_ms = arguments.from.empty() ? 0 : instant_ms(arguments.from, "--from");
   const std::int64_t to_ms = arguments.to.empty() ? all : instant_ms(arguments.to, "--to");
@@ -86,13 +107,20 @@ void add_history_command(CLI::App& program) {
        "STORE.sqlite of `spoolflow live --store`, also while that is running",
        "CSV, one row a second: smallest, mean and largest flow, the band's ends, energy, status",
        {"spoolflow history site.sqlite --valve press_1 -o press_1.csv",
+        "spoolflow history site.sqlite --recording 3 -o alarm.csv",
         "spoolflow history site.sqlite --valve press_1 --from 2026-11-22T10:00:00Z --to 2026-11-22T11:00:00Z -o -"}});
   command->add_option("store", arguments->store, "store")->type_name("STORE.sqlite")->required();
-  command->add_option("--valve", arguments->valve, "the valve's id")->type_name("ID")->required();
+  command->add_option("--valve", arguments->valve, "the valve's id")->type_name("ID");
   command->add_option("--from", arguments->from, "instant (UTC) of the first row; without it all from the beginning")
       ->type_name("TIME");
   command->add_option("--to", arguments->to, "instant (UTC) before which the rows end; without it all to the end")
       ->type_name("TIME");
+  command
+      ->add_option(
+          "--recording", arguments->recording,
+          "instead of the history the raw samples kept around an alarm, as a recording that estimate, validate "
+          "and monitor read")
+      ->type_name("NUMBER");
   command->add_option("-o,--output", arguments->output, "CSV file to write, - for standard output")
       ->type_name("CSV")
       ->required();

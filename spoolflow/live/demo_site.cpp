@@ -8,7 +8,7 @@ namespace spoolflow::live {
 namespace {
 
 /// Healthy work first, so that the monitor learns what is usual; then so much wear as years bring.
-constexpr double healthy_s = 300, ageing_s = 600;
+constexpr double healthy_s = 60, ageing_s = 180;
 
 struct DemoValve {
   const char* id;

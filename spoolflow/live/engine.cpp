@@ -49,7 +49,8 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
   for (std::size_t k = 0; k < site_.valves.size(); ++k) {
     const ValveSettings& settings = site_.valves[k];
     auto place = std::make_unique<Place>();
-    place->valve = std::make_unique<ValveAtWork>(settings.id, settings.model, program_);
+    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s;
+    place->valve = std::make_unique<ValveAtWork>(settings.id, settings.model, program_, raw_s);
     Worker& worker = *workers_[k % threads];
     place->intake = std::make_unique<Intake>([&worker, at = place.get()] { worker.tell(*at); });
     valves_.push_back(std::move(place));
@@ -128,6 +129,11 @@ void Engine::stop() {
   if (store_) keep(true);
 }
 
+bool Engine::ended(const Place& place) const {
+  const auto* replay = std::get_if<std::unique_ptr<ReplaySource>>(&place.source);
+  return replay != nullptr && (*replay)->ended();
+}
+
 SourceView Engine::source(std::size_t k) const {
   const Place& place = *valves_[k];
   SourceView out;
@@ -138,9 +144,7 @@ SourceView Engine::source(std::size_t k) const {
   const std::int64_t arrived_ns = place.valve->arrived_ns();
   out.age_s =
       arrived_ns == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e-9 * static_cast<double>(steady_ns() - arrived_ns);
-  const auto* replay = std::get_if<std::unique_ptr<ReplaySource>>(&place.source);
-  const bool ended = replay != nullptr && (*replay)->ended();
-  out.stalled = !ended && !(out.age_s <= site_.stalled_after_s);
+  out.stalled = !ended(place) && !(out.age_s <= site_.stalled_after_s);
   return out;
 }
 
@@ -164,6 +168,11 @@ void Engine::watch_for_events() {
   for (std::size_t k = 0; k < valves_.size(); ++k) {
     Place& place = *valves_[k];
     const SourceView source_now = source(k);
+    // What was pushed last may still be in work for an instant; the next second comes behind it.
+    if (ended(place) && place.intake->empty() && source_now.age_s > 1 && !place.finished) {
+      place.valve->finish();
+      place.finished = true;
+    }
     const ValveView valve = place.valve->view();
     const auto add = [&](const char* kind, std::string text) {
       events_.add(
@@ -178,6 +187,7 @@ void Engine::watch_for_events() {
       add("source", source_now.trouble);
     }
     place.told_trouble = source_now.trouble;
+    keep_raw_samples(place, valve, source_now.stalled || place.finished);
     if (valve.condition == place.told_condition) continue;
     std::string causes;
     for (const monitor::Cause& cause : valve.causes) {
@@ -185,7 +195,31 @@ void Engine::watch_for_events() {
     }
     add("condition", fmt::format("NE 107 {} after {}{}", monitor::name(valve.condition),
                                  monitor::name(place.told_condition), causes));
+    if (valve.condition > place.told_condition && !place.alarm_s) {
+      place.alarm_s = valve.time_s;
+      place.alarm = fmt::format("NE 107 {}{}", monitor::name(valve.condition), causes);
+    }
     place.told_condition = valve.condition;
+  }
+}
+
+/// Once those behind the alarm have come, too, or no more come.
+void Engine::keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes) {
+  if (!place.alarm_s || !store_) return;
+  const double since_s = valve.time_s - *place.alarm_s;
+  if (since_s >= 0 && since_s < site_.raw_after_s && !nothing_comes) return;
+  KeptRecording raw{.wall_ms = wall_ms(), .valve = valve.id, .why = place.alarm};
+  raw.csv = place.valve->raw_csv(*place.alarm_s - site_.raw_before_s, *place.alarm_s + site_.raw_after_s);
+  place.alarm_s.reset();
+  if (raw.csv.empty()) return;
+  try {
+    const std::int64_t id = store_->keep_recording(raw);
+    events_.add({.wall_ms = wall_ms(),
+                 .valve = valve.id,
+                 .time_s = valve.time_s,
+                 .kind = "recording",
+                 .text = fmt::format("raw samples around {} are kept as recording {}", raw.why, id)});
+  } catch (const StoreError&) {  // the next commit meets the same and tells
   }
 }
 

@@ -65,15 +65,20 @@ class Engine {
     std::variant<std::monostate, std::unique_ptr<TcpSource>, std::unique_ptr<PipeSource>, std::unique_ptr<ReplaySource>,
                  std::unique_ptr<RigSource>>
         source;
+    bool finished = false;  ///< its recording was played to the end
     bool told_stalled = false;
     monitor::Ne107 told_condition = monitor::Ne107::good;
     std::string told_trouble;
+    std::optional<double> alarm_s{};  ///< by the source's clock; its raw samples are still to be kept
+    std::string alarm{};
   };
 
   void start_source(std::size_t k);
   void keep_each_second(const std::stop_token& stop);
   void keep(bool with_indicators);
+  [[nodiscard]] bool ended(const Place& place) const;
   void watch_for_events();
+  void keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes);
 
   SiteSettings site_;
   std::string program_;

@@ -167,9 +167,11 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
     if (const auto listen = page->optional_text("listen")) site.page = read_address(*listen, page->place("listen"));
   }
   if (const auto store = part("store")) {
-    store->allow_only({"file", "keep_days", "largest_MB"});
+    store->allow_only({"file", "keep_days", "largest_MB", "raw_before_s", "raw_after_s"});
     site.store = beside(*store, store->text("file")).string();
     site.retention.days = store->optional_positive("keep_days").value_or(site.retention.days);
+    site.raw_before_s = not_negative(*store, "raw_before_s", site.raw_before_s);
+    site.raw_after_s = not_negative(*store, "raw_after_s", site.raw_after_s);
     site.retention.largest_MB = store->optional_positive("largest_MB").value_or(site.retention.largest_MB);
   }
   if (const auto sources = part("sources")) {

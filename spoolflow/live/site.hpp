@@ -41,6 +41,8 @@ struct SiteSettings {
   double stalled_after_s = 1.0;      ///< without a sample
   std::string store{};               ///< file; empty: nothing is kept
   Retention retention{};
+  /// Raw samples around an alarm that are kept as a recording, where there is a store.
+  double raw_before_s = 20, raw_after_s = 10;
 };
 
 /// Reads the file, the models and valve files that it names. Throws RecordingError, SiteError, ModelError or

@@ -31,12 +31,13 @@ constexpr double longest_counted_step_s = 1;
 
 }  // namespace
 
-ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view program)
+ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s)
     : id_(std::move(id)),
       model_(std::move(model)),
       program_(program),
       sensor_(estimation::running_sensor(*model_.model, estimation::best_estimator(*model_.model))),
-      time_s_(std::numeric_limits<double>::quiet_NaN()) {
+      time_s_(std::numeric_limits<double>::quiet_NaN()),
+      raw_(model_.model->whole(), raw_s) {
   if (model_.model->has_observer()) watch_.emplace(*model_.model);
 }
 
@@ -92,11 +93,17 @@ void ValveAtWork::work(const SampleBlock& block) {
     last_ = sensor_.step(sample);
     if (watch_) watch_->take(sample, last_);
     add_to_summary(sample, last_);
+    raw_.add(sample);
     if (std::isfinite(sample.time_s)) trace_.add(sample.time_s, sample.position_m, sample.current_A, last_);
   }
   samples_ += block.samples.size();
   after_ = block.after;
   arrived_ns_ = block.arrived_ns;
+}
+
+void ValveAtWork::finish() {
+  const std::lock_guard lock(mutex_);
+  if (watch_) watch_->finish();
 }
 
 ValveView ValveAtWork::view() const {
@@ -128,6 +135,11 @@ ValveAtWork::TracePart ValveAtWork::trace_from(std::uint64_t first) const {
   out.first = trace_.copy_from(first, out.points);
   out.arrived_ns = arrived_ns_;
   return out;
+}
+
+std::string ValveAtWork::raw_csv(double from_s, double to_s) const {
+  const std::lock_guard lock(mutex_);
+  return raw_.csv(from_s, to_s);
 }
 
 std::uint64_t ValveAtWork::trace_size() const {

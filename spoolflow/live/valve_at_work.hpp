@@ -8,6 +8,7 @@
 
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/live/plot_trace.hpp"
+#include "spoolflow/live/raw_trace.hpp"
 #include "spoolflow/live/sources/sample_block.hpp"
 #include "spoolflow/live/store/store.hpp"
 #include "spoolflow/model/model.hpp"
@@ -37,14 +38,16 @@ struct ValveView {
 
 class ValveAtWork {
  public:
-  /// `program`: name and version, of whose kept states none other is taken.
-  ValveAtWork(std::string id, SharedModel model, std::string_view program);
+  /// `program`: name and version, of whose kept states none other is taken. `raw_s`: of raw samples that are at hand.
+  ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s = 0);
 
   [[nodiscard]] const std::string& id() const { return id_; }
   /// Goes on from what was kept. Returns false where sensor and monitor begin anew, as model or program were others.
   bool restore(const KeptState& kept);
 
   void work(const SampleBlock& block);
+  /// The source is over: the monitor judges what it had gathered.
+  void finish();
 
   [[nodiscard]] ValveView view() const;
   /// When the last sample came, by the steady clock; 0: none yet.
@@ -57,6 +60,9 @@ class ValveAtWork {
   };
   [[nodiscard]] TracePart trace_from(std::uint64_t first) const;
   [[nodiscard]] std::uint64_t trace_size() const;
+
+  /// Raw samples of that time as a recording's CSV, as far as they are at hand.
+  [[nodiscard]] std::string raw_csv(double from_s, double to_s) const;
 
   /// What is to be kept now, and of what came since the last time; `with_indicators`: theirs too.
   [[nodiscard]] ValveCommit take_commit(bool with_indicators);
@@ -81,6 +87,7 @@ class ValveAtWork {
   sensor::Estimate<double> last_{};
   Summary summary_;
   PlotTrace trace_;
+  RawTrace raw_;
 };
 
 }  // namespace spoolflow::live

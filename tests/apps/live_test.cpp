@@ -1,6 +1,7 @@
 /// `live` and `history` as they are called: beginning, ends, kills, what is refused.
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <sqlite3.h>
 #include <string>
@@ -106,6 +107,32 @@ TEST_F(Live, AKilledProgramGoesOnWhereItWas) {
   EXPECT_EQ(kept("SELECT samples FROM state"), samples);
   EXPECT_EQ(kept("SELECT sum(samples) FROM second"), samples);
   EXPECT_NEAR(kept("SELECT sum(energy_J) FROM second"), kept("SELECT energy_J FROM state"), 1e-6);
+}
+
+// The senders of examples/live, as processes of their own.
+TEST_F(Live, TheExamplesSendersAreUnderstood) {
+  write("run.csv", live_header + live_rows(1000));
+  write("site.toml",
+        "[page]\nlisten = \"127.0.0.1:0\"\n[sources]\nudp = \"127.0.0.1:0\"\n[[valve]]\nid = \"v\"\nmodel = "
+        "\"model.json\"\nsource = { kind = \"udp\" }\n");
+  RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
+  const std::string where = live.message_line();
+  EXPECT_THAT(where, StartsWith("datagrams over UDP at 127.0.0.1:"));
+  const std::string port = where.substr(where.rfind(':') + 1);
+  const auto comes = [&](double samples) {
+    for (int k = 0; k < 3000 && kept("SELECT samples FROM state") < samples; ++k) ::usleep(10000);
+    return kept("SELECT samples FROM state");
+  };
+  EXPECT_EQ(std::system(
+                fmt::format("'{}' v 127.0.0.1 {} 25 > '{}/c.txt'", SPOOLFLOW_C_SENDER, port, folder.string()).c_str()),
+            0);
+  EXPECT_EQ(comes(500), 500);
+  EXPECT_EQ(std::system(fmt::format("'{}/live/send_samples.py' '{}/run.csv' v 127.0.0.1:{} --speed 5 > '{}/py.txt'",
+                                    SPOOLFLOW_EXAMPLES, folder.string(), port, folder.string())
+                            .c_str()),
+            0);
+  EXPECT_EQ(comes(1500), 1500);
+  EXPECT_GT(kept("SELECT max(flow_max) FROM second"), 0);
 }
 
 TEST_F(Live, WhatCannotBeUsedIsRefusedAtOnce) {

@@ -133,6 +133,16 @@ std::string events_json(const Engine& engine) {
   return Json{{"events", std::move(out)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string recordings_json(const Engine& engine) {
+  Json out = Json::array();
+  if (!engine.site().store.empty()) {
+    for (const KeptRecording& one : list_recordings(engine.site().store, 1000)) {
+      out.push_back({{"id", one.id}, {"time", utc(one.wall_ms)}, {"valve", one.valve}, {"why", one.why}});
+    }
+  }
+  return Json{{"recordings", std::move(out)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string site_json(const Engine& engine) {
   double flow_m3_per_s = 0, power_W = 0;
   std::size_t stalled = 0;

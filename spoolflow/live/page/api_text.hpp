@@ -11,6 +11,8 @@ namespace spoolflow::live {
 [[nodiscard]] std::string valves_json(const Engine& engine);
 /// JSON of /api/v1/events: {"events": [...]}, newest first.
 [[nodiscard]] std::string events_json(const Engine& engine);
+/// JSON of /api/v1/recordings: {"recordings": [{"id", "time", "valve", "why"}]}, newest first.
+[[nodiscard]] std::string recordings_json(const Engine& engine);
 /// JSON of /api/v1/site: totals, sources, store.
 [[nodiscard]] std::string site_json(const Engine& engine);
 /// Prometheus text format 0.0.4 of /metrics.

@@ -65,6 +65,11 @@ std::string Intake::trouble() const {
   return trouble_;
 }
 
+bool Intake::empty() const {
+  const std::lock_guard lock(mutex_);
+  return blocks_.empty();
+}
+
 IntakeCounters Intake::counters() const {
   return {received_, dropped_, lost_, repeated_, unreadable_, connections_};
 }

@@ -45,6 +45,8 @@ class Intake {
   void tell(std::string trouble);
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] IntakeCounters counters() const;
+  /// Whether nothing waits to be worked on.
+  [[nodiscard]] bool empty() const;
 
  private:
   void append(SampleBlock&& block);

@@ -27,6 +27,9 @@ CREATE TABLE indicator(
 CREATE TABLE event(
   id INTEGER PRIMARY KEY AUTOINCREMENT, wall_ms INTEGER NOT NULL, valve TEXT NOT NULL, time_s REAL, kind TEXT NOT NULL,
   text TEXT NOT NULL, acknowledged_ms INTEGER NOT NULL DEFAULT 0);
+CREATE TABLE recording(
+  id INTEGER PRIMARY KEY AUTOINCREMENT, wall_ms INTEGER NOT NULL, valve TEXT NOT NULL, why TEXT NOT NULL,
+  csv BLOB NOT NULL);
 CREATE TABLE state(
   valve INTEGER PRIMARY KEY, session INTEGER NOT NULL, next INTEGER NOT NULL, samples INTEGER NOT NULL,
   energy_J REAL NOT NULL, layout TEXT NOT NULL, sensor BLOB NOT NULL, watch BLOB NOT NULL);
@@ -78,6 +81,13 @@ void prepare(Database& database) {
                     ".recover`, and name another file",
                     database.path(), check.text(0)));
   }
+}
+
+Database opened_to_read(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw StoreError(fmt::format("{}: there is no such file", path));
+  Database database(path, Database::Access::read);
+  check_version(database);
+  return database;
 }
 
 std::vector<std::byte> copied(std::span<const std::byte> bytes) {
@@ -174,6 +184,13 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
   }
 }
 
+std::int64_t Store::keep_recording(const KeptRecording& recording) {
+  Statement add(*database_, "INSERT INTO recording(wall_ms,valve,why,csv) VALUES(?,?,?,?)");
+  add.put(recording.wall_ms).put(std::string_view(recording.valve)).put(std::string_view(recording.why));
+  add.put(std::as_bytes(std::span(recording.csv))).run();
+  return database_->number("SELECT last_insert_rowid()");
+}
+
 std::vector<Event> Store::events(int most) {
   std::vector<Event> out;
   Statement each(*database_,
@@ -194,6 +211,7 @@ void Store::retain(std::int64_t wall_ms, const Retention& retention) {
     Statement seconds(*database_, "DELETE FROM second WHERE valve = ? AND wall_ms < ?");
     for (const auto& entry : statements_->numbers) seconds.put(entry.second).put(oldest_ms).run();
     Statement(*database_, "DELETE FROM indicator WHERE wall_ms < ?").put(oldest_ms).run();
+    Statement(*database_, "DELETE FROM recording WHERE wall_ms < ?").put(oldest_ms).run();
     Statement(*database_, "DELETE FROM event WHERE wall_ms < ?").put(oldest_ms).run();
     whole.commit();
   };
@@ -225,11 +243,26 @@ void Store::retain(std::int64_t wall_ms, const Retention& retention) {
   }
 }
 
+std::vector<KeptRecording> list_recordings(const std::string& path, int most) {
+  Database database = opened_to_read(path);
+  std::vector<KeptRecording> out;
+  Statement each(database, "SELECT id, wall_ms, valve, why FROM recording ORDER BY id DESC LIMIT ?");
+  each.put(std::int64_t{most});
+  while (each.next()) out.push_back({each.integer(0), each.integer(1), each.text(2), each.text(3), {}});
+  return out;
+}
+
+std::optional<KeptRecording> read_recording(const std::string& path, std::int64_t id) {
+  Database database = opened_to_read(path);
+  Statement one(database, "SELECT id, wall_ms, valve, why, csv FROM recording WHERE id = ?");
+  one.put(id);
+  if (!one.next()) return std::nullopt;
+  return KeptRecording{one.integer(0), one.integer(1), one.text(2), one.text(3), one.text(4)};
+}
+
 void read_history(const std::string& path, const std::string& valve, std::int64_t from_ms, std::int64_t to_ms,
                   const std::function<void(const HistoryRow&)>& each) {
-  if (!std::filesystem::exists(path)) throw StoreError(fmt::format("{}: there is no such file", path));
-  Database database(path, Database::Access::read);
-  check_version(database);
+  Database database = opened_to_read(path);
   std::vector<std::string> known;
   std::optional<std::int64_t> number;
   Statement valves(database, "SELECT id, number FROM valve ORDER BY id");

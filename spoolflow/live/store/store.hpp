@@ -52,7 +52,7 @@ struct Event {
   std::int64_t wall_ms = 0;  ///< since 1970-01-01 UTC
   std::string valve{};
   double time_s = 0;  ///< by the source's clock
-  std::string kind;   ///< "condition", "source", "program"
+  std::string kind;   ///< "condition", "source", "recording", "program"
   std::string text{};
   std::int64_t acknowledged_ms = 0;  ///< 0: not yet
 };
@@ -60,6 +60,15 @@ struct Event {
 struct Retention {
   double days = 30;
   double largest_MB = 2000;
+};
+
+/// Raw samples around an alarm.
+struct KeptRecording {
+  std::int64_t id = 0;  ///< ascending; given by the store
+  std::int64_t wall_ms = 0;
+  std::string valve{};
+  std::string why{};
+  std::string csv{};  ///< with the header of a recording; empty in lists
 };
 
 struct HistoryRow {
@@ -79,6 +88,8 @@ class Store {
   void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events);
   /// The newest, ascending by id.
   [[nodiscard]] std::vector<Event> events(int most);
+  /// Returns its number. Throws StoreError.
+  std::int64_t keep_recording(const KeptRecording& recording);
   /// Deletes what is older or more than that.
   void retain(std::int64_t wall_ms, const Retention& retention);
 
@@ -90,6 +101,11 @@ class Store {
   std::unique_ptr<Database> database_;
   std::unique_ptr<Statements> statements_;
 };
+
+/// The newest recordings without their samples, newest first. Throws StoreError as read_history() does.
+[[nodiscard]] std::vector<KeptRecording> list_recordings(const std::string& path, int most);
+/// One of them as a whole; nothing where there is none of this number.
+[[nodiscard]] std::optional<KeptRecording> read_recording(const std::string& path, std::int64_t id);
 
 /// Rows of a valve with from_ms <= wall_ms < to_ms, in order. Works while another program writes. Throws StoreError
 /// where the file is no store, and where it knows no such valve, naming those that it knows.

@@ -37,6 +37,13 @@ export interface SiteEvent {
   acknowledged: string | null;
 }
 
+export interface Recording {
+  id: number;
+  time: string;
+  valve: string;
+  why: string;
+}
+
 export interface Site {
   valves: number;
   stalled: number;
@@ -54,6 +61,8 @@ async function read<T>(path: string): Promise<T> {
 
 export const readValves = async (): Promise<Valve[]> => (await read<{ valves: Valve[] }>('/api/v1/valves')).valves;
 export const readEvents = async (): Promise<SiteEvent[]> => (await read<{ events: SiteEvent[] }>('/api/v1/events')).events;
+export const readRecordings = async (): Promise<Recording[]> =>
+  (await read<{ recordings: Recording[] }>('/api/v1/recordings')).recordings;
 export const readSite = (): Promise<Site> => read<Site>('/api/v1/site');
 
 /** Each sign of NAMUR NE 107 in words. */

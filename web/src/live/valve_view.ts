@@ -1,5 +1,5 @@
 /** One valve: its plot as it comes, what its monitor says, and how its source fares. */
-import { figure, short, signs, type SiteEvent, type Valve } from './api';
+import { figure, readRecordings, short, signs, type SiteEvent, type Valve } from './api';
 import { element, row, setText } from './element';
 import { showEvents } from './overview';
 import { Plot } from './plot';
@@ -19,14 +19,17 @@ export class ValveView {
   private readonly indicators = element('tbody', '');
   private readonly source = element('p', 'source');
   private readonly events = element('ul', 'events');
+  private readonly recordings = element('ul', 'events');
   private frame = 0;
+  private asked = -Infinity;
   private readonly watch: number;
 
   constructor(private readonly id: string) {
     const head = element('thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'unit', 'state'));
     this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.stale, this.plot.canvas,
                       element('h3', '', 'Indicators'), element('div', 'wide', element('table', '', head, this.indicators)),
-                      element('h3', '', 'Source'), this.source, element('h3', '', 'Events'), this.events);
+                      element('h3', '', 'Source'), this.source, element('h3', '', 'Events'), this.events,
+                      element('h3', '', 'Raw samples around alarms'), this.recordings);
     this.stale.hidden = true;
     this.stream = new Stream(id, () => this.redraw());
     this.watch = window.setInterval(() => {
@@ -71,5 +74,17 @@ export class ValveView {
       `${of.dropped} dropped, ${of.lost} lost, ${of.repeated} repeated, ${of.unreadable} unreadable lines, ` +
       `${of.connections} connections${of.trouble === '' ? '' : `; ${of.trouble}`}`);
     showEvents(this.events, events.filter((event) => event.valve === this.id).slice(0, 50));
+    if (performance.now() - this.asked > 5000) void this.showRecordings();
+  }
+
+  private async showRecordings(): Promise<void> {
+    this.asked = performance.now();
+    const own = (await readRecordings().catch(() => [])).filter((one) => one.valve === this.id).slice(0, 20);
+    this.recordings.replaceChildren(...(own.length > 0 ? own.map((one) => {
+      const link = element('a', '', `${one.time.replace('T', ' ').slice(0, 19)} UTC  ${one.why}`);
+      link.href = `/api/v1/recordings/${one.id}.csv`;
+      link.download = `${one.valve}_${one.id}.csv`;
+      return element('li', '', link);
+    }) : [element('li', '', 'none')]));
   }
 }
