@@ -100,26 +100,25 @@ void history(const HistoryArguments& arguments) {
 
 void add_history_command(CLI::App& program) {
   auto arguments = std::make_shared<HistoryArguments>();
-  CLI::App* command = add_command(
-      program,
-      {"history",
-       "write what a store of `spoolflow live` keeps of a valve",
-       "STORE.sqlite of `spoolflow live --store`, also while that is running",
-       "CSV, one row a second: smallest, mean and largest flow, the band's ends, energy, status",
-       {"spoolflow history site.sqlite --valve press_1 -o press_1.csv",
-        "spoolflow history site.sqlite --recording 3 -o alarm.csv",
-        "spoolflow history site.sqlite --valve press_1 --from 2026-11-22T10:00:00Z --to 2026-11-22T11:00:00Z -o -"}});
+  CLI::App* command =
+      add_command(program, {"history",
+                            "write what a store of `spoolflow live` keeps of a valve",
+                            "STORE.sqlite of `spoolflow live --store`, also while that is running",
+                            "CSV, one row a second: smallest, mean and largest flow, the band's ends, energy, status",
+                            {"spoolflow history site.sqlite --valve press_1 -o press_1.csv",
+                             "spoolflow history site.sqlite --recording 3 -o alarm.csv",
+                             "spoolflow history site.sqlite --valve press_1 --from 2026-11-22T10:00 -o -"}});
   command->add_option("store", arguments->store, "store")->type_name("STORE.sqlite")->required();
   command->add_option("--valve", arguments->valve, "the valve's id")->type_name("ID");
-  command->add_option("--from", arguments->from, "instant (UTC) of the first row; without it all from the beginning")
+  command
+      ->add_option("--from", arguments->from,
+                   "instant (UTC) of the first row, such as\n2026-11-22T10:00; without it from the beginning")
       ->type_name("TIME");
-  command->add_option("--to", arguments->to, "instant (UTC) before which the rows end; without it all to the end")
+  command->add_option("--to", arguments->to, "instant (UTC) before which the rows end; without\nit to the end")
       ->type_name("TIME");
   command
-      ->add_option(
-          "--recording", arguments->recording,
-          "instead of the history the raw samples kept around an alarm, as a recording that estimate, validate "
-          "and monitor read")
+      ->add_option("--recording", arguments->recording,
+                   "instead of the history the raw samples kept around\nan alarm, as a recording")
       ->type_name("NUMBER");
   command->add_option("-o,--output", arguments->output, "CSV file to write, - for standard output")
       ->type_name("CSV")

@@ -73,7 +73,7 @@ void add_live_command(CLI::App& program) {
   CLI::App* command = add_command(
       program,
       {"live",
-       "watch valves at work: flow, condition, alarms and history on a page of this machine",
+       "watch valves at work: flow, condition and events on a page",
        "SITE.toml, which names valves, their models and where their samples come from (docs/live.md): datagrams, "
        "connections, pipes, recordings; without it eight valves of the virtual rig, three of which age fast",
        "a page at http://127.0.0.1:8080 with an interface for other programs, until it is ended; with a store "
@@ -83,9 +83,9 @@ void add_live_command(CLI::App& program) {
   command->add_option("site", arguments->site, "site file; without it the demonstration")->type_name("SITE.toml");
   command
       ->add_option("--listen", arguments->listen,
-                   "where the page is, instead of 127.0.0.1:8080 or what the site says; port 0: any that is free")
+                   "where the page is, instead of 127.0.0.1:8080 or\nwhat the site says; port 0: any that is free")
       ->type_name("ADDRESS:PORT");
-  command->add_option("--store", arguments->store, "file that keeps history and state, made where there is none")
+  command->add_option("--store", arguments->store, "file that keeps history and state, made where\nthere is none")
       ->type_name("FILE.sqlite");
   command->callback([arguments] { live_command(*arguments); });
 }
