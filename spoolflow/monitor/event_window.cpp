@@ -22,7 +22,7 @@ struct Restlessness {
   double before;  ///< ln of how likely it is before anything is seen, to the first
 };
 constexpr std::array<Restlessness, 4> restless{
-    {{0.004, 0.03, 0}, {0.004, 0.3, -1}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
+    {{0.004, 0.03, 0}, {0.004, 0.3, 0}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
 /// Beyond the first only friction is told: what a load takes has the shape of faults.
 constexpr std::size_t steady_kinds = 1;
 /// What is known of the pressure difference at first, as a share of the highest.

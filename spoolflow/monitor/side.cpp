@@ -19,7 +19,7 @@ constexpr double resistance_spread = 0.035;
 constexpr double learnt_resistance_spread = 0.025;
 
 /// So many spreads of healthy valves are no change.
-constexpr double tolerated_spreads = 2;
+constexpr double tolerated_spreads = 1.5;
 
 /// How far a value lies beyond what healthy ones do, in standard deviations of the window.
 double beyond(double value, double spread, double deviation) {
