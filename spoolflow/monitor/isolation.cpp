@@ -98,6 +98,16 @@ bool cancels(unsigned set) {
   return has(Fault::spring) && has(Fault::coil);
 }
 
+/// What wears the lands wears the edges, too: given one of the two, the other is as likely as this.
+constexpr double edges_beside_friction = 0.3;
+
+double log_prior(unsigned set) {
+  const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
+  double out = std::popcount(set) * std::log(prior_odds);
+  if (has(Fault::friction) && has(Fault::edge_wear)) out += std::log(edges_beside_friction / prior_odds);
+  return out;
+}
+
 bool left_out(unsigned set) {
   return std::popcount(set) > largest_set || cancels(set);
 }
@@ -108,7 +118,8 @@ bool possible(unsigned set, const Magnitudes& value) {
   const auto of = [&](Magnitude magnitude) { return value[index(magnitude)]; };
   if (has(Fault::friction) && of(Magnitude::friction) < 0) return false;
   if (has(Fault::edge_wear) && of(Magnitude::edge_rounding) < 0) return false;
-  if (has(Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0) return false;
+  if (has(Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0)
+    return false;
   return !(has(Fault::coil) && of(Magnitude::shorted_turns) < 0);
 }
 
@@ -124,7 +135,7 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
     if (left_out(set)) continue;
     of_set[set] = explain_by(evidence, pull, prior_of(set, spread));
     if (!possible(set, of_set[set].value)) of_set[set].evidence = -1e300;
-    weight[set] = of_set[set].evidence + std::popcount(set) * std::log(prior_odds);
+    weight[set] = of_set[set].evidence + log_prior(set);
     if (weight[set] > most) {
       most = weight[set];
       best = set;
