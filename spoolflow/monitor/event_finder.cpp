@@ -33,26 +33,8 @@ ForceEvent event(const FinderMean& of, double time_s, double direction, EventKin
 /// A stretch that travels less is noise [m].
 constexpr double least_travel_m = 3e-6;
 
-double largest_force_N(const sensor::ObserverParameters<double>& valve) {
-  const auto& map = valve.actuator.magnetic_force.map;
-  return map.node(map.rows - 1, 0);
-}
-
 bool tells(double position_m, double stroke_m) {
   return position_m > lowest_event_share * stroke_m && position_m < highest_event_share * stroke_m;
-}
-
-/// By how much the force has changed in the blocks before the last.
-double force_change_N(const FinderState& state) {
-  const std::size_t ring = state.force_N.size();
-  const std::size_t count = std::min(state.blocks, force_blocks);
-  double lowest = 1e30, highest = -1e30;
-  for (std::size_t back = 2; back <= count; ++back) {
-    const double force_N = state.force_N[(state.newest + ring - back) % ring];
-    lowest = std::min(lowest, force_N);
-    highest = std::max(highest, force_N);
-  }
-  return highest - lowest;
 }
 
 /// The largest force in the direction of the break-away, of the blocks before the last.
