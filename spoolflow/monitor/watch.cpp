@@ -257,6 +257,12 @@ Ne107 Watch::condition() const {
   return worst;
 }
 
+double Watch::judged_windows() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < sides(); ++k) sum += state_.side[k].windows;
+  return sum;
+}
+
 Baseline Watch::learnt() const {
   Baseline out{fingerprint(*model_), {}};
   for (std::size_t k = 0; k < sides(); ++k) out.side[k] = baseline_of(reference_[k], state_.side[k]);
