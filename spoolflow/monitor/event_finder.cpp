@@ -62,6 +62,23 @@ std::optional<ForceEvent> close_slide(FinderState& state, double stroke_m) {
   return event(slide, state.still_s, direction, dithered > 0 ? EventKind::dithered : EventKind::sliding);
 }
 
+/// The stretch of sliding goes on, or ends with this block.
+void follow_slide(double stroke_m, FinderState& state, const FinderMean& block, bool slides, bool dithered,
+                  double time_s, FoundEvents& out) {
+  if (slides && std::abs(block.friction_N) > 0) {
+    if (state.slide.weight == 0) {
+      state.slide_begin_m = block.position_m;
+      state.slide_begin_s = time_s;
+    }
+    add(state.slide, block);
+    state.slide_dithered += dithered ? 1 : 0;
+    if (std::abs(block.position_m - state.slide_begin_m) > sliding_travel_share * stroke_m)
+      out.slide = close_slide(state, stroke_m);
+  } else if (state.slide.weight > 0) {
+    out.slide = close_slide(state, stroke_m);
+  }
+}
+
 }  // namespace
 
 void interrupt(FinderState& state) {
@@ -120,18 +137,7 @@ FoundEvents find_events(const sensor::ObserverParameters<double>& valve, double 
   }
   state.still_s = sample.time_s;
 
-  if (slides && std::abs(block.friction_N) > 0) {
-    if (state.slide.weight == 0) {
-      state.slide_begin_m = block.position_m;
-      state.slide_begin_s = sample.time_s;
-    }
-    add(state.slide, block);
-    state.slide_dithered += dithered ? 1 : 0;
-    if (std::abs(block.position_m - state.slide_begin_m) > sliding_travel_share * stroke_m)
-      out.slide = close_slide(state, stroke_m);
-  } else if (state.slide.weight > 0) {
-    out.slide = close_slide(state, stroke_m);
-  }
+  follow_slide(stroke_m, state, block, slides, dithered, sample.time_s, out);
   return out;
 }
 

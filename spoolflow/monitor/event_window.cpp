@@ -31,6 +31,11 @@ constexpr double unsettled_share = 0.06;  ///< beyond it is not
 /// Events further off than so many standard deviations count less, by the square of how much further.
 constexpr double unusual_deviations = 2;
 constexpr double largest_misfit = 2.5;
+/// A shape is told where the model holds better than this, ...
+constexpr double largest_shape_misfit = 0.6;
+/// ... and where the pressure difference is no less than this share of the highest: oil that loads hold back has no
+/// shape of its own.
+constexpr double least_shape_pressure_share = 0.1;
 /// A misfit below this is not believed.
 constexpr double least_misfit = 0.35;
 
@@ -246,7 +251,9 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   if (factor.empty()) return {};
   WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count};
   out.misfit = misfit_of(equations, factor, out.evidence);
-  if (std::abs(error_Pa) > unsettled_share * highest_Pa) out.shape_tells = false;
+  const bool settled = std::abs(error_Pa) < unsettled_share * highest_Pa;
+  if (!settled || out.misfit > largest_shape_misfit || pressure_Pa < least_shape_pressure_share * highest_Pa)
+    out.shape_tells = false;
   if (out.misfit > largest_misfit) return {};
   if (!out.shape_tells) out.evidence = friction_only(out.evidence);
   const double scale = 1 / std::max(out.misfit, least_misfit);
