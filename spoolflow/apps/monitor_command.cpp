@@ -1,5 +1,6 @@
 /// `spoolflow monitor`: the condition of a valve from recordings of its operation.
 #include <fstream>
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
+#include "spoolflow/report/monitor/monitor_report.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
@@ -27,9 +29,22 @@ std::optional<monitor::Baseline> read_baseline(const std::string& file) {
   return monitor::parse_baseline(model::read_json_text(in), file);
 }
 
+/// Keeps what is told whenever a window was judged, and no more than a page can show.
+void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& trend) {
+  constexpr std::size_t most_points = 2000;
+  const double windows = watch.judged_windows();
+  if (windows == 0 || (!trend.empty() && trend.back().windows == windows)) return;
+  if (trend.size() == most_points) {
+    for (std::size_t k = 0; 2 * k < trend.size(); ++k) trend[k] = trend[2 * k];
+    trend.resize(trend.size() / 2);
+  }
+  trend.push_back({windows, watch.indicators()});
+}
+
 /// One recording through sensor and watch.
 void monitor_one(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                 monitor::Watch& watch, const std::function<void(std::optional<double>)>& progress) {
+                 monitor::Watch& watch, std::vector<report::TrendPoint>& trend,
+                 const std::function<void(std::optional<double>)>& progress) {
   const auto reader = validation::open_sensor_channels(recording, validation::sensor_channels(model, channels));
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
   recording::SampleBlock block;
@@ -39,9 +54,11 @@ void monitor_one(const model::Model& model, const std::string& recording, const 
       const estimation::TimedSample sample = columns[k];
       watch.take(sample, sensor.step(sample));
     }
+    follow_trend(watch, trend);
     progress(reader->progress());
   }
   watch.finish();
+  follow_trend(watch, trend);
 }
 
 void print_condition(const monitor::Watch& watch) {
@@ -68,24 +85,32 @@ void monitor_recordings(const MonitorArguments& arguments) {
   }
   if (!arguments.baseline.empty()) inputs.emplace_back(arguments.baseline);
   monitor::Watch watch(model, {arguments.false_alarms_per_year}, read_baseline(arguments.baseline));
+  const report::ReaderUnits units(arguments.units);
+  std::optional<OutputFile> page;
+  if (!arguments.report.empty()) {
+    page.emplace(arguments.report, inputs);
+    inputs.emplace_back(arguments.report);
+  }
   std::optional<OutputFile> json;
   if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
   std::vector<report::MonitoredRun> runs;
+  std::vector<report::TrendPoint> trend;
   {
     Progress progress("monitoring", arguments.quiet);
     const auto total = static_cast<double>(arguments.recordings.size());
     for (const std::string& recording : arguments.recordings) {
       const auto before = static_cast<double>(runs.size());
-      monitor_one(model, recording, channels, watch, [&](std::optional<double> share) {
+      monitor_one(model, recording, channels, watch, trend, [&](std::optional<double> share) {
         if (share) progress.update((before + *share) / total);
       });
-      runs.push_back({std::filesystem::path(recording).stem().string(), std::string(monitor::name(watch.condition())),
-                      watch.indicators()});
+      runs.push_back(
+          {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
     }
   }
+  if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs);
-  commit_together({json ? &*json : nullptr});
-  if (arguments.json != "-") print_condition(watch);
+  commit_together({page ? &*page : nullptr, json ? &*json : nullptr});
+  if (arguments.json != "-" && arguments.report != "-") print_condition(watch);
 }
 
 void add_monitor_command(CLI::App& program) {
@@ -106,6 +131,7 @@ void add_monitor_command(CLI::App& program) {
       ->add_option("--baseline", arguments->baseline,
                    "what --json wrote of healthy runs of this valve with this model; else the model is the reference")
       ->type_name("BASE.json");
+  command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "condition to write as JSON; - for standard output")
       ->type_name("OUT.json");
   command
@@ -116,6 +142,7 @@ void add_monitor_command(CLI::App& program) {
                    "wanted at most over all indicators, of a valve at work day and night")
       ->check(CLI::Range(1e-6, 1e4))
       ->capture_default_str();
+  add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { monitor_recordings(*arguments); });
 }

@@ -33,26 +33,8 @@ ForceEvent event(const FinderMean& of, double time_s, double direction, EventKin
 /// A stretch that travels less is noise [m].
 constexpr double least_travel_m = 3e-6;
 
-double largest_force_N(const sensor::ObserverParameters<double>& valve) {
-  const auto& map = valve.actuator.magnetic_force.map;
-  return map.node(map.rows - 1, 0);
-}
-
 bool tells(double position_m, double stroke_m) {
   return position_m > lowest_event_share * stroke_m && position_m < highest_event_share * stroke_m;
-}
-
-/// By how much the force has changed in the blocks before the last.
-double force_change_N(const FinderState& state) {
-  const std::size_t ring = state.force_N.size();
-  const std::size_t count = std::min(state.blocks, force_blocks);
-  double lowest = 1e30, highest = -1e30;
-  for (std::size_t back = 2; back <= count; ++back) {
-    const double force_N = state.force_N[(state.newest + ring - back) % ring];
-    lowest = std::min(lowest, force_N);
-    highest = std::max(highest, force_N);
-  }
-  return highest - lowest;
 }
 
 /// The largest force in the direction of the break-away, of the blocks before the last.
@@ -78,6 +60,23 @@ std::optional<ForceEvent> close_slide(FinderState& state, double stroke_m) {
   if (direction * travel_m < least_travel_m) return {};
   if (dithered > 0 && dithered < slide.weight) return {};
   return event(slide, state.still_s, direction, dithered > 0 ? EventKind::dithered : EventKind::sliding);
+}
+
+/// The stretch of sliding goes on, or ends with this block.
+void follow_slide(double stroke_m, FinderState& state, const FinderMean& block, bool slides, bool dithered,
+                  double time_s, FoundEvents& out) {
+  if (slides && std::abs(block.friction_N) > 0) {
+    if (state.slide.weight == 0) {
+      state.slide_begin_m = block.position_m;
+      state.slide_begin_s = time_s;
+    }
+    add(state.slide, block);
+    state.slide_dithered += dithered ? 1 : 0;
+    if (std::abs(block.position_m - state.slide_begin_m) > sliding_travel_share * stroke_m)
+      out.slide = close_slide(state, stroke_m);
+  } else if (state.slide.weight > 0) {
+    out.slide = close_slide(state, stroke_m);
+  }
 }
 
 }  // namespace
@@ -138,18 +137,7 @@ FoundEvents find_events(const sensor::ObserverParameters<double>& valve, double 
   }
   state.still_s = sample.time_s;
 
-  if (slides && std::abs(block.friction_N) > 0) {
-    if (state.slide.weight == 0) {
-      state.slide_begin_m = block.position_m;
-      state.slide_begin_s = sample.time_s;
-    }
-    add(state.slide, block);
-    state.slide_dithered += dithered ? 1 : 0;
-    if (std::abs(block.position_m - state.slide_begin_m) > sliding_travel_share * stroke_m)
-      out.slide = close_slide(state, stroke_m);
-  } else if (state.slide.weight > 0) {
-    out.slide = close_slide(state, stroke_m);
-  }
+  follow_slide(stroke_m, state, block, slides, dithered, sample.time_s, out);
   return out;
 }
 

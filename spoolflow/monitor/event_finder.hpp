@@ -23,9 +23,6 @@ inline constexpr double sliding_travel_share = 0.02;
 inline constexpr double sliding_blocks = 6;
 /// Faster sliding [m/s] has drag and transient flow forces that no map knows.
 inline constexpr double fastest_sliding_m_per_s = 3e-3;
-/// Nor is a break-away told whose force has changed by more than this share of the largest magnetic force within the
-/// blocks before it: eddy currents and the position control are at work.
-inline constexpr double fastest_force_share = 0.02;
 /// Near the closed stop and the end stop other forces act: events lie between these shares of the stroke.
 inline constexpr double lowest_event_share = 0.03;
 inline constexpr double highest_event_share = 0.9;

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#ifdef SPOOLFLOW_DBG
-#include <cstdio>
-#include <cstdlib>
-#endif
 #include <vector>
 
 #include "spoolflow/monitor/dense.hpp"
@@ -21,8 +17,7 @@ struct Restlessness {
   double load_share;
   double before;  ///< ln of how likely it is before anything is seen, to the first
 };
-constexpr std::array<Restlessness, 4> restless{
-    {{0.004, 0.03, 0}, {0.004, 0.3, -1}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
+constexpr std::array<Restlessness, 4> restless{{{0.004, 0.03, 0}, {0.004, 0.3, 0}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
 /// Beyond the first only friction is told: what a load takes has the shape of faults.
 constexpr std::size_t steady_kinds = 1;
 /// What is known of the pressure difference at first, as a share of the highest.
@@ -36,6 +31,11 @@ constexpr double unsettled_share = 0.06;  ///< beyond it is not
 /// Events further off than so many standard deviations count less, by the square of how much further.
 constexpr double unusual_deviations = 2;
 constexpr double largest_misfit = 2.5;
+/// A shape is told where the model holds better than this, ...
+constexpr double largest_shape_misfit = 0.6;
+/// ... and where the pressure difference is no less than this share of the highest: oil that loads hold back has no
+/// shape of its own.
+constexpr double least_shape_pressure_share = 0.1;
 /// A misfit below this is not believed.
 constexpr double least_misfit = 0.35;
 
@@ -67,8 +67,8 @@ std::vector<double> factor_of(const Equations& equations, const WindowState& win
       const double since_s = std::min(window.events[r].time_s, window.events[c].time_s) - begin_s;
       double sum = a.per_pressure_N_Pa * b.per_pressure_N_Pa * (first2 + walk2 * since_s) +
                    how.load_share * how.load_share * a.load_slope_N * b.load_slope_N;
-      const double apart =
-          std::abs(window.events[r].position_m - window.events[c].position_m) / (friction_shape_length * equations.stroke_m);
+      const double apart = std::abs(window.events[r].position_m - window.events[c].position_m) /
+                           (friction_shape_length * equations.stroke_m);
       const double friction = friction_shape_share * friction_shape_share * window.events[r].direction *
                               window.events[c].direction * a.friction_limit_N * b.friction_limit_N;
       sum += friction * std::exp(-apart);
@@ -140,8 +140,7 @@ std::size_t likeliest(const Equations& equations, const WindowState& window, dou
     std::vector<double> solved = residuals(equations);
     const std::vector<double> y = solved;
     solve_in_place(factor, equations.size, solved);
-    const double likelihood =
-        restless[k].before - 0.5 * (log_determinant(factor, equations.size) + product(y, solved));
+    const double likelihood = restless[k].before - 0.5 * (log_determinant(factor, equations.size) + product(y, solved));
     if (likelihood > most) {
       most = likelihood;
       best = k;
@@ -252,18 +251,9 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   if (factor.empty()) return {};
   WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count};
   out.misfit = misfit_of(equations, factor, out.evidence);
-  if (std::abs(error_Pa) > unsettled_share * highest_Pa) out.shape_tells = false;
-#ifdef SPOOLFLOW_DBG
-  if (std::getenv("DUMP")) {
-    std::fprintf(stderr, "kind %zu error %.1f bar misfit %.2f\n", kind, error_Pa / 1e5, out.misfit);
-    for (std::size_t k = 0; k < window.count; ++k) {
-      const ForceEvent& e = window.events[k];
-      std::fprintf(stderr, "  t=%.2f x=%.3f d=%+.0f kind=%d N=%.2f res=%.2f lim=%.2f rest=%.2f believed=%.1f w=%.1f\n", e.time_s,
-                   e.position_m * 1e3, e.direction, int(e.kind), e.net_force_N, equations.row[k].residual_N,
-                   equations.row[k].friction_limit_N, e.rested_s, e.pressure_difference_Pa / 1e5, weight[k]);
-    }
-  }
-#endif
+  const bool settled = std::abs(error_Pa) < unsettled_share * highest_Pa;
+  if (!settled || out.misfit > largest_shape_misfit || pressure_Pa < least_shape_pressure_share * highest_Pa)
+    out.shape_tells = false;
   if (out.misfit > largest_misfit) return {};
   if (!out.shape_tells) out.evidence = friction_only(out.evidence);
   const double scale = 1 / std::max(out.misfit, least_misfit);

@@ -91,28 +91,25 @@ Explanation explain_by(const Evidence& evidence, const Magnitudes& pull, const P
   return out;
 }
 
-/// Signatures are no truer than a share of the fault: the larger it is, the more of it seems to be others.
-constexpr double leaking_share = 0.0;
-
-Magnitudes with_leaks(unsigned set, const Magnitudes& spread, const Magnitudes& value) {
-  double largest = 0;
-  for (std::size_t k = 0; k < magnitudes; ++k) {
-    for (std::size_t f = 0; f < isolated_faults; ++f) {
-      if ((set >> f & 1U) != 0 && belongs(f, k)) largest = std::max(largest, std::abs(value[k]));
-    }
-  }
-  Magnitudes out{};
-  for (std::size_t k = 0; k < magnitudes; ++k) out[k] = std::hypot(spread[k], leaking_share * largest);
-  return out;
-}
-
 /// Lost spring force and shorted turns pull opposite ways with much the same shape over the position: together they
-/// imitate small errors of the maps, and are believed only where nothing else will do.
-constexpr double cancelling_odds = 0.01;
-
+/// imitate small errors of the maps. A set with both explains nothing.
 bool cancels(unsigned set) {
   const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
   return has(Fault::spring) && has(Fault::coil);
+}
+
+/// What wears the lands wears the edges, too: given one of the two, the other is as likely as this.
+constexpr double edges_beside_friction = 0.3;
+
+double log_prior(unsigned set) {
+  const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
+  double out = std::popcount(set) * std::log(prior_odds);
+  if (has(Fault::friction) && has(Fault::edge_wear)) out += std::log(edges_beside_friction / prior_odds);
+  return out;
+}
+
+bool left_out(unsigned set) {
+  return std::popcount(set) > largest_set || cancels(set);
 }
 
 /// Whether wear can go that way.
@@ -121,7 +118,8 @@ bool possible(unsigned set, const Magnitudes& value) {
   const auto of = [&](Magnitude magnitude) { return value[index(magnitude)]; };
   if (has(Fault::friction) && of(Magnitude::friction) < 0) return false;
   if (has(Fault::edge_wear) && of(Magnitude::edge_rounding) < 0) return false;
-  if (has(Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0) return false;
+  if (has(Fault::spring) && of(Magnitude::preload_loss) + rate_beside_preload * of(Magnitude::rate_loss) < 0)
+    return false;
   return !(has(Fault::coil) && of(Magnitude::shorted_turns) < 0);
 }
 
@@ -134,13 +132,10 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
   double most = -1e300;
   unsigned best = 0;
   for (unsigned set = 0; set < sets; ++set) {
-    if (std::popcount(set) > largest_set) continue;
+    if (left_out(set)) continue;
     of_set[set] = explain_by(evidence, pull, prior_of(set, spread));
-    const Magnitudes leaking = with_leaks(set, spread, of_set[set].value);
-    of_set[set] = explain_by(evidence, pull, prior_of(set, leaking));
     if (!possible(set, of_set[set].value)) of_set[set].evidence = -1e300;
-    weight[set] = of_set[set].evidence + std::popcount(set) * std::log(prior_odds);
-    if (cancels(set)) weight[set] += std::log(cancelling_odds);
+    weight[set] = of_set[set].evidence + log_prior(set);
     if (weight[set] > most) {
       most = weight[set];
       best = set;
@@ -149,7 +144,7 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
   Isolation out;
   std::array<double, isolated_faults> with{}, without{};
   for (unsigned set = 0; set < sets; ++set) {
-    if (std::popcount(set) > largest_set) continue;
+    if (left_out(set)) continue;
     const double share = std::exp(weight[set] - most);
     for (std::size_t f = 0; f < isolated_faults; ++f) ((set >> f & 1U) != 0 ? with : without)[f] += share;
   }

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#ifdef SPOOLFLOW_DBG
-#include <cstdio>
-#include <string>
-#endif
 
 #include "spoolflow/monitor/dense.hpp"
 
@@ -19,7 +15,7 @@ constexpr double resistance_spread = 0.035;
 constexpr double learnt_resistance_spread = 0.025;
 
 /// So many spreads of healthy valves are no change.
-constexpr double tolerated_spreads = 2;
+constexpr double tolerated_spreads = 1.5;
 
 /// How far a value lies beyond what healthy ones do, in standard deviations of the window.
 double beyond(double value, double spread, double deviation) {
@@ -54,16 +50,6 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
 
 void close(const SideReference& reference, const Limits& limits, SideState& state,
            const std::optional<WindowResult>& result) {
-#ifdef SPOOLFLOW_DBG
-  if (!result) return;
-  std::fprintf(stderr, "window n=%zu p=%.1f misfit=%.2f shape=%d |", result->events, result->pressure_difference_Pa / 1e5,
-               result->misfit, result->shape_tells);
-  for (std::size_t f = 0; f < isolated_faults; ++f) {
-    const Score q = score(result->evidence, reference.baseline.centre, reference.baseline.spread, static_cast<Fault>(f));
-    std::fprintf(stderr, " %s %.2f+-%.2f", std::string(name(static_cast<Fault>(f))).c_str(), q.value, q.deviation);
-  }
-  std::fprintf(stderr, "\n");
-#endif
   if (!result) return;
   ++state.windows;
   state.pressure_Pa = result->pressure_difference_Pa;
@@ -98,8 +84,8 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
   const double deviation = rest_deviation_m / unit_m;
   const double spread = reference.baseline.spread[k];
-  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], (value - spread) / deviation,
-         cusum_allowance, limits.sum);
+  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], (value - spread) / deviation, cusum_allowance,
+         limits.sum);
   follow(state.chart[zero_below], (-value - spread) / deviation, cusum_allowance, limits.sum);
 }
 

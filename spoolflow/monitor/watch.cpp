@@ -229,14 +229,19 @@ std::vector<Cause> Watch::causes() const {
     const SideState& side = state_.side[k];
     if (!raised(side)) continue;
     const Isolation found = isolation_of(reference_[k], side);
+    std::size_t best = 0;
     bool explained = false;
     for (std::size_t f = 0; f < isolated_faults; ++f) {
+      if (found.odds[f] > found.odds[best]) best = f;
       if (found.odds[f] < 1) continue;
       explained = true;
       odds[f] = std::max(odds[f], found.odds[f]);
     }
-    constexpr auto wrong = static_cast<std::size_t>(Fault::wrong_model);
-    if (!explained) odds[wrong] = std::max(odds[wrong], 1.0);
+    if (explained) continue;
+    // Something is wrong: the likeliest explanation, or that there is none.
+    constexpr double least_odds = 0.1;
+    const std::size_t told = found.odds[best] > least_odds ? best : static_cast<std::size_t>(Fault::wrong_model);
+    odds[told] = std::max(odds[told], found.odds[best]);
   }
   if (status_raised(state_.status, sensor::Status::coil_fault)) odds[static_cast<std::size_t>(Fault::coil)] = most_odds;
   if (status_raised(state_.status, sensor::Status::temperature_fault))
@@ -255,6 +260,12 @@ Ne107 Watch::condition() const {
   Ne107 worst = monitor::sign_of(state_.status);
   for (const Cause& cause : causes()) worst = std::max(worst, sign_of(cause.fault));
   return worst;
+}
+
+double Watch::judged_windows() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < sides(); ++k) sum += state_.side[k].windows;
+  return sum;
 }
 
 Baseline Watch::learnt() const {

@@ -56,6 +56,8 @@ class Watch {
   /// What explains the indicators that are raised, the likeliest first; empty where none is.
   [[nodiscard]] std::vector<Cause> causes() const;
   [[nodiscard]] Ne107 condition() const;
+  /// Windows of events that were judged.
+  [[nodiscard]] double judged_windows() const;
   /// What was learnt, to compare later runs of the same valve and model with.
   [[nodiscard]] Baseline learnt() const;
   [[nodiscard]] const Usage& usage() const { return state_.usage; }

@@ -38,7 +38,8 @@ void write_monitor_json(std::ostream& out, const model::Model& model, const moni
     causes.push_back({{"cause", monitor::name(cause.fault)}, {"odds", cause.odds}});
   Json each = Json::array();
   for (const MonitoredRun& run : runs)
-    each.push_back({{"run", run.name}, {"ne107", run.ne107}, {"indicators", indicators_json(run.indicators)}});
+    each.push_back(
+        {{"run", run.name}, {"ne107", monitor::name(run.condition)}, {"indicators", indicators_json(run.indicators)}});
   Json json{{"valve", model.valve.name},
             {"ne107", monitor::name(watch.condition())},
             {"causes", causes},

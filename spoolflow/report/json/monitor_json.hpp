@@ -1,18 +1,10 @@
 #pragma once
 #include <iosfwd>
-#include <string>
 #include <vector>
 
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/report/monitor/monitored_run.hpp"
 
 namespace spoolflow::report {
-
-/// What a watch tells after one recording.
-struct MonitoredRun {
-  std::string name;  ///< of the recording
-  std::string ne107;
-  std::vector<monitor::Indicator> indicators;
-};
 
 /// Condition, causes and indicators of a valve as JSON, with the baseline learnt; the keys are described in
 /// docs/monitoring.md. A figure that is not known is null.
