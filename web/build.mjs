@@ -1,4 +1,5 @@
-// node build.mjs FOLDER: makes page.js and page.css, which the program carries inside.
+// node build.mjs FOLDER: makes page.js and page.css of the report pages, and live.html, live.js and live.css of the page of
+// `spoolflow live`, which the program carries inside.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,27 +10,33 @@ const folder = process.argv[2] ?? join(here, 'built');
 const read = (...path) => readFileSync(join(here, ...path), 'utf8');
 
 const licence = read('node_modules', 'uplot', 'LICENSE').trim();
-const script = await esbuild.build({
-  absWorkingDir: here,
-  entryPoints: ['src/page.ts'],
-  bundle: true,
-  minify: true,
-  format: 'iife',
-  target: 'es2020',
-  charset: 'ascii',
-  legalComments: 'none',
-  banner: { js: `/* Contains uPlot:\n${licence}\n*/` },
-  write: false,
-});
-const page = script.outputFiles[0].text;
+async function bundled(entry, banner) {
+  const script = await esbuild.build({
+    absWorkingDir: here,
+    entryPoints: [entry],
+    bundle: true,
+    minify: true,
+    format: 'iife',
+    target: 'es2020',
+    charset: 'ascii',
+    legalComments: 'none',
+    ...(banner === undefined ? {} : { banner: { js: banner } }),
+    write: false,
+  });
+  return script.outputFiles[0].text;
+}
+const page = await bundled('src/page.ts', `/* Contains uPlot:\n${licence}\n*/`);
 if (/<\/script|<!--/i.test(page)) throw new Error('the script would end the page’s <script> element');
 
 // The dark colours are written once: for systems that are dark, and for readers who chose dark on the page.
 const dark = read('src', 'style', 'dark.css');
-const sheet = [
+const colours = [
   read('src', 'style', 'colours.css'),
   `@media screen and (prefers-color-scheme:dark){:root:not([data-theme=light]){${dark}}}`,
   `@media screen{:root[data-theme=dark]{color-scheme:dark;${dark}}:root[data-theme=light]{color-scheme:light}}`,
+];
+const sheet = [
+  ...colours,
   read('src', 'style', 'text.css'),
   read('src', 'style', 'figures.css'),
   read('node_modules', 'uplot', 'dist', 'uPlot.min.css'),
@@ -37,7 +44,10 @@ const sheet = [
   read('src', 'style', 'narrow.css'),
   read('src', 'style', 'print.css'),
 ].join('\n');
-const style = await esbuild.transform(sheet, { loader: 'css', minify: true, charset: 'ascii' });
+const minified = async (css) => (await esbuild.transform(css, { loader: 'css', minify: true, charset: 'ascii' })).code;
 
 writeFileSync(join(folder, 'page.js'), page);
-writeFileSync(join(folder, 'page.css'), style.code);
+writeFileSync(join(folder, 'page.css'), await minified(sheet));
+writeFileSync(join(folder, 'live.js'), await bundled('src/live/live.ts'));
+writeFileSync(join(folder, 'live.css'), await minified([...colours, read('src', 'live', 'live.css')].join('\n')));
+writeFileSync(join(folder, 'live.html'), read('src', 'live', 'live.html'));

@@ -1,5 +1,6 @@
 #include "spoolflow/apps/command.hpp"
 
+#include <memory>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -34,7 +35,57 @@ std::string examples_heading(const CLI::App& program) {
   return program.get_footer().empty() ? "Examples:\n" : program.get_footer() + "\n";
 }
 
+class HelpPage : public CLI::Formatter {
+ public:
+  HelpPage() {
+    column_width(26);
+    label("SUBCOMMAND", "COMMAND");
+    label("REQUIRED", "");
+    label("Positionals", "Arguments");
+  }
+
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    std::string usage = fmt::format("\nUsage: {}", name);
+    for (const CLI::Option* option : app->get_options([](const CLI::Option* o) { return o->get_positional(); })) {
+      usage += " " + make_option_usage(option);
+    }
+    for (const CLI::Option* option : app->get_options([](const CLI::Option* o) { return o->nonpositional(); })) {
+      if (option->get_required()) usage += fmt::format(" {} {}", shortest_name(option), option->get_type_name());
+    }
+    if (!app->get_subcommands({}).empty()) usage += " COMMAND …";
+    return usage + " [OPTIONS]\n";
+  }
+
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    return is_positional ? upper_case(name) : name;
+  }
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_positional()) return {};
+    std::string text = CLI::Formatter::make_option_opts(option);
+    while (text.ends_with(' ')) text.pop_back();
+    return text;
+  }
+
+ private:
+  static std::string shortest_name(const CLI::Option* option) {
+    return option->get_snames().empty() ? "--" + option->get_lnames().front() : "-" + option->get_snames().front();
+  }
+  static std::string upper_case(std::string text) {
+    for (char& letter : text) {
+      if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    }
+    return text;
+  }
+};
+
 }  // namespace
+
+void shape_help_page(CLI::App& program) {
+  program.formatter(std::make_shared<HelpPage>());
+  program.set_help_flag("-h,--help", "print this help; COMMAND --help explains a command");
+}
 
 CLI::App* add_command(CLI::App& program, const CommandText& text) {
   CLI::App* command = program.add_subcommand(text.name, text.purpose)->group("Commands");

@@ -20,6 +20,10 @@ struct CommandText {
 /// Adds the command with its help; the caller adds its arguments and callback.
 CLI::App* add_command(CLI::App& program, const CommandText& text);
 
+/// Gives the program's help, and that of every command added later, its form: arguments in capitals, required options
+/// in the usage line, columns that fit.
+void shape_help_page(CLI::App& program);
+
 /// `-q,--quiet`: no progress.
 void add_quiet(CLI::App& command, bool& quiet);
 

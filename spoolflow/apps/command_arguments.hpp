@@ -59,4 +59,17 @@ struct ValidateArguments {
 };
 void validate(const ValidateArguments& arguments);
 
+struct MonitorArguments {
+  std::string model;
+  std::vector<std::string> recordings;  ///< oldest first
+  std::string baseline;                 ///< empty: the model is the reference
+  std::string report;                   ///< to write; empty: none
+  std::string json;                     ///< to write; empty: none
+  std::string channels;                 ///< channel map; empty: none
+  std::vector<std::string> units = {};  ///< of the report
+  double false_alarms_per_year = 1;     ///< wanted, over all indicators
+  bool quiet = false;
+};
+void monitor_recordings(const MonitorArguments& arguments);
+
 }  // namespace spoolflow::apps

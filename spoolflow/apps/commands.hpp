@@ -1,7 +1,10 @@
 #pragma once
 /// Every command of the program, one file each. A new one is declared here, defined in NAME_command.cpp and named in
 /// main.cpp; its callback does the work and throws where it cannot (std::invalid_argument: unusable input, status 2;
-/// anything else: status 1).
+/// anything else: status 1; SeveralFailures: what went wrong with each of several inputs).
+#include <exception>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -9,14 +12,24 @@ class App;
 
 namespace spoolflow::apps {
 
+/// Failures of one command that goes on after each, every one told as if it had come alone.
+struct SeveralFailures : std::exception {
+  std::vector<std::string> messages;
+  bool of_the_work = false;  ///< one at least is no unusable input: exit status 1 instead of 2
+  [[nodiscard]] const char* what() const noexcept override { return "several failures"; }
+};
+
 void add_demo_command(CLI::App& program);
 void add_inspect_command(CLI::App& program);
 void add_calibrate_command(CLI::App& program);
 void add_estimate_command(CLI::App& program);
 void add_validate_command(CLI::App& program);
+void add_monitor_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
 void add_analyse_command(CLI::App& program);
 void add_export_command(CLI::App& program);
+void add_live_command(CLI::App& program);
+void add_history_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

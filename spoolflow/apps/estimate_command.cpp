@@ -14,7 +14,6 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
-#include "spoolflow/apps/several_failures.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
@@ -67,6 +66,11 @@ void tell(const recording::ReadNotes& notes, const std::string& file) {
     say("{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
         notes.missing_values);
   }
+  if (notes.missing_times + notes.backward_times > 0) {
+    say("{}: {} samples have no time stamp, of {} it runs back; the estimate is held there, with status time_fault\n",
+        file, notes.missing_times, notes.backward_times);
+  }
+  if (notes.left_out > 0) say("{}: {} lines are no samples and have no row\n", file, notes.left_out);
 }
 
 /// What all recordings of one command have in common.
@@ -94,8 +98,10 @@ Task task_of(const EstimateArguments& arguments) {
 /// `beside`: whether reading, estimating and writing may have a thread each.
 recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target,
                                   bool beside) {
-  const auto reader =
-      validation::open_sensor_channels(recording, validation::sensor_channels(task.model, task.channels));
+  const bool runs_on = recording == "-";
+  recording::ReadOptions channels = validation::sensor_channels(task.model, task.channels);
+  channels.runs_on = runs_on;
+  const auto reader = validation::open_sensor_channels(recording, channels);
   estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
   OutputFile output(target, task.inputs);
   recording::ReadNotes notes;
@@ -127,6 +133,10 @@ recording::ReadNotes estimate_one(const Task& task, const std::string& recording
     estimation::StatusText status_text;
     while (const EstimatedBlock* block = estimating.next()) {
       write_rows(writer, *block, status_text);
+      if (runs_on) {  // whoever reads waits for these rows
+        writer.flush();
+        output.stream().flush();
+      }
       notes = block->notes;
       progress.update(block->share, notes.rows);
     }

@@ -19,7 +19,7 @@ std::atomic_flag ending = ATOMIC_FLAG_INIT;
 bool terminal = false;
 static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<OutputState>::is_always_lock_free);
 
-void say(const char* text) {
+void say_at_once(const char* text) {
   // Nothing can be done about a failed write here; the result is taken only because it must not be ignored.
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
 }
@@ -39,17 +39,17 @@ extern "C" void tidy_up(int) {
 extern "C" void end_interrupted(int) {
   if (ending.test_and_set()) return;
   remove_unfinished();
-  if (terminal) say("\r\033[K");  // a progress line may stand there
-  say(speaker_text.data());
+  if (terminal) say_at_once("\r\033[K");  // a progress line may stand there
+  say_at_once(speaker_text.data());
   switch (output_state.load()) {
     case OutputState::nothing_written:
-      say(": interrupted; nothing was written\n");
+      say_at_once(": interrupted; nothing was written\n");
       break;
     case OutputState::stream_begun:
-      say(": interrupted; standard output is incomplete\n");
+      say_at_once(": interrupted; standard output is incomplete\n");
       break;
     case OutputState::file_finished:
-      say(": interrupted; only the files finished before were written\n");
+      say_at_once(": interrupted; only the files finished before were written\n");
       break;
   }
   _exit(interrupted_status);

@@ -11,11 +11,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/help_page.hpp"
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/several_failures.hpp"
 #include "spoolflow/apps/standard_streams.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
@@ -34,10 +33,13 @@ void add_commands(CLI::App& program) {
   add_calibrate_command(program);
   add_estimate_command(program);
   add_validate_command(program);
+  add_monitor_command(program);
   add_simulate_command(program);
   add_campaign_command(program);
   add_analyse_command(program);
   add_export_command(program);
+  add_live_command(program);
+  add_history_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

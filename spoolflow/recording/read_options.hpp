@@ -15,6 +15,9 @@ struct ReadOptions {
   std::vector<Channel> optional;              ///< read where present; all other columns are skipped unparsed
   std::optional<double> stroke_m;             ///< lets position be given in percent and position_set in mm
   std::map<Channel, Channel> stands_in = {};  ///< where the first is missing, the second is read as it
+  /// Of a source that runs on, whose samples are judged one by one: what is no number is missing, lines of another
+  /// length are left out, times that are missing or run back are passed on, and nothing is called implausible.
+  bool runs_on = false;
 };
 
 }  // namespace spoolflow::recording

@@ -28,7 +28,8 @@ class ChannelReader final : public Reader {
       : table_(std::move(table)),
         file_(std::move(file)),
         bound_(bind_channels(*table_, options, file_)),
-        plausibility_(file_, bound_, options.stroke_m) {
+        plausibility_(file_, bound_, options.stroke_m),
+        runs_on_(options.runs_on) {
     std::vector<std::size_t> chosen;
     for (const BoundColumn& column : bound_) {
       const auto same = std::find(chosen.begin(), chosen.end(), column.column);
@@ -71,8 +72,9 @@ class ChannelReader final : public Reader {
     if (rows == 0 && notes_.rows == 0) {
       throw RecordingError(fmt::format("{}: has a header but no samples; record it again or name another file", file_));
     }
+    notes_.left_out = table_->left_out();
     if (rows == 0) {
-      plausibility_.finish();
+      if (!runs_on_) plausibility_.finish();
       return false;
     }
     watch(block);
@@ -91,17 +93,23 @@ class ChannelReader final : public Reader {
         last_time_s_ = time_s[row];
       } else if (time_s[row] == last_time_s_) {
         ++notes_.duplicate_times;
-      } else {
+      } else if (!runs_on_) {
         refuse_time(row, time_s[row]);
+      } else if (std::isnan(time_s[row])) {
+        ++notes_.missing_times;
+      } else {
+        ++notes_.backward_times;
+        last_time_s_ = time_s[row];
       }
     }
     const auto place = [this](std::size_t row) { return table_->place(row); };
     for (std::size_t k = 0; k < bound_.size(); ++k) {
+      if (bound_[k].channel == Channel::time && runs_on_) continue;
       const std::vector<double>& values = block.columns[index(bound_[k].channel)];
       std::uint64_t missing = 0;
       for (const double value : values) missing += std::isnan(value) ? 1 : 0;
       notes_.missing_values += missing;
-      plausibility_.take(k, values, place);
+      if (!runs_on_) plausibility_.take(k, values, place);
     }
   }
 
@@ -124,6 +132,7 @@ class ChannelReader final : public Reader {
   std::vector<std::size_t> source_of_;  ///< for each bound column, which of the chosen columns
   std::vector<double*> raw_;
   Plausibility plausibility_;
+  bool runs_on_;
   ReadNotes notes_;
   double last_time_s_ = -std::numeric_limits<double>::infinity();
 };
@@ -141,8 +150,13 @@ FileContents contents_of(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options) {
-  return std::make_unique<ChannelReader>(open_sample_table(file).table, options,
-                                         file == "-" ? std::string("standard input") : file.string());
+  return open_reader(std::make_unique<InputBytes>(file), options);
+}
+
+std::unique_ptr<Reader> open_reader(std::unique_ptr<InputBytes> input, const ReadOptions& options) {
+  const CsvTable::Text text = options.runs_on ? CsvTable::Text::left_out : CsvTable::Text::refused;
+  const std::string name = input->name();
+  return std::make_unique<ChannelReader>(open_sample_table(std::move(input), text).table, options, name);
 }
 
 Recording read_recording(const std::filesystem::path& file, const ReadOptions& options) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -27,7 +28,10 @@ struct SampleBlock {
 struct ReadNotes {
   std::uint64_t rows = 0;
   std::uint64_t duplicate_times = 0;  ///< equal to the time stamp before
-  std::uint64_t missing_values = 0;   ///< empty cells in channels that were asked for
+  std::uint64_t missing_values = 0;   ///< empty cells in channels that were asked for, but for time
+  std::uint64_t missing_times = 0;    ///< these and what follows only of a source that runs on
+  std::uint64_t backward_times = 0;   ///< before the time stamp before
+  std::uint64_t left_out = 0;         ///< lines that could not be read
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; MAT and HDF5 are read in slabs).
@@ -35,9 +39,9 @@ class Reader {
  public:
   virtual ~Reader() = default;
   [[nodiscard]] virtual bool has(Channel channel) const = 0;
-  /// Fills the next block (capacities are reused); false at the end. Throws RecordingError: text in a number column,
-  /// NaN or infinity written out, time running backwards, values implausible for their unit; with file, line and
-  /// column.
+  /// Fills the next block (capacities are reused), of a pipe with the rows that have come; false at the end. Throws
+  /// RecordingError: text in a number column, NaN or infinity written out, time running backwards, values implausible
+  /// for their unit; with file, line and column.
   virtual bool next(SampleBlock& block) = 0;
   [[nodiscard]] virtual const ReadNotes& notes() const = 0;
   /// Share of the file read so far, 0 to 1; nothing where the length is unknown (a pipe).
@@ -46,6 +50,9 @@ class Reader {
 
 /// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV.
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
+
+/// The same of an input that is open.
+[[nodiscard]] std::unique_ptr<Reader> open_reader(std::unique_ptr<InputBytes> input, const ReadOptions& options);
 
 /// What a file is and what its columns are called, whether they are channels or not.
 struct FileContents {

@@ -31,13 +31,19 @@ recording::ReadOptions sensor_channels(const model::Model& model, recording::Cha
 
 std::unique_ptr<recording::Reader> open_sensor_channels(const std::filesystem::path& file,
                                                         const recording::ReadOptions& options) {
-  std::unique_ptr<recording::Reader> reader = recording::open_reader(file, options);
+  return open_sensor_channels(std::make_unique<recording::InputBytes>(file), options);
+}
+
+std::unique_ptr<recording::Reader> open_sensor_channels(std::unique_ptr<recording::InputBytes> input,
+                                                        const recording::ReadOptions& options) {
+  const std::string file = input->name();
+  std::unique_ptr<recording::Reader> reader = recording::open_reader(std::move(input), options);
   const bool both = reader->has(Channel::current_a) && reader->has(Channel::current_b);
   if (!both && !reader->has(Channel::current)) {
     throw recording::RecordingError(fmt::format(
         "{}: the model is of a whole valve and needs the currents of both coils, \"current_a\" and \"current_b\", or "
         "\"current\" of the active one; name their columns in a channel map",
-        file.string()));
+        file));
   }
   return reader;
 }

@@ -16,6 +16,10 @@ namespace spoolflow::validation {
 [[nodiscard]] std::unique_ptr<recording::Reader> open_sensor_channels(const std::filesystem::path& file,
                                                                       const recording::ReadOptions& options);
 
+/// The same of an input that is open.
+[[nodiscard]] std::unique_ptr<recording::Reader> open_sensor_channels(std::unique_ptr<recording::InputBytes> input,
+                                                                      const recording::ReadOptions& options);
+
 /// The same of a block or a recording in memory, which must outlive what is returned.
 [[nodiscard]] estimation::Columns sensor_columns(const recording::SampleBlock& block);
 [[nodiscard]] estimation::Columns sensor_columns(const recording::Recording& recording);

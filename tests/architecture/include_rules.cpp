@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 18> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 22> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
@@ -33,6 +33,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> library_
     {"fast_float/", "fast_float"},
     {"boost/", "Boost"},
     {"zip.h", "libzip"},
+    {"sqlite3.h", "SQLite"},
+    {"arpa/", "POSIX"},
+    {"netinet/", "POSIX"},
+    {"poll.h", "POSIX"},
     {"sys/", "POSIX"},
     {"linux/", "Linux"},
     {"unistd.h", "POSIX"},

@@ -23,6 +23,7 @@ const std::map<std::string, std::string> library_of_target{
     {"Boost::headers", "Boost"},
     {"FastFloat::fast_float", "fast_float"},
     {"PkgConfig::LIBZIP", "libzip"},
+    {"PkgConfig::SQLITE3", "SQLite"},
 };
 
 const std::string prefix = "spoolflow_";

@@ -105,6 +105,16 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
+bool header_is_whole(std::string_view beginning) {
+  for (int lines = 0; lines < 2;) {
+    if (beginning.find('\n') == std::string_view::npos) return false;
+    const std::string_view line = take_line(beginning);
+    const bool declares = line.starts_with("sep=") && line.size() == 5;
+    if (!declares && !is_blank(line) && !line.starts_with('#')) ++lines;
+  }
+  return true;
+}
+
 CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file) {
   if (beginning.empty()) throw RecordingError(fmt::format("{}: is empty; record it again or name another file", file));
   refuse_other_encodings(beginning, file);

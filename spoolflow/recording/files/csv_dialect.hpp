@@ -21,6 +21,10 @@ struct CsvDialect {
 /// file. Throws RecordingError: nothing in it, no header, UTF-16, a binary file.
 [[nodiscard]] CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file);
 
+/// Whether the header is there as a whole, and one more line that tells units from samples: all that read_csv_dialect()
+/// needs of a stream whose rows are still to come.
+[[nodiscard]] bool header_is_whole(std::string_view beginning);
+
 /// The decimal sign, comma or point, of the numbers in these whole lines; nothing where all are integers.
 /// `wanted`: the columns to look at.
 [[nodiscard]] std::optional<char> decimal_sign(std::string_view lines, char delimiter,

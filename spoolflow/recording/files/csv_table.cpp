@@ -29,21 +29,31 @@ std::string shortened(std::string_view text) {
 CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginning, Text text)
     : input_(std::move(input)), text_(text), buffer_(std::move(beginning)), filled_(buffer_.size()) {
   buffer_.resize(std::max(filled_, block_bytes) + scan_padding);
-  if (filled_ < block_bytes) {
-    filled_ += input_->read(buffer_.data() + filled_, block_bytes - filled_);
-    at_end_ = filled_ < block_bytes;
-  }
+  const auto enough = [this] {
+    return filled_ >= block_bytes || (input_->comes_bit_by_bit() && header_is_whole({buffer_.data(), filled_}));
+  };
+  while (!at_end_ && !enough()) take_bytes();
   const std::string_view begun(buffer_.data(), filled_);
   const bool utf16 = begun.starts_with("\xFF\xFE") || begun.starts_with("\xFE\xFF");
   if (!utf16) refuse_zero_bytes(0);  // else the dialect tells
   dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name());
-  if (!at_end_ && dialect_.header_bytes == filled_) {
+  if (!at_end_ && filled_ >= block_bytes && dialect_.header_bytes == filled_) {
     throw RecordingError(fmt::format("{}: its header goes on for more than {} KiB; this is no CSV recording",
                                      input_->name(), block_bytes >> 10));
   }
   cursor_ = dialect_.header_bytes;
   line_ = dialect_.header_lines;
   look_at_new_bytes();
+}
+
+/// Behind those that are there; of a pipe no more than have come.
+void CsvTable::take_bytes() {
+  const std::size_t room = buffer_.size() - scan_padding - filled_;
+  const bool by_bits = input_->comes_bit_by_bit();
+  char* const out = buffer_.data() + filled_;
+  const std::size_t got = by_bits ? input_->read_some(out, room) : input_->read(out, room);
+  at_end_ = by_bits ? got == 0 : got < room;
+  filled_ += got;
 }
 
 void CsvTable::select(const std::vector<std::size_t>& columns) {
@@ -64,6 +74,7 @@ void CsvTable::select(const std::vector<std::size_t>& columns) {
 
 /// Text holds none; looked for from `first` of the buffer on.
 void CsvTable::refuse_zero_bytes(std::size_t first) const {
+  if (text_ == Text::left_out) return;
   const void* const zero = std::memchr(buffer_.data() + first, '\0', filled_ - first);
   if (zero == nullptr) return;
   const auto before = static_cast<std::size_t>(static_cast<const char*>(zero) - buffer_.data());
@@ -101,10 +112,9 @@ bool CsvTable::refill() {
     }
     std::memmove(buffer_.data(), buffer_.data() + cursor_, begun);
     buffer_.resize(begun + block_bytes + scan_padding);
-    const std::size_t got = input_->read(buffer_.data() + begun, block_bytes);
-    at_end_ = got < block_bytes;
     cursor_ = 0;
-    filled_ = begun + got;
+    filled_ = begun;
+    take_bytes();
     refuse_zero_bytes(begun);
     look_at_new_bytes();
   }
@@ -148,7 +158,7 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   const Digits digits = read_number(cell, point_, value);
   if (digits == Digits::number) return value;
   if (digits == Digits::empty) return missing;
-  if (text_ == Text::counted) {
+  if (text_ != Text::refused) {
     ++text_cells_[slot];
     return missing;
   }
@@ -176,8 +186,8 @@ void CsvTable::refuse_length(std::size_t cells) const {
                   dialect_.delimiter == '\t' ? std::string("tab") : std::string(1, dialect_.delimiter)));
 }
 
-/// Any row: quotes, spaces, exponents, empty cells, trailing delimiters; and every refusal.
-void CsvTable::careful_row(std::string_view line, std::span<double* const> out, std::size_t row) {
+/// Any row: quotes, spaces, exponents, empty cells, trailing delimiters; and every refusal. False where it is left out.
+bool CsvTable::careful_row(std::string_view line, std::span<double* const> out, std::size_t row) {
   std::size_t cells = 0;
   std::size_t used = 0;  // up to the last cell that is not empty
   for (bool last = false; !last; ++cells) {
@@ -188,13 +198,19 @@ void CsvTable::careful_row(std::string_view line, std::span<double* const> out, 
     const auto slot = static_cast<std::size_t>(slot_of_column_[cells]);
     out[slot][row] = cell_value(cell.text, cells, slot);
   }
-  if (cells < dialect_.columns.size() || used > dialect_.columns.size()) refuse_length(cells);
+  if (cells < dialect_.columns.size() || used > dialect_.columns.size()) {
+    if (text_ != Text::left_out) refuse_length(cells);
+    ++left_out_;
+    return false;
+  }
+  return true;
 }
 
 std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
   line_of_row_.clear();
   std::size_t row = 0;
-  while (row < rows && refill()) {
+  const bool waits = !input_->comes_bit_by_bit();  // for more, while rows are there to be handed out
+  while (row < rows && (waits || row == 0 || cursor_ != lines_end_) && refill()) {
     const char* cursor = buffer_.data() + cursor_;
     const char* const end = buffer_.data() + lines_end_;
     while (row < rows && cursor != end) {
@@ -204,7 +220,7 @@ std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
         const std::string_view line = take_line(rest);
         cursor = rest.empty() ? end : rest.data();
         if (line.starts_with('#') || line.find_first_not_of(" \t") == std::string_view::npos) continue;
-        careful_row(line, out, row);
+        if (!careful_row(line, out, row)) continue;
       }
       line_of_row_.push_back(line_);
       ++row;

@@ -1,5 +1,6 @@
 #pragma once
-/// A CSV file as a table of numbers, read in large blocks; columns that were not chosen are stepped over unread.
+/// A CSV file as a table of numbers, read in large blocks; columns that were not chosen are stepped over unread. Of a
+/// pipe each row is there as soon as its line is.
 #include <memory>
 
 #include "spoolflow/recording/files/csv_dialect.hpp"
@@ -10,8 +11,9 @@ namespace spoolflow::recording {
 
 class CsvTable final : public SampleTable {
  public:
-  /// What to do with a cell that is no number: refuse it, or count it and take the sample as missing (to inspect).
-  enum class Text : std::uint8_t { refused, counted };
+  /// What to do with a cell that is no number: refuse it; count it and take the sample as missing (to inspect); or
+  /// likewise, and leave out lines that have not the header's number of cells (of a source that runs on).
+  enum class Text : std::uint8_t { refused, counted, left_out };
 
   /// Throws RecordingError where the header cannot be read. `beginning`: bytes already taken from `input`.
   CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginning, Text text = Text::refused);
@@ -19,6 +21,7 @@ class CsvTable final : public SampleTable {
   [[nodiscard]] const std::vector<FileColumn>& columns() const override { return dialect_.columns; }
   void select(const std::vector<std::size_t>& columns) override;
   std::size_t read(std::span<double* const> out, std::size_t rows) override;
+  [[nodiscard]] std::uint64_t left_out() const override { return left_out_; }
   [[nodiscard]] std::string place(std::size_t row) const override;
   [[nodiscard]] std::optional<double> progress() const override;
 
@@ -28,11 +31,12 @@ class CsvTable final : public SampleTable {
   [[nodiscard]] const std::vector<std::uint64_t>& text_cells() const { return text_cells_; }
 
  private:
+  void take_bytes();
   bool refill();
   void refuse_zero_bytes(std::size_t first) const;
   void look_at_new_bytes();
   bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
-  void careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
+  bool careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
   [[noreturn]] void refuse_length(std::size_t cells) const;
 
@@ -52,6 +56,7 @@ class CsvTable final : public SampleTable {
   std::vector<Step> steps_;
   std::vector<std::ptrdiff_t> slot_of_column_;
   std::vector<std::uint64_t> text_cells_;
+  std::uint64_t left_out_ = 0;
 
   std::vector<char> buffer_;  ///< [cursor_, lines_end_) whole lines, [lines_end_, filled_) the beginning of the next
   std::size_t cursor_ = 0;

@@ -2,10 +2,12 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdexcept>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,6 +42,19 @@ InputBytes::InputBytes(const std::filesystem::path& file)
   }
 }
 
+InputBytes::InputBytes(int descriptor, std::string name, std::function<bool()> given_up)
+    : name_(std::move(name)), descriptor_(descriptor), owned_(true), given_up_(std::move(given_up)) {}
+
+/// False where it was given up.
+bool InputBytes::wait() const {
+  constexpr int look_up_ms = 100;
+  while (!given_up_()) {
+    pollfd waiting{descriptor_, POLLIN, 0};
+    if (::poll(&waiting, 1, look_up_ms) > 0) return true;
+  }
+  return false;
+}
+
 InputBytes::~InputBytes() {
   if (owned_) ::close(descriptor_);
 }
@@ -47,18 +62,25 @@ InputBytes::~InputBytes() {
 std::size_t InputBytes::read(char* out, std::size_t room) {
   std::size_t filled = 0;
   while (filled < room) {
-    const ::ssize_t got = ::read(descriptor_, out + filled, room - filled);
+    const std::size_t got = read_some(out + filled, room - filled);
     if (got == 0) break;
-    if (got < 0) {
-      if (errno == EINTR) continue;
-      if (errno == EBADF) throw RecordingError(fmt::format("{}: cannot be read: it is closed", name_));
-      throw std::runtime_error(
-          fmt::format("{}: reading failed after {} bytes: {}", name_, position_ + filled, reason(errno)));
-    }
-    filled += static_cast<std::size_t>(got);
+    filled += got;
   }
-  position_ += filled;
   return filled;
+}
+
+std::size_t InputBytes::read_some(char* out, std::size_t room) {
+  for (;;) {
+    if (given_up_ && !wait()) return 0;
+    const ::ssize_t got = ::read(descriptor_, out, room);
+    if (got >= 0) {
+      position_ += static_cast<std::uint64_t>(got);
+      return static_cast<std::size_t>(got);
+    }
+    if (errno == EINTR || (errno == EAGAIN && given_up_)) continue;
+    if (errno == EBADF) throw RecordingError(fmt::format("{}: cannot be read: it is closed", name_));
+    throw std::runtime_error(fmt::format("{}: reading failed after {} bytes: {}", name_, position_, reason(errno)));
+  }
 }
 
 }  // namespace spoolflow::recording

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -12,14 +13,21 @@ class InputBytes {
  public:
   /// "-" is standard input. Throws RecordingError: no such file, a folder, no permission.
   explicit InputBytes(const std::filesystem::path& file);
+  /// Of a pipe or a connection that is open; closes it. A wait for bytes ends as if nothing more came within a tenth of
+  /// a second after `given_up` says so.
+  InputBytes(int descriptor, std::string name, std::function<bool()> given_up);
   ~InputBytes();
   InputBytes(const InputBytes&) = delete;
   InputBytes& operator=(const InputBytes&) = delete;
 
   /// Up to `room` bytes; fewer only at the end. Throws std::runtime_error where the device fails.
   std::size_t read(char* out, std::size_t room);
+  /// What has come so far, up to `room` > 0 bytes; waits for the first. Zero only at the end. Throws as read() does.
+  std::size_t read_some(char* out, std::size_t room);
   /// As the user named it; "standard input" for "-".
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Whether bytes come while others are still to be made: a pipe, a terminal, a socket.
+  [[nodiscard]] bool comes_bit_by_bit() const { return !size_; }
   /// The length of a regular file; nothing for a pipe or a terminal.
   [[nodiscard]] std::optional<std::uint64_t> size() const { return size_; }
   [[nodiscard]] std::uint64_t position() const { return position_; }
@@ -28,6 +36,9 @@ class InputBytes {
   std::string name_;
   int descriptor_;
   bool owned_;
+  [[nodiscard]] bool wait() const;
+
+  std::function<bool()> given_up_;
   std::optional<std::uint64_t> size_;
   std::uint64_t position_ = 0;
 };

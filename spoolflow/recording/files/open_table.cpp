@@ -5,15 +5,24 @@
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
-#include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/mat_table.hpp"
 
 namespace spoolflow::recording {
 
 OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text text) {
-  auto input = std::make_unique<InputBytes>(file);
+  return open_sample_table(std::make_unique<InputBytes>(file), text);
+}
+
+OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text text) {
   std::vector<char> beginning(format_bytes);
-  beginning.resize(input->read(beginning.data(), beginning.size()));
+  std::size_t begun = 0;
+  const auto enough = [&] {
+    return begun == format_bytes || (input->comes_bit_by_bit() && header_is_whole({beginning.data(), begun}));
+  };
+  for (std::size_t got = 1; got > 0 && !enough(); begun += got) {
+    got = input->read_some(beginning.data() + begun, format_bytes - begun);
+  }
+  beginning.resize(begun);
   const FileFormat format = format_of({beginning.data(), beginning.size()}, input->name());
   if (format == FileFormat::csv) {
     return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
@@ -24,7 +33,8 @@ OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text te
                     "and name it",
                     input->name(), name(format)));
   }
-  return {format, open_confined(file, *input->size(), format == FileFormat::mat ? open_mat_table : open_hdf5_table)};
+  return {format,
+          open_confined(input->name(), *input->size(), format == FileFormat::mat ? open_mat_table : open_hdf5_table)};
 }
 
 }  // namespace spoolflow::recording

@@ -5,6 +5,7 @@
 
 #include "spoolflow/recording/files/csv_table.hpp"
 #include "spoolflow/recording/files/file_format.hpp"
+#include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
@@ -16,6 +17,10 @@ struct OpenTable {
 
 /// "-" is standard input (CSV). Throws RecordingError where the file cannot be read or is of no known format.
 [[nodiscard]] OpenTable open_sample_table(const std::filesystem::path& file,
+                                          CsvTable::Text text = CsvTable::Text::refused);
+
+/// The same of an input that is open.
+[[nodiscard]] OpenTable open_sample_table(std::unique_ptr<InputBytes> input,
                                           CsvTable::Text text = CsvTable::Text::refused);
 
 }  // namespace spoolflow::recording

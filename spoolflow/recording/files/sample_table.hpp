@@ -32,6 +32,8 @@ class SampleTable {
   /// Fills `out[k]` (room for `rows` numbers) from the k-th chosen column; returns the number of rows, 0 at the end.
   /// Numbers are finite, or NaN where the sample is missing. Throws RecordingError with file, place and value.
   virtual std::size_t read(std::span<double* const> out, std::size_t rows) = 0;
+  /// Rows that could not be read and were left out so far; nothing is where the table refuses them.
+  [[nodiscard]] virtual std::uint64_t left_out() const { return 0; }
   /// Where row `row` of the last read() stands: "run.csv, line 17" or "run.mat, sample 16".
   [[nodiscard]] virtual std::string place(std::size_t row) const = 0;
   /// Share of the file read so far, 0 to 1; nothing where the length is unknown.

@@ -69,6 +69,16 @@ MeasuredSample measured(const recording::Recording& recording, const BenchRun& r
           .oil_temperature_K = newest(Channel::oil_temperature)};
 }
 
+/// The newest sample to whoever wants each as it comes, and what they make of dither and plant.
+void hand_over(const SimulationOptions& options, const BenchRun& run, double time_s, recording::Recording& recording,
+               CoilSupply& coil_supply, PlantParameters& plant) {
+  if (options.dither) coil_supply.set_dither(options.dither(measured(recording, run, time_s)));
+  if (options.age) options.age(time_s, plant);
+  if (options.each_sample) options.each_sample(measured(recording, run, time_s));
+  if (options.keeps_recording) return;
+  for (const recording::Channel channel : run.channels) recording.column(channel).clear();
+}
+
 /// The truth first: see read_scenario.
 Simulation nothing_yet(bool whole_valve) {
   GroundTruth truth(whole_valve);
@@ -79,7 +89,8 @@ Simulation nothing_yet(bool whole_valve) {
 
 Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed,
                     const SimulationOptions& options) {
-  PlantParameters plant = valve.plant;
+  ValveUnderTest tested = valve;
+  PlantParameters& plant = tested.plant;
   plant.arrangement = run.arrangement;
   if (run.load) plant.load.kind = *run.load;
   Instruments instruments = valve.instruments;
@@ -89,15 +100,14 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
   PlantState state = plant_at_rest(plant, input);
   PlantOutput truth = observe(plant, state, input);
   InstrumentPanel panel(instruments, seed, run, truth, input.oil_temperature_C);
-  CoilSupply coil_supply(valve, run, seed);
+  CoilSupply coil_supply(tested, run, seed);
   SpanReader<double> sample_rate(run.sample_rate_Hz);
   SpanReader<double> test(run.test);
 
   Simulation out = nothing_yet(run.whole_valve);
   const std::int64_t end = std::llround(run.duration_s() / electronics_period_s);
   const std::int64_t ticks_per_report = std::max<std::int64_t>(1, end / 200);
-  std::int64_t next_sample = 0;
-  std::int64_t observed = 0;
+  std::int64_t next_sample = 0, observed = 0;
   for (std::int64_t tick = 0; tick < end; ++tick) {
     const double time_s = static_cast<double>(tick) * electronics_period_s;
     const bool samples = tick == next_sample;
@@ -115,7 +125,7 @@ Simulation simulate(const ValveUnderTest& valve, const BenchRun& run, std::uint6
                    .current_A = run.current_A.at(time_s),
                    .pressure_difference_Pa = input.held_pressure_difference_Pa,
                    .test = test.at(time_s, 0)});
-      if (options.dither) coil_supply.set_dither(options.dither(measured(out.recording, run, time_s)));
+      hand_over(options, run, time_s, out.recording, coil_supply, plant);
       if (options.with_truth) {
         truth.time_s = time_s;
         out.truth.add(truth);

@@ -30,6 +30,12 @@ struct SimulationOptions {
   /// Called at each recorded sample: the dither that the valve's electronics lay on the set current until the next one.
   /// Without it the electronics keep their own.
   std::function<Dither(const MeasuredSample&)> dither{};
+  /// Called at each recorded sample, after `dither`.
+  std::function<void(const MeasuredSample&)> each_sample{};
+  /// Called at each recorded sample: the plant as it has become until then, by wear. Spread and the run's own
+  /// arrangement are in it.
+  std::function<void(double time_s, PlantParameters& plant)> age{};
+  bool keeps_recording = true;                   ///< false: the recording that comes back holds nothing
   std::function<void(double share)> progress{};  ///< called some hundred times, 0 to 1
 };
 

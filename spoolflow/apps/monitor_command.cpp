@@ -1,0 +1,150 @@
+/// `spoolflow monitor`: the condition of a valve from recordings of its operation.
+#include <fstream>
+#include <functional>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/report/json/monitor_json.hpp"
+#include "spoolflow/report/monitor/monitor_report.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+std::optional<monitor::Baseline> read_baseline(const std::string& file) {
+  if (file.empty()) return {};
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw model::ModelError(file + ": the baseline cannot be read; name what an earlier --json wrote");
+  return monitor::parse_baseline(model::read_json_text(in), file);
+}
+
+/// Keeps what is told whenever a window was judged, and no more than a page can show.
+void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& trend) {
+  constexpr std::size_t most_points = 2000;
+  const double windows = watch.judged_windows();
+  if (windows == 0 || (!trend.empty() && trend.back().windows == windows)) return;
+  if (trend.size() == most_points) {
+    for (std::size_t k = 0; 2 * k < trend.size(); ++k) trend[k] = trend[2 * k];
+    trend.resize(trend.size() / 2);
+  }
+  trend.push_back({windows, watch.indicators()});
+}
+
+/// One recording through sensor and watch.
+void monitor_one(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
+                 monitor::Watch& watch, std::vector<report::TrendPoint>& trend,
+                 const std::function<void(std::optional<double>)>& progress) {
+  const auto reader = validation::open_sensor_channels(recording, validation::sensor_channels(model, channels));
+  estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
+  recording::SampleBlock block;
+  while (reader->next(block)) {
+    const estimation::Columns columns = validation::sensor_columns(block);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const estimation::TimedSample sample = columns[k];
+      watch.take(sample, sensor.step(sample));
+    }
+    follow_trend(watch, trend);
+    progress(reader->progress());
+  }
+  watch.finish();
+  follow_trend(watch, trend);
+}
+
+void print_condition(const monitor::Watch& watch) {
+  print("NE 107: {}\n", monitor::name(watch.condition()));
+  for (const monitor::Cause& cause : watch.causes())
+    print("{:<20} odds {:.3g} to 1\n", monitor::name(cause.fault), cause.odds);
+  print("\n{:<32} {:>12} {:>12} {:>12} {:<4} {}\n", "indicator", "value", "+- 95 %", "baseline", "unit", "state");
+  for (const monitor::Indicator& each : watch.indicators()) {
+    print("{:<32} {:>12.5g} {:>12.3g} {:>12.5g} {:<4} {}\n", each.name, each.value, each.uncertainty_95, each.baseline,
+          each.unit, monitor::name(each.state));
+  }
+}
+
+}  // namespace
+
+void monitor_recordings(const MonitorArguments& arguments) {
+  const model::Model model = model::read_model(arguments.model);
+  recording::ChannelMap channels;
+  std::vector<std::filesystem::path> inputs{arguments.model};
+  inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
+  if (!arguments.channels.empty()) {
+    channels = recording::read_channel_map(arguments.channels);
+    inputs.emplace_back(arguments.channels);
+  }
+  if (!arguments.baseline.empty()) inputs.emplace_back(arguments.baseline);
+  monitor::Watch watch(model, {arguments.false_alarms_per_year}, read_baseline(arguments.baseline));
+  const report::ReaderUnits units(arguments.units);
+  std::optional<OutputFile> page;
+  if (!arguments.report.empty()) {
+    page.emplace(arguments.report, inputs);
+    inputs.emplace_back(arguments.report);
+  }
+  std::optional<OutputFile> json;
+  if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
+  std::vector<report::MonitoredRun> runs;
+  std::vector<report::TrendPoint> trend;
+  {
+    Progress progress("monitoring", arguments.quiet);
+    const auto total = static_cast<double>(arguments.recordings.size());
+    for (const std::string& recording : arguments.recordings) {
+      const auto before = static_cast<double>(runs.size());
+      monitor_one(model, recording, channels, watch, trend, [&](std::optional<double> share) {
+        if (share) progress.update((before + *share) / total);
+      });
+      runs.push_back(
+          {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
+    }
+  }
+  if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
+  if (json) report::write_monitor_json(json->stream(), model, watch, runs);
+  commit_together({page ? &*page : nullptr, json ? &*json : nullptr});
+  if (arguments.json != "-" && arguments.report != "-") print_condition(watch);
+}
+
+void add_monitor_command(CLI::App& program) {
+  auto arguments = std::make_shared<MonitorArguments>();
+  CLI::App* command = add_command(
+      program,
+      {"monitor",
+       "judge the condition of a valve from recordings of its operation",
+       "MODEL.json with an observer, and recordings in the order in which they were made, with time, current and "
+       "position, better also voltage and oil temperature",
+       "indicators, causes and the sign of NE 107 as JSON, which is a baseline for later runs, too; a summary on "
+       "standard output",
+       {"spoolflow monitor valve_a.json monday.csv tuesday.csv --json condition.json",
+        "spoolflow monitor valve_a.json friday.csv --baseline condition.json --json friday.json"}});
+  command->add_option("model", arguments->model, "model file")->required();
+  command->add_option("recordings", arguments->recordings, "recordings of the valve at work, oldest first")->required();
+  command
+      ->add_option("--baseline", arguments->baseline,
+                   "what --json wrote of healthy runs of this valve with this model; else the model is the reference")
+      ->type_name("BASE.json");
+  command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
+  command->add_option("--json", arguments->json, "condition to write as JSON; - for standard output")
+      ->type_name("OUT.json");
+  command
+      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
+      ->type_name("MAP.toml");
+  command
+      ->add_option("--false-alarms-per-year", arguments->false_alarms_per_year,
+                   "wanted at most over all indicators, of a valve at work day and night")
+      ->check(CLI::Range(1e-6, 1e4))
+      ->capture_default_str();
+  add_units(*command, arguments->units);
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { monitor_recordings(*arguments); });
+}
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,263 @@
+#include "spoolflow/live/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "spoolflow/live/sources/pace.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
+
+namespace spoolflow::live {
+
+/// A thread that works on the samples of some of the valves.
+struct Engine::Worker {
+  std::mutex mutex;
+  std::condition_variable_any arrived;
+  std::vector<Place*> pending;
+  std::jthread thread;  ///< last: it uses the others
+
+  void tell(Place& place) {
+    {
+      const std::lock_guard lock(mutex);
+      pending.push_back(&place);
+    }
+    arrived.notify_one();
+  }
+  void run(const std::stop_token& stop) {
+    std::vector<Place*> now;
+    std::vector<SampleBlock> blocks;
+    while (!stop.stop_requested()) {
+      {
+        std::unique_lock lock(mutex);
+        arrived.wait(lock, stop, [this] { return !pending.empty(); });
+        now.clear();
+        std::swap(now, pending);
+      }
+      for (Place* place : now) {
+        place->intake->take(blocks);
+        for (const SampleBlock& block : blocks) place->valve->work(block);
+      }
+    }
+  }
+};
+
+Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)), program_(std::move(program)) {
+  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, site_.valves.size());
+  for (std::size_t k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>());
+  for (std::size_t k = 0; k < site_.valves.size(); ++k) {
+    const ValveSettings& settings = site_.valves[k];
+    auto place = std::make_unique<Place>();
+    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s;
+    place->valve = std::make_unique<ValveAtWork>(settings.id, settings.model, program_, raw_s);
+    Worker& worker = *workers_[k % threads];
+    place->intake = std::make_unique<Intake>([&worker, at = place.get()] { worker.tell(*at); });
+    valves_.push_back(std::move(place));
+  }
+  if (site_.store.empty()) return;
+  store_ = std::make_unique<Store>(site_.store);
+  events_.restore(store_->events(static_cast<int>(Events::most)));
+  for (const KeptState& kept : store_->states()) {
+    const auto same = std::find_if(valves_.begin(), valves_.end(),
+                                   [&](const auto& place) { return place->valve->id() == kept.valve; });
+    if (same == valves_.end()) continue;
+    (*same)->after = {kept.session, kept.next};
+    if ((*same)->valve->restore(kept)) continue;
+    events_.add({.wall_ms = wall_ms(),
+                 .valve = kept.valve,
+                 .kind = "program",
+                 .text = "sensor and monitor begin anew: the model or the program is another than before"});
+  }
+}
+
+Engine::~Engine() {
+  stop();
+}
+
+void Engine::start() {
+  for (const auto& worker : workers_) {
+    worker->thread = std::jthread([at = worker.get()](const std::stop_token& stop) { at->run(stop); });
+  }
+  std::vector<UdpValve> senders;
+  for (std::size_t k = 0; k < valves_.size(); ++k) {
+    if (std::holds_alternative<UdpSettings>(site_.valves[k].source)) {
+      senders.push_back({site_.valves[k].id, valves_[k]->intake.get(), valves_[k]->after});
+    }
+  }
+  if (site_.udp) udp_ = std::make_unique<UdpReceiver>(*site_.udp, site_.allow, senders);
+  for (std::size_t k = 0; k < valves_.size(); ++k) start_source(k);
+  keeper_ = std::jthread([this](const std::stop_token& stop) { keep_each_second(stop); });
+}
+
+void Engine::start_source(std::size_t k) {
+  Place& place = *valves_[k];
+  const ValveSettings& settings = site_.valves[k];
+  const recording::ReadOptions channels = validation::sensor_channels(*settings.model.model, settings.channels);
+  if (const auto* tcp = std::get_if<TcpSettings>(&settings.source)) {
+    place.source = std::make_unique<TcpSource>(tcp->listen, site_.allow, channels, place.after, *place.intake);
+  } else if (const auto* pipe = std::get_if<PipeSettings>(&settings.source)) {
+    place.source = std::make_unique<PipeSource>(pipe->path, channels, place.after, *place.intake);
+  } else if (const auto* replay = std::get_if<ReplaySettings>(&settings.source)) {
+    place.source = std::make_unique<ReplaySource>(*replay, channels, place.after, *place.intake);
+  } else if (const auto* rig = std::get_if<RigSettings>(&settings.source)) {
+    place.source = std::make_unique<RigSource>(*rig, place.after, *place.intake);
+  }
+}
+
+void Engine::stop() {
+  // Sources first, so that nothing new comes while the last is worked on.
+  for (const auto& place : valves_) {
+    std::visit(
+        [](auto& source) {
+          if constexpr (requires { source->ask_to_stop(); }) {
+            if (source) source->ask_to_stop();
+          }
+        },
+        place->source);
+  }
+  for (const auto& place : valves_) place->source = std::monostate{};
+  udp_.reset();
+  for (const auto& worker : workers_) worker->thread = {};
+  if (!keeper_.joinable()) return;
+  keeper_ = {};
+  std::vector<SampleBlock> blocks;
+  for (const auto& place : valves_) {
+    place->intake->take(blocks);
+    for (const SampleBlock& block : blocks) place->valve->work(block);
+  }
+  if (store_) keep(true);
+}
+
+bool Engine::ended(const Place& place) const {
+  const auto* replay = std::get_if<std::unique_ptr<ReplaySource>>(&place.source);
+  return replay != nullptr && (*replay)->ended();
+}
+
+SourceView Engine::source(std::size_t k) const {
+  const Place& place = *valves_[k];
+  SourceView out;
+  out.kind = kind(site_.valves[k].source);
+  if (const auto* tcp = std::get_if<std::unique_ptr<TcpSource>>(&place.source)) out.port = (*tcp)->port();
+  out.counters = place.intake->counters();
+  out.trouble = place.intake->trouble();
+  const std::int64_t arrived_ns = place.valve->arrived_ns();
+  out.age_s =
+      arrived_ns == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e-9 * static_cast<double>(steady_ns() - arrived_ns);
+  out.stalled = !ended(place) && !(out.age_s <= site_.stalled_after_s);
+  return out;
+}
+
+ValveView Engine::view(std::size_t k) const {
+  ValveView out = valves_[k]->valve->view();
+  if (source(k).stalled) out.condition = std::max(out.condition, monitor::Ne107::function_check);
+  return out;
+}
+
+UdpCounters Engine::udp_counters() const {
+  return udp_ ? udp_->counters() : UdpCounters{};
+}
+
+std::string Engine::store_trouble() const {
+  const std::lock_guard lock(trouble_mutex_);
+  return store_trouble_;
+}
+
+/// Changes of condition and sources become events.
+void Engine::watch_for_events() {
+  for (std::size_t k = 0; k < valves_.size(); ++k) {
+    Place& place = *valves_[k];
+    const SourceView source_now = source(k);
+    // What was pushed last may still be in work for an instant; the next second comes behind it.
+    if (ended(place) && place.intake->empty() && source_now.age_s > 1 && !place.finished) {
+      place.valve->finish();
+      place.finished = true;
+    }
+    const ValveView valve = place.valve->view();
+    const auto add = [&](const char* kind, std::string text) {
+      events_.add(
+          {.wall_ms = wall_ms(), .valve = valve.id, .time_s = valve.time_s, .kind = kind, .text = std::move(text)});
+    };
+    if (source_now.stalled != place.told_stalled) {
+      add("source", source_now.stalled
+                        ? fmt::format("no samples{}{}", source_now.trouble.empty() ? "" : ": ", source_now.trouble)
+                        : "samples come in");
+      place.told_stalled = source_now.stalled;
+    } else if (source_now.trouble != place.told_trouble && !source_now.trouble.empty()) {
+      add("source", source_now.trouble);
+    }
+    place.told_trouble = source_now.trouble;
+    keep_raw_samples(place, valve, source_now.stalled || place.finished);
+    if (valve.condition == place.told_condition) continue;
+    std::string causes;
+    for (const monitor::Cause& cause : valve.causes) {
+      causes += fmt::format("{}{} (odds {:.3g})", causes.empty() ? ": " : ", ", monitor::name(cause.fault), cause.odds);
+    }
+    add("condition", fmt::format("NE 107 {} after {}{}", monitor::name(valve.condition),
+                                 monitor::name(place.told_condition), causes));
+    if (valve.condition > place.told_condition && !place.alarm_s) {
+      place.alarm_s = valve.time_s;
+      place.alarm = fmt::format("NE 107 {}{}", monitor::name(valve.condition), causes);
+    }
+    place.told_condition = valve.condition;
+  }
+}
+
+/// Once those behind the alarm have come, too, or no more come.
+void Engine::keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes) {
+  if (!place.alarm_s || !store_) return;
+  const double since_s = valve.time_s - *place.alarm_s;
+  if (since_s >= 0 && since_s < site_.raw_after_s && !nothing_comes) return;
+  KeptRecording raw{.wall_ms = wall_ms(), .valve = valve.id, .why = place.alarm};
+  raw.csv = place.valve->raw_csv(*place.alarm_s - site_.raw_before_s, *place.alarm_s + site_.raw_after_s);
+  place.alarm_s.reset();
+  if (raw.csv.empty()) return;
+  try {
+    const std::int64_t id = store_->keep_recording(raw);
+    events_.add({.wall_ms = wall_ms(),
+                 .valve = valve.id,
+                 .time_s = valve.time_s,
+                 .kind = "recording",
+                 .text = fmt::format("raw samples around {} are kept as recording {}", raw.why, id)});
+  } catch (const StoreError&) {  // the next commit meets the same and tells
+  }
+}
+
+void Engine::keep(bool with_indicators) {
+  std::vector<ValveCommit> commits;
+  commits.reserve(valves_.size());
+  for (const auto& place : valves_) commits.push_back(place->valve->take_commit(with_indicators));
+  std::vector<Event> events = events_.unkept();
+  std::string trouble;
+  try {
+    store_->commit(wall_ms(), commits, events);
+    events_.kept(events);
+  } catch (const StoreError& error) {
+    trouble = error.what();
+    for (std::size_t k = 0; k < commits.size(); ++k) valves_[k]->valve->give_back(commits[k].since_last);
+  }
+  const std::lock_guard lock(trouble_mutex_);
+  if (!trouble.empty() && trouble != store_trouble_) {
+    events_.add({.wall_ms = wall_ms(), .kind = "program", .text = trouble});
+  }
+  store_trouble_ = trouble;
+}
+
+void Engine::keep_each_second(const std::stop_token& stop) {
+  constexpr int indicators_every = 60, retention_every = 60;
+  SteadyTime next = std::chrono::steady_clock::now();
+  for (int second = 1;; ++second) {
+    next += std::chrono::seconds(1);
+    if (!wait_until(next, stop)) return;
+    watch_for_events();
+    if (!store_) continue;
+    keep(second % indicators_every == 1);
+    if (second % retention_every != 0) continue;
+    try {
+      store_->retain(wall_ms(), site_.retention);
+    } catch (const StoreError&) {  // the next commit meets the same and tells
+    }
+  }
+}
+
+}  // namespace spoolflow::live

@@ -1,0 +1,95 @@
+#pragma once
+/// A site at work: its sources, the threads that work on their samples, and the store that keeps them.
+///
+///     live::Engine engine(live::read_site("site.toml"), "spoolflow 1.2");
+///     engine.start();                   // from here on samples come in
+///     engine.view(0); engine.events();  // from any thread
+#include <deque>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "spoolflow/live/events.hpp"
+#include "spoolflow/live/site.hpp"
+#include "spoolflow/live/sources/csv_source.hpp"
+#include "spoolflow/live/sources/intake.hpp"
+#include "spoolflow/live/sources/udp_receiver.hpp"
+#include "spoolflow/live/valve_at_work.hpp"
+
+namespace spoolflow::live {
+
+/// How a valve's source fares.
+struct SourceView {
+  std::string_view kind;
+  std::uint16_t port = 0;  ///< of tcp
+  IntakeCounters counters;
+  std::string trouble;   ///< empty: none
+  bool stalled = false;  ///< no sample for longer than the site allows; a recording that has ended is not stalled
+  double age_s = 0;      ///< since the last sample; NaN: none yet
+};
+
+class Engine {
+ public:
+  /// Opens the store and lets the valves go on from it. Throws StoreError. `program`: name and version.
+  Engine(SiteSettings site, std::string program);
+  /// Stops sources and work, and keeps what there is.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Throws SiteError or RecordingError where a source cannot begin.
+  void start();
+  /// Ends sources and work, and keeps what there is; every reader of views may go on.
+  void stop();
+
+  [[nodiscard]] std::size_t size() const { return valves_.size(); }
+  [[nodiscard]] const ValveAtWork& valve(std::size_t k) const { return *valves_[k]->valve; }
+  /// The condition is function check at least while the source is stalled.
+  [[nodiscard]] ValveView view(std::size_t k) const;
+  [[nodiscard]] SourceView source(std::size_t k) const;
+  [[nodiscard]] std::vector<Event> events() const { return events_.all(); }
+  [[nodiscard]] UdpCounters udp_counters() const;
+  [[nodiscard]] std::uint16_t udp_port() const { return udp_ ? udp_->port() : std::uint16_t{0}; }
+  /// Why nothing is kept at present; empty where it is, or where it need not be.
+  [[nodiscard]] std::string store_trouble() const;
+  [[nodiscard]] const SiteSettings& site() const { return site_; }
+
+ private:
+  struct Worker;
+  /// One valve with what brings its samples.
+  struct Place {
+    std::unique_ptr<ValveAtWork> valve;
+    std::unique_ptr<Intake> intake;
+    SourcePosition after;
+    std::variant<std::monostate, std::unique_ptr<TcpSource>, std::unique_ptr<PipeSource>, std::unique_ptr<ReplaySource>,
+                 std::unique_ptr<RigSource>>
+        source;
+    bool finished = false;  ///< its recording was played to the end
+    bool told_stalled = false;
+    monitor::Ne107 told_condition = monitor::Ne107::good;
+    std::string told_trouble;
+    std::optional<double> alarm_s{};  ///< by the source's clock; its raw samples are still to be kept
+    std::string alarm{};
+  };
+
+  void start_source(std::size_t k);
+  void keep_each_second(const std::stop_token& stop);
+  void keep(bool with_indicators);
+  [[nodiscard]] bool ended(const Place& place) const;
+  void watch_for_events();
+  void keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes);
+
+  SiteSettings site_;
+  std::string program_;
+  std::unique_ptr<Store> store_;
+  std::vector<std::unique_ptr<Place>> valves_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::unique_ptr<UdpReceiver> udp_;
+  Events events_;
+  mutable std::mutex trouble_mutex_;
+  std::string store_trouble_;
+  std::jthread keeper_;
+};
+
+}  // namespace spoolflow::live

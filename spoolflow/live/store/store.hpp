@@ -1,0 +1,115 @@
+#pragma once
+/// What one machine keeps of its valves, in one SQLite file (WAL). Each commit covers all valves: a summary of what
+/// came since the commit before, the state from which the program goes on, events. After an end at any instant the file
+/// is that of the last commit.
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/live/store/sqlite.hpp"
+
+namespace spoolflow::live {
+
+inline constexpr int store_version = 1;
+
+/// Smallest, mean and largest value of the answers between two commits, which are a second apart.
+struct Summary {
+  std::int64_t samples = 0;
+  double time_s = 0;  ///< of the last sample, by the source's clock
+  double flow_min_m3_per_s = 0, flow_mean_m3_per_s = 0, flow_max_m3_per_s = 0;
+  double lower_min_m3_per_s = 0, upper_max_m3_per_s = 0;  ///< ends of the 95 % band
+  double energy_J = 0;                                    ///< hydraulic, through the edge
+  std::uint32_t status = 0;                               ///< bits that were set at least once
+};
+
+struct KeptIndicator {
+  std::string name;
+  double value, uncertainty_95, baseline;
+  std::string state;
+};
+
+/// From where a valve goes on.
+struct KeptState {
+  std::string valve{};
+  std::uint64_t session = 0, next = 0;  ///< of its source
+  std::uint64_t samples = 0;            ///< worked on since the store began
+  double energy_J = 0;                  ///< since then
+  std::string layout;                   ///< what the bytes are of; of another layout they are not taken
+  std::vector<std::byte> sensor, watch;
+};
+
+struct ValveCommit {
+  KeptState state;
+  Summary since_last;                     ///< nothing came where it has no samples
+  std::vector<KeptIndicator> indicators;  ///< written where there are any
+};
+
+struct Event {
+  std::int64_t id = 0;       ///< ascending; given by the store
+  std::int64_t wall_ms = 0;  ///< since 1970-01-01 UTC
+  std::string valve{};
+  double time_s = 0;  ///< by the source's clock
+  std::string kind;   ///< "condition", "source", "recording", "program"
+  std::string text{};
+  std::int64_t acknowledged_ms = 0;  ///< 0: not yet
+};
+
+struct Retention {
+  double days = 30;
+  double largest_MB = 2000;
+};
+
+/// Raw samples around an alarm.
+struct KeptRecording {
+  std::int64_t id = 0;  ///< ascending; given by the store
+  std::int64_t wall_ms = 0;
+  std::string valve{};
+  std::string why{};
+  std::string csv{};  ///< with the header of a recording; empty in lists
+};
+
+struct HistoryRow {
+  std::int64_t wall_ms;
+  Summary summary;
+};
+
+class Store {
+ public:
+  /// Makes the file where there is none. Throws StoreError: of a newer version, damaged, of another program, held by
+  /// another spoolflow live.
+  explicit Store(const std::string& path);
+  ~Store();
+
+  [[nodiscard]] std::vector<KeptState> states();
+  /// One transaction. Throws StoreError, and then nothing of it is kept.
+  void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events);
+  /// The newest, ascending by id.
+  [[nodiscard]] std::vector<Event> events(int most);
+  /// Returns its number. Throws StoreError.
+  std::int64_t keep_recording(const KeptRecording& recording);
+  /// Deletes what is older or more than that.
+  void retain(std::int64_t wall_ms, const Retention& retention);
+
+ private:
+  struct Statements;
+  std::int64_t number_of(const std::string& valve);
+
+  int lock_ = -1;
+  std::unique_ptr<Database> database_;
+  std::unique_ptr<Statements> statements_;
+};
+
+/// The newest recordings without their samples, newest first. Throws StoreError as read_history() does.
+[[nodiscard]] std::vector<KeptRecording> list_recordings(const std::string& path, int most);
+/// One of them as a whole; nothing where there is none of this number.
+[[nodiscard]] std::optional<KeptRecording> read_recording(const std::string& path, std::int64_t id);
+
+/// Rows of a valve with from_ms <= wall_ms < to_ms, in order. Works while another program writes. Throws StoreError
+/// where the file is no store, and where it knows no such valve, naming those that it knows.
+void read_history(const std::string& path, const std::string& valve, std::int64_t from_ms, std::int64_t to_ms,
+                  const std::function<void(const HistoryRow&)>& each);
+
+}  // namespace spoolflow::live

@@ -1,0 +1,186 @@
+#include "spoolflow/live/valve_at_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "spoolflow/estimation/estimator.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+template <class State>
+std::vector<std::byte> bytes_of(const State& state) {
+  const auto bytes = std::as_bytes(std::span(&state, 1));
+  return {bytes.begin(), bytes.end()};
+}
+
+template <class State>
+bool read_bytes(const std::vector<std::byte>& bytes, State& state) {
+  if (bytes.size() != sizeof state) return false;
+  std::memcpy(&state, bytes.data(), sizeof state);
+  return true;
+}
+
+/// A step in which energy is counted; a longer one is a gap.
+constexpr double longest_counted_step_s = 1;
+
+}  // namespace
+
+ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s)
+    : id_(std::move(id)),
+      model_(std::move(model)),
+      program_(program),
+      sensor_(estimation::running_sensor(*model_.model, estimation::best_estimator(*model_.model))),
+      time_s_(std::numeric_limits<double>::quiet_NaN()),
+      raw_(model_.model->whole(), raw_s) {
+  if (model_.model->has_observer()) watch_.emplace(*model_.model);
+}
+
+std::string ValveAtWork::layout() const {
+  return fmt::format("{}, model {}, sensor {} bytes, monitor {} bytes of version {}", program_, model_.sha256,
+                     sizeof(estimation::RunningState), watch_ ? sizeof(monitor::WatchState) : 0,
+                     monitor::watch_state_version);
+}
+
+bool ValveAtWork::restore(const KeptState& kept) {
+  const std::lock_guard lock(mutex_);
+  after_ = {kept.session, kept.next};
+  samples_ = kept.samples;
+  energy_J_ = kept.energy_J;
+  if (kept.layout != layout()) return false;
+  estimation::RunningState state;
+  if (!read_bytes(kept.sensor, state)) return false;
+  sensor_.set_state(state);
+  if (!watch_) return true;
+  auto watched = std::make_unique<monitor::WatchState>();
+  return read_bytes(kept.watch, *watched) && watch_->set_state(*watched);
+}
+
+void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer) {
+  Summary& to = summary_;
+  const double flow = answer.flow_m3_per_s;
+  const bool first = to.samples == 0;
+  ++to.samples;
+  to.flow_min_m3_per_s = first ? flow : std::min(to.flow_min_m3_per_s, flow);
+  to.flow_max_m3_per_s = first ? flow : std::max(to.flow_max_m3_per_s, flow);
+  to.flow_mean_m3_per_s += (flow - to.flow_mean_m3_per_s) / static_cast<double>(to.samples);
+  to.lower_min_m3_per_s =
+      first ? answer.flow_lower_m3_per_s : std::min(to.lower_min_m3_per_s, answer.flow_lower_m3_per_s);
+  to.upper_max_m3_per_s =
+      first ? answer.flow_upper_m3_per_s : std::max(to.upper_max_m3_per_s, answer.flow_upper_m3_per_s);
+  to.status |= static_cast<std::uint32_t>(answer.status);
+  if (!std::isfinite(sample.time_s)) return;
+  const double step_s = sample.time_s - time_s_;
+  if (step_s > 0 && step_s <= longest_counted_step_s) {
+    const double energy_J = std::abs(flow) * answer.pressure_difference_Pa * step_s;
+    if (std::isfinite(energy_J)) {
+      to.energy_J += energy_J;
+      energy_J_ += energy_J;
+    }
+  }
+  time_s_ = sample.time_s;
+  to.time_s = sample.time_s;
+}
+
+void ValveAtWork::work(const SampleBlock& block) {
+  const std::lock_guard lock(mutex_);
+  for (const estimation::TimedSample& sample : block.samples) {
+    last_ = sensor_.step(sample);
+    if (watch_) watch_->take(sample, last_);
+    add_to_summary(sample, last_);
+    raw_.add(sample);
+    if (std::isfinite(sample.time_s)) trace_.add(sample.time_s, sample.position_m, sample.current_A, last_);
+  }
+  samples_ += block.samples.size();
+  after_ = block.after;
+  arrived_ns_ = block.arrived_ns;
+}
+
+void ValveAtWork::finish() {
+  const std::lock_guard lock(mutex_);
+  if (watch_) watch_->finish();
+}
+
+ValveView ValveAtWork::view() const {
+  const std::lock_guard lock(mutex_);
+  ValveView out;
+  out.id = id_;
+  out.rated_flow_m3_per_s = model_.model->valve.rated_flow_m3_per_s;
+  out.time_s = time_s_;
+  out.answer = last_;
+  out.samples = samples_;
+  out.energy_J = energy_J_;
+  out.arrived_ns = arrived_ns_;
+  if (watch_) {
+    out.condition = watch_->condition();
+    out.causes = watch_->causes();
+    out.indicators = watch_->indicators();
+  }
+  return out;
+}
+
+std::int64_t ValveAtWork::arrived_ns() const {
+  const std::lock_guard lock(mutex_);
+  return arrived_ns_;
+}
+
+ValveAtWork::TracePart ValveAtWork::trace_from(std::uint64_t first) const {
+  TracePart out{};
+  const std::lock_guard lock(mutex_);
+  out.first = trace_.copy_from(first, out.points);
+  out.arrived_ns = arrived_ns_;
+  return out;
+}
+
+std::string ValveAtWork::raw_csv(double from_s, double to_s) const {
+  const std::lock_guard lock(mutex_);
+  return raw_.csv(from_s, to_s);
+}
+
+std::uint64_t ValveAtWork::trace_size() const {
+  const std::lock_guard lock(mutex_);
+  return trace_.size();
+}
+
+ValveCommit ValveAtWork::take_commit(bool with_indicators) {
+  ValveCommit out;
+  const std::lock_guard lock(mutex_);
+  out.since_last = std::exchange(summary_, {});
+  out.state = {id_, after_.session, after_.next, samples_, energy_J_, layout(), bytes_of(sensor_.state()), {}};
+  if (!watch_) return out;
+  out.state.watch = bytes_of(watch_->state());
+  if (!with_indicators) return out;
+  for (const monitor::Indicator& one : watch_->indicators()) {
+    out.indicators.push_back(
+        {std::string(one.name), one.value, one.uncertainty_95, one.baseline, std::string(monitor::name(one.state))});
+  }
+  return out;
+}
+
+void ValveAtWork::give_back(const Summary& before) {
+  const std::lock_guard lock(mutex_);
+  if (before.samples == 0) return;
+  if (summary_.samples == 0) {
+    summary_ = before;
+    return;
+  }
+  Summary& now = summary_;
+  const double all = static_cast<double>(now.samples + before.samples);
+  now.flow_mean_m3_per_s = (now.flow_mean_m3_per_s * static_cast<double>(now.samples) +
+                            before.flow_mean_m3_per_s * static_cast<double>(before.samples)) /
+                           all;
+  now.samples += before.samples;
+  now.flow_min_m3_per_s = std::min(now.flow_min_m3_per_s, before.flow_min_m3_per_s);
+  now.flow_max_m3_per_s = std::max(now.flow_max_m3_per_s, before.flow_max_m3_per_s);
+  now.lower_min_m3_per_s = std::min(now.lower_min_m3_per_s, before.lower_min_m3_per_s);
+  now.upper_max_m3_per_s = std::max(now.upper_max_m3_per_s, before.upper_max_m3_per_s);
+  now.energy_J += before.energy_J;
+  now.status |= before.status;
+}
+
+}  // namespace spoolflow::live

@@ -1,0 +1,93 @@
+#pragma once
+/// One valve of a site: its sensor, its monitor, and what is told and kept of them. Safe to be asked from any thread.
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/live/plot_trace.hpp"
+#include "spoolflow/live/raw_trace.hpp"
+#include "spoolflow/live/sources/sample_block.hpp"
+#include "spoolflow/live/store/store.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/monitor/watch.hpp"
+
+namespace spoolflow::live {
+
+/// A model that valves share, and what tells it from others.
+struct SharedModel {
+  std::shared_ptr<const model::Model> model;
+  std::string sha256;  ///< of its file
+};
+
+/// What a valve shows at an instant.
+struct ValveView {
+  std::string id;
+  double rated_flow_m3_per_s = 0;
+  double time_s = 0;  ///< of the last sample; NaN: none yet
+  sensor::Estimate<double> answer;
+  std::uint64_t samples = 0;    ///< since the store began
+  double energy_J = 0;          ///< likewise
+  std::int64_t arrived_ns = 0;  ///< when the last sample came, by the steady clock; 0: none yet
+  monitor::Ne107 condition = monitor::Ne107::good;
+  std::vector<monitor::Cause> causes;
+  std::vector<monitor::Indicator> indicators;  ///< empty where the model has no observer
+};
+
+class ValveAtWork {
+ public:
+  /// `program`: name and version, of whose kept states none other is taken. `raw_s`: of raw samples that are at hand.
+  ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s = 0);
+
+  [[nodiscard]] const std::string& id() const { return id_; }
+  /// Goes on from what was kept. Returns false where sensor and monitor begin anew, as model or program were others.
+  bool restore(const KeptState& kept);
+
+  void work(const SampleBlock& block);
+  /// The source is over: the monitor judges what it had gathered.
+  void finish();
+
+  [[nodiscard]] ValveView view() const;
+  /// When the last sample came, by the steady clock; 0: none yet.
+  [[nodiscard]] std::int64_t arrived_ns() const;
+  /// The points of the plot from that number on, and which was the first; `arrived_ns` of the newest sample in them.
+  struct TracePart {
+    std::uint64_t first;
+    std::vector<PlotPoint> points;
+    std::int64_t arrived_ns;
+  };
+  [[nodiscard]] TracePart trace_from(std::uint64_t first) const;
+  [[nodiscard]] std::uint64_t trace_size() const;
+
+  /// Raw samples of that time as a recording's CSV, as far as they are at hand.
+  [[nodiscard]] std::string raw_csv(double from_s, double to_s) const;
+
+  /// What is to be kept now, and of what came since the last time; `with_indicators`: theirs too.
+  [[nodiscard]] ValveCommit take_commit(bool with_indicators);
+  /// It could not be kept: what came since then is told together next time.
+  void give_back(const Summary& since_last);
+
+ private:
+  void add_to_summary(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);
+  [[nodiscard]] std::string layout() const;
+
+  std::string id_;
+  SharedModel model_;
+  std::string program_;
+  mutable std::mutex mutex_;
+  estimation::RunningSensor sensor_;
+  std::optional<monitor::Watch> watch_;  ///< of models that have an observer
+  SourcePosition after_;
+  std::uint64_t samples_ = 0;
+  double energy_J_ = 0;
+  double time_s_;
+  std::int64_t arrived_ns_ = 0;
+  sensor::Estimate<double> last_{};
+  Summary summary_;
+  PlotTrace trace_;
+  RawTrace raw_;
+};
+
+}  // namespace spoolflow::live

@@ -1,0 +1,27 @@
+#pragma once
+/// What a healthy valve showed, kept to compare the same valve with later.
+#include <array>
+#include <cstdint>
+
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/monitor/fault_parameters.hpp"
+
+namespace spoolflow::monitor {
+
+/// Of one side.
+struct SideBaseline {
+  Magnitudes centre{};                 ///< in usual_fault, against the model
+  Magnitudes spread = healthy_spread;  ///< one standard deviation about it
+  double windows = 0;                  ///< it was learnt from
+  double resistance_Ohm = 0;           ///< of the winding; 0: not learnt
+};
+
+struct Baseline {
+  std::uint64_t model = 0;  ///< fingerprint of the model against which it was learnt
+  std::array<SideBaseline, 2> side{};
+};
+
+/// A hash of the model's parameters, the same wherever it was read.
+[[nodiscard]] std::uint64_t fingerprint(const model::Model& model);
+
+}  // namespace spoolflow::monitor

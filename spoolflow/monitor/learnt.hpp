@@ -1,0 +1,89 @@
+#pragma once
+/// What one side of a valve has shown so far: evidence of its windows, where it rests closed, its winding.
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "spoolflow/monitor/condition.hpp"
+#include "spoolflow/monitor/fault_parameters.hpp"
+
+namespace spoolflow::monitor {
+
+/// Windows are forgotten by and by: this many count.
+inline constexpr double memory_windows = 20;
+/// What windows share (errors of maps and signatures) does not average out: together they tell no more than so many.
+inline constexpr double independent_windows = 2;
+
+/// A mean that forgets, with how much it rests on.
+struct MeanEvidence {
+  Evidence sum{};
+  double weight = 0;
+};
+
+/// Readings of the closed stop: the coil is silent, springs centre the spool.
+struct RestReading {
+  double mean_m = 0;
+  double lowest_m = 0;  ///< of the last readings: friction holds the spool open, never beyond the stop
+  double weight = 0;
+  double silent_s = 0;  ///< for how long it is so now
+  double sum_m = 0;
+  double sum_s = 0;
+};
+/// Of one reading, one standard deviation: where friction leaves the spool. A spool further off was held by friction.
+inline constexpr double rest_deviation_m = 6e-6;
+/// The lowest reading is forgotten by this share of the distance with each that is higher.
+inline constexpr double lowest_forgetting = 0.1;
+inline constexpr double farthest_rest_m = 60e-6;
+/// A coil is silent below this share of its largest current; a reading takes the position from the first of these times
+/// [s] after it fell silent to the second.
+inline constexpr double silent_current_share = 0.01;
+inline constexpr double rest_begins_s = 0.1;
+inline constexpr double rest_ends_s = 0.3;
+
+struct Learnt {
+  MeanEvidence shape;     ///< of windows that tell all magnitudes
+  MeanEvidence friction;  ///< of those that tell friction alone
+  RestReading rest;
+};
+static_assert(std::is_trivially_copyable_v<Learnt>);
+
+inline void learn(MeanEvidence& mean, const Evidence& evidence) {
+  const double left = 1 - 1 / memory_windows;
+  for (std::size_t k = 0; k < evidence.information.size(); ++k)
+    mean.sum.information[k] = mean.sum.information[k] * left + evidence.information[k];
+  for (std::size_t k = 0; k < evidence.pull.size(); ++k) mean.sum.pull[k] = mean.sum.pull[k] * left + evidence.pull[k];
+  mean.weight = mean.weight * left + 1;
+}
+
+inline void add(Evidence& to, const MeanEvidence& mean) {
+  if (mean.weight == 0) return;
+  const double share = mean.weight < independent_windows ? 1.0 : independent_windows / mean.weight;
+  for (std::size_t k = 0; k < to.information.size(); ++k) to.information[k] += share * mean.sum.information[k];
+  for (std::size_t k = 0; k < to.pull.size(); ++k) to.pull[k] += share * mean.sum.pull[k];
+}
+
+/// What one reading of one magnitude tells; `value` and `deviation` in usual_fault.
+inline Evidence reading(Magnitude magnitude, double value, double deviation) {
+  Evidence out;
+  const std::size_t k = index(magnitude);
+  out.information[k * magnitudes + k] = 1 / (deviation * deviation);
+  out.pull[k] = value / (deviation * deviation);
+  return out;
+}
+
+/// All evidence together.
+inline Evidence evidence_of(const Learnt& learnt) {
+  Evidence out;
+  add(out, learnt.shape);
+  add(out, learnt.friction);
+  if (learnt.rest.weight > 0) {
+    const double unit_m = usual_fault[index(Magnitude::position_zero)];
+    const double readings = std::fmin(learnt.rest.weight, independent_windows);
+    add(out, {reading(Magnitude::position_zero, learnt.rest.lowest_m / unit_m,
+                      rest_deviation_m / unit_m / std::sqrt(readings)),
+              1});
+  }
+  return out;
+}
+
+}  // namespace spoolflow::monitor

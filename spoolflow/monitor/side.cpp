@@ -1,0 +1,186 @@
+#include "spoolflow/monitor/side.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spoolflow/monitor/dense.hpp"
+
+namespace spoolflow::monitor {
+namespace {
+
+/// Resistance at work over the calibrated one, and its standard deviation: the winding warms by its own losses, and the
+/// bench does not tell how warm it was there. With a baseline the same, about that.
+constexpr double usual_resistance_ratio = 1.04;
+constexpr double resistance_spread = 0.035;
+constexpr double learnt_resistance_spread = 0.025;
+
+/// So many spreads of healthy valves are no change.
+constexpr double tolerated_spreads = 1.5;
+
+/// How far a value lies beyond what healthy ones do, in standard deviations of the window.
+double beyond(double value, double spread, double deviation) {
+  return (value - tolerated_spreads * spread) / deviation;
+}
+
+/// One score for each chart a window, or a reading, tells of.
+void follow_charts(const SideReference& reference, const Limits& limits, SideState& state, const Evidence& evidence,
+                   bool shape_tells) {
+  const SideBaseline& base = reference.baseline;
+  double against = 0;
+  bool judged = false;
+  for (std::size_t f = 0; f < isolated_faults; ++f) {
+    if (!shape_tells && f != static_cast<std::size_t>(Fault::friction)) continue;
+    const Score found = score(evidence, base.centre, base.spread, static_cast<Fault>(f));
+    if (!std::isfinite(found.deviation)) continue;
+    constexpr std::array<Magnitude, isolated_faults> first{Magnitude::friction, Magnitude::edge_rounding,
+                                                           Magnitude::preload_loss, Magnitude::shorted_turns,
+                                                           Magnitude::position_zero};
+    const double spread = base.spread[index(first[f])];
+    follow(state.chart[f], beyond(found.value, spread, found.deviation), cusum_allowance, limits.sum, limits.single);
+    const double below = beyond(-found.value, spread, found.deviation);
+    if (f == static_cast<std::size_t>(Fault::position_sensor)) {
+      follow(state.chart[zero_below], below, cusum_allowance, limits.sum, limits.single);
+    } else {
+      against = std::max(against, below);
+      judged = shape_tells;
+    }
+  }
+  if (judged) follow(state.chart[against_faults], against, 2 * cusum_allowance, limits.sum);
+}
+
+void close(const SideReference& reference, const Limits& limits, SideState& state,
+           const std::optional<WindowResult>& result) {
+  if (!result) return;
+  ++state.windows;
+  state.pressure_Pa = result->pressure_difference_Pa;
+  learn(result->shape_tells ? state.learnt.shape : state.learnt.friction, result->evidence);
+  follow_charts(reference, limits, state, result->evidence, result->shape_tells);
+}
+
+/// The closed stop, once for each time that the coil falls silent.
+void follow_rest(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
+  RestReading& rest = state.learnt.rest;
+  const bool silent = sample.motion.current_A < silent_current_share * reference.valve->largest_current_A &&
+                      std::abs(sample.motion.position_m) < farthest_rest_m;
+  if (!silent) {
+    rest.silent_s = rest.sum_m = rest.sum_s = 0;
+    return;
+  }
+  const double before_s = rest.silent_s;
+  rest.silent_s += sample.motion.time_step_s;
+  if (before_s >= rest_ends_s || rest.silent_s < rest_begins_s) return;
+  rest.sum_m += sample.motion.position_m * sample.motion.time_step_s;
+  rest.sum_s += sample.motion.time_step_s;
+  if (rest.silent_s < rest_ends_s || !(rest.sum_s > 0)) return;
+  const double position_m = rest.sum_m / rest.sum_s;
+  const double left = 1 - 1 / memory_windows;
+  rest.weight = rest.weight * left + 1;
+  rest.mean_m += (position_m - rest.mean_m) / rest.weight;
+  const bool lowest = rest.weight <= 1 || position_m < rest.lowest_m;
+  rest.lowest_m = lowest ? position_m : rest.lowest_m + lowest_forgetting * (position_m - rest.lowest_m);
+  if (rest.weight <= 1) return;  // the first may be held by friction
+  const std::size_t k = index(Magnitude::position_zero);
+  const double unit_m = usual_fault[k];
+  const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
+  const double deviation = rest_deviation_m / unit_m;
+  const double spread = reference.baseline.spread[k];
+  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], (value - spread) / deviation, cusum_allowance,
+         limits.sum);
+  follow(state.chart[zero_below], (-value - spread) / deviation, cusum_allowance, limits.sum);
+}
+
+void follow_closing(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
+  constexpr double closed_share = 0.6;
+  const bool closed = sample.motion.position_m < closed_share * reference.valve->closed_below_m;
+  const double before_s = state.window.closed_s;
+  state.window.closed_s = closed ? before_s + sample.motion.time_step_s : 0;
+  if (closed && before_s < closing_pause_s && state.window.closed_s >= closing_pause_s && state.window.count > 0)
+    close(reference, limits, state, end_window(*reference.valve, reference.stroke_m, state.window));
+}
+
+}  // namespace
+
+Limits limits_for(double false_alarms_per_year) {
+  const double run_length = 2 * windows_per_year * static_cast<double>(charts) / false_alarms_per_year;
+  return {limit_for(cusum_allowance, run_length), single_limit_for(run_length)};
+}
+
+void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
+  if (!sample.follows) {
+    leave(state);
+    return;
+  }
+  if (std::isfinite(sample.voltage_V)) {
+    follow_winding(reference.valve->actuator, reference.valve->largest_current_A, state.winding,
+                   {sample.motion.time_step_s, sample.motion.current_A, sample.voltage_V, sample.raw_position_m,
+                    sample.motion.oil_temperature_K});
+  } else {
+    begin_winding_window(state.winding);
+  }
+  follow_rest(reference, limits, state, sample);
+  follow_closing(reference, limits, state, sample);
+  const FoundEvents found = find_events(*reference.valve, reference.stroke_m, state.finder, sample.motion);
+  for (const std::optional<ForceEvent>& event : {found.breakaway, found.slide}) {
+    if (!event) continue;
+    close(reference, limits, state, add_event(*reference.valve, reference.stroke_m, state.window, *event));
+  }
+}
+
+void leave(SideState& state) {
+  interrupt(state.finder);
+  begin_winding_window(state.winding);
+  state.learnt.rest.silent_s = state.learnt.rest.sum_m = state.learnt.rest.sum_s = 0;
+}
+
+void finish(const SideReference& reference, const Limits& limits, SideState& state) {
+  if (state.window.count > 0)
+    close(reference, limits, state, end_window(*reference.valve, reference.stroke_m, state.window));
+  leave(state);
+}
+
+Evidence evidence_of(const SideReference& reference, const SideState& state) {
+  Evidence out = evidence_of(state.learnt);
+  const double learnt_Ohm = reference.baseline.resistance_Ohm;
+  const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
+  const double expected_Ohm = learnt_Ohm > 0 ? learnt_Ohm : usual_resistance_ratio * calibrated_Ohm;
+  if (state.winding.windows > 0 && expected_Ohm > 0) {
+    const double unit = usual_fault[index(Magnitude::shorted_turns)];
+    const double spread = learnt_Ohm > 0 ? learnt_resistance_spread : resistance_spread;
+    add(out,
+        {reading(Magnitude::shorted_turns, (1 - state.winding.resistance_Ohm / expected_Ohm) / unit, spread / unit),
+         1});
+  }
+  return out;
+}
+
+Isolation isolation_of(const SideReference& reference, const SideState& state) {
+  return isolate(evidence_of(reference, state), reference.baseline.centre, reference.baseline.spread);
+}
+
+bool raised(const SideState& state) {
+  return std::any_of(state.chart.begin(), state.chart.end(), [](const Cusum& chart) { return chart.raised; });
+}
+
+SideBaseline baseline_of(const SideReference& /*reference*/, const SideState& state) {
+  constexpr double share_left = 0.3;  // of the healthy spread: the same maps and signatures are wrong the same way
+  SideBaseline out;
+  const Evidence evidence = evidence_of(state.learnt);
+  MagnitudeMatrix factor = evidence.information;
+  for (std::size_t k = 0; k < magnitudes; ++k)
+    factor[k * magnitudes + k] += 1 / (healthy_spread[k] * healthy_spread[k]);
+  if (factorise(factor, magnitudes)) {
+    out.centre = evidence.pull;
+    solve_in_place(factor, magnitudes, out.centre);
+    for (std::size_t k = 0; k < magnitudes; ++k) {
+      Magnitudes unit{};
+      unit[k] = 1;
+      solve_in_place(factor, magnitudes, unit);
+      out.spread[k] = std::sqrt(unit[k] + std::pow(share_left * healthy_spread[k], 2));
+    }
+  }
+  out.windows = state.windows;
+  out.resistance_Ohm = state.winding.windows > 0 ? state.winding.resistance_Ohm : 0;
+  return out;
+}
+
+}  // namespace spoolflow::monitor

@@ -1,0 +1,70 @@
+#pragma once
+/// One direction of a valve: its events, windows, winding and decisions.
+#include <array>
+
+#include "spoolflow/monitor/baseline.hpp"
+#include "spoolflow/monitor/cusum.hpp"
+#include "spoolflow/monitor/event_finder.hpp"
+#include "spoolflow/monitor/event_window.hpp"
+#include "spoolflow/monitor/isolation.hpp"
+#include "spoolflow/monitor/learnt.hpp"
+#include "spoolflow/monitor/winding.hpp"
+
+namespace spoolflow::monitor {
+
+/// One chart a fault and one for what goes against all faults.
+inline constexpr std::size_t charts = 7;
+inline constexpr std::size_t against_faults = 6;  ///< the last: friction, springs or turns the way that no wear goes
+inline constexpr std::size_t zero_below = 5;      ///< the position sensor has two: it drifts either way
+
+/// Scores below this are no change that the charts are to find [standard deviations of a window].
+inline constexpr double cusum_allowance = 1.5;
+/// Windows that a valve makes in a year of work day and night: one in thirty seconds.
+inline constexpr double windows_per_year = 365.25 * 24 * 120;
+
+/// Limits of the charts: half of the false alarms are those of the sum, half those of single scores.
+struct Limits {
+  double sum;
+  double single;
+};
+[[nodiscard]] Limits limits_for(double false_alarms_per_year);
+
+struct SideState {
+  FinderState finder;
+  WindowState window;
+  WindingState winding;
+  Learnt learnt;
+  std::array<Cusum, charts> chart{};
+  double misfits = 0;      ///< share of the last windows that nothing explained
+  double windows = 0;      ///< that told
+  double pressure_Pa = 0;  ///< of the last window
+};
+static_assert(std::is_trivially_copyable_v<SideState>);
+
+/// What a side is judged against.
+struct SideReference {
+  const sensor::ObserverParameters<double>* valve = nullptr;
+  double stroke_m = 0;
+  SideBaseline baseline;
+};
+
+/// One sample in the side's own signs.
+struct SideSample {
+  FinderSample motion;
+  double voltage_V;  ///< NaN: not measured
+  double raw_position_m;
+  bool follows;  ///< the sample before it was good, too, and near in time
+};
+void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample);
+/// Nothing is carried over to what comes next.
+void leave(SideState& state);
+/// The window that was begun is judged.
+void finish(const SideReference& reference, const Limits& limits, SideState& state);
+
+/// What the side has shown, and which faults explain it.
+[[nodiscard]] Evidence evidence_of(const SideReference& reference, const SideState& state);
+[[nodiscard]] Isolation isolation_of(const SideReference& reference, const SideState& state);
+[[nodiscard]] bool raised(const SideState& state);
+[[nodiscard]] SideBaseline baseline_of(const SideReference& reference, const SideState& state);
+
+}  // namespace spoolflow::monitor

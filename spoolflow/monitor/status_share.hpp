@@ -1,0 +1,56 @@
+#pragma once
+/// For which share of the last minutes each status was set, and the sign of NE 107 that this makes.
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "spoolflow/monitor/condition.hpp"
+#include "spoolflow/sensor/status.hpp"
+
+namespace spoolflow::monitor {
+
+/// One line of the table from status to NE 107: the sign is raised where the status was set for more than `share` of
+/// the last `memory_s`, with that as time constant, and falls at half that share.
+struct StatusRule {
+  sensor::Status status;
+  double memory_s;
+  double share;
+  Ne107 sign;
+};
+inline constexpr std::array<StatusRule, 8> status_rules{{
+    {sensor::Status::coil_fault, 10, 0.5, Ne107::failure},
+    {sensor::Status::position_fault, 60, 0.1, Ne107::failure},
+    {sensor::Status::temperature_fault, 60, 0.5, Ne107::failure},
+    {sensor::Status::sample_missing, 10, 0.2, Ne107::function_check},
+    {sensor::Status::time_fault, 10, 0.2, Ne107::function_check},
+    {sensor::Status::outside_force_map, 600, 0.5, Ne107::out_of_specification},
+    {sensor::Status::outside_flow_force_map, 600, 0.5, Ne107::out_of_specification},
+    {sensor::Status::outside_temperature, 600, 0.5, Ne107::out_of_specification},
+}};
+
+struct StatusShares {
+  std::array<double, status_rules.size()> share{};
+  std::array<bool, status_rules.size()> raised{};
+};
+static_assert(std::is_trivially_copyable_v<StatusShares>);
+
+/// One answer; `time_step_s` >= 0 and finite.
+inline void follow_status(StatusShares& state, sensor::Status status, double time_step_s) {
+  for (std::size_t k = 0; k < status_rules.size(); ++k) {
+    const StatusRule& rule = status_rules[k];
+    const double pace = std::fmin(time_step_s / rule.memory_s, 1.0);
+    state.share[k] += pace * ((sensor::has(status, rule.status) ? 1.0 : 0.0) - state.share[k]);
+    state.raised[k] = state.share[k] > (state.raised[k] ? 0.5 : 1.0) * rule.share;
+  }
+}
+
+/// The worst sign of those that are raised.
+inline Ne107 sign_of(const StatusShares& state) {
+  Ne107 worst = Ne107::good;
+  for (std::size_t k = 0; k < status_rules.size(); ++k) {
+    if (state.raised[k] && status_rules[k].sign > worst) worst = status_rules[k].sign;
+  }
+  return worst;
+}
+
+}  // namespace spoolflow::monitor

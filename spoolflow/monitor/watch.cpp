@@ -1,0 +1,277 @@
+#include "spoolflow/monitor/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace spoolflow::monitor {
+namespace {
+
+/// A longer step [s] between two samples is a gap: nothing is carried over it.
+constexpr double longest_step_s = 0.1;
+/// The oil temperature is smoothed over this [s].
+constexpr double oil_smoothing_s = 2;
+/// A copper winding's resistance per kelvin, as a share of that at 20 degC (IEC 60028).
+constexpr double copper_per_K = 3.93e-3;
+
+const sensor::ObserverParameters<double>& parameters(const model::Model& model, bool opens_a) {
+  return opens_a ? model.p_to_a->observer->parameters : model.observer->parameters;
+}
+
+/// Signs of NE 107 that the causes make.
+Ne107 sign_of(Fault fault) {
+  switch (fault) {
+    case Fault::friction:
+    case Fault::edge_wear:
+    case Fault::spring:
+    case Fault::coil:
+      return Ne107::maintenance_required;
+    case Fault::position_sensor:
+    case Fault::temperature_sensor:
+    case Fault::wrong_model:
+      return Ne107::out_of_specification;
+  }
+  return Ne107::good;
+}
+
+using sensor::has;
+
+bool status_raised(const StatusShares& shares, sensor::Status status) {
+  for (std::size_t k = 0; k < status_rules.size(); ++k) {
+    if (status_rules[k].status == status) return shares.raised[k];
+  }
+  return false;
+}
+
+}  // namespace
+
+Watch::Watch(const model::Model& model, const Options& options, const std::optional<Baseline>& baseline)
+    : model_(&model), limits_(limits_for(options.false_alarms_per_year)) {
+  if (!model.has_observer()) {
+    throw model::ModelError(
+        "the model of " + model.valve.name +
+        " is not calibrated for the observer, which the monitor needs; calibrate it again with this "
+        "program from a campaign with bench tests of solenoid and axial force");
+  }
+  if (baseline && baseline->model != fingerprint(model)) {
+    throw model::ModelError("the baseline was learnt with another model than that of " + model.valve.name +
+                            "; learn it again with this one, or name the model that it was learnt with");
+  }
+  for (std::size_t k = 0; k < sides(); ++k) {
+    reference_[k].valve = &parameters(model, k == 1);
+    reference_[k].stroke_m = model.valve.stroke_m;
+    if (baseline) reference_[k].baseline = baseline->side[k];
+  }
+}
+
+bool Watch::set_state(const WatchState& state) {
+  if (state.version != watch_state_version) return false;
+  state_ = state;
+  return true;
+}
+
+void Watch::take(std::span<const estimation::TimedSample> samples, std::span<const sensor::Estimate<double>> answers) {
+  if (samples.size() != answers.size()) throw std::invalid_argument("as many answers as samples are needed");
+  for (std::size_t k = 0; k < samples.size(); ++k) take(samples[k], answers[k]);
+}
+
+void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer) {
+  const double since_s = sample.time_s - state_.last_time_s;
+  const bool timed = std::isfinite(sample.time_s);
+  const bool follows = state_.started && timed && since_s > 0 && since_s <= longest_step_s;
+  if (timed) {
+    state_.last_time_s = sample.time_s;
+    state_.started = true;
+  }
+  const double time_step_s = follows ? since_s : 0.0;
+  follow_status(state_.status, answer.status, time_step_s);
+  constexpr sensor::Status held =
+      sensor::Status::sample_missing | sensor::Status::time_fault | sensor::Status::position_fault;
+  const bool usable = std::isfinite(sample.position_m) && !has(answer.status, sensor::Status::sample_missing) &&
+                      !has(answer.status, sensor::Status::time_fault);
+  if (usable && std::isfinite(sample.oil_temperature_K) && !has(answer.status, sensor::Status::temperature_fault)) {
+    const bool first = !(state_.oil_temperature_K > 0);
+    const double pace = first ? 1.0 : std::min(time_step_s / oil_smoothing_s, 1.0);
+    state_.oil_temperature_K += pace * (sample.oil_temperature_K - state_.oil_temperature_K);
+  }
+  if (usable) {
+    const sensor::ObserverParameters<double>& valve = *reference_[0].valve;
+    const bool driven = !(std::abs(sample.current_A) < silent_current_share * valve.largest_current_A) ||
+                        std::abs(sample.current_a_A) > silent_current_share * valve.largest_current_A;
+    count(state_.usage,
+          {model_->valve.stroke_m, model_->valve.rated_flow_m3_per_s, valve.edge.highest_pressure_difference_Pa()},
+          {time_step_s, sample.position_m, driven, answer.flow_m3_per_s, answer.pressure_difference_Pa});
+  }
+  const bool judged =
+      follows && usable && (static_cast<std::uint32_t>(answer.status) & static_cast<std::uint32_t>(held)) == 0;
+  if (!judged) {
+    for (SideState& side : state_.side) leave(side);
+    return;
+  }
+  take_motion(sample, answer, time_step_s);
+}
+
+void Watch::take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
+                        double time_step_s) {
+  const bool opens_a = model_->whole() && sample.position_m < 0;
+  const std::size_t own = opens_a ? 1 : 0;
+  if (model_->whole()) leave(state_.side[1 - own]);
+  const SideReference& reference = reference_[own];
+  const sensor::ObserverParameters<double>& valve = *reference.valve;
+  const double sign = opens_a ? -1 : 1;
+  const bool of_a = opens_a && std::isfinite(sample.current_a_A);
+  const double oil_K = state_.oil_temperature_K > 0 ? state_.oil_temperature_K : valve.edge.temperature_K.at(1);
+  const double raw_m = sign * sample.position_m;
+  const double position_m = sensor::drift_free_m(valve.position_sensor, raw_m, oil_K);
+  const double net_force_N = sign * answer.magnetic_force_N - valve.spring.at(position_m).value;
+  const FinderSample motion{.time_s = sample.time_s,
+                            .time_step_s = time_step_s,
+                            .position_m = position_m,
+                            .net_force_N = net_force_N,
+                            .friction_N = sign * answer.friction_force_N,
+                            .current_A = of_a ? sample.current_a_A : sample.current_A,
+                            .oil_temperature_K = oil_K,
+                            .pressure_difference_Pa = answer.pressure_difference_Pa,
+                            .sliding = !has(answer.status, sensor::Status::spool_at_rest),
+                            .dithered = has(answer.status, sensor::Status::dithered)};
+  const double voltage_V = of_a ? sample.voltage_a_V : sample.voltage_V;
+  monitor::take(reference, limits_, state_.side[own],
+                {motion, voltage_V, raw_m, std::isfinite(motion.current_A) && std::isfinite(net_force_N)});
+}
+
+void Watch::finish() {
+  for (std::size_t k = 0; k < sides(); ++k) monitor::finish(reference_[k], limits_, state_.side[k]);
+}
+
+namespace {
+
+struct Told {
+  std::string_view name_b;
+  std::string_view name_a;
+  Magnitude magnitude;
+  Fault fault;
+  double factor;  ///< from usual_fault to what is told
+  double at_zero;
+  std::string_view unit;
+};
+constexpr std::array<Told, magnitudes> told{{
+    {"friction_ratio", "friction_ratio_a", Magnitude::friction, Fault::friction, 1, 1, "1"},
+    {"edge_rounding", "edge_rounding_a", Magnitude::edge_rounding, Fault::edge_wear, 1, 0, "m"},
+    {"spring_preload_ratio", "spring_preload_ratio_a", Magnitude::preload_loss, Fault::spring, -1, 1, "1"},
+    {"spring_rate_ratio", "spring_rate_ratio_a", Magnitude::rate_loss, Fault::spring, -1, 1, "1"},
+    {"shorted_turns", "shorted_turns_a", Magnitude::shorted_turns, Fault::coil, 1, 0, "1"},
+    {"position_zero", "position_zero_a", Magnitude::position_zero, Fault::position_sensor, 1, 0, "m"},
+}};
+
+void tell_side(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out) {
+  constexpr double unknown = estimation::not_measured;
+  constexpr double least_windows = 2;
+  const Isolation found = isolation_of(reference, side);
+  const Evidence evidence = evidence_of(reference, side);
+  for (const Told& each : told) {
+    const std::size_t k = index(each.magnitude);
+    const bool known = evidence.information[k * magnitudes + k] > 0;
+    const double unit = each.factor * usual_fault[k];
+    const bool is_raised = raised(side) && found.likeliest[static_cast<std::size_t>(each.fault)];
+    const IndicatorState state = !known                         ? IndicatorState::unknown
+                                 : is_raised                    ? IndicatorState::raised
+                                 : side.windows < least_windows ? IndicatorState::learning
+                                                                : IndicatorState::good;
+    out.push_back({a ? each.name_a : each.name_b, known ? each.at_zero + unit * found.value[k] : unknown, each.unit,
+                   known ? 2 * std::abs(unit) * found.deviation[k] : unknown,
+                   each.at_zero + unit * reference.baseline.centre[k], state});
+  }
+  const WindingState& winding = side.winding;
+  const bool warm = winding.windows > 0;
+  const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
+  const double base_Ohm = reference.baseline.resistance_Ohm > 0 ? reference.baseline.resistance_Ohm : calibrated_Ohm;
+  out.push_back({a ? "coil_resistance_a" : "coil_resistance", warm ? winding.resistance_Ohm : unknown, "Ohm",
+                 warm ? 2 * resistance_deviation_Ohm(winding) : unknown, base_Ohm,
+                 warm ? IndicatorState::good : IndicatorState::unknown});
+  out.push_back({a ? "winding_warmer_than_reference_a" : "winding_warmer_than_reference",
+                 warm && base_Ohm > 0 ? (winding.resistance_Ohm / base_Ohm - 1) / copper_per_K : unknown, "K",
+                 warm && base_Ohm > 0 ? 2 * resistance_deviation_Ohm(winding) / base_Ohm / copper_per_K : unknown, 0,
+                 warm ? IndicatorState::good : IndicatorState::unknown});
+  out.push_back(
+      {a ? "closed_position_a" : "closed_position", side.learnt.rest.weight > 0 ? side.learnt.rest.mean_m : unknown,
+       "m", side.learnt.rest.weight > 0 ? 2 * rest_deviation_m : unknown,
+       reference.baseline.centre[index(Magnitude::position_zero)] * usual_fault[index(Magnitude::position_zero)],
+       side.learnt.rest.weight > 0 ? IndicatorState::good : IndicatorState::unknown});
+}
+
+}  // namespace
+
+std::vector<Indicator> Watch::indicators() const {
+  std::vector<Indicator> out;
+  double windows = 0;
+  for (std::size_t k = 0; k < sides(); ++k) {
+    tell_side(reference_[k], state_.side[k], k == 1, out);
+    windows += state_.side[k].windows;
+  }
+  const auto counted = [&](std::string_view name, double value, std::string_view unit) {
+    out.push_back({name, value, unit, 0, estimation::not_measured, IndicatorState::counts});
+  };
+  const Usage& usage = state_.usage;
+  counted("judged_windows", windows, "1");
+  counted("watched_time", usage.watched_s, "s");
+  counted("driven_time", usage.driven_s, "s");
+  counted("strokes", static_cast<double>(usage.strokes), "1");
+  counted("reversals", static_cast<double>(usage.reversals), "1");
+  counted("distance", usage.distance_m, "m");
+  counted("oil_volume", usage.volume_m3, "m3");
+  counted("hydraulic_energy", usage.energy_J, "J");
+  return out;
+}
+
+std::vector<Cause> Watch::causes() const {
+  std::array<double, faults> odds{};
+  for (std::size_t k = 0; k < sides(); ++k) {
+    const SideState& side = state_.side[k];
+    if (!raised(side)) continue;
+    const Isolation found = isolation_of(reference_[k], side);
+    std::size_t best = 0;
+    bool explained = false;
+    for (std::size_t f = 0; f < isolated_faults; ++f) {
+      if (found.odds[f] > found.odds[best]) best = f;
+      if (found.odds[f] < 1) continue;
+      explained = true;
+      odds[f] = std::max(odds[f], found.odds[f]);
+    }
+    if (explained) continue;
+    // Something is wrong: the likeliest explanation, or that there is none.
+    constexpr double least_odds = 0.1;
+    const std::size_t told = found.odds[best] > least_odds ? best : static_cast<std::size_t>(Fault::wrong_model);
+    odds[told] = std::max(odds[told], found.odds[best]);
+  }
+  if (status_raised(state_.status, sensor::Status::coil_fault)) odds[static_cast<std::size_t>(Fault::coil)] = most_odds;
+  if (status_raised(state_.status, sensor::Status::temperature_fault))
+    odds[static_cast<std::size_t>(Fault::temperature_sensor)] = most_odds;
+  if (status_raised(state_.status, sensor::Status::position_fault))
+    odds[static_cast<std::size_t>(Fault::position_sensor)] = most_odds;
+  std::vector<Cause> out;
+  for (std::size_t f = 0; f < faults; ++f) {
+    if (odds[f] > 0) out.push_back({static_cast<Fault>(f), odds[f]});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Cause& a, const Cause& b) { return a.odds > b.odds; });
+  return out;
+}
+
+Ne107 Watch::condition() const {
+  Ne107 worst = monitor::sign_of(state_.status);
+  for (const Cause& cause : causes()) worst = std::max(worst, sign_of(cause.fault));
+  return worst;
+}
+
+double Watch::judged_windows() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < sides(); ++k) sum += state_.side[k].windows;
+  return sum;
+}
+
+Baseline Watch::learnt() const {
+  Baseline out{fingerprint(*model_), {}};
+  for (std::size_t k = 0; k < sides(); ++k) out.side[k] = baseline_of(reference_[k], state_.side[k]);
+  return out;
+}
+
+}  // namespace spoolflow::monitor

@@ -1,0 +1,77 @@
+#pragma once
+/// One valve's condition, followed sample by sample: the samples and what the sensor answered to them go in,
+/// indicators, causes and the sign of NE 107 come out. Causal, of fixed size, without input or output; the state is
+/// plain memory.
+///
+///     monitor::Watch watch(model);                           // or with a baseline learnt from the valve itself
+///     watch.take(samples, answers);                          // as many at a time as there are
+///     watch.condition(); watch.causes(); watch.indicators();
+///     const monitor::WatchState kept = watch.state();        // trivially copyable: keep its bytes
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/monitor/baseline.hpp"
+#include "spoolflow/monitor/condition.hpp"
+#include "spoolflow/monitor/side.hpp"
+#include "spoolflow/monitor/status_share.hpp"
+#include "spoolflow/monitor/usage.hpp"
+
+namespace spoolflow::monitor {
+
+/// Grows with the layout of WatchState; kept state of another version is not taken.
+inline constexpr std::uint32_t watch_state_version = 2;
+
+struct Options {
+  double false_alarms_per_year = 1;  ///< wanted, over all indicators of one valve, > 0
+};
+
+/// All that a watch remembers.
+struct WatchState {
+  std::uint32_t version = watch_state_version;
+  bool started = false;
+  double last_time_s = 0;
+  double oil_temperature_K = 0;  ///< smoothed; 0 before it was measured
+  Usage usage;
+  StatusShares status;
+  std::array<SideState, 2> side;  ///< of solenoids b and a; a valve of one direction has the first
+};
+static_assert(std::is_trivially_copyable_v<WatchState>);
+
+class Watch {
+ public:
+  /// Keeps a reference to the model. Throws ModelError where it has no observer, or where the baseline is of another.
+  explicit Watch(const model::Model& model, const Options& options = {}, const std::optional<Baseline>& baseline = {});
+
+  /// The next samples and the observer's answers to them, equally many. Samples that the sensor held are counted by
+  /// their status and tell nothing else. Throws std::invalid_argument where their numbers differ.
+  void take(std::span<const estimation::TimedSample> samples, std::span<const sensor::Estimate<double>> answers);
+  void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);
+  /// The recording is over, or the valve is taken off: what was gathered is judged.
+  void finish();
+
+  [[nodiscard]] std::vector<Indicator> indicators() const;
+  /// What explains the indicators that are raised, the likeliest first; empty where none is.
+  [[nodiscard]] std::vector<Cause> causes() const;
+  [[nodiscard]] Ne107 condition() const;
+  /// Windows of events that were judged.
+  [[nodiscard]] double judged_windows() const;
+  /// What was learnt, to compare later runs of the same valve and model with.
+  [[nodiscard]] Baseline learnt() const;
+  [[nodiscard]] const Usage& usage() const { return state_.usage; }
+  [[nodiscard]] const WatchState& state() const { return state_; }
+  /// Goes on from there. Returns false, and takes nothing, where it is of another version.
+  [[nodiscard]] bool set_state(const WatchState& state);
+
+ private:
+  [[nodiscard]] std::size_t sides() const { return model_->whole() ? 2 : 1; }
+  void take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer, double time_step_s);
+  const model::Model* model_;
+  std::array<SideReference, 2> reference_;
+  Limits limits_;
+  WatchState state_;
+};
+
+}  // namespace spoolflow::monitor

@@ -1,0 +1,155 @@
+/// `live` and `history` as they are called: beginning, ends, kills, what is refused.
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <sqlite3.h>
+#include <string>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/apps/command_line.hpp"
+#include "tests/apps/running_command.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* live_header = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
+
+std::string live_rows(int count) {
+  std::string out;
+  for (int k = 0; k < count; ++k) out += fmt::format("{:.3f},{:.3f},4.8,1.000,50\n", 0.001 * k, 1.5 + 1e-3 * (k % 50));
+  return out;
+}
+
+class Live : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    fs::copy_file(SPOOLFLOW_EXAMPLES "/live/size_6.json", folder / "model.json");
+  }
+  void write_site(const std::string& source) const {
+    write("site.toml",
+          "[page]\nlisten = \"127.0.0.1:0\"\n[[valve]]\nid = \"v\"\nmodel = \"model.json\"\nsource = " + source + "\n");
+  }
+  /// Of the store, a single number.
+  [[nodiscard]] double kept(const char* sql) const {
+    sqlite3* store = nullptr;
+    sqlite3_open_v2((folder / "s.sqlite").c_str(), &store, SQLITE_OPEN_READONLY, nullptr);
+    sqlite3_stmt* statement = nullptr;
+    double out = -1;
+    if (sqlite3_prepare_v2(store, sql, -1, &statement, nullptr) == SQLITE_OK && sqlite3_step(statement) == SQLITE_ROW) {
+      out = sqlite3_column_double(statement, 0);
+    }
+    sqlite3_finalize(statement);
+    sqlite3_close(store);
+    return out;
+  }
+};
+
+TEST_F(Live, RunsUntilItIsEnded) {
+  for (const int ended_by : {SIGINT, SIGTERM}) {
+    RunningCommand live(folder, {"live", "--listen", "127.0.0.1:0", "--store", "s.sqlite"});
+    EXPECT_THAT(live.message_line(), StartsWith("8 valves; page at http://127.0.0.1:"));
+    live.signal(ended_by);
+    EXPECT_EQ(live.wait(), 0);
+    EXPECT_THAT(live.message_line(), HasSubstr("what came until now is kept"));
+  }
+}
+
+TEST_F(Live, HistoryIsWhatCame) {
+  write("run.csv", live_header + live_rows(3000));
+  write_site("{ kind = \"replay\", recording = \"run.csv\", speed = 0 }");
+  {
+    RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
+    EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+    for (int k = 0; k < 3000 && kept("SELECT samples FROM state") < 3000; ++k) ::usleep(10000);
+    live.signal(SIGINT);
+    EXPECT_EQ(live.wait(), 0);
+  }
+  const Answer history = run("history s.sqlite --valve v -o -");
+  EXPECT_EQ(history.status, 0);
+  EXPECT_THAT(history.output, StartsWith("time_utc,time_s,samples,flow_min_L_min,flow_mean_L_min,flow_max_L_min,"));
+  EXPECT_EQ(kept("SELECT sum(samples) FROM second"), 3000);
+  EXPECT_EQ(run("history s.sqlite --valve v --to 2020-01-01T00:00:00Z -o -").output.find("\n20"), std::string::npos);
+  const Answer other = run("history s.sqlite --valve w -o -");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.message, HasSubstr("knows no valve 'w'; it knows: v"));
+  EXPECT_EQ(run("history s.sqlite --valve v --from yesterday -o -").status, 2);
+  EXPECT_EQ(run("history model.json --valve v -o -").status, 2);
+}
+
+// Killed again and again in the middle of its work, it has worked on every sample once when it is done.
+TEST_F(Live, AKilledProgramGoesOnWhereItWas) {
+  constexpr int samples = 8000;
+  write("run.csv", live_header + live_rows(samples));
+  write_site("{ kind = \"replay\", recording = \"run.csv\", speed = 2 }");
+  int killed = 0;
+  while (kept("SELECT samples FROM state") < samples && killed < 20) {
+    RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
+    EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+    const double before = kept("SELECT samples FROM state");
+    for (int k = 0; k < 1000 && kept("SELECT samples FROM state") == before; ++k) ::usleep(10000);
+    ::usleep(static_cast<useconds_t>(100000 + 37000 * killed));
+    live.signal(SIGKILL);
+    EXPECT_EQ(live.wait(), 128 + SIGKILL);
+    ++killed;
+  }
+  EXPECT_GE(killed, 2);
+  EXPECT_EQ(kept("SELECT samples FROM state"), samples);
+  EXPECT_EQ(kept("SELECT sum(samples) FROM second"), samples);
+  EXPECT_NEAR(kept("SELECT sum(energy_J) FROM second"), kept("SELECT energy_J FROM state"), 1e-6);
+}
+
+// The senders of examples/live, as processes of their own.
+TEST_F(Live, TheExamplesSendersAreUnderstood) {
+  write("run.csv", live_header + live_rows(1000));
+  write("site.toml",
+        "[page]\nlisten = \"127.0.0.1:0\"\n[sources]\nudp = \"127.0.0.1:0\"\n[[valve]]\nid = \"v\"\nmodel = "
+        "\"model.json\"\nsource = { kind = \"udp\" }\n");
+  RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
+  const std::string where = live.message_line();
+  EXPECT_THAT(where, StartsWith("datagrams over UDP at 127.0.0.1:"));
+  const std::string port = where.substr(where.rfind(':') + 1);
+  const auto comes = [&](double samples) {
+    for (int k = 0; k < 3000 && kept("SELECT samples FROM state") < samples; ++k) ::usleep(10000);
+    return kept("SELECT samples FROM state");
+  };
+  EXPECT_EQ(std::system(
+                fmt::format("'{}' v 127.0.0.1 {} 25 > '{}/c.txt'", SPOOLFLOW_C_SENDER, port, folder.string()).c_str()),
+            0);
+  EXPECT_EQ(comes(500), 500);
+  EXPECT_EQ(std::system(fmt::format("'{}/live/send_samples.py' '{}/run.csv' v 127.0.0.1:{} --speed 5 > '{}/py.txt'",
+                                    SPOOLFLOW_EXAMPLES, folder.string(), port, folder.string())
+                            .c_str()),
+            0);
+  EXPECT_EQ(comes(1500), 1500);
+  EXPECT_GT(kept("SELECT max(flow_max) FROM second"), 0);
+}
+
+TEST_F(Live, WhatCannotBeUsedIsRefusedAtOnce) {
+  write_site("{ kind = \"replay\", recording = \"missing.csv\" }");
+  for (const char* asked : {"live missing.toml", "live model.json", "live site.toml", "live --listen 127.0.0.1",
+                            "live --listen 0.0.0.0:0", "live --store missing/s.sqlite --listen 127.0.0.1:0"}) {
+    const Answer answer = run(asked);
+    EXPECT_EQ(answer.status, 2) << asked << answer.message;
+    EXPECT_EQ(std::count(answer.message.begin(), answer.message.end(), '\n'), 1) << asked << answer.message;
+  }
+  EXPECT_THAT(run("live --listen 0.0.0.0:0").message, AllOf(HasSubstr("needs TLS and a token"), HasSubstr("ssh -L")));
+  RunningCommand first(folder, {"live", "--listen", "127.0.0.1:0", "--store", "s.sqlite"});
+  EXPECT_THAT(first.message_line(), StartsWith("8 valves"));
+  const Answer second = run("live --listen 127.0.0.1:0 --store s.sqlite");
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.message, HasSubstr("another spoolflow live is running on it"));
+}
+
+}  // namespace
+}  // namespace spoolflow::apps

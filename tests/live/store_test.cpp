@@ -1,0 +1,141 @@
+#include "spoolflow/live/store/store.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/live/temporary_folder.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+using ::testing::HasSubstr;
+
+class StoreTest : public InFolder {
+ protected:
+  static ValveCommit kept(const std::string& valve, std::uint64_t next, double flow_m3_per_s) {
+    ValveCommit out;
+    out.state = {valve, 7, next, next, 12.5, "layout", {std::byte{1}, std::byte{2}}, {std::byte{3}}};
+    out.since_last = {.samples = 1000,
+                      .time_s = 3.5,
+                      .flow_min_m3_per_s = 0.5 * flow_m3_per_s,
+                      .flow_mean_m3_per_s = flow_m3_per_s,
+                      .flow_max_m3_per_s = 2 * flow_m3_per_s,
+                      .lower_min_m3_per_s = 0.25 * flow_m3_per_s,
+                      .upper_max_m3_per_s = 3 * flow_m3_per_s,
+                      .energy_J = 5,
+                      .status = 3};
+    return out;
+  }
+  void commit(Store& store, std::int64_t wall_ms, const std::vector<ValveCommit>& valves) {
+    std::vector<Event> none;
+    store.commit(wall_ms, valves, none);
+  }
+  [[nodiscard]] std::vector<HistoryRow> history(const std::string& valve, std::int64_t from = 0,
+                                                std::int64_t to = std::int64_t{1} << 60) const {
+    std::vector<HistoryRow> rows;
+    read_history(path("s.sqlite"), valve, from, to, [&](const HistoryRow& row) { rows.push_back(row); });
+    return rows;
+  }
+};
+
+TEST_F(StoreTest, GivesBackWhatItWasGiven) {
+  {
+    Store store(path("s.sqlite"));
+    std::vector<Event> events{{.wall_ms = 1000, .valve = "a", .time_s = 3, .kind = "condition", .text = "NE 107 M"}};
+    store.commit(1000, {kept("a", 1000, 1e-4), kept("b", 500, 2e-4)}, events);
+    EXPECT_EQ(events[0].id, 1);
+    commit(store, 2000, {kept("a", 2000, 3e-4)});
+  }
+  Store again(path("s.sqlite"));
+  const auto states = again.states();
+  ASSERT_EQ(states.size(), 2U);
+  EXPECT_EQ(states[0].valve, "a");
+  EXPECT_EQ(states[0].next, 2000U);
+  EXPECT_EQ(states[0].sensor, (std::vector{std::byte{1}, std::byte{2}}));
+  ASSERT_EQ(again.events(10).size(), 1U);
+  EXPECT_EQ(again.events(10)[0].text, "NE 107 M");
+  const auto rows = history("a");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].wall_ms, 2000);
+  EXPECT_DOUBLE_EQ(rows[1].summary.flow_max_m3_per_s, 6e-4);
+  EXPECT_EQ(rows[1].summary.status, 3U);
+  EXPECT_EQ(history("a", 1001, 2000).size(), 0U);
+  EXPECT_THAT(refusal([&] { (void)history("c"); }), HasSubstr("knows no valve 'c'; it knows: a, b"));
+}
+
+TEST_F(StoreTest, NumbersOfAnySizeComeBack) {
+  Store store(path("s.sqlite"));
+  ValveCommit valve = kept("a", ~std::uint64_t{0}, NAN);
+  commit(store, 1000, {valve});
+  EXPECT_EQ(store.states()[0].next, ~std::uint64_t{0});
+  EXPECT_TRUE(std::isnan(history("a")[0].summary.flow_mean_m3_per_s));
+}
+
+TEST_F(StoreTest, IsOneProgramsAtATime) {
+  const Store first(path("s.sqlite"));
+  EXPECT_THAT(refusal([&] { Store second(path("s.sqlite")); }), HasSubstr("another spoolflow live is running on it"));
+}
+
+TEST_F(StoreTest, RefusesWhatItCannotKnow) {
+  { Store store(path("s.sqlite")); }
+  {
+    Database database(path("s.sqlite"), Database::Access::write);
+    database.run("PRAGMA user_version=2");
+  }
+  EXPECT_THAT(refusal([&] { Store store(path("s.sqlite")); }), HasSubstr("store of version 2, this program knows"));
+  {
+    Database database(path("other.sqlite"), Database::Access::write);
+    database.run("CREATE TABLE x(y)");
+  }
+  EXPECT_THAT(refusal([&] { Store store(path("other.sqlite")); }), HasSubstr("database of another program"));
+  write("text.sqlite", std::string(5000, 'x'));
+  EXPECT_THAT(refusal([&] { Store store(path("text.sqlite")); }), HasSubstr("is no store of spoolflow live"));
+  EXPECT_THAT(refusal([&] { Store store(path("none/s.sqlite")); }), HasSubstr("folder does not exist"));
+  EXPECT_THAT(refusal([&] { read_history(path("none.sqlite"), "a", 0, 1, {}); }), HasSubstr("there is no such file"));
+}
+
+TEST_F(StoreTest, ADamagedFileIsTold) {
+  {
+    Store store(path("s.sqlite"));
+    for (int k = 0; k < 200; ++k) commit(store, 1000 * k, {kept("a", 1000, 1e-4), kept("b", 500, 2e-4)});
+  }
+  std::fstream file(path("s.sqlite"), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(4096);
+  file << std::string(8192, '\x5a');
+  file.close();
+  EXPECT_THAT(refusal([&] { Store store(path("s.sqlite")); }), HasSubstr("is damaged"));
+}
+
+TEST_F(StoreTest, DeletesWhatIsOldAndWhatIsTooMuch) {
+  Store store(path("s.sqlite"));
+  constexpr std::int64_t day_ms = 86'400'000;
+  for (int day = 0; day < 10; ++day) commit(store, day * day_ms + 1, {kept("a", 1000, 1e-4)});
+  store.retain(9 * day_ms + 1, {.days = 4.5, .largest_MB = 100});
+  EXPECT_EQ(history("a").size(), 5U);
+  for (int second = 0; second < 4000; ++second) {
+    commit(store, 10 * day_ms + 1000 * second, {kept("a", 1000, 1e-4)});
+  }
+  const std::size_t before = history("a").size();
+  store.retain(11 * day_ms, {.days = 100, .largest_MB = 0.2});
+  EXPECT_LT(history("a").size(), before / 2);
+  EXPECT_GT(history("a").size(), 0U);
+  EXPECT_EQ(history("a").back().wall_ms, 10 * day_ms + 3999000);  // the newest stay
+}
+
+TEST_F(StoreTest, HistoryIsReadWhileItIsWritten) {
+  Store store(path("s.sqlite"));
+  commit(store, 1000, {kept("a", 1000, 1e-4)});
+  std::size_t rows = 0;
+  read_history(path("s.sqlite"), "a", 0, 10000, [&](const HistoryRow&) {
+    ++rows;
+    commit(store, 2000, {kept("a", 2000, 1e-4)});
+  });
+  EXPECT_EQ(rows, 1U);
+  EXPECT_EQ(history("a").size(), 2U);
+}
+
+}  // namespace
+}  // namespace spoolflow::live

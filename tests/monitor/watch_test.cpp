@@ -1,0 +1,172 @@
+#include "spoolflow/monitor/watch.hpp"
+
+#include <cstring>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
+#include "tests/monitor/example.hpp"
+
+namespace spoolflow::monitor {
+namespace {
+
+struct Answered {
+  std::vector<estimation::TimedSample> samples;
+  std::vector<sensor::Estimate<double>> answers;
+};
+
+Answered run_of(const std::string& name) {
+  Answered out;
+  const auto reader = validation::open_sensor_channels(std::string(SPOOLFLOW_EXAMPLES) + "/" + name,
+                                                       validation::sensor_channels(example(), {}));
+  estimation::RunningSensor sensor = estimation::running_sensor(example(), estimation::Estimator::observer);
+  recording::SampleBlock block;
+  while (reader->next(block)) {
+    const estimation::Columns columns = validation::sensor_columns(block);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      out.samples.push_back(columns[k]);
+      out.answers.push_back(sensor.step(columns[k]));
+    }
+  }
+  return out;
+}
+
+const Answered& ramp() {
+  static const Answered run = run_of("ramp_60bar.h5");
+  return run;
+}
+
+const Indicator& named(const std::vector<Indicator>& indicators, std::string_view name) {
+  for (const Indicator& each : indicators) {
+    if (each.name == name) return each;
+  }
+  throw std::out_of_range("no such indicator");
+}
+
+TEST(Watch, AHealthyValveRaisesNothing) {
+  for (const char* name : {"ramp_60bar.h5", "duty_cycle_1.h5"}) {
+    const Answered run = run_of(name);
+    Watch watch(example());
+    watch.take(run.samples, run.answers);
+    watch.finish();
+    EXPECT_EQ(watch.condition(), Ne107::good) << name;
+    EXPECT_TRUE(watch.causes().empty()) << name;
+  }
+}
+
+TEST(Watch, TellsWhatTheValveDid) {
+  Watch watch(example());
+  watch.take(ramp().samples, ramp().answers);
+  watch.finish();
+  const auto indicators = watch.indicators();
+  EXPECT_NEAR(named(indicators, "watched_time").value, 47, 0.1);
+  EXPECT_GE(named(indicators, "distance").value, 2 * 2.3e-3);
+  EXPECT_NEAR(named(indicators, "friction_ratio").value, 1, 0.15);
+  EXPECT_NEAR(named(indicators, "closed_position").value, 0, 10e-6);
+  EXPECT_NEAR(named(indicators, "coil_resistance").value, 2.97, 0.05);
+}
+
+// The same forces, 1.6 times as much friction: what the net force differs from the flow force by grows.
+TEST(Watch, MoreFrictionIsRaisedAsFriction) {
+  Answered run = ramp();
+  for (sensor::Estimate<double>& answer : run.answers) {
+    const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
+    answer.magnetic_force_N += 0.6 * apparent_N;
+  }
+  Watch watch(example());
+  for (int k = 0; k < 4; ++k) {
+    watch.take(run.samples, run.answers);
+    watch.finish();
+  }
+  ASSERT_FALSE(watch.causes().empty());
+  EXPECT_EQ(watch.causes().front().fault, Fault::friction);
+  EXPECT_EQ(watch.condition(), Ne107::maintenance_required);
+  EXPECT_EQ(named(watch.indicators(), "friction_ratio").state, IndicatorState::raised);
+}
+
+TEST(Watch, GoesOnFromItsBytes) {
+  Watch whole(example());
+  whole.take(ramp().samples, ramp().answers);
+  Watch first(example());
+  const std::size_t half = ramp().samples.size() / 2;
+  first.take(std::span(ramp().samples).first(half), std::span(ramp().answers).first(half));
+  std::vector<std::byte> bytes(sizeof(WatchState));
+  std::memcpy(bytes.data(), &first.state(), bytes.size());
+  WatchState kept;
+  std::memcpy(&kept, bytes.data(), bytes.size());
+  Watch second(example());
+  ASSERT_TRUE(second.set_state(kept));
+  second.take(std::span(ramp().samples).subspan(half), std::span(ramp().answers).subspan(half));
+  const auto expected = whole.indicators();
+  const auto found = second.indicators();
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    if (!std::isfinite(expected[k].value)) continue;
+    EXPECT_EQ(found[k].value, expected[k].value) << expected[k].name;
+  }
+  kept.version = 0;
+  EXPECT_FALSE(second.set_state(kept));
+}
+
+TEST(Watch, RubbishChangesStatusAndNothingElse) {
+  Watch watch(example());
+  estimation::RunningSensor sensor = estimation::running_sensor(example(), estimation::Estimator::observer);
+  std::mt19937_64 generator(5);
+  const double rubbish[] = {estimation::not_measured, std::numeric_limits<double>::infinity(), -1e300, 1e300, 0, 1e-3};
+  const auto any = [&] { return rubbish[generator() % std::size(rubbish)]; };
+  for (int k = 0; k < 20000; ++k) {
+    const estimation::TimedSample sample{k % 3 == 0 ? any() : 1e-3 * k, any(), any(), any(), any()};
+    watch.take(sample, sensor.step(sample));
+  }
+  watch.finish();
+  for (const Indicator& each : watch.indicators()) EXPECT_NE(each.state, IndicatorState::raised) << each.name;
+  for (const Cause& cause : watch.causes()) EXPECT_NE(cause.fault, Fault::friction);
+}
+
+TEST(Watch, AsManyAnswersAsSamples) {
+  Watch watch(example());
+  EXPECT_THROW(watch.take(std::span(ramp().samples).first(3), std::span(ramp().answers).first(2)),
+               std::invalid_argument);
+}
+
+TEST(Baseline, ReadsBackAsItWasWritten) {
+  Watch watch(example());
+  watch.take(ramp().samples, ramp().answers);
+  watch.finish();
+  const Baseline written = watch.learnt();
+  const Baseline read = parse_baseline("{\"baseline\": " + baseline_text(written) + "}", "base.json");
+  EXPECT_EQ(read.model, written.model);
+  EXPECT_EQ(read.side[0].centre, written.side[0].centre);
+  EXPECT_EQ(read.side[0].spread, written.side[0].spread);
+  Watch later(example(), {}, read);
+  later.take(ramp().samples, ramp().answers);
+  later.finish();
+  EXPECT_EQ(later.condition(), Ne107::good);
+}
+
+TEST(Baseline, OfAnotherModelIsRefused) {
+  Baseline other{fingerprint(example()) + 1, {}};
+  EXPECT_THROW(Watch(example(), {}, other), model::ModelError);
+}
+
+TEST(Baseline, DamagedOnesNameThePlace) {
+  using testing::HasSubstr;
+  const auto message = [](const std::string& text) {
+    try {
+      static_cast<void>(parse_baseline(text, "base.json"));
+    } catch (const model::ModelError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message("no json"), HasSubstr("base.json"));
+  EXPECT_THAT(message("{}"), HasSubstr("/baseline"));
+  EXPECT_THAT(message(R"({"baseline": {"model": "xyz"}})"), HasSubstr("xyz"));
+  EXPECT_THAT(message(R"({"baseline": {"model": "12", "b": {"windows": -1}}})"), HasSubstr("/baseline/b/windows"));
+}
+
+}  // namespace
+}  // namespace spoolflow::monitor
