@@ -49,7 +49,8 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
   for (std::size_t k = 0; k < site_.valves.size(); ++k) {
     const ValveSettings& settings = site_.valves[k];
     auto place = std::make_unique<Place>();
-    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s;
+    // Alarms are looked at each second: the oldest samples must last until then.
+    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s + 2;
     place->valve = std::make_unique<ValveAtWork>(settings.id, settings.model, program_, raw_s);
     Worker& worker = *workers_[k % threads];
     place->intake = std::make_unique<Intake>([&worker, at = place.get()] { worker.tell(*at); });

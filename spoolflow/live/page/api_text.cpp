@@ -125,7 +125,7 @@ std::string events_json(const Engine& engine) {
     out.push_back({{"id", event.id},
                    {"time", utc(event.wall_ms)},
                    {"valve", event.valve},
-                   {"time_s", number(event.time_s)},
+                   {"time_s", rounded(event.time_s, 6)},
                    {"kind", event.kind},
                    {"text", event.text},
                    {"acknowledged", event.acknowledged_ms == 0 ? Json(nullptr) : Json(utc(event.acknowledged_ms))}});
