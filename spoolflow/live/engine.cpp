@@ -107,6 +107,8 @@ void Engine::start_source(std::size_t k) {
 }
 
 void Engine::stop() {
+  const bool worked = keeper_.joinable();
+  keeper_ = {};  // it looks at the sources
   // Sources first, so that nothing new comes while the last is worked on.
   for (const auto& place : valves_) {
     std::visit(
@@ -120,8 +122,7 @@ void Engine::stop() {
   for (const auto& place : valves_) place->source = std::monostate{};
   udp_.reset();
   for (const auto& worker : workers_) worker->thread = {};
-  if (!keeper_.joinable()) return;
-  keeper_ = {};
+  if (!worked) return;
   std::vector<SampleBlock> blocks;
   for (const auto& place : valves_) {
     place->intake->take(blocks);
