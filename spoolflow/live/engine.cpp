@@ -73,7 +73,10 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
 }
 
 Engine::~Engine() {
-  stop();
+  try {
+    stop();
+  } catch (const std::exception&) {  // the store keeps what it has
+  }
 }
 
 void Engine::start() {
