@@ -262,6 +262,15 @@ Ne107 Watch::condition() const {
   return worst;
 }
 
+Doubt Watch::doubt() const {
+  Doubt out;
+  for (std::size_t k = 0; k < sides(); ++k) {
+    if (!raised(state_.side[k])) continue;
+    out.side[k] = {true, isolation_of(reference_[k], state_.side[k]).value};
+  }
+  return out;
+}
+
 double Watch::judged_windows() const {
   double sum = 0;
   for (std::size_t k = 0; k < sides(); ++k) sum += state_.side[k].windows;
