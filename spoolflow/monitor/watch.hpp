@@ -54,7 +54,8 @@ class Watch {
   void finish();
 
   [[nodiscard]] std::vector<Indicator> indicators() const;
-  /// What explains the indicators that are raised, the likeliest first; empty where none is.
+  /// What explains the indicators that are raised, the likeliest first. Before any is, what windows of steady pressure
+  /// make ten times likelier than not: suspected, and not part of condition(). Else empty.
   [[nodiscard]] std::vector<Cause> causes() const;
   [[nodiscard]] Ne107 condition() const;
   /// What the raised indicators say against the model, for `widened`; changes with a window at most.
