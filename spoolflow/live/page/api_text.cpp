@@ -40,6 +40,7 @@ Json status_of(const ValveView& valve, const SourceView& source) {
   for (const sensor::StatusName& entry : sensor::status_names) {
     if (sensor::has(valve.answer.status, entry.bit)) out.push_back(entry.name);
   }
+  if (valve.doubted) out.push_back("model_doubt");
   if (source.stalled) out.push_back("stalled");
   return out;
 }
