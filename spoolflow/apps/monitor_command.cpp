@@ -41,9 +41,35 @@ void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& 
   trend.push_back({windows, watch.indicators()});
 }
 
+/// The band as told and as the raised indicators widen it.
+class BandWatch {
+ public:
+  void take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
+            const sensor::Estimate<double>& answer) {
+    const double windows = watch.judged_windows();
+    if (windows != windows_) {
+      doubt_ = watch.doubt();
+      windows_ = windows;
+    }
+    ++figures_.samples;
+    if (!doubt_.any()) return;
+    const sensor::Estimate<double> wider =
+        monitor::widened(model, doubt_, sample, watch.state().oil_temperature_K, answer);
+    ++figures_.doubted;
+    figures_.told_m3_per_s += answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
+    figures_.widened_m3_per_s += wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
+  }
+  [[nodiscard]] const report::DoubtFigures& figures() const { return figures_; }
+
+ private:
+  monitor::Doubt doubt_;
+  double windows_ = -1;
+  report::DoubtFigures figures_;
+};
+
 /// One recording through sensor and watch.
 void monitor_one(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                 monitor::Watch& watch, std::vector<report::TrendPoint>& trend,
+                 monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
                  const std::function<void(std::optional<double>)>& progress) {
   const auto reader = validation::open_sensor_channels(recording, validation::sensor_channels(model, channels));
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
@@ -52,7 +78,9 @@ void monitor_one(const model::Model& model, const std::string& recording, const 
     const estimation::Columns columns = validation::sensor_columns(block);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const estimation::TimedSample sample = columns[k];
-      watch.take(sample, sensor.step(sample));
+      const sensor::Estimate<double> answer = sensor.step(sample);
+      watch.take(sample, answer);
+      band.take(model, watch, sample, answer);
     }
     follow_trend(watch, trend);
     progress(reader->progress());
@@ -95,12 +123,13 @@ void monitor_recordings(const MonitorArguments& arguments) {
   if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
+  BandWatch band;
   {
     Progress progress("monitoring", arguments.quiet);
     const auto total = static_cast<double>(arguments.recordings.size());
     for (const std::string& recording : arguments.recordings) {
       const auto before = static_cast<double>(runs.size());
-      monitor_one(model, recording, channels, watch, trend, [&](std::optional<double> share) {
+      monitor_one(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
         if (share) progress.update((before + *share) / total);
       });
       runs.push_back(
@@ -108,7 +137,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
     }
   }
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
-  if (json) report::write_monitor_json(json->stream(), model, watch, runs);
+  if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
   commit_together({page ? &*page : nullptr, json ? &*json : nullptr});
   if (arguments.json != "-" && arguments.report != "-") print_condition(watch);
 }

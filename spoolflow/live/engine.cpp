@@ -49,7 +49,8 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
   for (std::size_t k = 0; k < site_.valves.size(); ++k) {
     const ValveSettings& settings = site_.valves[k];
     auto place = std::make_unique<Place>();
-    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s;
+    // Alarms are looked at each second: the oldest samples must last until then.
+    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s + 2;
     place->valve = std::make_unique<ValveAtWork>(settings.id, settings.model, program_, raw_s);
     Worker& worker = *workers_[k % threads];
     place->intake = std::make_unique<Intake>([&worker, at = place.get()] { worker.tell(*at); });
@@ -72,7 +73,10 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
 }
 
 Engine::~Engine() {
-  stop();
+  try {
+    stop();
+  } catch (const std::exception&) {  // the store keeps what it has
+  }
 }
 
 void Engine::start() {
@@ -106,6 +110,8 @@ void Engine::start_source(std::size_t k) {
 }
 
 void Engine::stop() {
+  const bool worked = keeper_.joinable();
+  keeper_ = {};  // it looks at the sources
   // Sources first, so that nothing new comes while the last is worked on.
   for (const auto& place : valves_) {
     std::visit(
@@ -119,8 +125,7 @@ void Engine::stop() {
   for (const auto& place : valves_) place->source = std::monostate{};
   udp_.reset();
   for (const auto& worker : workers_) worker->thread = {};
-  if (!keeper_.joinable()) return;
-  keeper_ = {};
+  if (!worked) return;
   std::vector<SampleBlock> blocks;
   for (const auto& place : valves_) {
     place->intake->take(blocks);

@@ -24,7 +24,7 @@ std::filesystem::path beside(const TomlTable& table, const std::string& name) {
 }
 
 std::string checked_id(const TomlTable& valve) {
-  const std::string id = valve.text("id");
+  std::string id = valve.text("id");
   const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
   });

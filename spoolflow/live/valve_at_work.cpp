@@ -29,6 +29,9 @@ bool read_bytes(const std::vector<std::byte>& bytes, State& state) {
 /// A step in which energy is counted; a longer one is a gap.
 constexpr double longest_counted_step_s = 1;
 
+/// Doubt changes with the monitor's windows, which last longer.
+constexpr std::int64_t doubt_asked_each_ns = 1'000'000'000;
+
 }  // namespace
 
 ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s)
@@ -89,9 +92,17 @@ void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const se
 
 void ValveAtWork::work(const SampleBlock& block) {
   const std::lock_guard lock(mutex_);
+  if (watch_ && block.arrived_ns - doubt_asked_ns_ > doubt_asked_each_ns) {
+    doubt_ = watch_->doubt();
+    doubt_asked_ns_ = block.arrived_ns;
+  }
+  const bool doubted = doubt_.any();
   for (const estimation::TimedSample& sample : block.samples) {
     last_ = sensor_.step(sample);
     if (watch_) watch_->take(sample, last_);
+    if (doubted) {
+      last_ = monitor::widened(*model_.model, doubt_, sample, watch_->state().oil_temperature_K, last_);
+    }
     add_to_summary(sample, last_);
     raw_.add(sample);
     if (std::isfinite(sample.time_s)) trace_.add(sample.time_s, sample.position_m, sample.current_A, last_);
@@ -113,6 +124,7 @@ ValveView ValveAtWork::view() const {
   out.rated_flow_m3_per_s = model_.model->valve.rated_flow_m3_per_s;
   out.time_s = time_s_;
   out.answer = last_;
+  out.doubted = doubt_.any();
   out.samples = samples_;
   out.energy_J = energy_J_;
   out.arrived_ns = arrived_ns_;

@@ -26,11 +26,12 @@ struct SharedModel {
 struct ValveView {
   std::string id;
   double rated_flow_m3_per_s = 0;
-  double time_s = 0;  ///< of the last sample; NaN: none yet
-  sensor::Estimate<double> answer;
-  std::uint64_t samples = 0;    ///< since the store began
-  double energy_J = 0;          ///< likewise
-  std::int64_t arrived_ns = 0;  ///< when the last sample came, by the steady clock; 0: none yet
+  double time_s = 0;                ///< of the last sample; NaN: none yet
+  sensor::Estimate<double> answer;  ///< its band widened while the monitor doubts the model
+  bool doubted = false;             ///< whether it does
+  std::uint64_t samples = 0;        ///< since the store began
+  double energy_J = 0;              ///< likewise
+  std::int64_t arrived_ns = 0;      ///< when the last sample came, by the steady clock; 0: none yet
   monitor::Ne107 condition = monitor::Ne107::good;
   std::vector<monitor::Cause> causes;
   std::vector<monitor::Indicator> indicators;  ///< empty where the model has no observer
@@ -79,6 +80,8 @@ class ValveAtWork {
   mutable std::mutex mutex_;
   estimation::RunningSensor sensor_;
   std::optional<monitor::Watch> watch_;  ///< of models that have an observer
+  monitor::Doubt doubt_;
+  std::int64_t doubt_asked_ns_ = 0;
   SourcePosition after_;
   std::uint64_t samples_ = 0;
   double energy_J_ = 0;

@@ -98,11 +98,17 @@ void follow_closing(const SideReference& reference, const Limits& limits, SideSt
     close(reference, limits, state, end_window(*reference.valve, reference.stroke_m, state.window));
 }
 
+Limits reckoned_limits(double false_alarms_per_year) {
+  const double run_length = 2 * windows_per_year * static_cast<double>(charts) / false_alarms_per_year;
+  return {limit_for(cusum_allowance, run_length), single_limit_for(run_length)};
+}
+
 }  // namespace
 
 Limits limits_for(double false_alarms_per_year) {
-  const double run_length = 2 * windows_per_year * static_cast<double>(charts) / false_alarms_per_year;
-  return {limit_for(cusum_allowance, run_length), single_limit_for(run_length)};
+  constexpr double usual = 1;
+  static const Limits usual_limits = reckoned_limits(usual);  // twenty milliseconds, once for all valves
+  return false_alarms_per_year == usual ? usual_limits : reckoned_limits(false_alarms_per_year);
 }
 
 void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {

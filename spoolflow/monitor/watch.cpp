@@ -18,6 +18,9 @@ const sensor::ObserverParameters<double>& parameters(const model::Model& model, 
   return opens_a ? model.p_to_a->observer->parameters : model.observer->parameters;
 }
 
+/// Odds from which a cause is told before its charts have decided: it is suspected, and raises no sign.
+constexpr double suspicion_odds = 10;
+
 /// Signs of NE 107 that the causes make.
 Ne107 sign_of(Fault fault) {
   switch (fault) {
@@ -227,17 +230,18 @@ std::vector<Cause> Watch::causes() const {
   std::array<double, faults> odds{};
   for (std::size_t k = 0; k < sides(); ++k) {
     const SideState& side = state_.side[k];
-    if (!raised(side)) continue;
+    const bool decided = raised(side);
+    if (!decided && side.learnt.shape.weight == 0) continue;
     const Isolation found = isolation_of(reference_[k], side);
     std::size_t best = 0;
     bool explained = false;
     for (std::size_t f = 0; f < isolated_faults; ++f) {
       if (found.odds[f] > found.odds[best]) best = f;
-      if (found.odds[f] < 1) continue;
+      if (found.odds[f] < (decided ? 1.0 : suspicion_odds)) continue;
       explained = true;
       odds[f] = std::max(odds[f], found.odds[f]);
     }
-    if (explained) continue;
+    if (explained || !decided) continue;
     // Something is wrong: the likeliest explanation, or that there is none.
     constexpr double least_odds = 0.1;
     const std::size_t told = found.odds[best] > least_odds ? best : static_cast<std::size_t>(Fault::wrong_model);
@@ -258,8 +262,20 @@ std::vector<Cause> Watch::causes() const {
 
 Ne107 Watch::condition() const {
   Ne107 worst = monitor::sign_of(state_.status);
+  bool decided = false;
+  for (std::size_t k = 0; k < sides(); ++k) decided = decided || raised(state_.side[k]);
+  if (!decided) return worst;
   for (const Cause& cause : causes()) worst = std::max(worst, sign_of(cause.fault));
   return worst;
+}
+
+Doubt Watch::doubt() const {
+  Doubt out;
+  for (std::size_t k = 0; k < sides(); ++k) {
+    if (!raised(state_.side[k])) continue;
+    out.side[k] = {true, isolation_of(reference_[k], state_.side[k]).value};
+  }
+  return out;
 }
 
 double Watch::judged_windows() const {

@@ -15,6 +15,7 @@
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/monitor/condition.hpp"
+#include "spoolflow/monitor/doubt.hpp"
 #include "spoolflow/monitor/side.hpp"
 #include "spoolflow/monitor/status_share.hpp"
 #include "spoolflow/monitor/usage.hpp"
@@ -53,9 +54,12 @@ class Watch {
   void finish();
 
   [[nodiscard]] std::vector<Indicator> indicators() const;
-  /// What explains the indicators that are raised, the likeliest first; empty where none is.
+  /// What explains the indicators that are raised, the likeliest first. Before any is, what windows of steady pressure
+  /// make ten times likelier than not: suspected, and not part of condition(). Else empty.
   [[nodiscard]] std::vector<Cause> causes() const;
   [[nodiscard]] Ne107 condition() const;
+  /// What the raised indicators say against the model, for `widened`; changes with a window at most.
+  [[nodiscard]] Doubt doubt() const;
   /// Windows of events that were judged.
   [[nodiscard]] double judged_windows() const;
   /// What was learnt, to compare later runs of the same valve and model with.

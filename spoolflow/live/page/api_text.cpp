@@ -40,6 +40,7 @@ Json status_of(const ValveView& valve, const SourceView& source) {
   for (const sensor::StatusName& entry : sensor::status_names) {
     if (sensor::has(valve.answer.status, entry.bit)) out.push_back(entry.name);
   }
+  if (valve.doubted) out.push_back("model_doubt");
   if (source.stalled) out.push_back("stalled");
   return out;
 }
@@ -125,7 +126,7 @@ std::string events_json(const Engine& engine) {
     out.push_back({{"id", event.id},
                    {"time", utc(event.wall_ms)},
                    {"valve", event.valve},
-                   {"time_s", number(event.time_s)},
+                   {"time_s", rounded(event.time_s, 6)},
                    {"kind", event.kind},
                    {"text", event.text},
                    {"acknowledged", event.acknowledged_ms == 0 ? Json(nullptr) : Json(utc(event.acknowledged_ms))}});

@@ -105,7 +105,9 @@ BoundSocket bind_socket(const Address& address, Transport transport) {
   const int on = 1;
   if (tcp) ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   const int room = 8 << 20;  // as much of it as the system grants
-  if (!tcp) ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
+  if (!tcp && ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUFFORCE, &room, sizeof room) != 0) {
+    ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
+  }
   const SocketAddress where = system_address(address);
   if (socket.number() < 0 ||
       ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&where.storage), where.length) != 0 ||

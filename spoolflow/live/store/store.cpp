@@ -74,6 +74,9 @@ void prepare(Database& database) {
         fmt::format("{} PRAGMA application_id={}; PRAGMA user_version={};", schema, application_id, store_version));
     whole.commit();
   }
+  // The whole of a large one would take minutes; damage is then told where it is met.
+  constexpr std::int64_t most_pages = 50'000;
+  if (database.number("PRAGMA page_count") > most_pages) return;
   Statement check(database, "PRAGMA quick_check(1)");
   if (check.next() && check.text(0) != "ok") {
     throw StoreError(
@@ -165,7 +168,7 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
       to.indicator.put(number).put(wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
       to.indicator.put(one.baseline).put(std::string_view(one.state)).run();
     }
-    if (row.samples == 0 && !valve.state.samples) continue;
+    if (row.samples == 0 && valve.indicators.empty()) continue;  // nothing has changed since it was written
     to.state.put(number).put(static_cast<std::int64_t>(state.session)).put(static_cast<std::int64_t>(state.next));
     to.state.put(static_cast<std::int64_t>(state.samples)).put(state.energy_J).put(std::string_view(state.layout));
     to.state.put(std::span(state.sensor)).put(std::span(state.watch)).run();

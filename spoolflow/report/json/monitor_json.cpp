@@ -32,7 +32,7 @@ Json indicators_json(const std::vector<monitor::Indicator>& indicators) {
 }  // namespace
 
 void write_monitor_json(std::ostream& out, const model::Model& model, const monitor::Watch& watch,
-                        const std::vector<MonitoredRun>& runs) {
+                        const std::vector<MonitoredRun>& runs, const DoubtFigures& doubt) {
   Json causes = Json::array();
   for (const monitor::Cause& cause : watch.causes())
     causes.push_back({{"cause", monitor::name(cause.fault)}, {"odds", cause.odds}});
@@ -44,6 +44,10 @@ void write_monitor_json(std::ostream& out, const model::Model& model, const moni
             {"ne107", monitor::name(watch.condition())},
             {"causes", causes},
             {"indicators", indicators_json(watch.indicators())},
+            {"model_doubt",
+             {{"raised", watch.doubt().any()},
+              {"share_of_time", doubt.samples > 0 ? doubt.doubted / doubt.samples : 0.0},
+              {"band_factor", doubt.told_m3_per_s > 0 ? doubt.widened_m3_per_s / doubt.told_m3_per_s : 1.0}}},
             {"runs", each},
             {"baseline", Json::parse(monitor::baseline_text(watch.learnt()))}};
   out << json.dump(1) << '\n';

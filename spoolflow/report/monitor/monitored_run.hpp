@@ -14,6 +14,14 @@ struct MonitoredRun {
   std::vector<monitor::Indicator> indicators;
 };
 
+/// How far raised indicators widened the band (monitor::widened); sums over the samples in which they did.
+struct DoubtFigures {
+  double samples = 0;  ///< all
+  double doubted = 0;
+  double told_m3_per_s = 0;     ///< widths of the band as the sensor told it
+  double widened_m3_per_s = 0;  ///< widened
+};
+
 /// What it told after one window of events.
 struct TrendPoint {
   double windows;  ///< judged so far
