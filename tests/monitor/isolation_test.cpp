@@ -1,5 +1,7 @@
 #include "spoolflow/monitor/isolation.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace spoolflow::monitor {

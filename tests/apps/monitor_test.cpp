@@ -1,0 +1,54 @@
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/command_line.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Monitor : public CommandLine {
+ protected:
+  const std::string model = SPOOLFLOW_EXAMPLE_MODEL;
+  const std::string ramp = SPOOLFLOW_EXAMPLES "/valve_a/ramp_60bar.h5";
+  const std::string duty = SPOOLFLOW_EXAMPLES "/valve_a/duty_cycle_1.h5";
+
+  void refused(const std::string& arguments, const std::string& what) const {
+    const Answer answer = run("monitor " + arguments + " --json out.json -q");
+    EXPECT_EQ(answer.status, 2) << arguments;
+    EXPECT_THAT(answer.message, HasSubstr(what));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
+  }
+};
+
+TEST_F(Monitor, AHealthyValveIsGoodAndItsJudgementIsABaseline) {
+  const Answer first = run("monitor " + model + " " + ramp + " " + duty + " --json base.json --report page.html -q");
+  ASSERT_EQ(first.status, 0) << first.message;
+  const auto json = nlohmann::json::parse(content("base.json"));
+  EXPECT_EQ(json["ne107"], "good");
+  EXPECT_TRUE(json["causes"].empty());
+  EXPECT_FALSE(json["model_doubt"]["raised"]);
+  EXPECT_EQ(json["runs"].size(), 2U);
+  for (const char* key : {"name", "value", "unit", "uncertainty_95", "baseline", "state"})
+    EXPECT_TRUE(json["indicators"][0].contains(key)) << key;
+  EXPECT_THAT(content("page.html"), HasSubstr("friction ratio"));
+  const Answer later = run("monitor " + model + " " + ramp + " --baseline base.json --json - -q");
+  ASSERT_EQ(later.status, 0) << later.message;
+  EXPECT_EQ(nlohmann::json::parse(later.output)["ne107"], "good");
+}
+
+TEST_F(Monitor, UnusableInputIsOneClearError) {
+  write("no_current.csv", "time_s,position_mm\n0,0\n0.001,0\n");
+  refused("nothing.json " + ramp, "nothing.json");
+  refused(model + " nothing.csv", "nothing.csv");
+  refused(model + " no_current.csv", "current");
+  refused(model + " " + ramp + " --baseline nothing.json", "nothing.json");
+  refused(model + " " + ramp + " --baseline " + model, "/baseline");
+  write("other.json", R"({"baseline": {"model": "12", "b": {"windows": 3, "resistance_Ohm": 3,
+         "centre": [0, 0, 0, 0, 0, 0], "spread": [0.1, 0.1, 0.1, 0.1, 0.1, 0.1]}}})");
+  refused(model + " " + ramp + " --baseline other.json", "another model");
+}
+
+}  // namespace
+}  // namespace spoolflow::apps
