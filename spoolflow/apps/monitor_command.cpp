@@ -158,7 +158,7 @@ void add_monitor_command(CLI::App& program) {
   command->add_option("recordings", arguments->recordings, "recordings of the valve at work, oldest first")->required();
   command
       ->add_option("--baseline", arguments->baseline,
-                   "what --json wrote of healthy runs of this valve with this model; else the model is the reference")
+                   "what --json wrote of healthy runs of this valve with\nthis model; else the model is the reference")
       ->type_name("BASE.json");
   command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "condition to write as JSON; - for standard output")
