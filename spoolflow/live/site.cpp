@@ -68,13 +68,21 @@ Ageing read_ageing(const TomlTable& table) {
   return ageing;
 }
 
+RigWork read_work(const TomlTable& source) {
+  const std::string work = source.optional_text("work").value_or("duty");
+  if (work == "duty") return RigWork::duty;
+  if (work == "strokes") return RigWork::strokes;
+  throw SiteError(fmt::format("{}: work is \"duty\" or \"strokes\", not \"{}\"", source.place("work"), work));
+}
+
 RigSettings read_rig(const TomlTable& source) {
-  source.allow_only({"kind", "valve", "seed", "speed", "ageing"});
+  source.allow_only({"kind", "valve", "seed", "speed", "ageing", "work"});
   RigSettings rig;
   const std::string valve = source.optional_text("valve").value_or("size_6");
   rig.valve = valve.ends_with(".toml") ? rig::read_valve(beside(source, valve)) : rig::valve_preset(valve);
   rig.seed = static_cast<std::uint64_t>(not_negative(source, "seed", 1));
   rig.speed = source.optional_positive("speed").value_or(1.0);
+  rig.work = read_work(source);
   if (const toml::node* ageing = source.table.get("ageing")) {
     if (!ageing->is_table()) throw SiteError(fmt::format("{}: ageing must be a table", source.place("ageing")));
     rig.ageing = read_ageing({*ageing->as_table(), source.file, "ageing"});

@@ -16,8 +16,17 @@ constexpr double ages_every_s = 1;
 
 struct Stopped {};
 
-/// Strokes from closed on, at rates from slow to fast, under loads that change.
-rig::DutyCycleProtocol work(bool whole) {
+rig::Protocol strokes(bool whole) {
+  constexpr double stroke_s = 43;
+  rig::RampsProtocol ramps;
+  ramps.pressure_differences_bar.assign(static_cast<std::size_t>(shift_s / stroke_s), 60);
+  ramps.hold_s = 1;
+  if (whole) ramps.second_peak_percent = -100;
+  return ramps;
+}
+
+rig::Protocol work(RigWork kind, bool whole) {
+  if (kind == RigWork::strokes) return strokes(whole);
   rig::DutyCycleProtocol duty;
   duty.duration_s = shift_s;
   duty.lowest_percent = whole ? -100 : 0;
@@ -65,7 +74,7 @@ void RigSource::run(const std::stop_token& stop) {
     for (std::uint64_t shift = 0;; ++shift) {
       const double added_s = worked_s;
       const std::uint64_t seed = settings_.seed + 1000 * (next_ + shift);
-      const rig::BenchRun run = rig::plan(rig::Protocol(work(valve.whole)), valve, seed);
+      const rig::BenchRun run = rig::plan(work(settings_.work, valve.whole), valve, seed);
       SampleBlock block;
       rig::PlantParameters plant = valve.plant;
       bool begun = false;

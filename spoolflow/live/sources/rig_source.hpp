@@ -17,14 +17,21 @@ struct Ageing {
   double over_s = 600;  ///< of work from no wear to all of it, > 0
 };
 
+/// What a valve of the rig does all day.
+enum class RigWork {
+  duty,     ///< random strokes at rates from slow to fast, under loads that change
+  strokes,  ///< slow strokes to the full opening and back at a held pressure difference, as of a press
+};
+
 struct RigSettings {
   rig::ValveUnderTest valve;  ///< before spread and wear
   std::uint64_t seed = 1;     ///< of its work and its instruments' noise
   double speed = 1.0;         ///< seconds of work a second, > 0
   Ageing ageing{};
+  RigWork work = RigWork::duty;
 };
 
-/// Drives the valve through random strokes and loads without end.
+/// Drives the valve through its work without end.
 class RigSource {
  public:
   RigSource(RigSettings settings, SourcePosition after, Intake& intake);
