@@ -12,12 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <limits>
-#include <map>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -25,6 +22,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/on_rig_valve.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/rig/bench/operation_protocols.hpp"
@@ -34,7 +32,7 @@
 namespace {
 
 using namespace spoolflow;
-using Settings = std::map<std::string, double>;
+using bench::Settings;
 using Column = std::vector<double>;
 
 constexpr double piece_s = 600, hour_s = 3600, sample_s = 1e-3;
@@ -164,21 +162,6 @@ rig::BenchRun stops(const Settings& set, std::uint64_t seed) {
   return run;
 }
 
-Settings read_settings(int count, char** arguments) {
-  Settings out{{"hours", 24}, {"seed", 1},        {"rest", 30},  {"pressure_rest", 20},
-               {"every", 5},  {"shortest", 1e-3}, {"longest", 2}};
-  for (int k = 0; k < count; ++k) {
-    const std::string argument = arguments[k];
-    const std::size_t equals = argument.find('=');
-    const auto known = out.find(argument.substr(0, equals));
-    if (equals == std::string::npos || known == out.end()) throw std::runtime_error(argument + " is no KEY=NUMBER");
-    const char* end = argument.data() + argument.size();
-    if (std::from_chars(argument.data() + equals + 1, end, known->second).ptr != end)
-      throw std::runtime_error(argument + " ends in no number");
-  }
-  return out;
-}
-
 void live_through(const model::Model& model, const rig::ValveUnderTest& valve, Settings set) {
   const auto* observer = &model.observer.value().parameters;
   const double rated = model.valve.rated_flow_m3_per_s;
@@ -215,17 +198,13 @@ void live_through(const model::Model& model, const rig::ValveUnderTest& valve, S
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: day_of_stops MODEL.json VALVE [KEY=NUMBER ...]\n");
-    return 2;
-  }
-  try {
-    const model::Model model = model::read_model(argv[1]);
-    if (!model.observer) throw std::runtime_error("the model has no observer");
-    live_through(model, rig::as_built(rig::read_valve_and_campaign(argv[2]).valve), read_settings(argc - 3, argv + 3));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "day_of_stops: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+  return spoolflow::bench::on_rig_valve("day_of_stops", argc, argv,
+                                        {{"hours", 24},
+                                         {"seed", 1},
+                                         {"rest", 30},
+                                         {"pressure_rest", 20},
+                                         {"every", 5},
+                                         {"shortest", 1e-3},
+                                         {"longest", 2}},
+                                        [](const auto&... each) { live_through(each...); });
 }

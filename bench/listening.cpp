@@ -10,17 +10,15 @@
 #include "spoolflow/sensor/listening.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <exception>
 #include <functional>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "bench/on_rig_valve.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/rig/bench/operation_protocols.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
@@ -30,7 +28,7 @@
 namespace {
 
 using namespace spoolflow;
-using Settings = std::map<std::string, double>;
+using bench::Settings;
 using Observer = sensor::ObserverParameters<double>;
 
 /// Errors of all runs together.
@@ -78,21 +76,6 @@ void run(const model::Model& model, const rig::ValveUnderTest& valve, const rig:
   }
 }
 
-Settings read_settings(int count, char** arguments) {
-  Settings out{{"runs", 3},        {"seconds", 60}, {"lowest", 3},    {"highest", 12},
-               {"frequency", 125}, {"wanted", 5},   {"request", 0.3}, {"pause", 0}};
-  for (int k = 0; k < count; ++k) {
-    const std::string argument = arguments[k];
-    const std::size_t equals = argument.find('=');
-    const auto known = out.find(argument.substr(0, equals));
-    if (equals == std::string::npos || known == out.end()) throw std::runtime_error(argument + " is no KEY=NUMBER");
-    const char* end = argument.data() + argument.size();
-    if (std::from_chars(argument.data() + equals + 1, end, known->second).ptr != end)
-      throw std::runtime_error(argument + " ends in no number");
-  }
-  return out;
-}
-
 void compare(const model::Model& model, const rig::ValveUnderTest& valve, Settings set) {
   const double percent_A = 0.01 * valve.rating.current_A;
   const sensor::ListeningParameters<double> limits{0.01 * set["wanted"] * model.valve.rated_flow_m3_per_s,
@@ -129,17 +112,14 @@ void compare(const model::Model& model, const rig::ValveUnderTest& valve, Settin
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    fmt::print(stderr, "usage: listening MODEL.json VALVE [KEY=NUMBER ...]\n");
-    return 2;
-  }
-  try {
-    const model::Model model = model::read_model(argv[1]);
-    if (!model.observer) throw std::runtime_error("the model has no observer");
-    compare(model, rig::as_built(rig::read_valve_and_campaign(argv[2]).valve), read_settings(argc - 3, argv + 3));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "listening: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+  return spoolflow::bench::on_rig_valve("listening", argc, argv,
+                                        {{"runs", 3},
+                                         {"seconds", 60},
+                                         {"lowest", 3},
+                                         {"highest", 12},
+                                         {"frequency", 125},
+                                         {"wanted", 5},
+                                         {"request", 0.3},
+                                         {"pause", 0}},
+                                        [](const auto&... each) { compare(each...); });
 }
