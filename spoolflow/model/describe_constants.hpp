@@ -198,6 +198,12 @@ void describe_answer_constants(Visitor& visitor) {
                                "the pressure difference is expected beyond the believed one",
                     .evidence = "duty_cycle_1: p95 3.55, 3.35, 3.10 % FS, band 95.1, 95.1, 95.1 %"},
                    sensor::lopsided_share);
+  visitor.constant({.name = "ripple_share",
+                    .unit = "1",
+                    .meaning = "how far the band reaches beyond the highest calibrated pressure difference, as a share "
+                               "of it",
+                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.33 % FS, band 95.2, 95.2, 95.2 %"},
+                   sensor::ripple_share);
   visitor.constant({.name = "slip_widening",
                     .unit = "1",
                     .meaning = "the band is so many times wider while the spool slips",

@@ -25,6 +25,9 @@ inline constexpr double yielded_factor = 2;
 /// At rest more may be left open to one side than to the other: the pressure difference is expected so much of their
 /// difference beyond the believed one.
 inline constexpr double lopsided_share = 0.15;
+/// A supply at the highest calibrated pressure difference ripples about it: the band reaches so much further, as a
+/// share of it.
+inline constexpr double ripple_share = 0.02;
 
 /// One standard deviation of where the bounds of friction at rest lie [N]: it grows while the spool rests.
 template <class T>
@@ -43,7 +46,7 @@ template <class T>
 struct PressureBand {
   T least_Pa;     ///< >= 0
   T expected_Pa;  ///< to answer with
-  T most_Pa;      ///< <= the highest that was calibrated
+  T most_Pa;      ///< hardly above the highest that was calibrated
 };
 
 /// The pressure difference to answer with [Pa], from 0 to the highest that was calibrated: the believed one,
@@ -109,7 +112,7 @@ template <class T>
     further_Pa = T(lopsided_share) * (above_Pa - below_Pa);
   }
   return {larger(believed_Pa - below_Pa, T(0)), expected_pressure_Pa(pressure, balance, further_Pa, highest_Pa),
-          smaller(believed_Pa + above_Pa, highest_Pa)};
+          smaller(believed_Pa + above_Pa, T(1 + ripple_share) * highest_Pa)};
 }
 
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the

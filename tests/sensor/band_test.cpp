@@ -89,7 +89,14 @@ TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
   EXPECT_NEAR(spool.band().most_Pa - 40e5, (3 + uncertain_N) / slope, 0.01e5);
   spool.balance.sliding = true;
   EXPECT_EQ(spool.band().least_Pa, 0);
-  EXPECT_EQ(spool.band().most_Pa, 1000e5);
+  EXPECT_DOUBLE_EQ(spool.band().most_Pa, (1 + ripple_share) * 1000e5);
+}
+
+TEST(Band, AtTheHighestCalibratedPressureDifferenceHoldsTheRippleOfTheSupply) {
+  RestingSpool spool;
+  spool.pressure.pressure_difference_Pa = 999e5;
+  EXPECT_GT(spool.band().most_Pa, 1000e5 * 1.01);
+  EXPECT_LE(spool.band().expected_Pa, 1000e5);
 }
 
 TEST(Band, AtRestIsNarrowerThanWhatIsOpenAndWhatFrictionAllowsAlone) {
