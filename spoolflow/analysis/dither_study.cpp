@@ -18,7 +18,8 @@ constexpr int samples_a_period = 64;  // 62 us at 250 Hz: the actuator is good f
 constexpr int periods_until_settled = 10;
 constexpr int periods_until_still = 20;  // a spool that friction stops from the free mass' speed stands by then
 constexpr int periods_told = 2;
-constexpr double mass_step_s = 1e-5;  // contacts and mass swing at 1 to 3 kHz
+constexpr double mass_step_s = 1e-5;           // contacts and mass swing at 1 to 3 kHz
+constexpr double sliding_drag_N_s_per_m = 22;  // of spool and armature; no bench shows it
 
 /// -1 to 1; `turns` from 0 to 1.
 double wave(DitherShape shape, double turns, double frequency_Hz) {
@@ -87,8 +88,7 @@ double tremble_m(const Observer& valve, const DitherPoint& point, const std::vec
       const double reach_m = moving_friction_N(point, v_m_per_s) / contact_N_per_m;
       const double yielded_m = contact_m + v_m_per_s * step_s;
       contact_m = std::clamp(yielded_m, -reach_m, reach_m);
-      const double drag_N =
-          (contact_m == yielded_m ? damping_N_s_per_m : sensor::unmodelled_drag_N_s_per_m) * v_m_per_s;
+      const double drag_N = (contact_m == yielded_m ? damping_N_s_per_m : sliding_drag_N_s_per_m) * v_m_per_s;
       v_m_per_s += step_s / mass_kg *
                    (force_N - contact_N_per_m * contact_m - drag_N - std::max(point.stiffness_N_per_m, 0.0) * x_m);
       x_m += v_m_per_s * step_s;

@@ -146,7 +146,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .flow_residual_m3_per_s = together(fits.axial.path, &AxialForceFit::flow_residual).rms(),
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
-              .unseen_factor = 1.85};
+              .unseen_factor = 1.75};
   out.inlet = fits.axial.inlet;
   out.moving_mass_kg = assumed_moving_mass_kg;
   out.closed_below_m = closed_below_m;

@@ -176,11 +176,17 @@ void describe_answer_constants(Visitor& visitor) {
        .meaning = "half the width that the flow's own residual takes in the band, over its standard deviation",
        .evidence = "ramp_60bar: p95 0.28, 0.28, 0.28 % FS, band 91.6, 97.5, 99.9 %"},
       sensor::flow_residual_factor);
-  visitor.constant({.name = "unmodelled_drag_N_s_per_m",
-                    .unit = "N s/m",
-                    .meaning = "drag in motion that the band allows for",
-                    .evidence = "fast_10kHz: p95 2.37, 2.37, 2.37 % FS, band 92.7, 93.0, 93.6 %"},
-                   sensor::unmodelled_drag_N_s_per_m);
+  visitor.constant({.name = "friction_share_per_speed_s_per_m",
+                    .unit = "s/m",
+                    .meaning = "half the width that friction's dependence on the spool's speed takes in the band, as a "
+                               "share of friction over the speed",
+                    .evidence = "orifice_duty_dither: p95 0.93, 0.93, 0.93 % FS, band 96.7, 97.5, 98.3 %"},
+                   sensor::friction_share_per_speed_s_per_m);
+  visitor.constant({.name = "most_friction_share_of_speed",
+                    .unit = "1",
+                    .meaning = "the same at most, as a share of friction",
+                    .evidence = "fast_10kHz: p95 2.37, 2.37, 2.37 % FS, band 93.5, 94.0, 94.1 %"},
+                   sensor::most_friction_share_of_speed);
   visitor.constant({.name = "innovation_factor",
                     .unit = "1",
                     .meaning = "half the width that an innovation takes in the band while the spool slides, over it",

@@ -6,12 +6,14 @@
 namespace spoolflow::sensor {
 
 /// Half the width that the flow's own residual takes in the band, over its standard deviation.
-inline constexpr double flow_residual_factor = 2.2;
+inline constexpr double flow_residual_factor = 2.1;
 
 /// Half the width that the swing of friction under dither takes, as a share of half of it: peaks that no sample met.
 inline constexpr double swing_deviation_share = 0.03;
-/// Drag of spool and armature in motion, which no bench shows [N s/m].
-inline constexpr double unmodelled_drag_N_s_per_m = 22;
+/// Friction may fall with the spool's speed, or oil drag at it, which slow benches do not show: half the width that it
+/// takes, as a share of friction over the speed [s/m], and at most.
+inline constexpr double friction_share_per_speed_s_per_m = 100;
+inline constexpr double most_friction_share_of_speed = 0.2;
 /// Half the width that an innovation takes while the spool slides, over the innovation.
 inline constexpr double innovation_factor = 1.5;
 /// While the spool slips the pressure difference may move with it: the band is so many times wider.
@@ -68,12 +70,14 @@ template <class T>
   return limited(expected_Pa, T(0), highest_Pa);
 }
 
-/// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, drag, and the
-/// swing of friction under dither.
+/// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, friction that
+/// depends on speed, and the swing of friction under dither.
 template <class T>
 [[gnu::always_inline]] constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s) {
-  const T sliding_N = T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
-                      T(unmodelled_drag_N_s_per_m) * magnitude(velocity_m_per_s);
+  const T sliding_N =
+      T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
+      magnitude(balance.friction_N) *
+          smaller(T(friction_share_per_speed_s_per_m) * magnitude(velocity_m_per_s), T(most_friction_share_of_speed));
   return select(balance.sliding, sliding_N, T(0)) + T(swing_deviation_share) * balance.half_swing_N;
 }
 
