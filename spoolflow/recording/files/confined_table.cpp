@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <new>
 #include <stdexcept>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -64,22 +67,44 @@ class ReceivedText {
   std::string_view rest_;
 };
 
-/// Memory that parent and child see.
+/// Memory that parent and child see, each by its own object.
 class SharedNumbers {
  public:
-  SharedNumbers() {
-    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    numbers_ = static_cast<double*>(memory);
+  /// Neither end can make it smaller under the other.
+  SharedNumbers() : descriptor_(::memfd_create("samples", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
+    if (descriptor_ < 0 || ::ftruncate(descriptor_, bytes) != 0 ||
+        ::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0 || !map()) {
+      const int failure = errno;
+      ::close(descriptor_);
+      throw std::runtime_error(
+          fmt::format("no memory to share with the process that reads the recording: {}", std::strerror(failure)));
+    }
   }
-  ~SharedNumbers() { ::munmap(numbers_, bytes); }
+  /// The other end's; the descriptor is this object's from now on.
+  explicit SharedNumbers(int descriptor) : descriptor_(descriptor) {
+    if (!map()) throw std::bad_alloc();
+  }
+  ~SharedNumbers() {
+    ::munmap(numbers_, bytes);
+    ::close(descriptor_);
+  }
   SharedNumbers(const SharedNumbers&) = delete;
   SharedNumbers& operator=(const SharedNumbers&) = delete;
+  [[nodiscard]] int descriptor() const { return descriptor_; }
   [[nodiscard]] double* block(std::uint64_t index) const { return numbers_ + (index % blocks) * block_numbers; }
 
  private:
   static constexpr std::size_t bytes = blocks * block_numbers * sizeof(double);
-  double* numbers_;
+
+  bool map() {
+    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
+    if (memory == MAP_FAILED) return false;
+    numbers_ = static_cast<double*>(memory);
+    return true;
+  }
+
+  int descriptor_;
+  double* numbers_ = nullptr;
 };
 
 /// As many as there is room for; VectorTable holds no more columns than numbers fit.
@@ -122,9 +147,12 @@ void send_blocks(VectorTable& table, const SharedNumbers& shared, Connection& pa
   (void)parent.receive(kind, content);  // until the parent is gone
 }
 
-void read_in_child(const std::filesystem::path& file, const OpenVectors& open, const SharedNumbers& shared,
-                   const ReadingLimits& limits, Connection& parent) {
+void read_in_child(const ReadingOrder& order, Connection& parent) {
+  ReceivedText bytes(order.bytes);
+  const auto open = reinterpret_cast<OpenVectors>(static_cast<std::uintptr_t>(bytes.number()));
+  const std::filesystem::path file(bytes.text());
   try {
+    const SharedNumbers shared(order.memory);
     const std::unique_ptr<VectorTable> table = open(file);
     give_up_opening();
     if (send(parent, Message::listing, listing_of(*table))) send_blocks(*table, shared, parent);
@@ -134,18 +162,24 @@ void read_in_child(const std::filesystem::path& file, const OpenVectors& open, c
     (void)send(parent, Message::refusal,
                fmt::format("{}: needs more than {} MiB of memory to read, which is out of all "
                            "proportion to its size; it is damaged, or record it in parts",
-                           file.string(), limits.memory_bytes >> 20));
+                           file.string(), order.limits.memory_bytes >> 20));
   } catch (const std::exception& error) {
     (void)send(parent, Message::failure, error.what());
   }
 }
 
+/// An order for the file: the address of `open`, which a forked process has at the same place, and the path.
+ReadingOrder order_of(const std::filesystem::path& file, std::uint64_t file_bytes, OpenVectors open, int memory) {
+  MessageText bytes;
+  bytes.number(reinterpret_cast<std::uintptr_t>(open));
+  bytes.text(file.string());
+  return {read_in_child, reading_limits(file_bytes), bytes.content(), memory};
+}
+
 class ConfinedTable final : public VectorTable {
  public:
-  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, const OpenVectors& open)
-      : VectorTable(path.string()), process_(reading_limits(file_bytes), [&](Connection& parent) {
-          read_in_child(path, open, shared_, reading_limits(file_bytes), parent);
-        }) {
+  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, OpenVectors open)
+      : VectorTable(path.string()), process_(order_of(path, file_bytes, open, shared_.descriptor())) {
     ReceivedText content(expect(Message::listing));
     unread_ = content.text();
     const std::uint64_t columns = content.number();
@@ -222,7 +256,7 @@ class ConfinedTable final : public VectorTable {
 }  // namespace
 
 std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
-                                           const OpenVectors& open) {
+                                           OpenVectors open) {
   return std::make_unique<ConfinedTable>(file, file_bytes, open);
 }
 
