@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sched.h>
+#include <linux/sched.h>
 #include <stdexcept>
 #include <sys/socket.h>
 #include <sys/syscall.h>
