@@ -19,6 +19,7 @@
 #include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
+#include "spoolflow/recording/files/open_table.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -186,6 +187,7 @@ void estimate_all(const Task& task, const std::vector<std::string>& recordings,
                   const std::vector<std::filesystem::path>& targets) {
   std::mutex told;
   std::vector<std::exception_ptr> failures(recordings.size());
+  const auto nursery = recording::nursery_for({recordings.begin(), recordings.end()});
   parallel::for_each(recordings.size(), parallel::cores(), [&](std::size_t k) {
     try {
       const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k], false);

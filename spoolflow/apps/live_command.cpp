@@ -3,6 +3,7 @@
 #include <memory>
 #include <pthread.h>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/live/engine.hpp"
 #include "spoolflow/live/page/server.hpp"
+#include "spoolflow/recording/files/open_table.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -23,6 +25,14 @@ struct LiveArguments {
   std::string listen;
   std::string store;
 };
+
+std::vector<std::filesystem::path> replayed_recordings(const live::SiteSettings& site) {
+  std::vector<std::filesystem::path> files;
+  for (const live::ValveSettings& valve : site.valves) {
+    if (const auto* replay = std::get_if<live::ReplaySettings>(&valve.source)) files.push_back(replay->recording);
+  }
+  return files;
+}
 
 /// The signal that ended the wait. They must be blocked in every thread.
 int wait_for_the_end() {
@@ -54,6 +64,7 @@ void live_command(const LiveArguments& arguments) {
   if (!arguments.store.empty()) site.store = arguments.store;
   live::Address page = site.page;
   const InterruptionPause held_back;  // in this thread, and in all that it starts
+  const auto nursery = recording::nursery_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
   engine.start();
   {

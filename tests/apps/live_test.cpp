@@ -87,6 +87,19 @@ TEST_F(Live, HistoryIsWhatCame) {
   EXPECT_EQ(run("history model.json --valve v -o -").status, 2);
 }
 
+// Each pass is read by a new process, which a thread asks for.
+TEST_F(Live, AnHdf5FileIsReplayedOverAndOver) {
+  write_site("{ kind = \"replay\", recording = \"" SPOOLFLOW_EXAMPLES
+             "/valve_a/ramp_60bar.h5\", speed = 0, repeats = true }");
+  RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
+  EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
+  constexpr double three_passes = 3 * 47000;
+  for (int k = 0; k < 3000 && kept("SELECT samples FROM state") <= three_passes; ++k) ::usleep(10000);
+  live.signal(SIGINT);
+  EXPECT_EQ(live.wait(), 0);
+  EXPECT_GT(kept("SELECT samples FROM state"), three_passes);
+}
+
 // Killed again and again in the middle of its work, it has worked on every sample once when it is done.
 TEST_F(Live, AKilledProgramGoesOnWhereItWas) {
   constexpr int samples = 8000;

@@ -1,6 +1,11 @@
 /// HDF5 recordings through the process that reads them: bytes. What happens there is not seen in the coverage.
 #include "tests/fuzz/sample_file.hpp"
 
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  static const spoolflow::recording::ReadingNursery nursery;  // before libFuzzer's thread that watches the memory
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace spoolflow;
   static const fuzz::InputFile file("run.h5");

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <new>
 #include <stdexcept>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
 
 namespace spoolflow::recording {
@@ -64,22 +68,61 @@ class ReceivedText {
   std::string_view rest_;
 };
 
-/// Memory that parent and child see.
+constexpr std::size_t shared_bytes = blocks * block_numbers * sizeof(double);
+
+double* block(double* numbers, std::uint64_t index) {
+  return numbers + (index % blocks) * block_numbers;
+}
+
+/// Memory that both processes see. Descriptor -1: new memory, of this process and of what is forked from it.
+double* map_numbers(int descriptor) {
+  const int kind = descriptor < 0 ? MAP_SHARED | MAP_ANONYMOUS : MAP_SHARED;
+  void* const memory = ::mmap(nullptr, shared_bytes, PROT_READ | PROT_WRITE, kind, descriptor, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  return static_cast<double*>(memory);
+}
+
+/// The parent's. A child of the nursery, which does not have this process's memory, is given its descriptor.
 class SharedNumbers {
  public:
   SharedNumbers() {
-    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    numbers_ = static_cast<double*>(memory);
+    if (ReadingNursery::present() != nullptr) make_descriptor();
+    try {
+      numbers_ = map_numbers(descriptor_);
+    } catch (...) {
+      close();
+      throw;
+    }
   }
-  ~SharedNumbers() { ::munmap(numbers_, bytes); }
+  ~SharedNumbers() {
+    ::munmap(numbers_, shared_bytes);
+    close();
+  }
   SharedNumbers(const SharedNumbers&) = delete;
   SharedNumbers& operator=(const SharedNumbers&) = delete;
-  [[nodiscard]] double* block(std::uint64_t index) const { return numbers_ + (index % blocks) * block_numbers; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] double* numbers() const { return numbers_; }
 
  private:
-  static constexpr std::size_t bytes = blocks * block_numbers * sizeof(double);
-  double* numbers_;
+  /// Neither process can make the memory smaller under the other.
+  void make_descriptor() {
+    descriptor_ = ::memfd_create("samples", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    if (descriptor_ >= 0 && ::ftruncate(descriptor_, shared_bytes) == 0 &&
+        ::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0) {
+      return;
+    }
+    const int failure = errno;
+    close();
+    throw std::runtime_error(fmt::format(
+        "the process that reads the recording can share no memory: {}{}", std::strerror(failure),
+        failure == EFBIG ? "; allow files of 2 MiB and more (ulimit -f), or read one recording at a time" : ""));
+  }
+  void close() const {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+
+  int descriptor_ = -1;
+  double* numbers_ = nullptr;
 };
 
 /// As many as there is room for; VectorTable holds no more columns than numbers fit.
@@ -100,7 +143,7 @@ std::string listing_of(const VectorTable& table) {
 }
 
 /// The child's work: what is chosen, block after block, each as soon as there is room for it.
-void send_blocks(VectorTable& table, const SharedNumbers& shared, Connection& parent) {
+void send_blocks(VectorTable& table, double* numbers, Connection& parent) {
   std::uint32_t kind = 0;
   std::string content;
   if (!parent.receive(kind, content) || kind != static_cast<std::uint32_t>(Message::choice)) return;
@@ -114,7 +157,7 @@ void send_blocks(VectorTable& table, const SharedNumbers& shared, Connection& pa
     if (index >= blocks && !parent.receive(kind, content)) return;
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(rows, length - first));
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      table.copy(columns[k], first, count, shared.block(index) + k * rows);
+      table.copy(columns[k], first, count, block(numbers, index) + k * rows);
     }
     if (!send(parent, Message::block)) return;
     first += count;
@@ -122,30 +165,42 @@ void send_blocks(VectorTable& table, const SharedNumbers& shared, Connection& pa
   (void)parent.receive(kind, content);  // until the parent is gone
 }
 
-void read_in_child(const std::filesystem::path& file, const OpenVectors& open, const SharedNumbers& shared,
-                   const ReadingLimits& limits, Connection& parent) {
+void read_in_child(const ReadingOrder& order, Connection& parent) {
+  ReceivedText bytes(order.bytes);
+  const auto open = reinterpret_cast<OpenVectors>(static_cast<std::uintptr_t>(bytes.number()));
+  auto* const inherited = reinterpret_cast<double*>(static_cast<std::uintptr_t>(bytes.number()));
+  const std::filesystem::path file(bytes.text());
   try {
+    double* const numbers = order.memory < 0 ? inherited : map_numbers(order.memory);
     const std::unique_ptr<VectorTable> table = open(file);
     give_up_opening();
-    if (send(parent, Message::listing, listing_of(*table))) send_blocks(*table, shared, parent);
+    if (send(parent, Message::listing, listing_of(*table))) send_blocks(*table, numbers, parent);
   } catch (const RecordingError& error) {
     (void)send(parent, Message::refusal, error.what());
   } catch (const std::bad_alloc&) {
     (void)send(parent, Message::refusal,
                fmt::format("{}: needs more than {} MiB of memory to read, which is out of all "
                            "proportion to its size; it is damaged, or record it in parts",
-                           file.string(), limits.memory_bytes >> 20));
+                           file.string(), order.limits.memory_bytes >> 20));
   } catch (const std::exception& error) {
     (void)send(parent, Message::failure, error.what());
   }
 }
 
+/// An order for the file: addresses, that of a function being the same in every forked process, and the path.
+ReadingOrder order_of(const std::filesystem::path& file, std::uint64_t file_bytes, OpenVectors open,
+                      const SharedNumbers& shared) {
+  MessageText bytes;
+  bytes.number(reinterpret_cast<std::uintptr_t>(open));
+  bytes.number(reinterpret_cast<std::uintptr_t>(shared.numbers()));
+  bytes.text(file.string());
+  return {read_in_child, reading_limits(file_bytes), bytes.content(), shared.descriptor()};
+}
+
 class ConfinedTable final : public VectorTable {
  public:
-  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, const OpenVectors& open)
-      : VectorTable(path.string()), process_(reading_limits(file_bytes), [&](Connection& parent) {
-          read_in_child(path, open, shared_, reading_limits(file_bytes), parent);
-        }) {
+  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, OpenVectors open)
+      : VectorTable(path.string()), process_(order_of(path, file_bytes, open, shared_)) {
     ReceivedText content(expect(Message::listing));
     unread_ = content.text();
     const std::uint64_t columns = content.number();
@@ -159,7 +214,7 @@ class ConfinedTable final : public VectorTable {
   [[nodiscard]] std::string unread() const override { return unread_; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
-    const double* const values = shared_.block(index_) + slot_of_.at(column) * rows_ + (first - first_);
+    const double* const values = block(shared_.numbers(), index_) + slot_of_.at(column) * rows_ + (first - first_);
     std::copy_n(values, count, out);
   }
 
@@ -222,7 +277,7 @@ class ConfinedTable final : public VectorTable {
 }  // namespace
 
 std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
-                                           const OpenVectors& open) {
+                                           OpenVectors open) {
   return std::make_unique<ConfinedTable>(file, file_bytes, open);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 #include "spoolflow/recording/files/vector_table.hpp"
@@ -9,12 +8,12 @@
 namespace spoolflow::recording {
 
 /// Opens a file in a process of few rights, which `open` needs no more of than to open the file itself.
-using OpenVectors = std::function<std::unique_ptr<VectorTable>(const std::filesystem::path&)>;
+using OpenVectors = std::unique_ptr<VectorTable> (*)(const std::filesystem::path&);
 
 /// A table whose file is opened and read by a child process with limits of memory and time that go with the file's size
 /// (reading_limits); its numbers come through shared memory, a block ahead of whoever reads them. Throws RecordingError
 /// with the child's own words, and where the child crashes or runs into its limits.
 [[nodiscard]] std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
-                                                         const OpenVectors& open);
+                                                         OpenVectors open);
 
 }  // namespace spoolflow::recording

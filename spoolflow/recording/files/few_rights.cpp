@@ -94,13 +94,22 @@ ReadingLimits reading_limits(std::uint64_t file_bytes) {
   return {512 * mebibyte + 250 * file_bytes, 20 + 2 * (file_bytes / mebibyte)};
 }
 
-void give_up_rights(int kept, const ReadingLimits& limits) {
+void keep_only(std::array<int, 2> descriptors) {
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO}) (void)::dup2(nothing, standard);
   if (silent) (void)::dup2(nothing, STDERR_FILENO);
-  const auto descriptor = static_cast<unsigned>(kept);
-  if (descriptor > 3) (void)::close_range(3, descriptor - 1, 0);
-  (void)::close_range(descriptor + 1, ~0U, 0);
+  std::sort(descriptors.begin(), descriptors.end());
+  unsigned next = STDERR_FILENO + 1;
+  for (const int kept : descriptors) {
+    if (kept <= STDERR_FILENO) continue;
+    const auto descriptor = static_cast<unsigned>(kept);
+    if (descriptor > next) (void)::close_range(next, descriptor - 1, 0);
+    next = descriptor + 1;
+  }
+  (void)::close_range(next, ~0U, 0);
+}
+
+void give_up_rights(const ReadingLimits& limits) {
   if (!sanitized) limit(RLIMIT_AS, address_space() + limits.memory_bytes);
   limit(RLIMIT_CPU, limits.computing_s, 2);
   limit(RLIMIT_CORE, 0);

@@ -1,5 +1,6 @@
 #pragma once
 /// What a process gives up before it reads a file that nobody vouches for.
+#include <array>
 #include <cstdint>
 
 namespace spoolflow::recording {
@@ -14,9 +15,13 @@ struct ReadingLimits {
 /// of it.
 [[nodiscard]] ReadingLimits reading_limits(std::uint64_t file_bytes);
 
-/// Keeps the descriptor `kept`, and /dev/null as 0 to 2; limits memory and time; no larger file, no further process, no
-/// core dump, no new privileges. The limit of memory is left out under AddressSanitizer, which reserves terabytes.
-void give_up_rights(int kept, const ReadingLimits& limits);
+/// Closes every descriptor but these two (-1: none); 0 to 2 become /dev/null, but for the standard error of a build
+/// with sanitizers, who report there.
+void keep_only(std::array<int, 2> descriptors);
+
+/// Limits memory and time; no larger file, no further process, no core dump, no new privileges. The limit of memory is
+/// left out under AddressSanitizer, which reserves terabytes.
+void give_up_rights(const ReadingLimits& limits);
 
 /// From here on the process opens nothing any more: no descriptor beyond those it has, and of the system's calls only
 /// those that reading, reckoning and answering need (Linux on x86-64 and AArch64); every other one fails. Does nothing

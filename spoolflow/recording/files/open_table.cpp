@@ -1,5 +1,8 @@
 #include "spoolflow/recording/files/open_table.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
@@ -8,6 +11,28 @@
 #include "spoolflow/recording/files/mat_table.hpp"
 
 namespace spoolflow::recording {
+
+namespace {
+
+/// False of what cannot be read: opening it tells why.
+bool takes_a_process(const std::filesystem::path& file) {
+  std::error_code failure;
+  if (file == "-" || !std::filesystem::is_regular_file(file, failure)) return false;  // a pipe's bytes come only once
+  try {
+    std::array<char, format_bytes> beginning{};
+    const std::size_t begun = InputBytes(file).read(beginning.data(), beginning.size());
+    return format_of({beginning.data(), begun}, file) != FileFormat::csv;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files) {
+  if (std::none_of(files.begin(), files.end(), takes_a_process)) return nullptr;
+  return std::make_unique<ReadingNursery>();
+}
 
 OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text text) {
   return open_sample_table(std::make_unique<InputBytes>(file), text);

@@ -2,10 +2,12 @@
 /// Tells a file's format by its content and opens it.
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "spoolflow/recording/files/csv_table.hpp"
 #include "spoolflow/recording/files/file_format.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
+#include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
@@ -22,5 +24,9 @@ struct OpenTable {
 /// The same of an input that is open.
 [[nodiscard]] OpenTable open_sample_table(std::unique_ptr<InputBytes> input,
                                           CsvTable::Text text = CsvTable::Text::refused);
+
+/// For whoever opens these files while this process has several threads: to be held from before the second thread until
+/// the last is gone. Null where none of the files is read by a process of its own (HDF5, MATLAB).
+[[nodiscard]] std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files);
 
 }  // namespace spoolflow::recording

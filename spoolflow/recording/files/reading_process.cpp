@@ -11,102 +11,50 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/files/reading_nursery.hpp"
+
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::uint64_t longest_message = std::uint64_t{64} << 20;
-
-struct Head {
-  std::uint32_t kind;
-  std::uint32_t unused;
-  std::uint64_t length;
-};
-
-bool send_all(int descriptor, const char* from, std::size_t count) {
-  while (count > 0) {
-    const ::ssize_t written = ::send(descriptor, from, count, MSG_NOSIGNAL);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    from += written;
-    count -= static_cast<std::size_t>(written);
-  }
-  return true;
+[[noreturn]] void refuse(std::string_view what) {
+  throw std::runtime_error(fmt::format("no process can be started to read the recording: {}", what));
 }
 
-bool receive_all(int descriptor, char* to, std::size_t count) {
-  while (count > 0) {
-    const ::ssize_t got = ::read(descriptor, to, count);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    to += got;
-    count -= static_cast<std::size_t>(got);
+/// The child, or -1 and errno.
+::pid_t fork_reader(const ReadingOrder& order, int connection) {
+  sigset_t all, before;  // no handler of this process may run in the child
+  sigfillset(&all);
+  (void)::pthread_sigmask(SIG_SETMASK, &all, &before);
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    settle_signals(before);
+    live_as_reader(order, connection);
   }
-  return true;
-}
-
-/// The child's whole life.
-[[noreturn]] void live(int descriptor, const ReadingLimits& limits, const std::function<void(Connection&)>& work,
-                       const sigset_t& before) {
-  constexpr int done = 0, failed = 1;
-  // Interruptions are the parent's, which ends the child by going; its handlers would speak of the parent's files.
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_IGN);
-  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGXFSZ}) std::signal(number, SIG_DFL);
+  const int failure = errno;
   (void)::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  try {
-    give_up_rights(descriptor, limits);
-    Connection connection(descriptor);
-    work(connection);
-  } catch (...) {
-    ::_exit(failed);
-  }
-  ::_exit(done);
+  errno = failure;
+  return child;
 }
 
 }  // namespace
 
-bool Connection::send(std::uint32_t kind, std::string_view content) {
-  const Head head{kind, 0, content.size()};
-  std::array<char, sizeof head> bytes{};
-  std::memcpy(bytes.data(), &head, sizeof head);
-  return send_all(descriptor_, bytes.data(), bytes.size()) && send_all(descriptor_, content.data(), content.size());
-}
-
-bool Connection::receive(std::uint32_t& kind, std::string& content) {
-  std::array<char, sizeof(Head)> bytes{};
-  if (!receive_all(descriptor_, bytes.data(), bytes.size())) return false;
-  Head head{};
-  std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.length > longest_message) return false;
-  kind = head.kind;
-  content.resize(static_cast<std::size_t>(head.length));
-  return receive_all(descriptor_, content.data(), content.size());
-}
-
-ReadingProcess::ReadingProcess(const ReadingLimits& limits, const std::function<void(Connection&)>& work)
-    : limits_(limits) {
-  std::array<int, 2> ends{-1, -1};
-  const auto refuse = [](const char* what) {
-    throw std::runtime_error(
-        fmt::format("no process can be started to read the recording: {}: {}", what, std::strerror(errno)));
-  };
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) refuse("no connection");
-  sigset_t all, before;  // no handler of this process may run in the child
-  sigfillset(&all);
-  (void)::pthread_sigmask(SIG_SETMASK, &all, &before);
-  child_ = ::fork();
-  if (child_ == 0) {
-    ::close(ends[0]);
-    live(ends[1], limits, work, before);
+ReadingProcess::ReadingProcess(const ReadingOrder& order) : limits_(order.limits) {
+  ReadingNursery* const nursery = ReadingNursery::present();
+  if (nursery == nullptr && !may_fork()) {
+    refuse("this one has several threads and started none before them; was the file exchanged meanwhile?");
   }
+  std::array<int, 2> ends{-1, -1};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    refuse(fmt::format("no connection: {}", std::strerror(errno)));
+  }
+  child_ = nursery != nullptr ? nursery->start(order, ends[1]) : fork_reader(order, ends[1]);
   const int failure = errno;
-  (void)::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   ::close(ends[1]);
   descriptor_ = ends[0];
   connection_ = Connection(descriptor_);
   if (child_ < 0) {
     ::close(descriptor_);
-    errno = failure;
-    refuse("no further process");
+    refuse(fmt::format("no further process: {}", std::strerror(failure)));
   }
 }
 

@@ -1,35 +1,18 @@
 #pragma once
 /// A process of few rights beside this one, which reads a file and answers in messages.
-#include <cstdint>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <sys/types.h>
 
-#include "spoolflow/recording/files/few_rights.hpp"
+#include "spoolflow/recording/files/reading_child.hpp"
 
 namespace spoolflow::recording {
 
-/// One end of a connection between two processes.
-class Connection {
- public:
-  /// The descriptor stays the caller's.
-  explicit Connection(int descriptor) : descriptor_(descriptor) {}
-
-  /// False where the other end is gone.
-  bool send(std::uint32_t kind, std::string_view content);
-  /// False where the other end is gone, or where its message is longer than 64 MiB.
-  bool receive(std::uint32_t& kind, std::string& content);
-
- private:
-  int descriptor_;
-};
-
 class ReadingProcess {
  public:
-  /// Starts `work` in a child of this process with the limits, connected to this one. Nothing that `work` changes is
-  /// seen here but what it sends and memory that both share. Throws std::runtime_error where no process can be started.
-  ReadingProcess(const ReadingLimits& limits, const std::function<void(Connection&)>& work);
+  /// Starts a child of this process that works on the order, connected to this one: from the nursery, or where there is
+  /// none by fork() of this process, which then must have one thread. Nothing that the child changes is seen here but
+  /// what it sends and the memory of the order. Throws std::runtime_error where no process can be started.
+  explicit ReadingProcess(const ReadingOrder& order);
   /// Ends the child wherever it is.
   ~ReadingProcess();
   ReadingProcess(const ReadingProcess&) = delete;

@@ -1,5 +1,6 @@
 /// HDF5 and MATLAB files are read in a process of few rights: what such a file can do to it, and what of that is seen.
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <functional>
 #include <string>
@@ -26,9 +27,20 @@ using ::testing::HasSubstr;
 
 constexpr ReadingLimits small_limits{.memory_bytes = std::uint64_t{64} << 20, .computing_s = 1};
 
+/// An order for what a test captures, whose address means the same only in a child that is forked now.
+ReadingOrder order_of(const std::function<void(Connection&)>& work) {
+  const auto* const address = &work;
+  return {[](const ReadingOrder& order, Connection& parent) {
+            const std::function<void(Connection&)>* ordered = nullptr;
+            std::memcpy(&ordered, order.bytes.data(), sizeof ordered);
+            (*ordered)(parent);
+          },
+          small_limits, std::string(reinterpret_cast<const char*>(&address), sizeof address)};
+}
+
 /// How a child ends that does `work`, after it has given up its rights.
 std::string end_of(const std::function<void(Connection&)>& work) {
-  ReadingProcess process(small_limits, work);
+  ReadingProcess process(order_of(work));
   std::uint32_t kind = 0;
   std::string content;
   while (process.connection().receive(kind, content)) {
@@ -53,10 +65,11 @@ TEST(ReadingProcess, IsStoppedWhereItComputesWithoutEnd) {
 #if !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)  // the build with sanitizers, whose own calls no list knows
 /// What a child answers in one word.
 std::string answer_of(const std::function<std::string()>& work) {
-  ReadingProcess process(small_limits, [&](Connection& parent) {
+  const std::function<void(Connection&)> answer = [&](Connection& parent) {
     give_up_opening();
     (void)parent.send(0, work());
-  });
+  };
+  ReadingProcess process(order_of(answer));
   std::uint32_t kind = 0;
   std::string content;
   return process.connection().receive(kind, content) ? content : "nothing";
@@ -70,13 +83,14 @@ TEST(ReadingProcess, OpensNothingAndReachesNobody) {
 #endif
 
 TEST(ReadingProcess, GoesWithTheOneThatStartedIt) {
+  const std::function<void(Connection&)> wait = [](Connection& parent) {
+    std::uint32_t kind = 0;
+    std::string content;
+    (void)parent.receive(kind, content);
+  };
   ::pid_t child = 0;
   {
-    const ReadingProcess process(small_limits, [](Connection& parent) {
-      std::uint32_t kind = 0;
-      std::string content;
-      (void)parent.receive(kind, content);
-    });
+    const ReadingProcess process(order_of(wait));
     child = process.id();
     EXPECT_EQ(::kill(child, 0), 0);
   }
@@ -161,19 +175,16 @@ TEST(ConfinedReading, AMatlabFileThatInflatesOutOfProportionIsRefused) {
 
 constexpr std::uint64_t samples = 400000;
 
+std::function<void()> deed;  ///< of the library below
+
 /// Stands for a library that misbehaves when it is asked for numbers.
 class Misbehaving final : public VectorTable {
  public:
-  explicit Misbehaving(std::function<void()> deed) : VectorTable("run.h5"), deed_(std::move(deed)) {
-    add({{"current_A", "current_A", {}}, samples});
-  }
+  Misbehaving() : VectorTable("run.h5") { add({{"current_A", "current_A", {}}, samples}); }
   void copy(std::size_t, std::uint64_t first, std::size_t count, double* out) override {
-    if (first > 0) deed_();
+    if (first > 0) deed();
     for (std::size_t k = 0; k < count; ++k) out[k] = static_cast<double>(first + k);
   }
-
- private:
-  std::function<void()> deed_;
 };
 
 /// Reads the column of such a table, 1000 numbers at a time; how it was refused, and how many numbers came before.
@@ -181,9 +192,11 @@ struct Course {
   std::string message;
   std::uint64_t read = 0;
 };
-Course course_of(std::function<void()> deed) {
-  const auto table = open_confined(
-      "run.h5", 1000, [&](const std::filesystem::path&) { return std::make_unique<Misbehaving>(std::move(deed)); });
+Course course_of(std::function<void()> wanted) {
+  deed = std::move(wanted);
+  const auto table = open_confined("run.h5", 1000, [](const std::filesystem::path&) -> std::unique_ptr<VectorTable> {
+    return std::make_unique<Misbehaving>();
+  });
   table->select({0});
   std::vector<double> numbers(1000);
   double* const out[1]{numbers.data()};
