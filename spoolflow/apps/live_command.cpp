@@ -1,6 +1,7 @@
 /// `spoolflow live`: valves at work, watched until the program is ended.
 #include <csignal>
 #include <memory>
+#include <optional>
 #include <pthread.h>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/live/engine.hpp"
+#include "spoolflow/live/page/plotjuggler.hpp"
 #include "spoolflow/live/page/server.hpp"
 
 namespace spoolflow::apps {
@@ -34,7 +36,7 @@ int wait_for_the_end() {
   return number;
 }
 
-void tell_where(const live::Engine& engine, const live::Address& page) {
+void tell_where(const live::Engine& engine, const live::PageSettings& page) {
   for (std::size_t k = 0; k < engine.size(); ++k) {
     const live::SourceView source = engine.source(k);
     const auto* tcp = std::get_if<live::TcpSettings>(&engine.site().valves[k].source);
@@ -45,20 +47,24 @@ void tell_where(const live::Engine& engine, const live::Address& page) {
     say("datagrams over UDP at {}\n", live::Address{engine.site().udp->host, engine.udp_port()}.text());
   }
   if (engine.site().store.empty()) say("nothing is kept: name a file with --store\n");
-  say("{} valves; page at http://{}/ ; end with Ctrl-C\n", engine.size(), page.text());
+  say("{} valves; page at {}://{}/ ; end with Ctrl-C\n", engine.size(), page.has_tls() ? "https" : "http",
+      page.listen.text());
 }
 
 void live_command(const LiveArguments& arguments) {
   live::SiteSettings site = arguments.site.empty() ? live::demo_site() : live::read_site(arguments.site);
-  if (!arguments.listen.empty()) site.page = live::read_address(arguments.listen, "--listen");
+  if (!arguments.listen.empty()) site.page.listen = live::read_address(arguments.listen, "--listen");
   if (!arguments.store.empty()) site.store = arguments.store;
-  live::Address page = site.page;
+  live::PageSettings page = site.page;
+  live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
   engine.start();
   {
     const live::PageServer server(engine, page);
-    page.port = server.port();
+    std::optional<live::PlotJuggler> plotjuggler;
+    if (engine.site().plotjuggler) plotjuggler.emplace(engine, *engine.site().plotjuggler);
+    page.listen.port = server.port();
     tell_where(engine, page);
     wait_for_the_end();
   }
