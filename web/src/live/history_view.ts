@@ -99,6 +99,8 @@ export class HistoryView {
 
   private show(seconds: number, flow: FlowHistory, indicators: IndicatorHistory[]): void {
     const now = Date.now() / 1000;
+    const oldest = Math.min(...flow.time_ms, ...indicators.flatMap((one) => one.time_ms)) / 1000;
+    const from = Math.max(now - seconds, Math.min(now - 120, oldest - 0.02 * (now - oldest)));
     const curves: [string, Curve, number][] = [];
     if (flow.time_ms.length > 0) curves.push(['flow', flowCurve(flow), 1], ['power', powerCurve(flow), 1]);
     for (const one of indicators) {
@@ -119,7 +121,7 @@ export class HistoryView {
         this.plots.set(name, plot);
         this.grid.append(plot.place);
       }
-      plot.show(withGaps(curve, 3 * Math.max(step_s, seconds / mostPoints)), now - seconds, now);
+      plot.show(withGaps(curve, 3 * Math.max(step_s, seconds / mostPoints)), from, now);
     }
   }
 }

@@ -17,7 +17,7 @@ export function worstOf(valve: Valve): Indicator | undefined {
   let worst: Indicator | undefined;
   for (const one of valve.indicators) {
     if (one.state !== 'raised' && one.state !== 'good') continue;
-    if (one.state === 'good' && (one.name.startsWith('winding') || one.name.startsWith('coil_resistance'))) continue;
+    if (one.state === 'good' && /^(winding|coil_resistance|closed_position)/.test(one.name)) continue;  // no chart judges them
     const rank = (each: Indicator): number => (each.state === 'raised' ? 1e6 : 0) + distance(each);
     if (distance(one) >= 0 && (worst === undefined || rank(one) > rank(worst))) worst = one;
   }
@@ -42,7 +42,7 @@ class Card {
     picture.setAttribute('aria-hidden', 'true');
     this.line = document.createElementNS('http://www.w3.org/2000/svg', 'path');
     picture.append(this.line);
-    this.link.append(element('span', 'name', id), this.sign, this.flow, this.band, picture, this.worst);
+    this.link.append(element('span', 'top', element('span', 'name', id), this.sign), this.flow, this.band, picture, this.worst);
   }
 
   show(valve: Valve): void {
@@ -73,7 +73,7 @@ export class Overview {
   readonly place = element('div', '');
   private readonly cards = new Map<string, Card>();
   private readonly grid = element('section', 'cards');
-  private readonly alarms = new AlarmList((alarm) => alarm.state !== 'cleared' && alarm.state !== 'raised_acknowledged', 5);
+  private readonly alarms = new AlarmList((alarm) => alarm.state !== 'cleared' && alarm.state !== 'raised_acknowledged', 3);
   private readonly events = new EventList(30);
   private readonly wanted = element('input', '');
   private readonly worstFirst = element('input', '');
