@@ -131,7 +131,8 @@ std::string asked_password() {
     throw std::invalid_argument(fmt::format("the password has {} bytes; it must have {} to {}", password.size(),
                                             shortest_password, longest_password));
   }
-  if (is_terminal && typed("once more: ") != password) throw std::invalid_argument("the two passwords differ; try again");
+  if (is_terminal && typed("once more: ") != password)
+    throw std::invalid_argument("the two passwords differ; try again");
   return password;
 }
 
