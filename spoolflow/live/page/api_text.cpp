@@ -150,6 +150,23 @@ std::string site_json(const Engine& engine) {
                         {"not_allowed", udp.not_allowed}}}});
 }
 
+namespace {
+
+std::string alarm_metrics(const Engine& engine) {
+  std::size_t there = 0, unacknowledged = 0;
+  for (const Alarm& alarm : engine.alarms()) {
+    if (alarm.gone_ms == 0) ++there;
+    if (alarm.acknowledged_ms == 0) ++unacknowledged;
+  }
+  return fmt::format(
+      "# HELP spoolflow_alarms_raised Alarms that are not gone.\n# TYPE spoolflow_alarms_raised gauge\n"
+      "spoolflow_alarms_raised {}\n# HELP spoolflow_alarms_unacknowledged Alarms that nobody has acknowledged.\n"
+      "# TYPE spoolflow_alarms_unacknowledged gauge\nspoolflow_alarms_unacknowledged {}\n",
+      there, unacknowledged);
+}
+
+}  // namespace
+
 std::string metrics_text(const Engine& engine) {
   struct Row {
     ValveView valve;
@@ -157,7 +174,7 @@ std::string metrics_text(const Engine& engine) {
   };
   std::vector<Row> rows;
   for (std::size_t k = 0; k < engine.size(); ++k) rows.push_back({engine.view(k), engine.source(k)});
-  std::string out;
+  std::string out = alarm_metrics(engine);
   const auto family = [&](const char* name, const char* type, const char* help, auto&& value) {
     out += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
     for (const Row& row : rows) {

@@ -180,7 +180,7 @@ export function scaled(value: number | null, factor: number): number | null {
 }
 
 /** "2026-11-22 10:30:05" of the reader's clock. */
-export function clock(time: string): string {
+export function clock(time: string | number): string {
   const at = new Date(time), two = (value: number): string => String(value).padStart(2, '0');
   return `${at.getFullYear()}-${two(at.getMonth() + 1)}-${two(at.getDate())} ` +
     `${two(at.getHours())}:${two(at.getMinutes())}:${two(at.getSeconds())}`;

@@ -1,6 +1,7 @@
 /** A figure over hours or days: its line, the band about it, what it is compared with, and when it was raised. */
 import uPlot from 'uplot';
 import { colour, paleColour } from '../colours';
+import { clock } from './api';
 import { element } from './element';
 
 type Column = (number | null)[];
@@ -52,12 +53,15 @@ export class HistoryPlot {
   private readonly room = element('div', 'room');
   private plot: uPlot | null = null;
   private curve: Curve | null = null;
+  private range: [number, number] | null = null;
 
   constructor(private readonly group: string) {
     this.place = element('figure', 'history', this.title, this.room);
   }
 
+  /** The range is kept where the reader has zoomed into the same span. */
   show(curve: Curve, from: number, to: number): void {
+    const zoom = this.zoomed(to - from);
     this.curve = curve;
     this.title.textContent = curve.title;
     const known = [...curve.middle].reverse().find((value) => value !== null) ?? null;
@@ -65,10 +69,18 @@ export class HistoryPlot {
     const data = [curve.times, curve.upper, curve.lower, curve.middle, curve.usual ?? curve.times.map(() => null)];
     if (this.plot === null) this.plot = this.made(data as uPlot.AlignedData);
     else this.plot.setData(data as uPlot.AlignedData, false);
-    this.plot.batch(() => {
-      this.plot!.setScale('x', { min: from, max: to });
-    });
+    this.plot.setScale('x', zoom ?? { min: from, max: to });
+    this.range = zoom === null ? [from, to] : this.range;
     this.resize();
+  }
+
+  private zoomed(span: number): { min: number; max: number } | null {
+    const min = this.plot?.scales['x']?.min, max = this.plot?.scales['x']?.max, times = this.curve?.times ?? [];
+    if (this.range === null || min == null || max == null) return null;
+    const [from, to] = this.range;
+    if (Math.abs((to - from) - span) > 0.1 * span) return null;  // another span was asked for
+    const whole = (min === from && max === to) || (min === times[0] && max === times[times.length - 1]);
+    return whole ? null : { min, max };
   }
 
   resize(): void {
@@ -140,6 +152,6 @@ export class HistoryPlot {
     const digits = (each: number | null | undefined): string =>
       each === null || each === undefined ? '–' : String(Number(each.toPrecision(4))).replace('-', '−');
     this.title.textContent = `${curve.title}: ${digits(value)} (${digits(curve.lower[k!])} to ${digits(curve.upper[k!])}), ` +
-      new Date(1000 * curve.times[k!]!).toLocaleString();
+      clock(curve.times[k!]! * 1000);
   }
 }

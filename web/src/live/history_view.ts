@@ -25,7 +25,7 @@ function curveOf(one: IndicatorHistory): Curve {
 
 function flowCurve(flow: FlowHistory): Curve {
   return {
-    title: 'mean flow [L/min]; shaded: the outermost ends of its band',
+    title: 'mean flow [L/min]',
     times: flow.time_ms.map((time) => time / 1000),
     middle: flow.flow_mean_L_min, lower: flow.flow_lower_L_min, upper: flow.flow_upper_L_min,
     usual: null, raised: flow.time_ms.map(() => false),
@@ -106,7 +106,7 @@ export class HistoryView {
     for (const one of indicators) {
       if (one.value.some((value) => value !== null)) curves.push([one.name, curveOf(one), 60]);
     }
-    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band; dashed: baseline; red: raised. Drag to zoom, double click to come back.'
+    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red: raised. Drag to zoom, double click to come back.'
       : 'Nothing is kept of this time. Indicators are kept once a minute where the program has a store.');
     for (const [name, plot] of this.plots) {
       if (curves.some(([own]) => own === name)) continue;
