@@ -25,7 +25,8 @@ async function bundled(entry, banner) {
   });
   return script.outputFiles[0].text;
 }
-const page = await bundled('src/page.ts', `/* Contains uPlot:\n${licence}\n*/`);
+const uplot = `/* Contains uPlot:\n${licence}\n*/`;
+const page = await bundled('src/page.ts', uplot);
 if (/<\/script|<!--/i.test(page)) throw new Error('the script would end the page’s <script> element');
 
 // The dark colours are written once: for systems that are dark, and for readers who chose dark on the page.
@@ -48,6 +49,6 @@ const minified = async (css) => (await esbuild.transform(css, { loader: 'css', m
 
 writeFileSync(join(folder, 'page.js'), page);
 writeFileSync(join(folder, 'page.css'), await minified(sheet));
-writeFileSync(join(folder, 'live.js'), await bundled('src/live/live.ts'));
-writeFileSync(join(folder, 'live.css'), await minified([...colours, read('src', 'live', 'live.css')].join('\n')));
+writeFileSync(join(folder, 'live.js'), await bundled('src/live/live.ts', uplot));
+writeFileSync(join(folder, 'live.css'), await minified([...colours, read('node_modules', 'uplot', 'dist', 'uPlot.min.css'), read('src', 'live', 'live.css')].join('\n')));
 writeFileSync(join(folder, 'live.html'), read('src', 'live', 'live.html'));

@@ -31,5 +31,6 @@ void add_analyse_command(CLI::App& program);
 void add_export_command(CLI::App& program);
 void add_live_command(CLI::App& program);
 void add_history_command(CLI::App& program);
+void add_account_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -1,8 +1,14 @@
-/// `spoolflow live`: valves at work, watched until the program is ended.
+/// `spoolflow live`: valves at work, watched until the program is ended; `spoolflow account`: who may see its page.
+#include <cctype>
 #include <csignal>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <pthread.h>
+#include <stdexcept>
 #include <string>
+#include <termios.h>
+#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +20,8 @@
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/live/engine.hpp"
+#include "spoolflow/live/page/plotjuggler.hpp"
+#include "spoolflow/live/page/secret_hash.hpp"
 #include "spoolflow/live/page/server.hpp"
 #include "spoolflow/recording/files/open_table.hpp"
 
@@ -44,7 +52,7 @@ int wait_for_the_end() {
   return number;
 }
 
-void tell_where(const live::Engine& engine, const live::Address& page) {
+void tell_where(const live::Engine& engine, const live::PageSettings& page) {
   for (std::size_t k = 0; k < engine.size(); ++k) {
     const live::SourceView source = engine.source(k);
     const auto* tcp = std::get_if<live::TcpSettings>(&engine.site().valves[k].source);
@@ -55,26 +63,106 @@ void tell_where(const live::Engine& engine, const live::Address& page) {
     say("datagrams over UDP at {}\n", live::Address{engine.site().udp->host, engine.udp_port()}.text());
   }
   if (engine.site().store.empty()) say("nothing is kept: name a file with --store\n");
-  say("{} valves; page at http://{}/ ; end with Ctrl-C\n", engine.size(), page.text());
+  say("{} valves; page at {}://{}/ ; end with Ctrl-C\n", engine.size(), page.has_tls() ? "https" : "http",
+      page.listen.text());
 }
 
 void live_command(const LiveArguments& arguments) {
   live::SiteSettings site = arguments.site.empty() ? live::demo_site() : live::read_site(arguments.site);
-  if (!arguments.listen.empty()) site.page = live::read_address(arguments.listen, "--listen");
+  if (!arguments.listen.empty()) site.page.listen = live::read_address(arguments.listen, "--listen");
   if (!arguments.store.empty()) site.store = arguments.store;
-  live::Address page = site.page;
+  live::PageSettings page = site.page;
+  live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   const auto nursery = recording::nursery_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
   engine.start();
   {
     const live::PageServer server(engine, page);
-    page.port = server.port();
+    std::optional<live::PlotJuggler> plotjuggler;
+    if (engine.site().plotjuggler) plotjuggler.emplace(engine, *engine.site().plotjuggler);
+    page.listen.port = server.port();
     tell_where(engine, page);
     wait_for_the_end();
   }
   engine.stop();
   say("ended; {}\n", engine.site().store.empty() ? "nothing was kept" : "what came until now is kept");
+}
+
+constexpr std::size_t shortest_password = 10, longest_password = 256, longest_account_name = 32;
+
+struct AccountArguments {
+  std::string name;
+  std::string role = "read";
+  bool token = false;
+};
+
+/// As long as it lives the terminal shows nothing of what is typed.
+class NoEcho {
+ public:
+  NoEcho() {
+    if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
+    termios silent = before_;
+    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+    changed_ = ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent) == 0;
+  }
+  ~NoEcho() {
+    if (changed_) ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
+  }
+  NoEcho(const NoEcho&) = delete;
+  NoEcho& operator=(const NoEcho&) = delete;
+
+ private:
+  termios before_{};
+  bool changed_ = false;
+};
+
+std::string line_of_input() {
+  std::string line;
+  if (!std::getline(std::cin, line)) throw std::invalid_argument("no password came in; it is read from standard input");
+  return line;
+}
+
+std::string typed(const char* question) {
+  say("{}", question);
+  std::string line;
+  {
+    const InterruptionPause held_back;  // or the terminal would stay silent
+    const NoEcho silence;
+    line = line_of_input();
+  }
+  say("\n");
+  return line;
+}
+
+std::string asked_password() {
+  const bool is_terminal = ::isatty(STDIN_FILENO) != 0;
+  std::string password = is_terminal ? typed("password (it is not shown): ") : line_of_input();
+  if (password.size() < shortest_password || password.size() > longest_password) {
+    throw std::invalid_argument(fmt::format("the password has {} bytes; it must have {} to {}", password.size(),
+                                            shortest_password, longest_password));
+  }
+  if (is_terminal && typed("once more: ") != password)
+    throw std::invalid_argument("the two passwords differ; try again");
+  return password;
+}
+
+void account_command(const AccountArguments& arguments) {
+  if (arguments.role != "read" && arguments.role != "acknowledge") {
+    throw std::invalid_argument(fmt::format("--role is read or acknowledge, not '{}'", arguments.role));
+  }
+  bool plain = !arguments.name.empty() && arguments.name.size() <= longest_account_name;
+  for (const char c : arguments.name) {
+    plain = plain && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-');
+  }
+  if (!plain) {
+    throw std::invalid_argument(fmt::format("the name '{}' must be 1 to {} letters, digits, '_' and '-'",
+                                            arguments.name, longest_account_name));
+  }
+  const std::string secret = arguments.token ? live::random_token() : asked_password();
+  if (arguments.token) say("token, shown this once: {}.{}\n", arguments.name, secret);
+  print("[[page.account]]\nname = \"{}\"\nrole = \"{}\"\nsecret = \"{}\"\n", arguments.name, arguments.role,
+        live::secret_hash(secret));
 }
 
 }  // namespace
@@ -99,6 +187,24 @@ void add_live_command(CLI::App& program) {
   command->add_option("--store", arguments->store, "file that keeps history and state, made where\nthere is none")
       ->type_name("FILE.sqlite");
   command->callback([arguments] { live_command(*arguments); });
+}
+
+void add_account_command(CLI::App& program) {
+  auto arguments = std::make_shared<AccountArguments>();
+  CLI::App* command = add_command(
+      program, {"account",
+                "make an account for the page of `spoolflow live`",
+                "a password of at least 10 bytes: typed, or the first line of standard input; with --token nothing",
+                "lines for the site's file, with a hash (scrypt) of the password or token; the token goes to\n"
+                "         standard error",
+                {"spoolflow account anna --role acknowledge >> site.toml",
+                 "spoolflow account prometheus --token >> site.toml"}});
+  command->add_option("name", arguments->name, "1 to 32 letters, digits, _ and -")->type_name("NAME")->required();
+  command->add_option("--role", arguments->role, "what it may do: read, or acknowledge alarms,\ntoo")
+      ->type_name("read|acknowledge")
+      ->capture_default_str();
+  command->add_flag("--token", arguments->token, "a token of 256 random bits for a program instead\nof a password");
+  command->callback([arguments] { account_command(*arguments); });
 }
 
 }  // namespace spoolflow::apps

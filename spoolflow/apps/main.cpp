@@ -40,6 +40,7 @@ void add_commands(CLI::App& program) {
   add_export_command(program);
   add_live_command(program);
   add_history_command(program);
+  add_account_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

@@ -43,7 +43,8 @@ struct Engine::Worker {
   }
 };
 
-Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)), program_(std::move(program)) {
+Engine::Engine(SiteSettings site, std::string program)
+    : site_(std::move(site)), program_(std::move(program)), alarms_(site_.alarms) {
   const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, site_.valves.size());
   for (std::size_t k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>());
   for (std::size_t k = 0; k < site_.valves.size(); ++k) {
@@ -59,6 +60,7 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
   if (site_.store.empty()) return;
   store_ = std::make_unique<Store>(site_.store);
   events_.restore(store_->events(static_cast<int>(Events::most)));
+  alarms_.restore(store_->alarms(Alarms::most_cleared));
   for (const KeptState& kept : store_->states()) {
     const auto same = std::find_if(valves_.begin(), valves_.end(),
                                    [&](const auto& place) { return place->valve->id() == kept.valve; });
@@ -192,6 +194,7 @@ void Engine::watch_for_events() {
       add("source", source_now.trouble);
     }
     place.told_trouble = source_now.trouble;
+    follow_alarms(place, valve, source_now.stalled);
     keep_raw_samples(place, valve, source_now.stalled || place.finished);
     if (valve.condition == place.told_condition) continue;
     std::string causes;
@@ -200,12 +203,39 @@ void Engine::watch_for_events() {
     }
     add("condition", fmt::format("NE 107 {} after {}{}", monitor::name(valve.condition),
                                  monitor::name(place.told_condition), causes));
-    if (valve.condition > place.told_condition && !place.alarm_s) {
-      place.alarm_s = valve.time_s;
-      place.alarm = fmt::format("NE 107 {}{}", monitor::name(valve.condition), causes);
-    }
     place.told_condition = valve.condition;
   }
+}
+
+void Engine::follow_alarms(Place& place, const ValveView& valve, bool stalled) {
+  const auto what = [](AlarmChange::Kind kind) {
+    return kind == AlarmChange::Kind::raised ? "raised" : kind == AlarmChange::Kind::worse ? "worse" : "gone";
+  };
+  for (const AlarmChange& change : alarms_.follow(valve, troubles_of(valve, stalled), wall_ms())) {
+    const Alarm& alarm = change.alarm;
+    events_.add(
+        {.wall_ms = wall_ms(),
+         .valve = valve.id,
+         .time_s = valve.time_s,
+         .kind = "alarm",
+         .text = fmt::format("alarm {} {}: {}, NE 107 {}", alarm.id, what(change.kind), alarm.cause, alarm.sign)});
+    // Where nothing comes there is nothing to look at.
+    if (change.kind == AlarmChange::Kind::gone || alarm.cause == no_samples) continue;
+    place.alarms.push_back(alarm.id);
+    if (place.alarm_s) continue;
+    place.alarm_s = valve.time_s;
+    place.alarm = fmt::format("alarm {}: {}", alarm.id, alarm.cause);
+  }
+}
+
+std::optional<Alarm> Engine::acknowledge(std::int64_t alarm, const std::string& by) {
+  std::optional<Alarm> found = alarms_.acknowledge(alarm, by, wall_ms());
+  if (!found) return found;
+  events_.add({.wall_ms = wall_ms(),
+               .valve = found->valve,
+               .kind = "alarm",
+               .text = fmt::format("alarm {} acknowledged by {}: {}", found->id, by, found->cause)});
+  return found;
 }
 
 /// Once those behind the alarm have come, too, or no more come.
@@ -216,9 +246,11 @@ void Engine::keep_raw_samples(Place& place, const ValveView& valve, bool nothing
   KeptRecording raw{.wall_ms = wall_ms(), .valve = valve.id, .why = place.alarm};
   raw.csv = place.valve->raw_csv(*place.alarm_s - site_.raw_before_s, *place.alarm_s + site_.raw_after_s);
   place.alarm_s.reset();
+  const std::vector<std::int64_t> alarms = std::exchange(place.alarms, {});
   if (raw.csv.empty()) return;
   try {
     const std::int64_t id = store_->keep_recording(raw);
+    for (const std::int64_t alarm : alarms) alarms_.name_recording(alarm, id);
     events_.add({.wall_ms = wall_ms(),
                  .valve = valve.id,
                  .time_s = valve.time_s,
@@ -233,12 +265,14 @@ void Engine::keep(bool with_indicators) {
   commits.reserve(valves_.size());
   for (const auto& place : valves_) commits.push_back(place->valve->take_commit(with_indicators));
   std::vector<Event> events = events_.unkept();
+  const std::vector<Alarm> alarms = alarms_.take_changed();
   std::string trouble;
   try {
-    store_->commit(wall_ms(), commits, events);
+    store_->commit(wall_ms(), commits, events, alarms);
     events_.kept(events);
   } catch (const StoreError& error) {
     trouble = error.what();
+    alarms_.give_back(alarms);
     for (std::size_t k = 0; k < commits.size(); ++k) valves_[k]->valve->give_back(commits[k].since_last);
   }
   const std::lock_guard lock(trouble_mutex_);
@@ -255,7 +289,10 @@ void Engine::keep_each_second(const std::stop_token& stop) {
     next += std::chrono::seconds(1);
     if (!wait_until(next, stop)) return;
     watch_for_events();
-    if (!store_) continue;
+    if (!store_) {
+      (void)alarms_.take_changed();  // so that those of long ago can go
+      continue;
+    }
     keep(second % indicators_every == 1);
     if (second % retention_every != 0) continue;
     try {

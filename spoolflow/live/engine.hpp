@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "spoolflow/live/alarms.hpp"
 #include "spoolflow/live/events.hpp"
 #include "spoolflow/live/site.hpp"
 #include "spoolflow/live/sources/csv_source.hpp"
@@ -49,6 +50,9 @@ class Engine {
   [[nodiscard]] ValveView view(std::size_t k) const;
   [[nodiscard]] SourceView source(std::size_t k) const;
   [[nodiscard]] std::vector<Event> events() const { return events_.all(); }
+  [[nodiscard]] std::vector<Alarm> alarms() const { return alarms_.all(); }
+  /// The alarm as it is then; nothing where there is none of this number. It is kept with the next second's commit.
+  std::optional<Alarm> acknowledge(std::int64_t alarm, const std::string& by);
   [[nodiscard]] UdpCounters udp_counters() const;
   [[nodiscard]] std::uint16_t udp_port() const { return udp_ ? udp_->port() : std::uint16_t{0}; }
   /// Why nothing is kept at present; empty where it is, or where it need not be.
@@ -71,6 +75,7 @@ class Engine {
     std::string told_trouble;
     std::optional<double> alarm_s{};  ///< by the source's clock; its raw samples are still to be kept
     std::string alarm{};
+    std::vector<std::int64_t> alarms{};  ///< that were raised since then
   };
 
   void start_source(std::size_t k);
@@ -78,6 +83,7 @@ class Engine {
   void keep(bool with_indicators);
   [[nodiscard]] bool ended(const Place& place) const;
   void watch_for_events();
+  void follow_alarms(Place& place, const ValveView& valve, bool stalled);
   void keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes);
 
   SiteSettings site_;
@@ -87,6 +93,7 @@ class Engine {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<UdpReceiver> udp_;
   Events events_;
+  Alarms alarms_;
   mutable std::mutex trouble_mutex_;
   std::string store_trouble_;
   std::jthread keeper_;

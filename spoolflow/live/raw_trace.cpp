@@ -72,7 +72,8 @@ void RawTrace::add(const estimation::TimedSample& sample) {
 
 std::string RawTrace::csv(double from_s, double to_s) const {
   std::vector<std::size_t> rows;
-  std::array<bool, columns.size()> measured{};
+  // Without current and position it would be no recording: where neither was measured, that is what there is to see.
+  std::array<bool, columns.size()> measured{true, false, true};
   for (std::size_t k = 0; k < count_; ++k) {
     const std::size_t at = (first_ + k) % time_s_.size();
     if (time_s_[at] < from_s || time_s_[at] > to_s) continue;

@@ -171,8 +171,16 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
     return TomlTable{*node->as_table(), top.file, fmt::format("[{}]", key)};
   };
   if (const auto page = part("page")) {
-    page->allow_only({"listen"});
-    if (const auto listen = page->optional_text("listen")) site.page = read_address(*listen, page->place("listen"));
+    site.page = read_page(*page);
+  }
+  if (const auto alarms = part("alarms")) {
+    alarms->allow_only({"raised_after_s", "gone_after_s"});
+    site.alarms.raised_after_s = not_negative(*alarms, "raised_after_s", site.alarms.raised_after_s);
+    site.alarms.gone_after_s = not_negative(*alarms, "gone_after_s", site.alarms.gone_after_s);
+  }
+  if (const auto plotjuggler = part("plotjuggler")) {
+    plotjuggler->allow_only({"send_to"});
+    site.plotjuggler = read_address(plotjuggler->text("send_to"), plotjuggler->place("send_to"));
   }
   if (const auto store = part("store")) {
     store->allow_only({"file", "keep_days", "largest_MB", "raw_before_s", "raw_after_s"});
@@ -225,7 +233,7 @@ std::string_view kind(const SourceSettings& source) {
 SiteSettings read_site(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
   const TomlTable top{document, file, "the file"};
-  top.allow_only({"page", "store", "sources", "valve"});
+  top.allow_only({"page", "store", "sources", "alarms", "plotjuggler", "valve"});
   SiteSettings site;
   read_parts(top, site);
   const toml::array* const valves = document["valve"].as_array();

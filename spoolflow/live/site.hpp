@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "spoolflow/live/alarms.hpp"
+#include "spoolflow/live/page_settings.hpp"
 #include "spoolflow/live/sources/replay_source.hpp"
 #include "spoolflow/live/sources/rig_source.hpp"
 #include "spoolflow/live/sources/socket.hpp"
@@ -35,7 +37,7 @@ struct ValveSettings {
 
 struct SiteSettings {
   std::vector<ValveSettings> valves{};
-  Address page{"127.0.0.1", 8080};
+  PageSettings page{};
   std::optional<Address> udp{};      ///< of all valves whose source is udp
   std::vector<std::string> allow{};  ///< addresses that may send samples; empty: any that can reach a loopback address
   double stalled_after_s = 1.0;      ///< without a sample
@@ -43,6 +45,8 @@ struct SiteSettings {
   Retention retention{};
   /// Raw samples around an alarm that are kept as a recording, where there is a store.
   double raw_before_s = 20, raw_after_s = 10;
+  AlarmDelays alarms{};
+  std::optional<Address> plotjuggler{};  ///< where plots go as JSON over UDP; nothing: nowhere
 };
 
 /// Reads the file, the models and valve files that it names. Throws RecordingError, SiteError, ModelError or

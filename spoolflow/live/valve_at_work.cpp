@@ -168,8 +168,8 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
   out.state.watch = bytes_of(watch_->state());
   if (!with_indicators) return out;
   for (const monitor::Indicator& one : watch_->indicators()) {
-    out.indicators.push_back(
-        {std::string(one.name), one.value, one.uncertainty_95, one.baseline, std::string(monitor::name(one.state))});
+    out.indicators.push_back({std::string(one.name), one.value, one.uncertainty_95, one.baseline,
+                              std::string(monitor::name(one.state)), std::string(one.unit)});
   }
   return out;
 }

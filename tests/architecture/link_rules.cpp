@@ -19,6 +19,7 @@ const std::map<std::string, std::string> library_of_target{
     {"hdf5::hdf5", "HDF5"},
     {"PkgConfig::MATIO", "matio"},
     {"OpenSSL::Crypto", "OpenSSL"},
+    {"OpenSSL::SSL", "OpenSSL"},
     {"Eigen3::Eigen", "Eigen"},
     {"Boost::headers", "Boost"},
     {"FastFloat::fast_float", "fast_float"},

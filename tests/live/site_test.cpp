@@ -59,7 +59,7 @@ source = { kind = "rig", valve = "size_6", seed = 4, ageing = { friction_factor 
 )");
   const SiteSettings site = read_site(path("site.toml"));
   ASSERT_EQ(site.valves.size(), 5U);
-  EXPECT_EQ(site.page.port, 9000);
+  EXPECT_EQ(site.page.listen.port, 9000);
   EXPECT_EQ(site.store, path("kept.sqlite"));
   EXPECT_EQ(site.retention.days, 7);
   EXPECT_EQ(site.stalled_after_s, 2.5);
@@ -92,6 +92,35 @@ TEST_F(SiteTest, SaysWhatIsWrongAndWhatToDo) {
   const std::string rig = "source = { kind = \"rig\" }\n";
   EXPECT_THAT(refused(rig, "[[valve]]\nid = \"press_1\"\nmodel = \"m.json\"\n" + rig),
               HasSubstr("two valves have the id"));
+}
+
+TEST_F(SiteTest, ReadsWhoMayComeIn) {
+  const std::string rig = "[[valve]]\nid = \"a\"\nmodel = \"m.json\"\nsource = { kind = \"rig\" }\n";
+  const std::string account = "[[page.account]]\nname = \"anna\"\nrole = \"acknowledge\"\nsecret = \"$scrypt$x\"\n";
+  const auto of = [&](const std::string& page) {
+    write("site.toml", page + rig);
+    return read_site(path("site.toml"));
+  };
+  const auto wrong = [&](const std::string& page) { return refusal([&] { (void)of(page); }); };
+  const SiteSettings site =
+      of("[page]\nlisten = \"0.0.0.0:8443\"\ncertificate = \"c.pem\"\nkey = \"k.pem\"\nnames = [\"valves.org\"]\n" +
+         account + "[alarms]\nraised_after_s = 0.5\n[plotjuggler]\nsend_to = \"127.0.0.1:9870\"\n");
+  EXPECT_EQ(site.page.certificate, path("c.pem"));
+  ASSERT_EQ(site.page.accounts.size(), 1U);
+  EXPECT_EQ(site.page.accounts[0].role, Role::acknowledge);
+  EXPECT_EQ(site.alarms.raised_after_s, 0.5);
+  EXPECT_EQ(site.plotjuggler->port, 9870);
+  EXPECT_NO_THROW(check_reach(site.page));
+  EXPECT_THAT(wrong("[page]\ncertificate = \"c.pem\"\n"), HasSubstr("name the other PEM file, too"));
+  EXPECT_THAT(wrong(account + account), HasSubstr("two accounts have the name 'anna'"));
+  EXPECT_THAT(wrong("[[page.account]]\nname = \"a\"\nrole = \"admin\"\nsecret = \"\"\n"),
+              HasSubstr("role is \"read\" or \"acknowledge\""));
+  EXPECT_THAT(wrong("[[page.account]]\nname = \"a\"\nrole = \"read\"\nsecret = \"hunter2\"\n"),
+              HasSubstr("is no hash of a password or token; make one with `spoolflow account a`"));
+  EXPECT_THAT(refusal([&] { check_reach(of("[page]\nlisten = \"0.0.0.0:1\"\n" + account).page); }),
+              HasSubstr("and a certificate is missing"));
+  EXPECT_THAT(refusal([&] { check_reach(of("[page]\nlisten = \"[::]:1\"\n").page); }),
+              HasSubstr("a certificate and an account is missing"));
 }
 
 TEST(DemoSite, HasEightValvesOfWhichThreeAge) {

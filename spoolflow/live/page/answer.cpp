@@ -1,16 +1,17 @@
 #include "spoolflow/live/page/answer.hpp"
 
-#include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "spoolflow/live/page/api_text.hpp"
 #include "spoolflow/live/page/page_files.hpp"
+#include "spoolflow/live/page/target.hpp"
 
 namespace spoolflow::live {
 namespace {
 
-constexpr std::string_view json = "application/json";
-constexpr std::string_view plain = "text/plain; charset=utf-8";
+using media::json;
+using media::plain;
 
 std::string page_file(std::string_view name) {
   for (const EmbeddedFile& file : page_files()) {
@@ -33,10 +34,40 @@ std::optional<std::int64_t> recording_asked(std::string_view path) {
 PageAnswer recording_answer(const Engine& engine, std::int64_t number) {
   const auto recording = engine.site().store.empty() ? std::nullopt : read_recording(engine.site().store, number);
   if (!recording) return {404, plain, "there is no recording of this number\n"};
-  return {200, "text/csv; charset=utf-8", recording->csv};
+  return {200, media::csv, recording->csv};
 }
 
 PageAnswer found(const Engine& engine, std::string_view path);
+
+std::optional<std::size_t> place_of(const Engine& engine, std::string_view id) {
+  for (std::size_t k = 0; k < engine.size(); ++k) {
+    if (engine.valve(k).id() == id) return k;
+  }
+  return std::nullopt;
+}
+
+/// /api/v1/valves/ID/indicators and /api/v1/valves/ID/history; nothing where it is neither.
+std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, std::string_view target) {
+  const auto indicators = valve_asked(path, "indicators");
+  const auto asked = indicators ? indicators : valve_asked(path, "history");
+  if (!asked) return std::nullopt;
+  const auto valve = place_of(engine, *asked);
+  if (!valve) return PageAnswer{404, plain, "there is no valve of this name\n"};
+  constexpr std::int64_t day_ms = 86'400'000;
+  const auto instant = [&](std::string_view key, std::int64_t otherwise) {
+    const auto text = query_value(target, key);
+    return text ? instant_ms(*text) : std::optional(otherwise);
+  };
+  const auto to_ms = instant("to", wall_ms());
+  const auto from_ms = instant("from", to_ms.value_or(0) - day_ms);
+  if (!to_ms || !from_ms || *from_ms >= *to_ms) {
+    return PageAnswer{400, plain,
+                      "from and to are instants such as 2026-11-22T10:30:00Z or seconds since 1970, from before to\n"};
+  }
+  const Span span{*from_ms, *to_ms};
+  return PageAnswer{
+      200, json, indicators ? indicator_history_json(engine, *valve, span) : flow_history_json(engine, *valve, span)};
+}
 
 }  // namespace
 
@@ -44,6 +75,7 @@ PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_
   if (method != "GET" && method != "HEAD") return {405, plain, "only GET is answered\n"};
   const std::string_view path = target.substr(0, target.find('?'));
   try {
+    if (auto days = days_of(engine, path, target)) return std::move(*days);
     return found(engine, path);
   } catch (const StoreError& error) {
     return {503, plain, std::string(error.what()) + "\n"};
@@ -58,6 +90,7 @@ PageAnswer found(const Engine& engine, std::string_view path) {
   if (path == "/live.css") return {200, "text/css; charset=utf-8", page_file("live.css")};
   if (path == "/api/v1/valves") return {200, json, valves_json(engine)};
   if (path == "/api/v1/events") return {200, json, events_json(engine)};
+  if (path == "/api/v1/alarms") return {200, json, alarms_json(engine)};
   if (path == "/api/v1/recordings") return {200, json, recordings_json(engine)};
   if (const auto number = recording_asked(path)) return recording_answer(engine, *number);
   if (path == "/api/v1/site") return {200, json, site_json(engine)};
@@ -69,28 +102,12 @@ PageAnswer found(const Engine& engine, std::string_view path) {
 }  // namespace
 
 std::optional<std::size_t> streamed_valve(const Engine& engine, std::string_view target) {
-  constexpr std::string_view before = "/api/v1/valves/", behind = "/stream";
-  if (!target.starts_with(before) || !target.ends_with(behind)) return std::nullopt;
-  if (target.size() <= before.size() + behind.size()) return std::nullopt;
-  const std::string_view id = target.substr(before.size(), target.size() - before.size() - behind.size());
-  for (std::size_t k = 0; k < engine.size(); ++k) {
-    if (engine.valve(k).id() == id) return k;
-  }
-  return std::nullopt;
+  const auto asked = valve_asked(target, "stream");
+  return asked ? place_of(engine, *asked) : std::nullopt;
 }
 
-bool is_own_host(std::string_view host) {
-  const std::size_t colon = host.rfind(':');
-  const bool has_port = colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;
-  const std::string_view name = has_port ? host.substr(0, colon) : host;
-  return name == "localhost" || name == "[::1]" ||
-         (name.starts_with("127.") && name.size() <= 15 &&
-          std::all_of(name.begin(), name.end(), [](char c) { return c == '.' || (c >= '0' && c <= '9'); }));
-}
-
-bool is_own_origin(std::string_view origin, std::string_view host) {
-  constexpr std::string_view scheme = "http://";
-  return origin.empty() || (origin.starts_with(scheme) && origin.substr(scheme.size()) == host);
+bool is_page_file(std::string_view path) {
+  return path == "/" || path == "/live.js" || path == "/live.css";
 }
 
 }  // namespace spoolflow::live

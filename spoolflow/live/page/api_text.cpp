@@ -1,39 +1,17 @@
 #include "spoolflow/live/page/api_text.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string_view>
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
+#include "spoolflow/live/page/json_text.hpp"
 #include "spoolflow/sensor/status.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::live {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using units::litre_per_minute_per_m3_per_s;
-
-/// JSON knows no NaN.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-/// With so many decimals: further digits tell no more than is known.
-Json rounded(double value, int decimals) {
-  const double power = std::pow(10.0, decimals);
-  return number(std::round(value * power) / power);
-}
-
-std::string utc(std::int64_t wall_ms) {
-  const std::chrono::sys_time<std::chrono::seconds> second{std::chrono::seconds(wall_ms / 1000)};
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(second)),
-                     wall_ms % 1000);
-}
 
 Json status_of(const ValveView& valve, const SourceView& source) {
   Json out = Json::array();
@@ -115,7 +93,7 @@ std::string label(const std::string& id) {
 std::string valves_json(const Engine& engine) {
   Json valves = Json::array();
   for (std::size_t k = 0; k < engine.size(); ++k) valves.push_back(valve_of(engine, k));
-  return Json{{"valves", std::move(valves)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return written(Json{{"valves", std::move(valves)}});
 }
 
 std::string events_json(const Engine& engine) {
@@ -128,10 +106,9 @@ std::string events_json(const Engine& engine) {
                    {"valve", event.valve},
                    {"time_s", rounded(event.time_s, 6)},
                    {"kind", event.kind},
-                   {"text", event.text},
-                   {"acknowledged", event.acknowledged_ms == 0 ? Json(nullptr) : Json(utc(event.acknowledged_ms))}});
+                   {"text", event.text}});
   }
-  return Json{{"events", std::move(out)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return written(Json{{"events", std::move(out)}});
 }
 
 std::string recordings_json(const Engine& engine) {
@@ -141,7 +118,7 @@ std::string recordings_json(const Engine& engine) {
       out.push_back({{"id", one.id}, {"time", utc(one.wall_ms)}, {"valve", one.valve}, {"why", one.why}});
     }
   }
-  return Json{{"recordings", std::move(out)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return written(Json{{"recordings", std::move(out)}});
 }
 
 std::string site_json(const Engine& engine) {
@@ -159,20 +136,36 @@ std::string site_json(const Engine& engine) {
     if (std::isfinite(power)) power_W += power;
   }
   const UdpCounters udp = engine.udp_counters();
-  return Json{{"valves", engine.size()},
-              {"stalled", stalled},
-              {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
-              {"hydraulic_power_W", rounded(power_W, 1)},
-              {"store", engine.site().store},
-              {"store_trouble", engine.store_trouble()},
-              {"udp",
-               {{"port", engine.udp_port()},
-                {"datagrams", udp.datagrams},
-                {"unreadable", udp.unreadable},
-                {"unknown_valve", udp.unknown_valve},
-                {"not_allowed", udp.not_allowed}}}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return written(Json{{"valves", engine.size()},
+                      {"stalled", stalled},
+                      {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
+                      {"hydraulic_power_W", rounded(power_W, 1)},
+                      {"store", engine.site().store},
+                      {"store_trouble", engine.store_trouble()},
+                      {"udp",
+                       {{"port", engine.udp_port()},
+                        {"datagrams", udp.datagrams},
+                        {"unreadable", udp.unreadable},
+                        {"unknown_valve", udp.unknown_valve},
+                        {"not_allowed", udp.not_allowed}}}});
 }
+
+namespace {
+
+std::string alarm_metrics(const Engine& engine) {
+  std::size_t there = 0, unacknowledged = 0;
+  for (const Alarm& alarm : engine.alarms()) {
+    if (alarm.gone_ms == 0) ++there;
+    if (alarm.acknowledged_ms == 0) ++unacknowledged;
+  }
+  return fmt::format(
+      "# HELP spoolflow_alarms_raised Alarms that are not gone.\n# TYPE spoolflow_alarms_raised gauge\n"
+      "spoolflow_alarms_raised {}\n# HELP spoolflow_alarms_unacknowledged Alarms that nobody has acknowledged.\n"
+      "# TYPE spoolflow_alarms_unacknowledged gauge\nspoolflow_alarms_unacknowledged {}\n",
+      there, unacknowledged);
+}
+
+}  // namespace
 
 std::string metrics_text(const Engine& engine) {
   struct Row {
@@ -181,7 +174,7 @@ std::string metrics_text(const Engine& engine) {
   };
   std::vector<Row> rows;
   for (std::size_t k = 0; k < engine.size(); ++k) rows.push_back({engine.view(k), engine.source(k)});
-  std::string out;
+  std::string out = alarm_metrics(engine);
   const auto family = [&](const char* name, const char* type, const char* help, auto&& value) {
     out += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
     for (const Row& row : rows) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The page and its interface over HTTP/1.1 and WebSocket, read only.
+/// The page and its interface over HTTP/1.1 and WebSocket, with TLS where a certificate is named.
 #include <cstdint>
 #include <memory>
 
@@ -9,10 +9,10 @@ namespace spoolflow::live {
 
 class PageServer {
  public:
-  /// Serves from a thread of its own until it is destroyed. The engine must outlive it and have started. Throws
-  /// SiteError where the address is in use, or is one that other machines reach: that would need TLS and a token, which
-  /// are not there yet.
-  PageServer(const Engine& engine, const Address& address);
+  /// Serves from threads of its own until it is destroyed. The engine must outlive it and have started. Throws
+  /// SiteError where the address is in use, where certificate or key cannot be used, and where other machines would
+  /// reach a page without TLS and accounts.
+  PageServer(Engine& engine, const PageSettings& settings);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;

@@ -74,6 +74,7 @@ void prepare(Database& database) {
         fmt::format("{} PRAGMA application_id={}; PRAGMA user_version={};", schema, application_id, store_version));
     whole.commit();
   }
+  make_alarm_tables(database);
   // The whole of a large one would take minutes; damage is then told where it is met.
   constexpr std::int64_t most_pages = 50'000;
   if (database.number("PRAGMA page_count") > most_pages) return;
@@ -84,13 +85,6 @@ void prepare(Database& database) {
                     ".recover`, and name another file",
                     database.path(), check.text(0)));
   }
-}
-
-Database opened_to_read(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw StoreError(fmt::format("{}: there is no such file", path));
-  Database database(path, Database::Access::read);
-  check_version(database);
-  return database;
 }
 
 std::vector<std::byte> copied(std::span<const std::byte> bytes) {
@@ -151,7 +145,8 @@ std::int64_t Store::number_of(const std::string& valve) {
   return statements_->numbers[valve] = database_->number("SELECT last_insert_rowid()");
 }
 
-void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events) {
+void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+                   const std::vector<Alarm>& alarms) {
   Transaction whole(*database_);
   Statements& to = *statements_;
   for (const ValveCommit& valve : valves) {
@@ -179,6 +174,7 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
     to.event.put(std::string_view(event.text)).put(event.acknowledged_ms).run();
     event.id = database_->number("SELECT last_insert_rowid()");
   }
+  keep_alarms(*database_, alarms);
   try {
     whole.commit();
   } catch (...) {
@@ -216,6 +212,7 @@ void Store::retain(std::int64_t wall_ms, const Retention& retention) {
     Statement(*database_, "DELETE FROM indicator WHERE wall_ms < ?").put(oldest_ms).run();
     Statement(*database_, "DELETE FROM recording WHERE wall_ms < ?").put(oldest_ms).run();
     Statement(*database_, "DELETE FROM event WHERE wall_ms < ?").put(oldest_ms).run();
+    delete_alarms(*database_, oldest_ms);
     whole.commit();
   };
   delete_before(wall_ms - static_cast<std::int64_t>(retention.days * 86400e3));
@@ -246,8 +243,15 @@ void Store::retain(std::int64_t wall_ms, const Retention& retention) {
   }
 }
 
+Database open_store_to_read(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw StoreError(fmt::format("{}: there is no such file", path));
+  Database database(path, Database::Access::read);
+  check_version(database);
+  return database;
+}
+
 std::vector<KeptRecording> list_recordings(const std::string& path, int most) {
-  Database database = opened_to_read(path);
+  Database database = open_store_to_read(path);
   std::vector<KeptRecording> out;
   Statement each(database, "SELECT id, wall_ms, valve, why FROM recording ORDER BY id DESC LIMIT ?");
   each.put(std::int64_t{most});
@@ -256,7 +260,7 @@ std::vector<KeptRecording> list_recordings(const std::string& path, int most) {
 }
 
 std::optional<KeptRecording> read_recording(const std::string& path, std::int64_t id) {
-  Database database = opened_to_read(path);
+  Database database = open_store_to_read(path);
   Statement one(database, "SELECT id, wall_ms, valve, why, csv FROM recording WHERE id = ?");
   one.put(id);
   if (!one.next()) return std::nullopt;
@@ -265,7 +269,7 @@ std::optional<KeptRecording> read_recording(const std::string& path, std::int64_
 
 void read_history(const std::string& path, const std::string& valve, std::int64_t from_ms, std::int64_t to_ms,
                   const std::function<void(const HistoryRow&)>& each) {
-  Database database = opened_to_read(path);
+  Database database = open_store_to_read(path);
   std::vector<std::string> known;
   std::optional<std::int64_t> number;
   Statement valves(database, "SELECT id, number FROM valve ORDER BY id");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/live/store/alarm_table.hpp"
 #include "spoolflow/live/store/sqlite.hpp"
 
 namespace spoolflow::live {
@@ -23,12 +24,6 @@ struct Summary {
   double lower_min_m3_per_s = 0, upper_max_m3_per_s = 0;  ///< ends of the 95 % band
   double energy_J = 0;                                    ///< hydraulic, through the edge
   std::uint32_t status = 0;                               ///< bits that were set at least once
-};
-
-struct KeptIndicator {
-  std::string name;
-  double value, uncertainty_95, baseline;
-  std::string state;
 };
 
 /// From where a valve goes on.
@@ -52,7 +47,7 @@ struct Event {
   std::int64_t wall_ms = 0;  ///< since 1970-01-01 UTC
   std::string valve{};
   double time_s = 0;  ///< by the source's clock
-  std::string kind;   ///< "condition", "source", "recording", "program"
+  std::string kind;   ///< "alarm", "condition", "source", "recording", "program"
   std::string text{};
   std::int64_t acknowledged_ms = 0;  ///< 0: not yet
 };
@@ -85,9 +80,12 @@ class Store {
 
   [[nodiscard]] std::vector<KeptState> states();
   /// One transaction. Throws StoreError, and then nothing of it is kept.
-  void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events);
+  void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+              const std::vector<Alarm>& alarms = {});
   /// The newest, ascending by id.
   [[nodiscard]] std::vector<Event> events(int most);
+  /// As kept_alarms().
+  [[nodiscard]] std::vector<Alarm> alarms(int most_cleared) { return kept_alarms(*database_, most_cleared); }
   /// Returns its number. Throws StoreError.
   std::int64_t keep_recording(const KeptRecording& recording);
   /// Deletes what is older or more than that.
@@ -101,6 +99,9 @@ class Store {
   std::unique_ptr<Database> database_;
   std::unique_ptr<Statements> statements_;
 };
+
+/// Works while another program writes. Throws StoreError where the file is no store of this version.
+[[nodiscard]] Database open_store_to_read(const std::string& path);
 
 /// The newest recordings without their samples, newest first. Throws StoreError as read_history() does.
 [[nodiscard]] std::vector<KeptRecording> list_recordings(const std::string& path, int most);

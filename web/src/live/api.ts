@@ -17,7 +17,7 @@ export interface Valve {
   pressure_difference_bar: number | null;
   rated_flow_L_min: number;
   status: string[];
-  ne107: 'good' | 'M' | 'S' | 'C' | 'F';
+  ne107: Sign;
   causes: { cause: string; odds: number | null }[];
   samples: number;
   energy_J: number | null;
@@ -28,13 +28,30 @@ export interface Valve {
   };
 }
 
+export type Sign = 'good' | 'M' | 'S' | 'C' | 'F';
+
 export interface SiteEvent {
   id: number;
   time: string;
   valve: string;
   kind: string;
   text: string;
+}
+
+export interface Alarm {
+  id: number;
+  valve: string;
+  cause: string;
+  ne107: Sign;
+  state: 'raised_unacknowledged' | 'raised_acknowledged' | 'gone_unacknowledged' | 'cleared';
+  raised: string;
+  times: number;
+  gone: string | null;
   acknowledged: string | null;
+  acknowledged_by: string | null;
+  text: string;
+  recording: number | null;
+  indicators: Indicator[];
 }
 
 export interface Recording {
@@ -51,36 +68,120 @@ export interface Site {
   hydraulic_power_W: number | null;
   store: string;
   store_trouble: string;
+  udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number };
 }
 
-async function read<T>(path: string): Promise<T> {
-  const answer = await fetch(path, { cache: 'no-store', signal: AbortSignal.timeout(5000) });
-  if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+export interface Session {
+  account: string | null;
+  role: 'none' | 'read' | 'acknowledge';
+  accounts: boolean;
+}
+
+/** All of one second. */
+export interface Told {
+  valves: Valve[];
+  events: SiteEvent[];
+  alarms: Alarm[];
+  site: Site;
+}
+
+type Column = (number | null)[];
+export interface IndicatorHistory {
+  name: string;
+  unit: string;
+  time_ms: number[];
+  value: Column;
+  smallest: Column;
+  largest: Column;
+  uncertainty_95: Column;
+  baseline: Column;
+  raised: boolean[];
+}
+export interface FlowHistory {
+  time_ms: number[];
+  flow_mean_L_min: Column;
+  flow_min_L_min: Column;
+  flow_max_L_min: Column;
+  flow_lower_L_min: Column;
+  flow_upper_L_min: Column;
+  power_W: Column;
+}
+
+/** An answer that is none of what was asked for. */
+export class Refusal extends Error {
+  constructor(readonly status: number, text: string) {
+    super(text);
+  }
+}
+
+async function answered<T>(path: string, options: RequestInit): Promise<T> {
+  const answer = await fetch(path, { cache: 'no-store', signal: AbortSignal.timeout(10000), ...options });
+  if (!answer.ok) throw new Refusal(answer.status, (await answer.text()).trim());
   return await answer.json() as T;
 }
+const read = <T>(path: string): Promise<T> => answered<T>(path, {});
+const post = <T>(path: string, body: unknown = {}): Promise<T> =>
+  answered<T>(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
 
-export const readValves = async (): Promise<Valve[]> => (await read<{ valves: Valve[] }>('/api/v1/valves')).valves;
-export const readEvents = async (): Promise<SiteEvent[]> => (await read<{ events: SiteEvent[] }>('/api/v1/events')).events;
+export async function readAll(): Promise<Told> {
+  const [valves, events, alarms, site] = await Promise.all([
+    read<{ valves: Valve[] }>('/api/v1/valves'), read<{ events: SiteEvent[] }>('/api/v1/events'),
+    read<{ alarms: Alarm[] }>('/api/v1/alarms'), read<Site>('/api/v1/site')]);
+  return { valves: valves.valves, events: events.events, alarms: alarms.alarms, site };
+}
 export const readRecordings = async (): Promise<Recording[]> =>
   (await read<{ recordings: Recording[] }>('/api/v1/recordings')).recordings;
-export const readSite = (): Promise<Site> => read<Site>('/api/v1/site');
+export const readSession = (): Promise<Session> => read<Session>('/api/v1/session');
+export const logIn = (name: string, password: string): Promise<Session> => post<Session>('/api/v1/login', { name, password });
+export const logOut = (): Promise<Session> => post<Session>('/api/v1/logout');
+export const acknowledge = (id: number): Promise<Alarm> => post<Alarm>(`/api/v1/alarms/${id}/acknowledge`);
+
+function since(id: string, what: string, seconds: number): string {
+  const now = Date.now() / 1000;
+  return `/api/v1/valves/${encodeURIComponent(id)}/${what}?from=${(now - seconds).toFixed(0)}&to=${(now + 1).toFixed(0)}`;
+}
+export const readIndicators = async (id: string, seconds: number): Promise<IndicatorHistory[]> =>
+  (await read<{ indicators: IndicatorHistory[] }>(since(id, 'indicators', seconds))).indicators;
+export const readFlow = (id: string, seconds: number): Promise<FlowHistory> => read<FlowHistory>(since(id, 'history', seconds));
 
 /** Each sign of NAMUR NE 107 in words. */
-export const signs: Record<Valve['ne107'], string> = {
+export const signs: Record<Sign, string> = {
   good: 'good',
   M: 'maintenance required',
   S: 'out of specification',
   C: 'function check',
   F: 'failure',
 };
+export const severity: Record<Sign, number> = { good: 0, M: 1, S: 2, C: 3, F: 4 };
 
 export function figure(value: number | null, digits: number): string {
-  return value === null ? '–' : value.toFixed(digits);
+  return value === null ? '–' : value.toFixed(digits).replace(/^-/, '−');
 }
 
 /** Four digits that matter, for figures of any size. */
 export function short(value: number | null): string {
   if (value === null) return '–';
   const size = Math.abs(value);
-  return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(3) : String(Number(value.toPrecision(4)));
+  const text = size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(2) : String(Number(value.toPrecision(4)));
+  return text.replace(/-/g, '−');
+}
+
+export const words = (name: string): string => name.replace(/_/g, ' ');
+
+/** Of an indicator as people write it: micrometres for wear, percent for shares of turns. */
+export function inUnit(one: { name: string; unit: string }): { factor: number; unit: string } {
+  if (one.unit === 'm' && !one.name.startsWith('distance')) return { factor: 1e6, unit: 'µm' };
+  if (one.name.startsWith('shorted_turns')) return { factor: 100, unit: '%' };
+  if (one.unit === 'Ohm') return { factor: 1, unit: 'Ω' };
+  return { factor: 1, unit: one.unit === '1' ? '' : one.unit === 'm3' ? 'm³' : one.unit };
+}
+export function scaled(value: number | null, factor: number): number | null {
+  return value === null ? null : value * factor;
+}
+
+/** "2026-11-22 10:30:05" of the reader's clock. */
+export function clock(time: string | number): string {
+  const at = new Date(time), two = (value: number): string => String(value).padStart(2, '0');
+  return `${at.getFullYear()}-${two(at.getMonth() + 1)}-${two(at.getDate())} ` +
+    `${two(at.getHours())}:${two(at.getMinutes())}:${two(at.getSeconds())}`;
 }

@@ -1,8 +1,28 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
-import { figure, short, signs, type SiteEvent, type Valve } from './api';
+import { AlarmList } from './alarm_list';
+import { figure, inUnit, scaled, severity, short, signs, words, type Indicator, type Told, type Valve } from './api';
 import { element, setText } from './element';
+import { EventList } from './event_list';
 
 const history = 120;
+
+/** How far it lies from what is usual, in its own uncertainty. */
+function distance(one: Indicator): number {
+  if (one.value === null || one.baseline === null || !(one.uncertainty_95 !== null && one.uncertainty_95 > 0)) return -1;
+  return Math.abs(one.value - one.baseline) / one.uncertainty_95;
+}
+
+/** Of those that are judged: raised ones before all others, then the one that is farthest from what is usual. */
+export function worstOf(valve: Valve): Indicator | undefined {
+  let worst: Indicator | undefined;
+  for (const one of valve.indicators) {
+    if (one.state !== 'raised' && one.state !== 'good') continue;
+    if (one.state === 'good' && /^(winding|coil_resistance|closed_position)/.test(one.name)) continue;  // no chart judges them
+    const rank = (each: Indicator): number => (each.state === 'raised' ? 1e6 : 0) + distance(each);
+    if (distance(one) >= 0 && (worst === undefined || rank(one) > rank(worst))) worst = one;
+  }
+  return worst;
+}
 
 class Card {
   readonly link = element('a', 'card');
@@ -22,7 +42,7 @@ class Card {
     picture.setAttribute('aria-hidden', 'true');
     this.line = document.createElementNS('http://www.w3.org/2000/svg', 'path');
     picture.append(this.line);
-    this.link.append(element('span', 'name', id), this.sign, this.flow, this.band, picture, this.worst);
+    this.link.append(element('span', 'top', element('span', 'name', id), this.sign), this.flow, this.band, picture, this.worst);
   }
 
   show(valve: Valve): void {
@@ -31,15 +51,21 @@ class Card {
     this.link.dataset['stalled'] = String(valve.source.stalled);
     setText(this.flow, `${figure(valve.flow_L_min, 2)} L/min`);
     setText(this.band, `${figure(valve.flow_lower_L_min, 2)} to ${figure(valve.flow_upper_L_min, 2)}`);
-    const raised = valve.indicators.find((one) => one.state === 'raised');
-    setText(this.worst, valve.source.stalled ? 'no samples'
-      : raised !== undefined ? `${raised.name.replace(/_/g, ' ')} ${short(raised.value)} ${raised.unit}`
-      : valve.status.join(', '));
+    setText(this.worst, this.said(valve));
+    this.worst.dataset['raised'] = String(valve.indicators.some((one) => one.state === 'raised'));
     this.flows.push(valve.flow_L_min ?? 0);
     if (this.flows.length > history) this.flows.shift();
-    const full = Math.max(1e-9, ...this.flows.map(Math.abs));
-    this.line.setAttribute('d', this.flows.map((flow, k) =>
-      `${k === 0 ? 'M' : 'L'}${k + history - this.flows.length} ${(23 - 22 * Math.abs(flow) / full).toFixed(1)}`).join(''));
+    const lowest = Math.min(0, ...this.flows), highest = Math.max(0.02 * valve.rated_flow_L_min, ...this.flows);
+    this.line.setAttribute('d', this.flows.map((flow, k) => `${k === 0 ? 'M' : 'L'}${k + history - this.flows.length} ` +
+      `${(23 - 22 * (flow - lowest) / (highest - lowest)).toFixed(1)}`).join(''));
+  }
+
+  private said(valve: Valve): string {
+    if (valve.source.stalled) return `no samples${valve.source.trouble === '' ? '' : `: ${valve.source.trouble}`}`;
+    const worst = worstOf(valve);
+    if (worst === undefined) return valve.status.length > 0 ? valve.status.map(words).join(', ') : 'nothing judged yet';
+    const { factor, unit } = inUnit(worst);
+    return `${words(worst.name)} ${short(scaled(worst.value, factor))} ± ${short(scaled(worst.uncertainty_95, factor))} ${unit}`;
   }
 }
 
@@ -47,31 +73,67 @@ export class Overview {
   readonly place = element('div', '');
   private readonly cards = new Map<string, Card>();
   private readonly grid = element('section', 'cards');
-  private readonly events = element('ul', 'events');
+  private readonly alarms = new AlarmList((alarm) => alarm.state !== 'cleared' && alarm.state !== 'raised_acknowledged', 3);
+  private readonly events = new EventList(30);
+  private readonly wanted = element('input', '');
+  private readonly worstFirst = element('input', '');
+  private readonly count = element('span', 'count');
+  private told: Told | null = null;
 
   constructor() {
     this.grid.setAttribute('aria-label', 'valves');
-    this.place.append(this.grid, element('h2', '', 'Events'), this.events);
+    this.wanted.type = 'search';
+    this.wanted.placeholder = 'name, sign or cause';
+    this.worstFirst.type = 'checkbox';
+    this.wanted.addEventListener('input', () => this.arrange());
+    this.worstFirst.addEventListener('change', () => this.arrange());
+    this.grid.addEventListener('keydown', (event) => this.move(event));
+    const tools = element('div', 'tools', element('label', '', 'Show ', this.wanted),
+                          element('label', '', this.worstFirst, ' worst first'), this.count);
+    this.place.append(this.alarms.place, tools, this.grid, element('h2', '', 'Events'), this.events.place);
   }
 
-  show(valves: readonly Valve[], events: readonly SiteEvent[]): void {
-    for (const valve of valves) {
+  show(told: Told): void {
+    this.told = told;
+    for (const valve of told.valves) {
       let card = this.cards.get(valve.id);
       if (card === undefined) {
         card = new Card(valve.id);
         this.cards.set(valve.id, card);
-        this.grid.append(card.link);
       }
       card.show(valve);
     }
-    showEvents(this.events, events.slice(0, 50));
+    this.arrange();
+    this.alarms.show(told.alarms);
+    this.events.show(told.events);
   }
-}
 
-export function showEvents(place: HTMLElement, events: readonly SiteEvent[]): void {
-  const lines = events.map((event) => `${event.time.replace('T', ' ').slice(0, 19)} UTC  ${event.valve}  ${event.text}`);
-  const newest = lines.join('\n');
-  if (place.dataset['shown'] === newest) return;
-  place.dataset['shown'] = newest;
-  place.replaceChildren(...(lines.length > 0 ? lines : ['none yet']).map((line) => element('li', '', line)));
+  /** The cards that are asked for, in their order; the page is touched where that changes. */
+  private arrange(): void {
+    if (this.told === null) return;
+    const asked = this.wanted.value.trim().toLowerCase();
+    const fits = (valve: Valve): boolean => asked === '' || valve.id.toLowerCase().includes(asked) ||
+      signs[valve.ne107].includes(asked) || valve.causes.some((one) => words(one.cause).includes(asked));
+    const shown = this.told.valves.filter(fits);
+    if (this.worstFirst.checked) shown.sort((a, b) => severity[b.ne107] - severity[a.ne107]);
+    setText(this.count, `${shown.length} of ${this.told.valves.length} valves`);
+    const links = shown.map((valve) => this.cards.get(valve.id)!.link);
+    if (links.length === this.grid.children.length && links.every((link, k) => this.grid.children[k] === link)) return;
+    const focused = document.activeElement;
+    this.grid.replaceChildren(...links);
+    if (focused instanceof HTMLElement && this.grid.contains(focused)) focused.focus();
+  }
+
+  /** Arrows go from card to card. */
+  private move(event: KeyboardEvent): void {
+    const links = [...this.grid.children] as HTMLElement[];
+    const at = links.indexOf(document.activeElement as HTMLElement);
+    if (at < 0) return;
+    const columns = Math.max(1, links.filter((link) => link.offsetTop === links[0]!.offsetTop).length);
+    const steps: Record<string, number> = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: columns, ArrowUp: -columns };
+    const next = links[event.key === 'Home' ? 0 : event.key === 'End' ? links.length - 1 : at + (steps[event.key] ?? NaN)];
+    if (next === undefined) return;
+    event.preventDefault();
+    next.focus();
+  }
 }

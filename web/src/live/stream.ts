@@ -53,7 +53,7 @@ export class Stream {
   }
 
   private open(): void {
-    const socket = new WebSocket(`ws://${location.host}/api/v1/valves/${encodeURIComponent(this.id)}/stream`);
+    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/api/v1/valves/${encodeURIComponent(this.id)}/stream`);
     socket.binaryType = 'arraybuffer';
     socket.onmessage = (message) => this.take(message.data as ArrayBuffer);
     socket.onopen = () => {

@@ -1,7 +1,9 @@
-/** One valve: its plot as it comes, what its monitor says, and how its source fares. */
-import { figure, readRecordings, short, signs, type SiteEvent, type Valve } from './api';
+/** One valve: its plot as it comes, what its monitor says, days of it, and how its source fares. */
+import { AlarmList } from './alarm_list';
+import { clock, figure, inUnit, readRecordings, scaled, short, signs, words, type Told, type Valve } from './api';
 import { element, row, setText } from './element';
-import { showEvents } from './overview';
+import { EventList } from './event_list';
+import { HistoryView } from './history_view';
 import { Plot } from './plot';
 import { Stream } from './stream';
 
@@ -16,20 +18,25 @@ export class ValveView {
   private readonly status = element('p', 'status');
   private readonly causes = element('p', 'causes');
   private readonly stale = element('p', 'stale', 'No new samples: what is shown is old.');
+  private readonly alarms: AlarmList;
   private readonly indicators = element('tbody', '');
+  private readonly days: HistoryView;
   private readonly source = element('p', 'source');
-  private readonly events = element('ul', 'events');
+  private readonly events = new EventList(50);
   private readonly recordings = element('ul', 'events');
   private frame = 0;
   private asked = -Infinity;
   private readonly watch: number;
 
   constructor(private readonly id: string) {
+    this.alarms = new AlarmList((alarm) => alarm.valve === id && alarm.state !== 'cleared');
+    this.days = new HistoryView(id);
     const head = element('thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'unit', 'state'));
-    this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.stale, this.plot.canvas,
-                      element('h3', '', 'Indicators'), element('div', 'wide', element('table', '', head, this.indicators)),
-                      element('h3', '', 'Source'), this.source, element('h3', '', 'Events'), this.events,
-                      element('h3', '', 'Raw samples around alarms'), this.recordings);
+    this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.alarms.place, this.stale,
+                      this.plot.canvas, element('h3', '', 'Indicators'),
+                      element('div', 'wide', element('table', '', head, this.indicators)), this.days.place,
+                      element('h3', '', 'Source'), this.source, element('h3', '', 'Raw samples around alarms'), this.recordings,
+                      element('h3', '', 'Events'), this.events.place);
     this.stale.hidden = true;
     this.stream = new Stream(id, () => this.redraw());
     this.watch = window.setInterval(() => {
@@ -40,6 +47,7 @@ export class ValveView {
 
   close(): void {
     this.stream.close();
+    this.days.close();
     clearInterval(this.watch);
     cancelAnimationFrame(this.frame);
   }
@@ -48,24 +56,26 @@ export class ValveView {
     cancelAnimationFrame(this.frame);
     this.frame = requestAnimationFrame(() => this.plot.draw(this.stream.points));
   }
+  resize(): void {
+    this.redraw();
+    this.days.resize();
+  }
+  recolour(): void {
+    this.redraw();
+    this.days.redraw();
+  }
 
-  show(valves: readonly Valve[], events: readonly SiteEvent[]): void {
+  show({ valves, events, alarms }: Told): void {
     const valve = valves.find((one) => one.id === this.id);
     if (valve === undefined) {
       setText(this.figures, 'There is no valve of this name at this site.');
       return;
     }
-    setText(this.sign, signs[valve.ne107]);
-    this.sign.dataset['sign'] = valve.ne107;
-    setText(this.figures, `${figure(valve.flow_L_min, 3)} L/min (95 %: ${figure(valve.flow_lower_L_min, 3)} to ` +
-      `${figure(valve.flow_upper_L_min, 3)}), ${figure(valve.pressure_difference_bar, 1)} bar; ` +
-      `${valve.samples.toLocaleString('en')} samples, ${figure((valve.energy_J ?? 0) / 3.6e6, 4)} kWh through the edge`);
-    setText(this.status, valve.status.length > 0 ? `Status: ${valve.status.join(', ')}` : 'Status: all is well');
-    setText(this.causes, valve.causes.length > 0
-      ? `Likely: ${valve.causes.map((one) => `${one.cause.replace(/_/g, ' ')} (odds ${short(one.odds)})`).join(', ')}` : '');
+    this.showAnswer(valve);
     this.indicators.replaceChildren(...valve.indicators.map((one) => {
-      const line = row('td', one.name.replace(/_/g, ' '), short(one.value), short(one.uncertainty_95), short(one.baseline),
-                       one.unit, one.state);
+      const { factor, unit } = inUnit(one);
+      const line = row('td', words(one.name), short(scaled(one.value, factor)), short(scaled(one.uncertainty_95, factor)),
+                       short(scaled(one.baseline, factor)), unit, one.state);
       line.dataset['state'] = one.state;
       return line;
     }));
@@ -73,18 +83,35 @@ export class ValveView {
     setText(this.source, `${of.kind}${of.port === undefined ? '' : `, port ${of.port}`}: ${of.received} samples received, ` +
       `${of.dropped} dropped, ${of.lost} lost, ${of.repeated} repeated, ${of.unreadable} unreadable lines, ` +
       `${of.connections} connections${of.trouble === '' ? '' : `; ${of.trouble}`}`);
-    showEvents(this.events, events.filter((event) => event.valve === this.id).slice(0, 50));
+    this.alarms.show(alarms);
+    this.events.show(events.filter((event) => event.valve === this.id));
+    this.days.follow();
     if (performance.now() - this.asked > 5000) void this.showRecordings();
+  }
+
+  private showAnswer(valve: Valve): void {
+    setText(this.sign, signs[valve.ne107]);
+    this.sign.dataset['sign'] = valve.ne107;
+    const power = valve.flow_L_min === null || valve.pressure_difference_bar === null ? null
+      : Math.abs(valve.flow_L_min) * valve.pressure_difference_bar / 600;  // L/min times bar in kW
+    setText(this.figures, `${figure(valve.flow_L_min, 2)} L/min (95 %: ${figure(valve.flow_lower_L_min, 2)} to ` +
+      `${figure(valve.flow_upper_L_min, 2)}), ${figure(valve.pressure_difference_bar, 1)} bar, ${figure(power, 3)} kW; ` +
+      `${valve.samples.toLocaleString('en')} samples, ${figure((valve.energy_J ?? 0) / 3.6e6, 4)} kWh through the edge`);
+    setText(this.status, valve.status.length > 0 ? `Status: ${valve.status.map(words).join(', ')}` : 'Status: all is well');
+    const likely = valve.causes.map((one) => `${words(one.cause)} (odds ${short(one.odds)})`).join(', ');
+    const raised = valve.indicators.some((one) => one.state === 'raised');
+    setText(this.causes, likely === '' ? '' : `${raised ? 'Likely' : 'Suspected, not decided'}: ${likely}`);
+    this.causes.hidden = likely === '';
   }
 
   private async showRecordings(): Promise<void> {
     this.asked = performance.now();
     const own = (await readRecordings().catch(() => [])).filter((one) => one.valve === this.id).slice(0, 20);
     this.recordings.replaceChildren(...(own.length > 0 ? own.map((one) => {
-      const link = element('a', '', `${one.time.replace('T', ' ').slice(0, 19)} UTC  ${one.why}`);
+      const link = element('a', '', `${clock(one.time)}  ${one.why}`);
       link.href = `/api/v1/recordings/${one.id}.csv`;
       link.download = `${one.valve}_${one.id}.csv`;
       return element('li', '', link);
-    }) : [element('li', '', 'none')]));
+    }) : [element('li', 'soft', 'none')]));
   }
 }

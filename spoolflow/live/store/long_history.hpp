@@ -1,0 +1,34 @@
+#pragma once
+/// What the store keeps of a valve, thinned to so many points that a page can show days of it.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace spoolflow::live {
+
+/// from_ms <= time < to_ms, since 1970-01-01 UTC; at most so many points, but no more than one a minute of indicators
+/// and one a second of flow.
+struct Span {
+  std::int64_t from_ms, to_ms;
+  std::int64_t most_points = 600;
+};
+
+/// Of one indicator, in its unit. NaN: not known then.
+struct IndicatorPoint {
+  std::int64_t wall_ms;  ///< mean of the rows that the point is made of
+  double value, smallest, largest, uncertainty_95, baseline;
+  bool raised;  ///< at least once
+};
+/// Throws StoreError where the file is no store; empty where it knows neither valve nor indicator.
+[[nodiscard]] std::vector<IndicatorPoint> read_indicator(const std::string& path, const std::string& valve,
+                                                         const std::string& indicator, const Span& span);
+
+struct FlowPoint {
+  std::int64_t wall_ms;
+  double mean_m3_per_s, smallest_m3_per_s, largest_m3_per_s;
+  double lower_m3_per_s, upper_m3_per_s;  ///< outermost ends of the 95 % band
+  double power_W;                         ///< hydraulic, through the edge, over the seconds that have rows
+};
+[[nodiscard]] std::vector<FlowPoint> read_flow(const std::string& path, const std::string& valve, const Span& span);
+
+}  // namespace spoolflow::live

@@ -1,0 +1,276 @@
+// The page of `spoolflow live` in a real browser, with real running sources: a valve of the rig, replays, datagrams.
+import assert from 'node:assert/strict';
+import { spawn, spawnSync } from 'node:child_process';
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { chromium } from 'playwright-core';
+
+const command = process.env.SPOOLFLOW_COMMAND, examples = process.env.SPOOLFLOW_EXAMPLES;
+const pictures = process.env.SPOOLFLOW_PICTURES;
+const folder = mkdtempSync(join(tmpdir(), 'spoolflow-live-page-'));
+const children = [];
+let browser, served;
+
+/** A recording of a valve that is moved to and fro; behind `healthy_s` its position is missing. */
+function recording(seconds, healthy_s) {
+  const lines = ['time_s,current_A,voltage_V,position_mm,oil_temperature_C'];
+  for (let k = 0; k < 1000 * seconds; ++k) {
+    const swing = 0.5 - 0.5 * Math.cos(2 * Math.PI * k / 4000);
+    const position = k < 1000 * healthy_s ? (0.4 + 1.2 * swing).toFixed(4) : 'NaN';
+    lines.push(`${(k / 1000).toFixed(3)},${(0.9 + 0.9 * swing).toFixed(4)},${(3 + 3 * swing).toFixed(3)},${position},45`);
+  }
+  return lines.join('\n') + '\n';
+}
+
+/** Starts the program and waits until it says where its page is. */
+function start(site, ...more) {
+  const child = spawn(command, ['live', site, ...more], { cwd: folder, stdio: ['ignore', 'ignore', 'pipe'] });
+  children.push(child);
+  return new Promise((resolve, reject) => {
+    let said = '';
+    child.on('exit', (status) => reject(new Error(`ended with ${status}: ${said}`)));
+    child.stderr.on('data', (text) => {
+      said += text;
+      const page = /page at (https?:\/\/\S+?:(\d+))\//.exec(said);
+      const udp = /over UDP at \S+?:(\d+)/.exec(said);
+      if (page) resolve({ child, url: page[1], port: Number(page[2]), udp: udp === null ? 0 : Number(udp[1]) });
+    });
+  });
+}
+
+function ended(child) {
+  return new Promise((resolve) => {
+    if (child.exitCode !== null) resolve();
+    else child.on('exit', resolve);
+    child.kill('SIGTERM');
+  });
+}
+
+/** Datagrams of the recording, as often as they are asked for; ends by itself. */
+function send(valve, file, port) {
+  const child = spawn('/usr/bin/python3', [join(examples, 'live', 'send_samples.py'), join(folder, file), valve, `127.0.0.1:${port}`],
+                      { stdio: 'ignore' });
+  children.push(child);
+  return child;
+}
+
+const site = (listen) => `
+[page]
+listen = "${listen}"
+[store]
+file = "site.sqlite"
+raw_before_s = 10
+raw_after_s = 1
+[sources]
+udp = "127.0.0.1:0"
+[alarms]
+raised_after_s = 1
+[[valve]]
+id = "press_1"
+model = "model.json"
+source = { kind = "rig", seed = 7 }
+[[valve]]
+id = "press_2"
+model = "model.json"
+source = { kind = "replay", recording = "sound.csv", repeats = true }
+[[valve]]
+id = "clamp_torn_cable"
+model = "model.json"
+source = { kind = "replay", recording = "torn.csv", speed = 2 }
+[[valve]]
+id = "feed_udp"
+model = "model.json"
+source = { kind = "udp" }
+`;
+
+before(async () => {
+  copyFileSync(join(examples, 'live', 'size_6.json'), join(folder, 'model.json'));
+  writeFileSync(join(folder, 'sound.csv'), recording(60, 60));
+  writeFileSync(join(folder, 'short.csv'), recording(6, 6));
+  writeFileSync(join(folder, 'torn.csv'), recording(40, 4));
+  writeFileSync(join(folder, 'site.toml'), site('127.0.0.1:0'));
+  served = await start('site.toml');
+  browser = await chromium.launch({
+    executablePath: process.env.SPOOLFLOW_BROWSER,
+    args: ['--no-sandbox', '--disable-background-networking', '--disable-gpu', '--disable-dev-shm-usage'],
+  });
+  if (pictures) mkdirSync(pictures, { recursive: true });
+});
+after(async () => {
+  await browser?.close();
+  for (const child of children) await ended(child);
+  rmSync(folder, { recursive: true });
+});
+
+/** A page of its own; what its console says and whom it asks besides the program is collected. */
+async function opened(hash = '#/', { width = 1280, height = 900, colorScheme = 'light', url = served.url, own = [] } = {}) {
+  const context = await browser.newContext({ colorScheme, viewport: { width, height }, ignoreHTTPSErrors: true });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (message) => own.some((one) => message.text().includes(one)) || complaints.push(`console: ${message.text()}`));
+  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    if (!request.url().startsWith(`${url}/`) && !request.url().startsWith('data:')) complaints.push(`asked for ${request.url()}`);
+  });
+  await page.goto(`${url}/${hash}`);
+  return { page, complaints };
+}
+
+async function picture(page, name) {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+}
+
+const drawing = (page) => page.locator('canvas.plot').evaluate((canvas) => canvas.toDataURL());
+async function moves(page) {
+  const was = await drawing(page);
+  await page.waitForFunction((before) => document.querySelector('canvas.plot').toDataURL() !== before, was, { timeout: 20000 });
+}
+
+test('the overview shows every valve with flow, band, sign and what is worst', async () => {
+  const sender = send('feed_udp', 'short.csv', served.udp);
+  const { page, complaints } = await opened();
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 4);
+  await page.waitForFunction(() => [...document.querySelectorAll('.card[data-stalled=false] .flow')].filter((each) =>
+    /^\d+\.\d\d L\/min$/.test(each.textContent)).length >= 3, undefined, { timeout: 20000 });
+  assert.deepEqual(await page.locator('.card .name').allTextContents(), ['press_1', 'press_2', 'clamp_torn_cable', 'feed_udp']);
+  for (const text of await page.locator('.card .band').allTextContents()) assert.match(text, /^(−?\d+\.\d\d|–) to (\d+\.\d\d|–)$/);
+  assert.match(await page.locator('#totals').textContent(), /^4 valves, \d not good; .* L\/min, .* kW hydraulic$/);
+  const line = () => page.locator('.card .spark path').first().getAttribute('d');
+  const before = await line();
+  await page.waitForFunction((was) => document.querySelector('.card .spark path').getAttribute('d') !== was, before);
+  await page.fill('input[type=search]', 'press');
+  assert.equal(await page.locator('.card').count(), 2);
+  assert.deepEqual(complaints, []);
+  await new Promise((resolve) => sender.on('exit', resolve));
+});
+
+test('alarms are raised, acknowledged by a button, and stay acknowledged over a new start', async () => {
+  const { page, complaints } = await opened('#/', { own: ['net::ERR'] });
+  // The sender of datagrams has ended, and the torn cable's position is missing.
+  await page.waitForSelector('.alarm:has-text("feed_udp"):has-text("no samples")', { timeout: 30000 });
+  const torn = page.locator('.alarm:has-text("clamp_torn_cable"):has-text("function check")').first();
+  await torn.waitFor({ timeout: 30000 });
+  await picture(page, 'overview_with_alarms');
+  const count = Number(await page.locator('#alarm-count').textContent());
+  assert.ok(count >= 2);
+  await torn.getByRole('button', { name: /^Acknowledge alarm \d+: function check of clamp_torn_cable$/ }).click();
+  await page.waitForFunction((was) => Number(document.querySelector('#alarm-count').textContent) === was - 1, count);
+  await page.goto(`${served.url}/#/alarms`);
+  await page.waitForSelector('.alarm[data-state=raised_acknowledged]:has-text("acknowledged by local")');
+  await page.waitForSelector('.alarm:has-text("raw samples around it")', { timeout: 30000 });
+  await picture(page, 'alarms');
+  // The raw samples are there, and are a recording.
+  const [download] = await Promise.all([page.waitForEvent('download'),
+                                        page.locator('.alarm a:has-text("raw samples around it")').first().click()]);
+  const csv = join(folder, 'alarm.csv');
+  await download.saveAs(csv);
+  assert.match(readFileSync(csv, 'utf8'), /^time_s,current_A,voltage_V,position_mm,oil_temperature_C\n/);
+  assert.equal(spawnSync(command, ['estimate', '-q', 'model.json', csv, '-o', '-'], { cwd: folder, encoding: 'utf8' }).status, 0);
+
+  await ended(served.child);
+  served = await start('site.toml', '--listen', `127.0.0.1:${served.port}`);
+  await page.waitForSelector('.alarm[data-state=raised_acknowledged]:has-text("function check")', { timeout: 20000 });
+  assert.deepEqual(complaints, []);
+});
+
+test('a valve’s plot moves 20 to 50 times a second, goes stale with the program, and comes back by itself', async () => {
+  const { page } = await opened('#/valve/press_1');
+  let frames = 0;
+  await page.reload();
+  const socket = await page.waitForEvent('websocket', { predicate: () => true, timeout: 10000 }).catch(() => null);
+  await page.waitForSelector('canvas.plot');
+  (socket ?? { on: () => undefined }).on('framereceived', () => ++frames);
+  await moves(page);
+  const begun = frames, at = performance.now();
+  await page.waitForTimeout(2000);
+  const rate = 1000 * (frames - begun) / (performance.now() - at);
+  console.log(`${rate.toFixed(1)} frames a second`);
+  if (socket !== null) assert.ok(rate > 10 && rate < 50, `${rate} frames a second`);
+  await page.waitForFunction(() => document.querySelectorAll('figure.history').length >= 2, undefined, { timeout: 60000 });
+  await page.waitForTimeout(1000);
+  await picture(page, 'valve');
+
+  await ended(served.child);
+  await page.waitForSelector('#stale:not([hidden])', { timeout: 20000 });
+  assert.match(await page.locator('#stale').textContent(), /has not answered for \d+ s: what is shown is old/);
+  await page.waitForSelector('canvas.plot.old');
+  await picture(page, 'valve_stale');
+  served = await start('site.toml', '--listen', `127.0.0.1:${served.port}`);
+  await page.waitForSelector('#stale', { state: 'hidden', timeout: 20000 });
+  await page.waitForSelector('canvas.plot:not(.old)', { timeout: 20000 });
+  await moves(page);
+});
+
+test('narrow and dark, nothing goes beyond the page', async () => {
+  for (const [hash, name] of [['#/', 'overview'], ['#/alarms', 'alarms'], ['#/site', 'site'], ['#/valve/press_1', 'valve']]) {
+    for (const [width, colorScheme] of [[390, 'dark'], [1280, 'light'], [1280, 'dark']]) {
+      const { page, complaints } = await opened(hash, { width, height: 844, colorScheme });
+      await page.waitForSelector({ '#/': '.card', '#/alarms': '.alarm', '#/site': '.sources td' }[hash] ?? 'figure.history',
+                                 { timeout: 30000 });
+      await page.waitForTimeout(1500);
+      const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+      assert.ok(content <= window, `${name}: ${content} px of content at ${width} px`);
+      const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+      assert.equal(paper === 'rgb(255, 255, 255)', colorScheme === 'light');
+      assert.deepEqual(complaints, []);
+      await picture(page, `${name}_${width}_${colorScheme}`);
+      await page.context().close();
+    }
+  }
+});
+
+test('the keyboard goes from card to card, into a valve and back', async () => {
+  const { page } = await opened();
+  await page.waitForFunction(() => document.querySelectorAll('.card').length === 4);
+  await page.locator('.card').first().focus();
+  const focused = () => page.evaluate(() => document.activeElement.querySelector('.name')?.textContent);
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await focused(), 'press_2');
+  await page.keyboard.press('End');
+  assert.equal(await focused(), 'feed_udp');
+  await page.keyboard.press('Home');
+  await page.waitForTimeout(1200);  // a second's figures do not take the focus away
+  assert.equal(await focused(), 'press_1');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('canvas.plot');
+  assert.equal(await page.title(), 'press_1 – spoolflow live');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('.card');
+  for (const [role, name] of [['link', /^Alarms/], ['link', 'Site'], ['region', 'valves']]) {
+    assert.equal(await page.getByRole(role, { name }).count(), 1, `${role} ${name}`);
+  }
+});
+
+test('with accounts strangers see a form, and a password opens the page', async () => {
+  const made = spawnSync('openssl', ['req', '-x509', '-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes',
+                                     '-keyout', 'key.pem', '-out', 'certificate.pem', '-days', '2', '-subj', '/CN=localhost'],
+                         { cwd: folder });
+  assert.equal(made.status, 0);
+  const account = spawnSync(command, ['account', 'anna', '--role', 'acknowledge'],
+                            { input: 'correct horse battery\n', encoding: 'utf8' });
+  writeFileSync(join(folder, 'closed.toml'), `[page]\nlisten = "127.0.0.1:0"\ncertificate = "certificate.pem"\nkey = "key.pem"\n` +
+    `${account.stdout}[[valve]]\nid = "press_1"\nmodel = "model.json"\nsource = { kind = "rig", seed = 7 }\n`);
+  const closed = await start('closed.toml');
+  assert.ok(closed.url.startsWith('https://'));
+  const { page, complaints } = await opened('#/valve/press_1', { url: closed.url, own: ['401'] });
+  await page.waitForSelector('form.login');
+  assert.equal(await page.locator('.card, canvas').count(), 0);
+  await picture(page, 'login');
+  await page.fill('input[name=name]', 'anna');
+  await page.fill('input[name=password]', 'a wrong password');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('form.login .stale:has-text("name or password is wrong")');
+  await page.fill('input[name=password]', 'correct horse battery');
+  await page.getByRole('button', { name: 'Log in' }).click();
+  await page.waitForSelector('canvas.plot');
+  await moves(page);
+  assert.match(await page.locator('.account').textContent(), /^anna \(acknowledges\)/);
+  await page.getByRole('button', { name: 'Log out' }).click();
+  await page.waitForSelector('form.login');
+  await page.reload();
+  await page.waitForSelector('form.login');
+  assert.deepEqual(complaints, []);
+  await ended(closed.child);
+});

@@ -1,0 +1,122 @@
+/** Alarms with what was seen when they were raised, raw samples, and a button for those who may acknowledge. */
+import { acknowledge, clock, inUnit, scaled, severity, short, signs, words, type Alarm } from './api';
+import { element, row, setText } from './element';
+import { visitor } from './visitor';
+
+const states: Record<Alarm['state'], string> = {
+  raised_unacknowledged: 'raised',
+  raised_acknowledged: 'raised, acknowledged',
+  gone_unacknowledged: 'gone, not acknowledged',
+  cleared: 'gone, acknowledged',
+};
+
+class Entry {
+  readonly place = element('li', 'alarm');
+  private readonly sign = element('span', 'sign');
+  private readonly state = element('span', 'state');
+  private readonly when = element('p', 'when');
+  private readonly links = element('p', 'links');
+  private readonly button = element('button', 'acknowledge', 'Acknowledge');
+  private readonly trouble = element('p', 'stale');
+  private shown = '';
+
+  constructor(alarm: Alarm) {
+    const valve = element('a', '', alarm.valve);
+    valve.href = `#/valve/${encodeURIComponent(alarm.valve)}`;
+    this.button.type = 'button';
+    this.button.setAttribute('aria-label', `Acknowledge alarm ${alarm.id}: ${words(alarm.cause)} of ${alarm.valve}`);
+    this.button.addEventListener('click', () => void this.acknowledge(alarm.id));
+    const head = element('p', 'what', this.sign, ' ', valve, ' ', element('b', '', words(alarm.cause)), ' ', this.state);
+    this.place.append(head, this.button, this.when);
+    if (alarm.indicators.length > 0) this.place.append(this.indicators(alarm));
+    this.place.append(this.links, this.trouble);
+    this.trouble.hidden = true;
+  }
+
+  show(alarm: Alarm): void {
+    this.place.dataset['state'] = alarm.state;
+    this.button.hidden = alarm.acknowledged !== null || visitor.session.role !== 'acknowledge';
+    const all = JSON.stringify([alarm.ne107, alarm.state, alarm.times, alarm.gone, alarm.acknowledged, alarm.recording]);
+    if (this.shown === all) return;
+    this.shown = all;
+    setText(this.sign, signs[alarm.ne107]);
+    this.sign.dataset['sign'] = alarm.ne107;
+    setText(this.state, states[alarm.state]);
+    setText(this.when, `${alarm.text}; since ${clock(alarm.raised)}${alarm.times > 1 ? `, ${alarm.times} times` : ''}` +
+      `${alarm.gone === null ? '' : `, gone ${clock(alarm.gone)}`}` +
+      `${alarm.acknowledged === null ? '' : `, acknowledged by ${alarm.acknowledged_by} ${clock(alarm.acknowledged)}`}`);
+    this.links.replaceChildren();
+    this.links.hidden = alarm.recording === null;
+    if (alarm.recording === null) return;
+    const link = element('a', '', 'raw samples around it (CSV)');
+    link.href = `/api/v1/recordings/${alarm.recording}.csv`;
+    link.download = `${alarm.valve}_alarm_${alarm.id}.csv`;
+    this.links.append(link);
+  }
+
+  private async acknowledge(id: number): Promise<void> {
+    this.button.disabled = true;
+    try {
+      this.show(await acknowledge(id));
+      this.trouble.hidden = true;
+    } catch (error) {
+      this.trouble.hidden = false;
+      setText(this.trouble, error instanceof Error ? error.message : String(error));
+    }
+    this.button.disabled = false;
+  }
+
+  private indicators(alarm: Alarm): HTMLElement {
+    const rows = alarm.indicators.map((one) => {
+      const { factor, unit } = inUnit(one);
+      const line = row('td', words(one.name), short(scaled(one.value, factor)), short(scaled(one.uncertainty_95, factor)),
+                       short(scaled(one.baseline, factor)), unit, one.state);
+      line.dataset['state'] = one.state;
+      return line;
+    });
+    const head = element('thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'unit', 'state'));
+    return element('details', '', element('summary', '', 'indicators when it was raised'),
+                   element('div', 'wide', element('table', '', head, element('tbody', '', ...rows))));
+  }
+}
+
+export class AlarmList {
+  readonly place = element('ul', 'alarms');
+  private readonly entries = new Map<number, Entry>();
+  private readonly nothing = element('li', 'soft', 'none');
+  private readonly more = element('li', 'soft');
+
+  /** `says`: that there are none, where there are none. */
+  constructor(private readonly wanted: (alarm: Alarm) => boolean, private readonly most = 100, private readonly says = false) {
+    this.place.setAttribute('aria-label', 'alarms');
+  }
+
+  show(alarms: readonly Alarm[]): void {
+    const all = alarms.filter(this.wanted).sort((a, b) => Number(a.state === 'cleared') - Number(b.state === 'cleared') ||
+      Number(a.acknowledged !== null) - Number(b.acknowledged !== null) || severity[b.ne107] - severity[a.ne107] || b.id - a.id);
+    const shown = all.slice(0, this.most);
+    const known = new Set(shown.map((alarm) => alarm.id));
+    for (const id of [...this.entries.keys()]) if (!known.has(id)) this.entries.delete(id);
+    const places: HTMLElement[] = shown.map((alarm) => {
+      let entry = this.entries.get(alarm.id);
+      if (entry === undefined) {
+        entry = new Entry(alarm);
+        this.entries.set(alarm.id, entry);
+      }
+      entry.show(alarm);
+      return entry.place;
+    });
+    if (all.length > shown.length) {
+      const link = element('a', '', `and ${all.length - shown.length} more`);
+      link.href = '#/alarms';
+      this.more.replaceChildren(link);
+      places.push(this.more);
+    }
+    if (places.length === 0 && this.says) places.push(this.nothing);
+    this.place.hidden = places.length === 0;
+    if (places.length === this.place.children.length && places.every((one, k) => this.place.children[k] === one)) return;
+    const focused = document.activeElement;
+    this.place.replaceChildren(...places);
+    if (focused instanceof HTMLElement && this.place.contains(focused)) focused.focus();
+  }
+}

@@ -1,0 +1,157 @@
+/** A figure over hours or days: its line, the band about it, what it is compared with, and when it was raised. */
+import uPlot from 'uplot';
+import { colour, paleColour } from '../colours';
+import { clock } from './api';
+import { element } from './element';
+
+type Column = (number | null)[];
+
+export interface Curve {
+  title: string;
+  /** Seconds since 1970. */
+  times: number[];
+  middle: Column;
+  lower: Column;
+  upper: Column;
+  /** What is usual; null where there is no such thing. */
+  usual: Column | null;
+  raised: boolean[];
+}
+
+const tall = 150;
+const font = '12px system-ui, sans-serif';
+
+/** Rows are missing where the program did not run: the line breaks there. */
+export function withGaps(curve: Curve, longest_s: number): Curve {
+  const out: Curve = { ...curve, times: [], middle: [], lower: [], upper: [], usual: curve.usual === null ? null : [], raised: [] };
+  const put = (time: number, k: number | null): void => {
+    out.times.push(time);
+    out.middle.push(k === null ? null : curve.middle[k]!);
+    out.lower.push(k === null ? null : curve.lower[k]!);
+    out.upper.push(k === null ? null : curve.upper[k]!);
+    out.usual?.push(k === null ? null : curve.usual![k]!);
+    out.raised.push(k === null ? false : curve.raised[k]!);
+  };
+  curve.times.forEach((time, k) => {
+    if (k > 0 && time - curve.times[k - 1]! > longest_s) put((time + curve.times[k - 1]!) / 2, null);
+    put(time, k);
+  });
+  return out;
+}
+
+/** Marks of the time axis, by their distance: day, hour and minute as most of the world writes them. */
+const day = '{YYYY}-{MM}-{DD}';
+const clockTexts = [
+  [86400, '{MM}-{DD}', '\n{YYYY}', null, null, null, null, null, 1],
+  [60, '{HH}:{mm}', `\n${day}`, null, `\n${day}`, null, null, null, 1],
+  [1, '{HH}:{mm}:{ss}', `\n${day}`, null, `\n${day}`, null, null, null, 1],
+] as unknown as uPlot.Axis.Values;
+
+export class HistoryPlot {
+  readonly place: HTMLElement;
+  private readonly title = element('figcaption', '');
+  private readonly room = element('div', 'room');
+  private plot: uPlot | null = null;
+  private curve: Curve | null = null;
+  private range: [number, number] | null = null;
+
+  constructor(private readonly group: string) {
+    this.place = element('figure', 'history', this.title, this.room);
+  }
+
+  /** The range is kept where the reader has zoomed into the same span. */
+  show(curve: Curve, from: number, to: number): void {
+    const zoom = this.zoomed(to - from);
+    this.curve = curve;
+    this.title.textContent = curve.title;
+    const known = [...curve.middle].reverse().find((value) => value !== null) ?? null;
+    this.place.setAttribute('aria-label', `${curve.title} over time, last ${known ?? 'not known'}`);
+    const data = [curve.times, curve.upper, curve.lower, curve.middle, curve.usual ?? curve.times.map(() => null)];
+    if (this.plot === null) this.plot = this.made(data as uPlot.AlignedData);
+    else this.plot.setData(data as uPlot.AlignedData, false);
+    this.plot.setScale('x', zoom ?? { min: from, max: to });
+    this.range = zoom === null ? [from, to] : this.range;
+    this.resize();
+  }
+
+  private zoomed(span: number): { min: number; max: number } | null {
+    const min = this.plot?.scales['x']?.min, max = this.plot?.scales['x']?.max, times = this.curve?.times ?? [];
+    if (this.range === null || min == null || max == null) return null;
+    const [from, to] = this.range;
+    if (Math.abs((to - from) - span) > 0.1 * span) return null;  // another span was asked for
+    const whole = (min === from && max === to) || (min === times[0] && max === times[times.length - 1]);
+    return whole ? null : { min, max };
+  }
+
+  resize(): void {
+    const width = this.room.clientWidth;
+    if (this.plot !== null && width > 0 && width !== this.plot.width) this.plot.setSize({ width, height: tall });
+  }
+
+  redraw(): void {
+    this.plot?.redraw(false);
+  }
+
+  destroy(): void {
+    this.plot?.destroy();
+  }
+
+  private made(data: uPlot.AlignedData): uPlot {
+    const line = { stroke: () => colour('rule'), width: 1 };
+    const axis: uPlot.Axis = { stroke: () => colour('soft'), font, grid: line, ticks: { show: false } };
+    const none = { points: { show: false }, spanGaps: false };
+    return new uPlot({
+      width: Math.max(200, this.room.clientWidth || 400),
+      height: tall,
+      padding: [8, 12, 0, 0],
+      legend: { show: false },
+      scales: { x: { time: true }, y: { range: (_plot, lowest, highest) => HistoryPlot.heightOf(lowest, highest) } },
+      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 28 }],
+      cursor: { y: false, drag: { x: true, y: false }, sync: { key: this.group } },
+      series: [
+        {},
+        { ...none, width: 0 },
+        { ...none, width: 0 },
+        { ...none, stroke: () => colour('observer'), width: 1.6, points: { show: data[0].length < 40, size: 4 } },
+        { ...none, stroke: () => colour('soft'), width: 1, dash: [5, 4] },
+      ],
+      bands: [{ series: [1, 2], fill: () => paleColour('observer', 0.2) }],
+      hooks: { draw: [(plot) => this.markRaised(plot)], setCursor: [(plot) => this.read(plot)] },
+    }, data, this.room);
+  }
+
+  private static heightOf(lowest: number | null, highest: number | null): [number, number] {
+    if (lowest === null || highest === null) return [0, 1];
+    const margin = Math.max(0.08 * (highest - lowest), 1e-9 + 0.01 * Math.abs(highest));
+    return [lowest - margin, highest + margin];
+  }
+
+  private markRaised(plot: uPlot): void {
+    const raised = this.curve?.raised ?? [], times = plot.data[0];
+    plot.ctx.save();
+    plot.ctx.fillStyle = colour('fault');
+    const { left, top, width } = plot.bbox;
+    for (let k = 0; k < raised.length; ++k) {
+      if (!raised[k]) continue;
+      const from = plot.valToPos(times[k]!, 'x', true);
+      const to = k + 1 < times.length ? plot.valToPos(times[k + 1]!, 'x', true) : from + 3;
+      const begin = Math.max(left, from), end = Math.min(left + width, Math.max(to, from + 2));
+      if (end > begin) plot.ctx.fillRect(begin, top, end - begin, 4 * devicePixelRatio);
+    }
+    plot.ctx.restore();
+  }
+
+  private read(plot: uPlot): void {
+    const curve = this.curve, k = plot.cursor.idx;
+    if (curve === null) return;
+    const value = k === null || k === undefined ? null : curve.middle[k];
+    if (value === null || value === undefined) {
+      this.title.textContent = curve.title;
+      return;
+    }
+    const digits = (each: number | null | undefined): string =>
+      each === null || each === undefined ? '–' : String(Number(each.toPrecision(4))).replace('-', '−');
+    this.title.textContent = `${curve.title}: ${digits(value)} (${digits(curve.lower[k!])} to ${digits(curve.upper[k!])}), ` +
+      clock(curve.times[k!]! * 1000);
+  }
+}

@@ -1,0 +1,127 @@
+/** Flow, power and indicators of a valve over hours and days, from the store. */
+import { inUnit, readFlow, readIndicators, scaled, words, type FlowHistory, type IndicatorHistory } from './api';
+import { element, setText } from './element';
+import { HistoryPlot, withGaps, type Curve } from './history_plot';
+
+const spans: [string, number][] = [['1 hour', 3600], ['1 day', 86400], ['1 week', 7 * 86400], ['30 days', 30 * 86400]];
+const refresh_ms = 30000;
+/** As the program thins them (spoolflow/live/store/long_history.hpp). */
+const mostPoints = 600;
+
+function curveOf(one: IndicatorHistory): Curve {
+  const { factor, unit } = inUnit(one);
+  const about = (sign: number): (number | null)[] => one.value.map((value, k) =>
+    value === null ? null : factor * (value + sign * (one.uncertainty_95[k] ?? 0)));
+  return {
+    title: `${words(one.name)}${unit === '' ? '' : ` [${unit}]`}`,
+    times: one.time_ms.map((time) => time / 1000),
+    middle: one.value.map((value) => scaled(value, factor)),
+    lower: about(-1),
+    upper: about(1),
+    usual: one.baseline.map((value) => scaled(value, factor)),
+    raised: one.raised,
+  };
+}
+
+function flowCurve(flow: FlowHistory): Curve {
+  return {
+    title: 'mean flow [L/min]',
+    times: flow.time_ms.map((time) => time / 1000),
+    middle: flow.flow_mean_L_min, lower: flow.flow_lower_L_min, upper: flow.flow_upper_L_min,
+    usual: null, raised: flow.time_ms.map(() => false),
+  };
+}
+
+function powerCurve(flow: FlowHistory): Curve {
+  return {
+    title: 'hydraulic power through the edge [W]',
+    times: flow.time_ms.map((time) => time / 1000),
+    middle: flow.power_W, lower: flow.power_W, upper: flow.power_W,
+    usual: null, raised: flow.time_ms.map(() => false),
+  };
+}
+
+export class HistoryView {
+  readonly place = element('section', 'days');
+  private readonly plots = new Map<string, HistoryPlot>();
+  private readonly grid = element('div', 'plots');
+  private readonly said = element('p', 'soft');
+  private readonly choice = element('select', '');
+  private asked = -Infinity;
+  private closed = false;
+  /** Whether the span is the reader's, or was found to fit. */
+  private chosen = false;
+
+  constructor(private readonly id: string) {
+    for (const [text, seconds] of spans) this.choice.add(new Option(text, String(seconds)));
+    this.choice.value = '86400';
+    this.choice.addEventListener('change', () => {
+      this.chosen = true;
+      void this.ask();
+    });
+    this.place.append(element('h3', '', 'Hours and days'), element('label', '', 'Span ', this.choice), this.said, this.grid);
+  }
+
+  /** Asks again now and then. */
+  follow(): void {
+    if (performance.now() - this.asked > refresh_ms) void this.ask();
+  }
+  resize(): void {
+    for (const plot of this.plots.values()) plot.resize();
+  }
+  redraw(): void {
+    for (const plot of this.plots.values()) plot.redraw();
+  }
+  close(): void {
+    this.closed = true;
+    for (const plot of this.plots.values()) plot.destroy();
+  }
+
+  private async ask(): Promise<void> {
+    this.asked = performance.now();
+    const seconds = Number(this.choice.value);
+    try {
+      const [flow, indicators] = await Promise.all([readFlow(this.id, seconds), readIndicators(this.id, seconds)]);
+      if (this.closed || seconds !== Number(this.choice.value)) return;
+      const oldest = Math.min(...flow.time_ms, ...indicators.flatMap((one) => one.time_ms));
+      if (!this.chosen && seconds > 3600 && Date.now() - oldest < 7.2e6) {  // a store that has just begun
+        this.choice.value = '3600';
+        this.chosen = true;
+        void this.ask();
+        return;
+      }
+      this.chosen = true;
+      this.show(seconds, flow, indicators);
+    } catch {
+      setText(this.said, 'The program does not answer.');
+    }
+  }
+
+  private show(seconds: number, flow: FlowHistory, indicators: IndicatorHistory[]): void {
+    const now = Date.now() / 1000;
+    const oldest = Math.min(...flow.time_ms, ...indicators.flatMap((one) => one.time_ms)) / 1000;
+    const from = Math.max(now - seconds, Math.min(now - 120, oldest - 0.02 * (now - oldest)));
+    const curves: [string, Curve, number][] = [];
+    if (flow.time_ms.length > 0) curves.push(['flow', flowCurve(flow), 1], ['power', powerCurve(flow), 1]);
+    for (const one of indicators) {
+      if (one.value.some((value) => value !== null)) curves.push([one.name, curveOf(one), 60]);
+    }
+    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red: raised. Drag to zoom, double click to come back.'
+      : 'Nothing is kept of this time. Indicators are kept once a minute where the program has a store.');
+    for (const [name, plot] of this.plots) {
+      if (curves.some(([own]) => own === name)) continue;
+      plot.destroy();
+      plot.place.remove();
+      this.plots.delete(name);
+    }
+    for (const [name, curve, step_s] of curves) {
+      let plot = this.plots.get(name);
+      if (plot === undefined) {
+        plot = new HistoryPlot(`days-${this.id}`);
+        this.plots.set(name, plot);
+        this.grid.append(plot.place);
+      }
+      plot.show(withGaps(curve, 3 * Math.max(step_s, seconds / mostPoints)), from, now);
+    }
+  }
+}

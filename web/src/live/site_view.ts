@@ -1,0 +1,107 @@
+/** The site as a whole: totals, what they were over the last minutes, how each source fares, all alarms. */
+import { AlarmList } from './alarm_list';
+import { figure, severity, type Told, type Valve } from './api';
+import { element, row, setText } from './element';
+
+class Tile {
+  readonly place = element('div', 'tile');
+  private readonly value = element('b', '');
+
+  constructor(name: string) {
+    this.place.append(this.value, element('span', '', name));
+  }
+  show(text: string): void {
+    setText(this.value, text);
+  }
+}
+
+/** Samples a second of each source, from what it had received before. */
+class Rates {
+  private before = new Map<string, { received: number; at: number; rate: number }>();
+
+  of(valve: Valve): number | null {
+    const now = performance.now(), received = valve.source.received;
+    const last = this.before.get(valve.id);
+    if (last === undefined || received < last.received) {
+      this.before.set(valve.id, { received, at: now, rate: NaN });
+      return null;
+    }
+    if (now - last.at > 900) {
+      this.before.set(valve.id, { received, at: now, rate: (received - last.received) / (now - last.at) * 1000 });
+    }
+    const { rate } = this.before.get(valve.id)!;
+    return Number.isFinite(rate) ? rate : null;
+  }
+}
+
+export class SiteView {
+  readonly place = element('div', '');
+  private readonly tiles = {
+    flow: new Tile('L/min through all valves'), power: new Tile('kW hydraulic through their edges'),
+    energy: new Tile('kWh since the store began'), good: new Tile('valves good'), alarms: new Tile('alarms not acknowledged'),
+    stalled: new Tile('sources without samples'),
+  };
+  private readonly sources = element('tbody', '');
+  private readonly kept = element('p', 'kept');
+  private readonly datagrams = element('p', 'kept');
+  private readonly rates = new Rates();
+  private readonly rows = new Map<string, HTMLTableCellElement[]>();
+
+  constructor() {
+    const head = element('thead', '', row('th', 'valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated',
+                                          'unreadable', 'connections', 'trouble'));
+    this.place.append(element('h2', '', 'Site'), element('div', 'tiles', ...Object.values(this.tiles).map((tile) => tile.place)),
+                      this.kept, this.datagrams, element('h3', '', 'Sources'),
+                      element('div', 'wide', element('table', 'sources', head, this.sources)));
+  }
+
+  show({ valves, alarms, site }: Told): void {
+    this.tiles.flow.show(figure(site.flow_L_min, 1));
+    this.tiles.power.show(figure(site.hydraulic_power_W === null ? null : site.hydraulic_power_W / 1e3, 2));
+    this.tiles.energy.show(figure(valves.reduce((sum, valve) => sum + (valve.energy_J ?? 0), 0) / 3.6e6, 3));
+    this.tiles.good.show(`${valves.filter((valve) => severity[valve.ne107] === 0).length} of ${valves.length}`);
+    this.tiles.alarms.show(String(alarms.filter((alarm) => alarm.acknowledged === null).length));
+    this.tiles.stalled.show(String(site.stalled));
+    setText(this.kept, site.store === '' ? 'Nothing is kept: the program was started without a store.'
+      : site.store_trouble === '' ? `Kept in ${site.store}` : `Nothing is kept at present: ${site.store_trouble}`);
+    this.kept.classList.toggle('stale', site.store_trouble !== '');
+    const { udp } = site;
+    this.datagrams.hidden = udp.port === 0;
+    setText(this.datagrams, `UDP port ${udp.port}: ${udp.datagrams} datagrams, ${udp.unreadable} unreadable, ` +
+      `${udp.unknown_valve} of unknown valves, ${udp.not_allowed} not allowed`);
+    for (const valve of valves) this.showSource(valve);
+  }
+
+  private showSource(valve: Valve): void {
+    let cells = this.rows.get(valve.id);
+    if (cells === undefined) {
+      const link = element('a', '', valve.id);
+      link.href = `#/valve/${encodeURIComponent(valve.id)}`;
+      cells = Array.from({ length: 9 }, () => element('td', ''));
+      this.rows.set(valve.id, cells);
+      this.sources.append(element('tr', '', element('td', '', link), ...cells));
+    }
+    const of = valve.source;
+    const texts = [of.port === undefined ? of.kind : `${of.kind} :${of.port}`, figure(this.rates.of(valve), 0),
+                   figure(of.age_s, 1), of.dropped, of.lost, of.repeated, of.unreadable, of.connections,
+                   of.stalled && of.trouble === '' ? 'no samples' : of.trouble].map(String);
+    cells.forEach((cell, k) => setText(cell, texts[k]!));
+    const bad = of.stalled || of.dropped > 0 || of.lost > 0 || of.unreadable > 0;
+    cells[0]!.parentElement!.dataset['bad'] = String(bad);
+  }
+}
+
+/** All alarms, those that are over, too. */
+export class AlarmsView {
+  readonly place = element('div', '');
+  private readonly open = new AlarmList((alarm) => alarm.state !== 'cleared', 200, true);
+  private readonly cleared = new AlarmList((alarm) => alarm.state === 'cleared', 200, true);
+
+  constructor() {
+    this.place.append(element('h2', '', 'Alarms'), this.open.place, element('h3', '', 'Gone and acknowledged'), this.cleared.place);
+  }
+  show({ alarms }: Told): void {
+    this.open.show(alarms);
+    this.cleared.show(alarms);
+  }
+}
