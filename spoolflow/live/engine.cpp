@@ -65,7 +65,7 @@ Engine::Engine(SiteSettings site, std::string program) : site_(std::move(site)),
     if (same == valves_.end()) continue;
     (*same)->after = {kept.session, kept.next};
     const bool goes_on = (*same)->valve->restore(kept);
-    (*same)->told_condition = (*same)->valve->view().condition;  // it was told before
+    (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
     if (goes_on) continue;
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,
@@ -180,7 +180,7 @@ void Engine::watch_for_events() {
       place.valve->finish();
       place.finished = true;
     }
-    const ValveView valve = place.valve->view();
+    const ValveView valve = place.valve->view(false);
     const auto add = [&](const char* kind, std::string text) {
       events_.add(
           {.wall_ms = wall_ms(), .valve = valve.id, .time_s = valve.time_s, .kind = kind, .text = std::move(text)});
