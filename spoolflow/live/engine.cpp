@@ -66,7 +66,9 @@ Engine::Engine(SiteSettings site, std::string program)
                                    [&](const auto& place) { return place->valve->id() == kept.valve; });
     if (same == valves_.end()) continue;
     (*same)->after = {kept.session, kept.next};
-    if ((*same)->valve->restore(kept)) continue;
+    const bool goes_on = (*same)->valve->restore(kept);
+    (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
+    if (goes_on) continue;
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,
                  .kind = "program",
@@ -180,7 +182,7 @@ void Engine::watch_for_events() {
       place.valve->finish();
       place.finished = true;
     }
-    const ValveView valve = place.valve->view();
+    const ValveView valve = place.valve->view(false);
     const auto add = [&](const char* kind, std::string text) {
       events_.add(
           {.wall_ms = wall_ms(), .valve = valve.id, .time_s = valve.time_s, .kind = kind, .text = std::move(text)});
