@@ -24,6 +24,10 @@ inline constexpr int longest_step_s = 1;
 /// A time step of so much [s] is none.
 inline constexpr int endless_step_s = 1 << 30;
 
+/// While no position tells where the spool is, it may go anywhere: the band of the held answer opens at this pace [s]
+/// to all that may flow.
+inline constexpr double held_opening_s = 0.1;
+
 /// Whether time leapt between the last sample and this one.
 template <class T>
 constexpr Mask<T> time_leapt(T time_step_s) {
@@ -34,6 +38,12 @@ constexpr Mask<T> time_leapt(T time_step_s) {
 template <class T>
 constexpr bool ordinary(const Sample<T>& sample) {
   return is_number(sample.current_A) && is_number(sample.position_m) && within(sample.time_step_s, T(longest_step_s));
+}
+
+/// The share by which a held answer's band opens in one more step of time [s], >= 0.
+template <class T>
+constexpr T held_opening(T time_step_s) {
+  return smaller(time_step_s * T(1 / held_opening_s), T(1));
 }
 
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.

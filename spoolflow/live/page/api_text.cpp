@@ -15,18 +15,13 @@
 namespace spoolflow::live {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // writes null for what is no number
 using units::litre_per_minute_per_m3_per_s;
-
-/// JSON knows no NaN.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 /// With so many decimals: further digits tell no more than is known.
 Json rounded(double value, int decimals) {
   const double power = std::pow(10.0, decimals);
-  return number(std::round(value * power) / power);
+  return std::round(value * power) / power;
 }
 
 std::string utc(std::int64_t wall_ms) {
@@ -64,7 +59,7 @@ Json source_of(const SourceView& source) {
 Json causes_of(const ValveView& valve) {
   Json out = Json::array();
   for (const monitor::Cause& cause : valve.causes) {
-    out.push_back({{"cause", monitor::name(cause.fault)}, {"odds", number(cause.odds)}});
+    out.push_back({{"cause", monitor::name(cause.fault)}, {"odds", cause.odds}});
   }
   return out;
 }
@@ -73,10 +68,10 @@ Json indicators_of(const ValveView& valve) {
   Json out = Json::array();
   for (const monitor::Indicator& one : valve.indicators) {
     out.push_back({{"name", one.name},
-                   {"value", number(one.value)},
+                   {"value", one.value},
                    {"unit", one.unit},
-                   {"uncertainty_95", number(one.uncertainty_95)},
-                   {"baseline", number(one.baseline)},
+                   {"uncertainty_95", one.uncertainty_95},
+                   {"baseline", one.baseline},
                    {"state", monitor::name(one.state)}});
   }
   return out;
@@ -100,7 +95,7 @@ Json valve_of(const Engine& engine, std::size_t k) {
           {"ne107", monitor::name(valve.condition)},
           {"causes", causes_of(valve)},
           {"samples", valve.samples},
-          {"energy_J", number(valve.energy_J)},
+          {"energy_J", valve.energy_J},
           {"indicators", indicators_of(valve)},
           {"source", source_of(source)}};
 }
