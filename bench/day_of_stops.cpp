@@ -53,7 +53,7 @@ struct Coverage {
     double holding = 0, all = 0;
     for (std::size_t hour = from; hour < std::min(from + hours, of.size()); ++hour)
       holding += inside[hour], all += of[hour];
-    return 100 * holding / all;
+    return all > 0 ? 100 * holding / all : 0;
   }
   [[nodiscard]] double percent() const { return percent(0, of.size()); }
   [[nodiscard]] double samples() const { return std::accumulate(of.begin(), of.end(), 0.0); }
@@ -114,7 +114,7 @@ struct Day {
   }
   void print(double rated_m3_per_s) const {
     const double samples = all.samples();
-    const auto share = [&](double width, double of) { return 100 * width / of / rated_m3_per_s; };
+    const auto share = [&](double width, double of) { return of > 0 ? 100 * width / of / rated_m3_per_s : 0; };
     fmt::print("{:<16}{:>8.2f}{:>12.2f}{:>15.2f}{:>15.2f}{:>8.1f}{:>9.2f}{:>15.2f}{:>8.1f}\n", name, all.percent(),
                all.worst_percent(4), without_fault.percent(), 100 * without_fault.samples() / samples,
                share(width_m3_per_s, samples), held.percent(), 100 * held.samples() / samples,

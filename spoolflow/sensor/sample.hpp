@@ -26,7 +26,7 @@ inline constexpr int endless_step_s = 1 << 30;
 
 /// While no position tells where the spool is, it may go anywhere: the band of the held answer opens at this pace [s]
 /// to all that may flow.
-inline constexpr double held_opening_s = 0.1;
+inline constexpr double held_opening_s = 0.3;
 
 /// Whether time leapt between the last sample and this one.
 template <class T>

@@ -24,7 +24,7 @@ Course until_they_are_missing() {
 std::vector<Course> unseen_courses() {
   return {until_they_are_missing().slide(0.1e-3, 0.4).rest(0.5, -1),
           until_they_are_missing().slide(2.3e-3, 0.4).rest(0.5, 1), until_they_are_missing().rest(0.9, 0.5),
-          until_they_are_missing().slide(1e-3, 0.5, 40e5).slide(1.8e-3, 0.4),
+          until_they_are_missing().slide(1e-3, 0.5, 54e5).slide(1.8e-3, 0.4),
           until_they_are_missing().rest(0.3, 0.6, 62e5).slide(2.2e-3, 0.3).slide(1.0e-3, 0.3)};
 }
 
