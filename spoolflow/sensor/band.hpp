@@ -162,10 +162,7 @@ constexpr void widen_held(const ObserverParameters<T>& valve, ObserverState<T>& 
   Estimate<T> now{};
   now.flow_m3_per_s = least_conductance * sqrt(band.expected_Pa);
   band_of_flow(valve.band, least_conductance * sqrt(band.least_Pa), most_conductance * sqrt(band.most_Pa), now);
-  const T share = select(at.seen, T(1), held_opening(time_step_s));
-  // In this order what a broken state makes no number of opens nothing.
-  held.flow_lower_m3_per_s += share * smaller(T(0), now.flow_lower_m3_per_s - held.flow_lower_m3_per_s);
-  held.flow_upper_m3_per_s += share * larger(T(0), now.flow_upper_m3_per_s - held.flow_upper_m3_per_s);
+  open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
 }
 
 }  // namespace spoolflow::sensor

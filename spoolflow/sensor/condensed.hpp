@@ -100,9 +100,7 @@ template <class T>
   const T position_m = select(is_number(sample.position_m), limited(sample.position_m, T(0), end_m), end_m);
   const T most_m3_per_s = detail::largest_flow(valve, position_m) + valve.flow_residual_m3_per_s;
   in_valves(within(sample.time_step_s, T(endless_step_s)), out, [&] {
-    const T share = held_opening(sample.time_step_s);
-    out.flow_lower_m3_per_s += share * smaller(-valve.flow_residual_m3_per_s - out.flow_lower_m3_per_s, T(0));
-    out.flow_upper_m3_per_s += share * larger(most_m3_per_s - out.flow_upper_m3_per_s, T(0));
+    open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, Mask<T>(false), sample.time_step_s);
   });
   if constexpr (one_valve<T>) {
     out.status = detail::why_held(sample);

@@ -12,7 +12,7 @@
 namespace spoolflow::sensor {
 namespace {
 
-constexpr double missing = NAN;
+constexpr double lost = NAN;
 constexpr double every_s = 1e-3;
 
 /// Slides open in a second, rests for a tenth; then the samples are missing.
@@ -49,16 +49,15 @@ Judgement judge_held(const Lose& lose) {
 }
 
 TEST(HeldAnswer, BandHoldsTheFlowWhateverTheSpoolDoesUnseen) {
-  const Judgement held = judge_held([](Sample<double>& measured) { measured.position_m = missing; });
+  const Judgement held = judge_held([](Sample<double>& measured) { measured.position_m = lost; });
   ASSERT_GT(held.samples, 4000);
   EXPECT_GT(held.coverage(), 0.95);
   EXPECT_LT(held.mean_width(), 1.4) << "in the highest pressure difference 1.13 of the full scale may flow";
 }
 
 TEST(HeldAnswer, BandFollowsThePositionWhereTheCurrentAloneIsMissing) {
-  const Judgement held = judge_held([](Sample<double>& measured) { measured.current_A = missing; });
-  const Judgement blind =
-      judge_held([](Sample<double>& measured) { measured.current_A = measured.position_m = missing; });
+  const Judgement held = judge_held([](Sample<double>& measured) { measured.current_A = lost; });
+  const Judgement blind = judge_held([](Sample<double>& measured) { measured.current_A = measured.position_m = lost; });
   EXPECT_GT(held.coverage(), 0.95);
   EXPECT_LT(held.mean_width(), 0.7 * blind.mean_width());
 }
@@ -71,7 +70,7 @@ TEST(HeldAnswer, BandOnlyOpensForAsLongAsSamplesAreMissingAndHoldsTheHeldFlow) {
   for (const ValveSample& sample : run) step(valve, state, sample.measured);
   const Estimate<double> last = state.last;
   Estimate<double> before = last;
-  const Sample<double> nothing{every_s, missing, missing, missing, missing};
+  const Sample<double> nothing{every_s, lost, lost, lost, lost};
   for (int k = 0; k < 2000; ++k) {
     const Estimate<double> held = step(valve, state, nothing);
     ASSERT_EQ(held.flow_m3_per_s, last.flow_m3_per_s);
@@ -97,7 +96,7 @@ TEST(HeldAnswer, TrustsThePressureLessTheLongerNobodyLooked) {
   const auto deviation_Pa = [&](int samples) {
     ObserverState<double> state{};
     for (const ValveSample& sample : run) step(valve, state, sample.measured);
-    for (int k = 0; k < samples; ++k) step(valve, state, {every_s, missing, 0, run.back().measured.position_m, 313});
+    for (int k = 0; k < samples; ++k) step(valve, state, {every_s, lost, 0, run.back().measured.position_m, 313});
     return unobserved_change_Pa(state.pressure, valve.band.unseen_factor);
   };
   EXPECT_GT(deviation_Pa(1000), 1.3 * deviation_Pa(10));
@@ -117,8 +116,8 @@ TEST(HeldAnswer, OfAWholeValveOpensToBothSidesWhereThePositionIsMissing) {
   const double flow = of_b.open.last.flow_m3_per_s;
   const double most = law.flow_m3_per_s(ClosedFormValve::stroke_m, ClosedFormValve::highest_Pa, 313);
   for (int k = 0; k < 1000; ++k) {
-    step(whole, of_b, {every_s, 0, missing, 0, 0, missing, 313});
-    step(whole, of_a, {every_s, missing, 0, 0, 0, missing, 313});
+    step(whole, of_b, {every_s, 0, lost, 0, 0, lost, 313});
+    step(whole, of_a, {every_s, lost, 0, 0, 0, lost, 313});
   }
   const Estimate<double>&b = of_b.open.last, &a = of_a.open.last;
   EXPECT_EQ(b.flow_m3_per_s, flow);
@@ -138,9 +137,9 @@ TEST(HeldAnswer, OfAWholeValveOpensToTheSideOnWhichItsPositionIsSeen) {
     const auto& [time_step_s, current_A, voltage_V, position_m, oil_K] = sample.measured;
     step(whole, state, {time_step_s, 0, current_A, 0, voltage_V, position_m, oil_K});
   }
-  for (int k = 0; k < 5; ++k) step(whole, state, {every_s, 0, missing, 0, 0, 1.4e-3, 313});
+  for (int k = 0; k < 5; ++k) step(whole, state, {every_s, 0, lost, 0, 0, 1.4e-3, 313});
   EXPECT_GT(state.open.last.flow_lower_m3_per_s, 0) << "the spool stands where it stood";
-  step(whole, state, {every_s, 0, missing, 0, 0, -1.4e-3, 313});
+  step(whole, state, {every_s, 0, lost, 0, 0, -1.4e-3, 313});
   EXPECT_LT(state.open.last.flow_lower_m3_per_s, -law.flow_m3_per_s(1.4e-3, 80e5, 313));
 }
 
@@ -148,16 +147,16 @@ TEST(HeldAnswer, OfTheCondensedSensorOpensToAllThatMayFlow) {
   const auto tables = laid_out(linear_valve());
   CondensedState<double> state;
   const Estimate<double> before = step(tables, state, {1e-3, 1.5, 12, 1e-3, 323});
-  step(tables, state, {1e-3, missing, 12, 1e-3, 323});
+  step(tables, state, {1e-3, lost, 12, 1e-3, 323});
   EXPECT_GT(state.last.flow_upper_m3_per_s, before.flow_upper_m3_per_s);
   EXPECT_LT(state.last.flow_upper_m3_per_s, 1.1 * before.flow_upper_m3_per_s) << "a single sample says little";
-  for (int k = 0; k < 1000; ++k) step(tables, state, {1e-3, missing, 12, missing, 323});
+  for (int k = 0; k < 1000; ++k) step(tables, state, {1e-3, lost, 12, lost, 323});
   EXPECT_EQ(state.last.flow_m3_per_s, before.flow_m3_per_s);
-  EXPECT_LE(state.last.flow_lower_m3_per_s, 1e-3 * before.flow_m3_per_s);
+  EXPECT_LE(state.last.flow_lower_m3_per_s, 0);
   const double opened = step(tables, state, {1e-3, 3.2, 12, 2.4e-3, 323}).flow_m3_per_s;
   CondensedState<double> again;
   step(tables, again, {1e-3, 1.5, 12, 1e-3, 323});
-  for (int k = 0; k < 1000; ++k) step(tables, again, {1e-3, missing, 12, missing, 323});
+  for (int k = 0; k < 1000; ++k) step(tables, again, {1e-3, lost, 12, lost, 323});
   EXPECT_GE(again.last.flow_upper_m3_per_s, opened);
 }
 
@@ -167,9 +166,9 @@ TEST(HeldAnswer, OfTheWholeCondensedSensorOpensToBothSides) {
   WholeCondensedState<double> state;
   const double flow = step(whole, state, {1e-3, 1.5, 0, 12, 0, -1e-3, 323}).flow_m3_per_s;
   ASSERT_LT(flow, 0);
-  for (int k = 0; k < 1000; ++k) step(whole, state, {1e-3, missing, 0, 12, 0, missing, 323});
+  for (int k = 0; k < 1000; ++k) step(whole, state, {1e-3, lost, 0, 12, 0, lost, 323});
   EXPECT_EQ(state.last.flow_m3_per_s, flow);
-  EXPECT_NEAR(state.last.flow_lower_m3_per_s, -state.last.flow_upper_m3_per_s, 1e-6);
+  EXPECT_NEAR(state.last.flow_lower_m3_per_s, -state.last.flow_upper_m3_per_s, 1e-9);
   EXPECT_GT(state.last.flow_upper_m3_per_s, -flow);
   EXPECT_TRUE(has(state.last.status, Status::sample_missing));
 }

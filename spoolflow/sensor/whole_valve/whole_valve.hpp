@@ -223,8 +223,7 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
   const T highest_Pa = other.highest_pressure_difference_Pa();
   const T other_m = select(seen, -position_m, other.position_m.at(edge_positions - 1));
   const T most = other.at(state.open.oil_temperature_K, highest_Pa, other_m).conductance * sqrt(highest_Pa);
-  const T share = select(seen, select(position_m < T(0), T(1), T(0)), held_opening(time_step_s));
-  held.flow_lower_m3_per_s += share * smaller(T(0), -most - held.flow_lower_m3_per_s);
+  in_valves(!seen || position_m < T(0), held, [&] { open_band(held, {-most, T(0)}, seen, time_step_s); });
   state.idle.closed_s += smaller(time_step_s, T(longest_step_s));
   state.open.last = mirrored(state.opens_a, held);
 }
