@@ -1,7 +1,7 @@
 /// A day of stops: a virtual valve moves and rests by turns under a pressure difference that changes, for 24 hours of
 /// simulated time, while bursts of missing samples hit its signals. One sensor goes through all of it, against the
-/// plant's true flow: the share of samples inside the 95 % band, of the whole, of the worst four hours in a row, and of
-/// the samples without a fault; with and without the bursts.
+/// plant's true flow: the share of samples inside the 95 % band, of the whole, of the worst four hours in a row, of the
+/// samples without a fault, and of those whose answer is held; with and without the bursts.
 ///
 ///     spoolflow campaign size_6 -o size_6 && spoolflow calibrate size_6/campaign.toml -o size_6.json
 ///     day_of_stops size_6.json size_6 [KEY=NUMBER ...]
@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -52,8 +53,10 @@ struct Coverage {
     double holding = 0, all = 0;
     for (std::size_t hour = from; hour < std::min(from + hours, of.size()); ++hour)
       holding += inside[hour], all += of[hour];
-    return 100 * holding / all;
+    return all > 0 ? 100 * holding / all : 0;
   }
+  [[nodiscard]] double percent() const { return percent(0, of.size()); }
+  [[nodiscard]] double samples() const { return std::accumulate(of.begin(), of.end(), 0.0); }
   [[nodiscard]] double worst_percent(std::size_t hours) const {
     double worst = 100;
     for (std::size_t from = 0; from == 0 || from + hours <= of.size(); ++from)
@@ -93,24 +96,29 @@ template <class Sensor>
 struct Day {
   const char* name;
   Sensor sensor;
-  Coverage all{}, without_fault{};
-  double width_m3_per_s = 0, samples = 0;
+  Coverage all{}, without_fault{}, held{};
+  double width_m3_per_s = 0, held_width_m3_per_s = 0;
 
   void step(const estimation::TimedSample& sample, double truth_m3_per_s) {
     const sensor::Estimate<double> answer = sensor.step(sample);
     const bool holds = answer.flow_lower_m3_per_s <= truth_m3_per_s && truth_m3_per_s <= answer.flow_upper_m3_per_s;
+    const double width = answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
     all.count(sample.time_s, holds);
+    width_m3_per_s += width;
     if ((static_cast<std::uint32_t>(answer.status) & sensor::fault_bits) == 0)
       without_fault.count(sample.time_s, holds);
-    width_m3_per_s += answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
-    ++samples;
+    if (has(answer.status, sensor::Status::sample_missing)) {
+      held.count(sample.time_s, holds);
+      held_width_m3_per_s += width;
+    }
   }
   void print(double rated_m3_per_s) const {
-    double sound = 0;
-    for (const double count : without_fault.of) sound += count;
-    fmt::print("{:<18}{:>10.2f}{:>14.2f}{:>16.2f}{:>14.2f}{:>12.2f}\n", name, all.percent(0, all.of.size()),
-               all.worst_percent(4), without_fault.percent(0, without_fault.of.size()), 100 * sound / samples,
-               100 * width_m3_per_s / samples / rated_m3_per_s);
+    const double samples = all.samples();
+    const auto share = [&](double width, double of) { return of > 0 ? 100 * width / of / rated_m3_per_s : 0; };
+    fmt::print("{:<16}{:>8.2f}{:>12.2f}{:>15.2f}{:>15.2f}{:>8.1f}{:>9.2f}{:>15.2f}{:>8.1f}\n", name, all.percent(),
+               all.worst_percent(4), without_fault.percent(), 100 * without_fault.samples() / samples,
+               share(width_m3_per_s, samples), held.percent(), 100 * held.samples() / samples,
+               share(held_width_m3_per_s, held.samples()));
   }
 };
 
@@ -188,8 +196,8 @@ void live_through(const model::Model& model, const rig::ValveUnderTest& valve, S
     }
   }
   fmt::print("{} hours, share inside the 95 % band and its mean width in % of the rated flow\n", set["hours"]);
-  fmt::print("{:<18}{:>10}{:>14}{:>16}{:>14}{:>12}\n", "", "all", "worst 4 h", "without fault", "those, of all",
-             "width");
+  fmt::print("{:<16}{:>8}{:>12}{:>15}{:>15}{:>8}{:>9}{:>15}{:>8}\n", "", "all", "worst 4 h", "without fault",
+             "those, of all", "width", "held", "those, of all", "width");
   plain.print(rated);
   hit.print(rated);
   single.print(rated);

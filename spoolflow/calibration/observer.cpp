@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <iterator>
@@ -49,6 +50,19 @@ constexpr double coverage_factor = 2;
 constexpr double largest_force_error_ratio = 7;
 
 constexpr const char* of_operation = "flow rate in operation";
+
+/// What a coil's voltage reaches in a recording [V], either way; 0 where none was measured.
+double largest_voltage_V(const recording::Recording& recording) {
+  using recording::Channel;
+  double largest_V = 0;
+  for (const Channel channel : {Channel::voltage, Channel::voltage_a, Channel::voltage_b}) {
+    if (!recording.has(channel)) continue;
+    for (const double voltage_V : recording[channel]) {
+      if (std::isfinite(voltage_V)) largest_V = std::max(largest_V, std::abs(voltage_V));
+    }
+  }
+  return largest_V;
+}
 
 FitResidual together(const std::vector<AxialForceFit>& fits, FitResidual AxialForceFit::*residual) {
   FitResidual out;
@@ -219,6 +233,9 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
   calibration.bench = residuals_on_bench(fits, valve.stroke_m);
   model::Observer& out = calibration.observer;
   out.parameters = parameters_from(fits, closed_below_m);
+  out.parameters.largest_voltage_V = largest_voltage_V(recordings.solenoid_force_map);
+  for (const recording::Recording* dynamic : recordings.solenoid_dynamic)
+    out.parameters.largest_voltage_V = std::max(out.parameters.largest_voltage_V, largest_voltage_V(*dynamic));
   double& flow_residual_m3_per_s = out.parameters.band.flow_residual_m3_per_s;
   flow_residual_m3_per_s =
       flow_residual_with_unknown_edges(fits.maps, flow_residual_m3_per_s, valve.rated_flow_m3_per_s);
@@ -238,6 +255,9 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
 
 void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
                             double rated_flow_m3_per_s, const std::function<void(double)>& progress) {
+  for (const OperatingRun& run : runs)
+    observer.parameters.largest_voltage_V =
+        std::max(observer.parameters.largest_voltage_V, largest_voltage_V(*run.recording));
   const std::vector<std::string> of_bench = std::move(observer.defaults);
   const std::vector<OperatingRun> used = with_reference(runs);
   if (!used.empty()) {
@@ -254,6 +274,7 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
 
 void take_over_operation(const model::Observer& one, model::Observer& other) {
   share_operation(one.parameters, other.parameters);
+  other.parameters.largest_voltage_V = std::max(one.parameters.largest_voltage_V, other.parameters.largest_voltage_V);
   other.defaults = one.defaults;
   for (const model::Residual& residual : one.residuals) {
     if (residual.of == of_operation) other.residuals.push_back(residual);

@@ -64,12 +64,17 @@ RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>>
       places_(filled_up(valves).size()),
       batch_(filled_up(valves), instructions),
       rows_(samples_at_once * places_) {
-  for (const BatchedValve<Parameters>& valve : valves) rated_flow_m3_per_s_.push_back(valve.rated_flow_m3_per_s);
+  for (const BatchedValve<Parameters>& valve : valves) {
+    rated_flow_m3_per_s_.push_back(valve.rated_flow_m3_per_s);
+    limits_.push_back(solenoid_limits(*valve.parameters));
+  }
 }
 
 template <class Parameters>
-void RunningBatch<Parameters>::put(std::size_t at, SampleTimes& times, const TimedSample& sample) {
-  SteppedSample<float>& given = rows_.given[at] = times.next<float>(sample);
+void RunningBatch<Parameters>::put(std::size_t at, std::size_t valve, TimedSample sample) {
+  const sensor::Status fault = take_out_implausible(limits_[valve], sample);
+  SteppedSample<float>& given = rows_.given[at] = times_[valve].template next<float>(sample);
+  given.fault = fault;
   if constexpr (whole) {
     if (std::isinf(sample.current_a_A)) given.sample.current_A = std::numeric_limits<float>::quiet_NaN();
     rows_.put(at, whole_valve_sample(given.sample, sample));
@@ -86,7 +91,7 @@ void RunningBatch<Parameters>::fill(std::span<const Columns> runs, std::size_t f
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t at = k * places_ + valve;
       if (from + k < runs[valve].size()) {
-        put(at, times_[valve], runs[valve][from + k]);
+        put(at, valve, runs[valve][from + k]);
       } else {
         rows_.put(at, sensor::Sample<float>{nothing, nothing, nothing, nothing, nothing});
       }

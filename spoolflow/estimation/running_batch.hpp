@@ -50,10 +50,11 @@ class RunningBatch {
   };
   static constexpr bool whole = std::is_same_v<typename batch::BatchedKind<Parameters>::Rows, batch::WholeSampleRows>;
   void fill(std::span<const Columns> runs, std::size_t from, std::size_t count);
-  void put(std::size_t at, SampleTimes& times, const TimedSample& sample);
+  void put(std::size_t at, std::size_t valve, TimedSample sample);
   void step(std::size_t count);
 
   std::vector<double> rated_flow_m3_per_s_;
+  std::vector<SolenoidLimits> limits_;
   std::vector<SampleTimes> times_;
   std::size_t places_;  ///< of valves in the batch, those that fill it up included
   batch::ValveBatch<Parameters> batch_;

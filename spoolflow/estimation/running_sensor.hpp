@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "spoolflow/estimation/coil_limits.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
@@ -28,11 +29,26 @@ struct TimedSample {
   sensor::PortPressures<double> ports{};  ///< of a whole valve
 };
 
+/// Takes out of a sample what none of the valve's coils carries: that current or voltage is then missing. Returns the
+/// fault to tell.
+inline sensor::Status take_out_implausible(const SolenoidLimits& limits, TimedSample& sample) {
+  const auto& [b, a] = limits;
+  const bool both_coils = !std::isnan(sample.current_a_A);  // else the current is the active coil's, whichever that is
+  const CoilLimits& active = both_coils || a.current_A < b.current_A ? b : a;
+  constexpr double now = std::numeric_limits<double>::infinity();  // see of_both_coils
+  bool out = take_away(sample.current_A, active.current_A, not_measured);
+  out = take_away(sample.voltage_V, active.voltage_V, not_measured) || out;
+  out = take_away(sample.current_a_A, a.current_A, now) || out;
+  out = take_away(sample.voltage_a_V, a.voltage_V, not_measured) || out;
+  return sensor::when(out, sensor::Status::coil_fault);
+}
+
 /// The same as the sensor takes it.
 template <class T>
 struct SteppedSample {
   sensor::Sample<T> sample;
-  bool repeated;  ///< a second look at the same instant
+  bool repeated;                                ///< a second look at the same instant
+  sensor::Status fault = sensor::Status::none;  ///< of what was taken out of it
 };
 
 /// How samples that carry times become the sensor's, and what is answered before any was complete.
@@ -61,6 +77,7 @@ struct SampleTimes {
       answered = sensor::unusable(given.sample) == sensor::Status::none;
       if (!answered) answer.flow_upper_m3_per_s = T(rated_flow_m3_per_s);
     }
+    answer.status |= given.fault;
     if (given.repeated) answer.status |= sensor::Status::time_fault;
   }
 };
@@ -135,13 +152,17 @@ class RunningSensor {
       condensed_ = laid_out(*whole->b);
       condensed_a_ = laid_out(*whole->a);
     }
+    limits_ = limits();
   }
 
-  /// One sample. A repeated time is a second look at the same instant, a time that runs backwards holds the last
+  /// One sample. A current or voltage that no coil of the valve carries is missing, and coil_fault says so. A repeated
+  /// time is a second look at the same instant, a time that runs backwards holds the last
   /// answer; both say time_fault, and the next time step counts from the new time. Before the first complete sample the
   /// flow is zero with a band over the whole rated flow, of a whole valve to both sides.
-  sensor::Estimate<double> step(const TimedSample& sample) {
+  sensor::Estimate<double> step(TimedSample sample) {
+    const sensor::Status fault = take_out_implausible(limits_, sample);
     auto given = state_.times.next<double>(sample);
+    given.fault = fault;
     if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
     sensor::Estimate<double> out = answer(given.sample, sample);
     state_.times.finish(out, given, rated_flow_m3_per_s_);
@@ -172,6 +193,13 @@ class RunningSensor {
     sensor::lay_out(parameters, *tables);
     return tables;
   }
+  [[nodiscard]] SolenoidLimits limits() const {
+    if (const auto* observer = std::get_if<const sensor::ObserverParameters<double>*>(&parameters_))
+      return solenoid_limits(**observer);
+    if (const auto* whole = std::get_if<sensor::WholeValveParameters<double>>(&parameters_))
+      return solenoid_limits(*whole);
+    return {coil_limits(*condensed_), coil_limits(condensed_a_ ? *condensed_a_ : *condensed_)};
+  }
   const sensor::Estimate<double>& answer(const sensor::Sample<double>& sample, const TimedSample& measured) {
     if (const auto* observer = std::get_if<const sensor::ObserverParameters<double>*>(&parameters_))
       return sensor::step(**observer, state_.observer, sample);
@@ -189,6 +217,7 @@ class RunningSensor {
   Parameters parameters_;
   Tables condensed_;  ///< the parameters, laid out
   Tables condensed_a_;
+  SolenoidLimits limits_;
   double rated_flow_m3_per_s_;
   RunningState state_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums over bytes that tell damage and mix-ups, not forgery: FNV-1a, and the CRC that firmware has anyway.
+/// Sum over bytes that tells damage and mix-ups, not forgery: FNV-1a.
 #include <cstddef>
 #include <cstdint>
 
@@ -20,16 +20,6 @@ constexpr std::uint64_t checksum(const char* bytes, std::size_t size) {
   Checksum sum;
   sum.add(bytes, size);
   return sum.value();
-}
-
-/// CRC-32 of IEEE 802.3, as zlib's and most microcontrollers' peripherals reckon it.
-constexpr std::uint32_t crc32(const char* bytes, std::size_t size) {
-  std::uint32_t sum = 0xFFFFFFFFU;
-  for (std::size_t k = 0; k < size; ++k) {
-    sum ^= static_cast<unsigned char>(bytes[k]);
-    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1U) ^ ((sum & 1U) != 0 ? 0xEDB88320U : 0U);
-  }
-  return ~sum;
 }
 
 }  // namespace spoolflow::exports

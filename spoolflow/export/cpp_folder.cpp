@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/export/checksum.hpp"
 #include "spoolflow/export/cpp/cell_sums.hpp"
 #include "spoolflow/export/cpp_texts.hpp"
 #include "spoolflow/export/golden_points.hpp"
@@ -17,6 +16,7 @@
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/limit_check.hpp"
+#include "spoolflow/numerics/crc32.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::exports {
@@ -60,7 +60,7 @@ std::string definition(const std::string& type, const std::string& name, const s
       "inline constexpr auto {1} = std::bit_cast<spoolflow::sensor::{0}<float>>(std::array<float, {2}>{{\n{3}}});\n"
       "inline constexpr std::uint32_t {1}_crc32 = 0x{4:08X}U;\n\n",
       type, name, numbers.size(), literals(numbers, groups),
-      crc32(reinterpret_cast<const char*>(single.data()), single.size() * sizeof(float)));
+      numerics::crc32({reinterpret_cast<const std::uint8_t*>(single.data()), single.size() * sizeof(float)}));
 }
 
 /// Names of all definitions in the model's header.

@@ -56,7 +56,8 @@ std::string notes(const model::Model& model, std::string_view estimator) {
   return fmt::format(
       "<p>Valve: {}, full scale {:.4g} L/min, stroke {:.4g} mm, oil {}. Calibrated by spoolflow {} on {}. Estimator: "
       "{}.</p>\n{}"
-      "<p>Inputs may be NaN: without current or position the last answer is held and status says sample_missing; the "
+      "<p>Inputs may be NaN: without current or position the last flow is held with a band that opens, and status says "
+      "sample_missing; the "
       "sensor recovers with the next complete sample. Where voltage or oil temperature are not measured, set "
       "use_voltage or "
       "use_oil_temperature to false.</p>\n"

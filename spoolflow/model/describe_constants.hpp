@@ -198,6 +198,11 @@ void describe_answer_constants(Visitor& visitor) {
        .meaning = "half the width that what the pressure difference yielded to at rest takes in the band, over it",
        .evidence = "duty_cycle_1: p95 3.44, 3.35, 3.23 % FS, band 94.6, 95.1, 95.4 %"},
       sensor::yielded_factor);
+  visitor.constant({.name = "unseen_stroke_s",
+                    .unit = "s",
+                    .meaning = "a spool that no position tells of is taken to go from end to end in so long: the band "
+                               "of the held answer opens"},
+                   sensor::unseen_stroke_s);
   visitor.constant({.name = "lopsided_share",
                     .unit = "1",
                     .meaning = "share of the difference between what is left open to either side at rest, by which "

@@ -310,6 +310,12 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
                   .limits = {0, 1e3},
                   .meaning = "currents above this count as saturated"},
                  parameters.largest_current_A);
+  visitor.number({.key = "largest_voltage_V",
+                  .unit = "V",
+                  .limits = {0, 1e5},
+                  .meaning = "of the coil, either way, in the calibration's recordings; 0: not known",
+                  .otherwise = 0.0},
+                 parameters.largest_voltage_V);
 }
 
 }  // namespace spoolflow::model

@@ -130,4 +130,46 @@ template <class T>
   out.flow_upper_m3_per_s = flow + sqrt(squared(most_m3_per_s - flow) + residual2);
 }
 
+/// What is left open of the pressure difference while no force tells of it. `edge` is that of the last position or of
+/// the one that is measured still.
+template <class T>
+constexpr PressureBand<T> unobserved_pressure_band(const BandParameters<T>& band, const ObserverState<T>& state,
+                                                   const EdgePoint<T>& edge, T highest_Pa) {
+  const T believed_Pa = limited(state.pressure.pressure_difference_Pa, T(0), highest_Pa);
+  const T known_Pa = band.rest_share * pressure_deviation_Pa(edge, state.force_noise_N);
+  const T open_Pa = band.coverage_factor * state.pressure.band_factor *
+                    sqrt(squared(unobserved_change_Pa(state.pressure, band.unseen_factor)) + squared(known_Pa));
+  return {larger(believed_Pa - open_Pa, T(0)), believed_Pa, smaller(believed_Pa + open_Pa, highest_Pa)};
+}
+
+/// Where the spool stands while an answer is held.
+template <class T>
+struct HeldPosition {
+  T position_m;  ///< free of drift, in the direction's signs; the last one where none is measured
+  Mask<T> seen;  ///< it is measured
+};
+
+/// One more sample of `time_step_s` >= 0 in which no force tells: the pressure difference moves unseen, and the band of
+/// the held answer, in the direction's signs, takes in what then may flow. That is told by the position, or without one
+/// lies between nothing and what the edge passes when it is wide open. The flow itself stays.
+template <class T>
+constexpr void widen_held(const ObserverParameters<T>& valve, ObserverState<T>& state, const HeldPosition<T>& at,
+                          T time_step_s, Estimate<T>& held) {
+  PressureState<T>& pressure = state.pressure;
+  const MeteringEdge<T>& edges = valve.edge;
+  const T highest_Pa = edges.highest_pressure_difference_Pa();
+  drift_unseen(valve.pressure, pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
+  const T believed_Pa = pressure.pressure_difference_Pa;
+  const EdgePoint<T> edge = edges.at(state.oil_temperature_K, believed_Pa, at.position_m);
+  const T open_conductance =
+      edges.at(state.oil_temperature_K, believed_Pa, edges.position_m.at(edge_positions - 1)).conductance;
+  const PressureBand<T> band = unobserved_pressure_band(valve.band, state, edge, highest_Pa);
+  const T most_conductance = select(at.seen, edge.conductance, open_conductance);
+  const T least_conductance = select(at.seen, edge.conductance, T(0));
+  Estimate<T> now{};
+  now.flow_m3_per_s = least_conductance * sqrt(band.expected_Pa);
+  band_of_flow(valve.band, least_conductance * sqrt(band.least_Pa), most_conductance * sqrt(band.most_Pa), now);
+  open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
+}
+
 }  // namespace spoolflow::sensor

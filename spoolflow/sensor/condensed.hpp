@@ -90,16 +90,35 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
 
 }  // namespace detail
 
+/// A sample that cannot be used: the last flow is held, and its band opens to all that may flow, at the position that
+/// is measured or, without one, at any.
+template <class T>
+[[gnu::noinline]] constexpr void hold(const CondensedTables<T>& valve, CondensedState<T>& state,
+                                      const Sample<T>& sample) {
+  Estimate<T>& out = state.last;
+  const T end_m = T(CondensedLayout::position_cells) / valve.cells_per_m;
+  const T position_m = select(is_number(sample.position_m), limited(sample.position_m, T(0), end_m), end_m);
+  const T most_m3_per_s = detail::largest_flow(valve, position_m) + valve.flow_residual_m3_per_s;
+  in_valves(within(sample.time_step_s, T(endless_step_s)), out, [&] {
+    open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, Mask<T>(false), sample.time_step_s);
+  });
+  if constexpr (one_valve<T>) {
+    out.status = detail::why_held(sample);
+  } else {
+    out.status = unusable(sample);
+  }
+}
+
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
 /// left out (paper section 3) and stand in the band instead. Needs current and position, and a time that does not run
-/// backwards: otherwise the last answer is held. Other inputs are not read. The answer stays in the state.
+/// backwards: otherwise the last flow is held. Other inputs are not read. The answer stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedState<T>& state, const Sample<T>& sample) {
   using Layout = CondensedLayout;
   Estimate<T>& out = state.last;
   detail::CondensedPoint<T> point;
   if (!detail::find_point(valve, sample, point)) [[unlikely]] {
-    if constexpr (one_valve<T>) out.status = detail::why_held(sample);
+    if constexpr (one_valve<T>) hold(valve, state, sample);
     return out;
   }
   const T x = point.position.cells;

@@ -142,22 +142,44 @@ template <class T>
   mark(out.status, opens, Status::other_direction);
 }
 
+/// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
+template <class T>
+[[gnu::noinline]] constexpr void hold(ObserverState<T>& state, const Sample<T>& sample,
+                                      const ObserverParameters<T>& valve) {
+  const T time_step_s = sample.time_step_s;
+  const Mask<T> leapt = time_step_s > T(longest_step_s);  // not where it is no number
+  const Mask<T> seen = is_number(sample.position_m);
+  const T measured_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
+  in_valves(state.started && within(time_step_s, T(endless_step_s)), state, [&] {
+    widen_held(valve, state, {select(seen, measured_m, state.position.last_m), seen}, time_step_s, state.last);
+  });
+  state.started = state.started && !leapt;
+  state.last.status = unusable(sample) | when(leapt, Status::time_fault);
+  admit_other_direction(valve, state, select(seen, measured_m, T(0)));
+}
+
 }  // namespace detail
 
+/// A sample that cannot be used: the last flow is held, its band opens for as long as that lasts, and the status says
+/// why. After a leap of time the sensor begins anew with the next one.
+template <class T>
+constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
+  detail::hold(state, sample, valve);
+}
+
 /// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
-/// otherwise the last answer is held; after a leap of time it begins anew. A missing oil temperature is held; the
-/// voltage tells of the coil alone and may be missing. The answer stays in the state.
+/// otherwise the last flow is held (`hold`); after a leap of time it begins anew. A missing oil temperature is held;
+/// the voltage tells of the coil alone and may be missing. The answer stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& sample) {
   Mask<T> begins = !state.started;
   if constexpr (one_valve<T>) {
     if (!ordinary(sample)) [[unlikely]] {
-      const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
-      state.started = state.started && !leapt;
+      const bool leapt = sample.time_step_s > T(longest_step_s);
       begins = begins || leapt;
-      if (const Status held = unusable(sample); held != Status::none) {
-        state.last.status = held | when(leapt, Status::time_fault);
+      if (unusable(sample) != Status::none) {
+        detail::hold(state, sample, valve);
         return state.last;
       }
     }

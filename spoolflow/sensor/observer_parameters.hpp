@@ -49,6 +49,7 @@ struct ObserverParameters {
   T moving_mass_kg{};  ///< spool, push rod and armature together
   T closed_below_m{};
   T largest_current_A{};
+  T largest_voltage_V{};  ///< of the coil, as calibration saw it; 0: not known. The step reads no limit from it.
 };
 
 template <class T>

@@ -24,6 +24,9 @@ inline constexpr int longest_step_s = 1;
 /// A time step of so much [s] is none.
 inline constexpr int endless_step_s = 1 << 30;
 
+/// A spool that no position tells of is taken to go from end to end in so long [s].
+inline constexpr double unseen_stroke_s = 0.4;
+
 /// Whether time leapt between the last sample and this one.
 template <class T>
 constexpr Mask<T> time_leapt(T time_step_s) {
@@ -57,5 +60,22 @@ struct Estimate {
   T friction_force_N{};
   typename ScalarTypes<T>::StatusWord status{};
 };
+
+/// What may flow [m3/s].
+template <class T>
+struct FlowRange {
+  T least;
+  T most;
+};
+
+/// Opens the band of a held answer to what may flow: at once, or as a spool that nobody sees goes to its ends in one
+/// more step of time [s], >= 0. The flow stays. What a broken state makes no number of opens nothing.
+template <class T>
+constexpr void open_band(Estimate<T>& held, const FlowRange<T>& range, Mask<T> at_once, T time_step_s) {
+  const T reach = smaller(time_step_s * T(1 / unseen_stroke_s), T(1)) * (range.most - range.least);
+  const T lower = held.flow_lower_m3_per_s, upper = held.flow_upper_m3_per_s;
+  held.flow_lower_m3_per_s = smaller(lower, select(at_once, range.least, larger(lower - reach, range.least)));
+  held.flow_upper_m3_per_s = larger(upper, select(at_once, range.most, smaller(upper + reach, range.most)));
+}
 
 }  // namespace spoolflow::sensor

@@ -23,11 +23,11 @@ enum class Status : std::uint32_t {
   flow_reversed = 1U << 9,   ///< by the port pressures a load drives the oil against the way that the spool opens
   // faults
   position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used
-  sample_missing = 1U << 17,   ///< an input is missing: the last answer is held
+  sample_missing = 1U << 17,   ///< an input is missing: the last flow is held, its band opens
   other_direction = 1U << 18,  ///< the spool opens the direction of flow that the model does not know: the band is all
                                ///< that may flow there
   time_fault = 1U << 19,       ///< the time does not advance: where it runs backwards the last answer is held
-  coil_fault = 1U << 20,       ///< voltage and current give a resistance that no sound coil has
+  coil_fault = 1U << 20,  ///< voltage and current give a resistance that no sound coil has, or none that it carries
   temperature_fault = 1U << 21,  ///< the oil temperature reads what no oil has, or leapt: the one before is held
   model_doubt = 1U << 22,  ///< of no sensor: a monitor beside it has raised indicators that contradict the model, and
                            ///< has widened the band by what they say

@@ -61,7 +61,7 @@ const char* meaning(sensor::Status bit) {
     case Status::position_fault:
       return "The position signal moved as no spool can; the last credible position was used. Look at its wiring.";
     case Status::sample_missing:
-      return "An input was missing; the last answer was held.";
+      return "An input was missing; the last flow was held, and its band opened.";
     case Status::time_fault:
       return "The time did not advance; where it ran backwards, the last answer was held. Look at the time stamps.";
     case Status::other_direction:
@@ -74,9 +74,8 @@ const char* meaning(sensor::Status bit) {
     case Status::model_doubt:
       return "Indicators of the valve's condition contradict the model; the band is wider by what they say.";
     case Status::coil_fault:
-      return "Voltage and current give a coil resistance that no sound coil has; look for shorted turns, a bad "
-             "contact, or "
-             "a wrong unit of the voltage.";
+      return "Voltage and current give a coil resistance that no sound coil has, or one of them is far beyond the "
+             "calibration's; look for shorted turns, a bad contact, a broken amplifier or line, or a wrong unit.";
   }
   return "";
 }

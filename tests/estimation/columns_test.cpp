@@ -156,7 +156,8 @@ TEST_P(Sensors, HoldTheirAnswerOverMissingSamplesAndAcrossColumns) {
   without.add({run.time_s.back() + 3e-3, 1, 10, missing, 313}, 0);
   for (const auto& held : answers(sensor, without)) {
     EXPECT_EQ(held.flow_m3_per_s, before.flow_m3_per_s);
-    EXPECT_EQ(held.flow_lower_m3_per_s, before.flow_lower_m3_per_s);
+    EXPECT_LE(held.flow_lower_m3_per_s, before.flow_lower_m3_per_s);
+    EXPECT_GE(held.flow_upper_m3_per_s, before.flow_upper_m3_per_s);
     EXPECT_TRUE(has(held.status, Status::sample_missing));
   }
 }
@@ -192,7 +193,7 @@ TEST_P(Sensors, NeverAnswerNaNAndFindTheFlowAgainAfterNonsense) {
     ASSERT_LE(out[k].flow_m3_per_s, out[k].flow_upper_m3_per_s) << k;
     held += has(out[k].status, Status::sample_missing) || has(out[k].status, Status::time_fault) ? 1 : 0;
   }
-  EXPECT_LT(held, out.size() * 2 / 3) << "the rest was answered anew";
+  EXPECT_LT(held, out.size() * 3 / 4) << "the rest was answered anew";
   const Measured good = strokes(1e8);
   const Estimates after = answers(sensor, good);
   sensor::Judgement judged;

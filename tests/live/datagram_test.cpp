@@ -52,11 +52,6 @@ TEST(Datagram, ComesBackAsItWasSent) {
   EXPECT_TRUE(std::isnan(datagram.samples[0].current_a_A));
 }
 
-TEST(Datagram, HasTheChecksumOfZlib) {
-  const std::string text = "123456789";
-  EXPECT_EQ(crc32({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0xCBF43926U);
-}
-
 TEST(Datagram, AnyOtherByteIsNoticed) {
   const Bytes whole = datagram_of(42, 3);
   for (std::size_t at = 0; at < whole.size(); ++at) {

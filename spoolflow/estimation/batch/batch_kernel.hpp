@@ -154,10 +154,6 @@ struct Together {
   static Sample sample(const Input& input) {
     return {input(0), input(1), input(2), input(3), input(4)};
   }
-  /// Where time leapt, and the sample could not be used either, an observer begins anew; a condensed sensor remembers
-  /// nothing.
-  static constexpr bool remembers = requires(State state) { state.started; };
-  void forget(const Pack::Mask& leapt) { state.started = state.started && !leapt; }
   Parameters parameters;
   State state;
   static auto unusable(const Sample& sample) { return sensor::unusable(sample); }
@@ -174,8 +170,6 @@ struct WholeTogether : Together<Parameters, State, sensor::WholeValveSample<Pack
   static sensor::WholeValveSample<Pack> sample(const Input& input) {
     return {input(0), input(1), input(2), input(3), input(4), input(5), input(6)};
   }
-  static constexpr bool remembers = requires(State state) { state.open.started; };
-  void forget(const Pack::Mask& leapt) { this->state.open.started = this->state.open.started && !leapt; }
   /// The condensed sensor needs the current of the side on which the spool stands, and no other.
   static auto unusable(const sensor::WholeValveSample<Pack>& sample) {
     if constexpr (std::same_as<State, sensor::WholeCondensedState<Pack>>) {
@@ -198,28 +192,19 @@ struct WholeTogether : Together<Parameters, State, sensor::WholeValveSample<Pack
   }
 };
 
-/// Valves whose sample is unusable keep what they had before, with the reason as status. Flattened: a call with packs
-/// as arguments would carry them through memory.
+/// Valves whose sample is unusable hold what they answered before. Flattened: a call with packs as arguments would
+/// carry them through memory.
 template <class Valves>
 [[gnu::flatten]] inline void step_one(Valves& valves, const typename Valves::Sample& sample) {
-  const auto held = Valves::unusable(sample);
-  const auto hold = is_any(held);
-  if (!any(hold)) {
+  const auto held = is_any(Valves::unusable(sample));
+  if (!any(held)) {
     sensor::step(valves.parameters, valves.state, sample);
     return;
   }
-  const auto before = valves.state;
+  auto before = valves.state;
+  sensor::hold(valves.parameters, before, sample);
   sensor::step(valves.parameters, valves.state, sample);
-  keep(hold, before, valves.state);
-  auto& status = valves.answer().status;
-  auto reason = status;
-  reason = held;
-  if constexpr (Valves::remembers) {
-    const auto leapt = hold && sample.time_step_s > Pack(sensor::longest_step_s);
-    valves.forget(leapt);
-    mark(reason, leapt, sensor::Status::time_fault);
-  }
-  keep(hold, reason, status);
+  keep(held, before, valves.state);
 }
 
 template <class Valves>

@@ -86,10 +86,10 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_FLOW_REVERSED (UINT32_C(1) << 9)          /* by the port pressures a load drives the oil back */
 /* Faults: an input or the model cannot be trusted. */
 #define SPOOLFLOW_STATUS_POSITION_FAULT (UINT32_C(1) << 16) /* the position moved as no spool can: the last credible one is used */
-#define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last answer is held */
+#define SPOOLFLOW_STATUS_SAMPLE_MISSING (UINT32_C(1) << 17) /* current or position missing: the last flow is held, its band opens */
 #define SPOOLFLOW_STATUS_OTHER_DIRECTION (UINT32_C(1) << 18) /* the spool opens the direction that the model does not know */
 #define SPOOLFLOW_STATUS_TIME_FAULT (UINT32_C(1) << 19)     /* time stood still, ran backwards, or is NaN; see spoolflow_step */
-#define SPOOLFLOW_STATUS_COIL_FAULT (UINT32_C(1) << 20)     /* voltage and current give a resistance that no sound coil has */
+#define SPOOLFLOW_STATUS_COIL_FAULT (UINT32_C(1) << 20)     /* voltage and current give a resistance that no sound coil has, or either is far beyond the calibration's */
 #define SPOOLFLOW_STATUS_TEMPERATURE_FAULT (UINT32_C(1) << 21) /* the oil temperature reads what no oil has: the one before is held */
 /* Any of the faults. */
 #define SPOOLFLOW_STATUS_FAULTS UINT32_C(0xFFFF0000)
@@ -162,8 +162,9 @@ SPOOLFLOW_API int spoolflow_is_whole(const spoolflow_sensor* sensor);
  *   a repeated time:          the sample counts as a second look at the same instant; status has TIME_FAULT;
  *   a time that runs back:    the last answer is held with TIME_FAULT, and time goes on from there;
  *   a NaN or infinite time:   the last answer is held with TIME_FAULT;
- *   current or position NaN:  the last answer is held with SAMPLE_MISSING; the sensor recovers with the next complete
- *                             sample. Before the first complete sample the flow is 0 with a band up to the rated flow.
+ *   current or position NaN:  the last flow is held with SAMPLE_MISSING and a band that opens for as long as that lasts;
+ *                             the sensor recovers with the next complete sample. Before the first complete sample the flow is 0 with a band up to the rated flow.
+ *   a current or voltage far beyond what calibration saw counts as missing, with COIL_FAULT.
  * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a pointer is NULL; faults of the inputs are told by the status alone. */
 SPOOLFLOW_API spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample* sample,
                                               spoolflow_estimate* estimate);

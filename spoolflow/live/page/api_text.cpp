@@ -45,7 +45,7 @@ Json source_of(const SourceView& source) {
 Json causes_of(const ValveView& valve) {
   Json out = Json::array();
   for (const monitor::Cause& cause : valve.causes) {
-    out.push_back({{"cause", monitor::name(cause.fault)}, {"odds", number(cause.odds)}});
+    out.push_back({{"cause", monitor::name(cause.fault)}, {"odds", cause.odds}});
   }
   return out;
 }
@@ -54,10 +54,10 @@ Json indicators_of(const ValveView& valve) {
   Json out = Json::array();
   for (const monitor::Indicator& one : valve.indicators) {
     out.push_back({{"name", one.name},
-                   {"value", number(one.value)},
+                   {"value", one.value},
                    {"unit", one.unit},
-                   {"uncertainty_95", number(one.uncertainty_95)},
-                   {"baseline", number(one.baseline)},
+                   {"uncertainty_95", one.uncertainty_95},
+                   {"baseline", one.baseline},
                    {"state", monitor::name(one.state)}});
   }
   return out;
@@ -81,7 +81,7 @@ Json valve_of(const Engine& engine, std::size_t k) {
           {"ne107", monitor::name(valve.condition)},
           {"causes", causes_of(valve)},
           {"samples", valve.samples},
-          {"energy_J", number(valve.energy_J)},
+          {"energy_J", valve.energy_J},
           {"indicators", indicators_of(valve)},
           {"source", source_of(source)}};
 }

@@ -82,7 +82,4 @@ struct DatagramHeader {
 [[nodiscard]] std::vector<std::uint8_t> write_datagram(const DatagramHeader& header,
                                                        std::span<const estimation::TimedSample> samples);
 
-/// CRC-32 of IEEE 802.3: polynomial 0x04C11DB7, reflected, begun and ended with all ones.
-[[nodiscard]] std::uint32_t crc32(std::span<const std::uint8_t> bytes);
-
 }  // namespace spoolflow::live

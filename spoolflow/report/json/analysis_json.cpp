@@ -11,13 +11,8 @@
 namespace spoolflow::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // writes null for what is no number, and for infinity
 using units::L_per_min_from_m3_per_s;
-
-/// JSON has no infinity: null.
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json input(const uncertainty::InputUncertainty& input) {
   const uncertainty::QuantityAbout& about = uncertainty::about(input.quantity);
@@ -27,7 +22,7 @@ Json input(const uncertainty::InputUncertainty& input) {
           {"unit", about.unit},
           {"type", input.evaluation == uncertainty::Evaluation::type_a ? "A" : "B"},
           {"distribution", uncertainty::name(input.distribution)},
-          {"degrees_of_freedom", finite(input.degrees_of_freedom)},
+          {"degrees_of_freedom", input.degrees_of_freedom},
           {"source", input.source}};
 }
 
@@ -66,7 +61,7 @@ Json monte_carlo(const analysis::MonteCarlo& check) {
           {"upper_L_min", L_per_min_from_m3_per_s(figures.upper)},
           {"shortest_lower_L_min", L_per_min_from_m3_per_s(figures.shortest_lower)},
           {"shortest_upper_L_min", L_per_min_from_m3_per_s(figures.shortest_upper)},
-          {"deviation_over_budget", finite(comparison.deviation_ratio)},
+          {"deviation_over_budget", comparison.deviation_ratio},
           {"lower_difference_L_min", L_per_min_from_m3_per_s(comparison.lower_difference)},
           {"upper_difference_L_min", L_per_min_from_m3_per_s(comparison.upper_difference)},
           {"tolerance_L_min", L_per_min_from_m3_per_s(comparison.tolerance)},
@@ -88,7 +83,7 @@ Json point(const analysis::PointResult& result, double full_scale_m3_per_s) {
   out["sensitivities_by"] =
       result.estimator == estimation::Estimator::condensed ? "automatic differentiation" : "central differences";
   out["combined_standard_L_min"] = L_per_min_from_m3_per_s(budget.combined_m3_per_s);
-  out["effective_degrees_of_freedom"] = finite(budget.degrees_of_freedom);
+  out["effective_degrees_of_freedom"] = budget.degrees_of_freedom;
   out["coverage_factor"] = budget.coverage_factor;
   out["expanded_L_min"] = L_per_min_from_m3_per_s(budget.expanded_m3_per_s);
   out["expanded_percent_FS"] = 100 * budget.expanded_m3_per_s / full_scale_m3_per_s;
@@ -139,7 +134,7 @@ Json run_result(const analysis::RunResult& result) {
            {"trials", result.trials},
            {"combined_standard_rms_L_min", L_per_min_from_m3_per_s(std::sqrt(squares / instants))},
            {"coverage_factor", result.coverage_factor},
-           {"deviation_over_budget", finite(result.deviation_ratio)},
+           {"deviation_over_budget", result.deviation_ratio},
            {"budget", budget}};
   if (result.shares) {
     out["samples_in_band"] = {{"instants_with_reference", result.shares->instants},

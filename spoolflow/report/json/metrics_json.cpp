@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
@@ -155,7 +154,7 @@ Json MetricsJson::sign(const validation::SignFigures& figures) const {
 }
 
 Json MetricsJson::steps(const validation::StepResponse& response) {
-  const auto milliseconds = [](double seconds) { return std::isnan(seconds) ? Json(nullptr) : Json(1e3 * seconds); };
+  const auto milliseconds = [](double seconds) { return 1e3 * seconds; };  // NaN is written as null
   Json out{{"steps", response.steps},
            {"reference_rise_ms", milliseconds(response.reference_rise_s)},
            {"estimators", Json::array()}};
@@ -164,7 +163,7 @@ Json MetricsJson::steps(const validation::StepResponse& response) {
                                  {"followed", answer.followed},
                                  {"delay_ms", milliseconds(answer.delay_s)},
                                  {"rise_ms", milliseconds(answer.rise_s)},
-                                 {"overshoot", std::isnan(answer.overshoot) ? Json(nullptr) : Json(answer.overshoot)}});
+                                 {"overshoot", answer.overshoot}});
   }
   return out;
 }

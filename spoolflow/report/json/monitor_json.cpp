@@ -1,6 +1,5 @@
 #include "spoolflow/report/json/monitor_json.hpp"
 
-#include <cmath>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
@@ -10,20 +9,16 @@
 namespace spoolflow::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json figure(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using Json = nlohmann::ordered_json;  // writes null for what is no number
 
 Json indicators_json(const std::vector<monitor::Indicator>& indicators) {
   Json out = Json::array();
   for (const monitor::Indicator& indicator : indicators) {
     out.push_back({{"name", indicator.name},
-                   {"value", figure(indicator.value)},
+                   {"value", indicator.value},
                    {"unit", indicator.unit},
-                   {"uncertainty_95", figure(indicator.uncertainty_95)},
-                   {"baseline", figure(indicator.baseline)},
+                   {"uncertainty_95", indicator.uncertainty_95},
+                   {"baseline", indicator.baseline},
                    {"state", monitor::name(indicator.state)}});
   }
   return out;

@@ -26,10 +26,29 @@ struct WholeCondensedState {
   Estimate<T> last{};
 };
 
+/// A sample that cannot be used; see the same of one direction. Without a position the spool may stand on either side.
+template <class T>
+[[gnu::noinline]] constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
+                                      const WholeValveSample<T>& sample) {
+  const auto hold_side = [&](Mask<T> opens_a) {
+    CondensedState<T> direction{mirrored(opens_a, state.last)};
+    hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a));
+    state.last = mirrored(opens_a, direction.last);
+  };
+  hold_side(sample.position_m < T(0));
+  in_valves(!is_number(sample.position_m), state, [&] { hold_side(Mask<T>(true)); });
+}
+
 /// One sample; see the same of one direction. What the idle solenoid holds is left out.
 template <class T>
 constexpr const Estimate<T>& step(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                   const WholeValveSample<T>& sample) {
+  if constexpr (one_valve<T>) {
+    if (!is_number(sample.position_m)) [[unlikely]] {
+      hold(valve, state, sample);
+      return state.last;
+    }
+  }
   const Mask<T> opens_a = sample.position_m < T(0);
   const auto turned = [&](const Estimate<T>& estimate) {
     if constexpr (one_valve<T>) {

@@ -204,18 +204,51 @@ template <class T>
   mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
 
+/// One more sample in which no force tells; see the same of one direction. On the other side of the centre nothing is
+/// known of the pressure difference.
+template <class T>
+constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
+                          const WholeValveSample<T>& sample) {
+  const Sides<T> now = sides(valve, state.opens_a);
+  const T time_step_s = sample.time_step_s;
+  const Mask<T> seen = is_number(sample.position_m);
+  const T measured_m =
+      drift_free_m(valve.b->position_sensor, sample.position_m - state.zero_m, state.open.oil_temperature_K);
+  const T signed_m = select(seen, measured_m, state.open.position.last_m);
+  const T position_m = select(state.opens_a, -signed_m, signed_m);
+  Estimate<T> held = mirrored(state.opens_a, state.open.last);
+  sensor::widen_held(now.open, state.open, {position_m, seen}, time_step_s, held);
+
+  const MeteringEdge<T>& other = now.idle.edge;
+  const T highest_Pa = other.highest_pressure_difference_Pa();
+  const T other_m = select(seen, -position_m, other.position_m.at(edge_positions - 1));
+  const T most = other.at(state.open.oil_temperature_K, highest_Pa, other_m).conductance * sqrt(highest_Pa);
+  in_valves(!seen || position_m < T(0), held, [&] { open_band(held, {-most, T(0)}, seen, time_step_s); });
+  state.idle.closed_s += smaller(time_step_s, T(longest_step_s));
+  state.open.last = mirrored(state.opens_a, held);
+}
+
 }  // namespace detail
 
+/// A sample that cannot be used; see the same of one direction.
+template <class T>
+[[gnu::noinline]] constexpr void hold(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
+                                      const WholeValveSample<T>& sample) {
+  const Mask<T> leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
+  in_valves(state.open.started && within(sample.time_step_s, T(endless_step_s)), state,
+            [&] { detail::widen_held(valve, state, sample); });
+  state.open.started = state.open.started && !leapt;
+  state.open.last.status = unusable(sample) | when(leapt, Status::time_fault);
+}
+
 /// One sample of the whole valve. Needs both currents and the position, and a time that does not run backwards:
-/// otherwise the last answer is held. The answer, in the valve's signs, stays in the state.
+/// otherwise the last flow is held (`hold`). The answer, in the valve's signs, stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
   if constexpr (one_valve<T>) {
-    if (const Status held = unusable(sample); held != Status::none) {
-      const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
-      state.open.last.status = held | when(leapt, Status::time_fault);
-      state.open.started = state.open.started && !leapt;
+    if (unusable(sample) != Status::none) {
+      hold(valve, state, sample);
       return state.open.last;
     }
   }

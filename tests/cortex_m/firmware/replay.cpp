@@ -12,11 +12,14 @@ struct Point {
 struct Run {
   std::uint32_t points;
   std::uint32_t recorded;  ///< of them; after these come made-up disturbances
-  Point point[1];
 };
 
-__asm__(".section .rodata.run\n.balign 8\nrun_begin:\n.incbin \"run.bin\"\n.balign 4\n.text\n");
+__asm__(
+    ".section .rodata.run\n.balign 8\nrun_begin:\n.incbin \"run.bin\", 0, 8\n"
+    "run_points:\n.incbin \"run.bin\", 8\n.balign 4\n.text\n");
 extern "C" const Run run_begin;
+extern "C" const Point run_points[];
+static_assert(sizeof(Run) == 8 && alignof(Point) <= 8);
 
 constexpr std::uint32_t most_instructions = 8192;
 std::uint32_t histogram[modes][most_instructions];
@@ -60,10 +63,10 @@ int main() {
   std::uint32_t not_a_number = 0, statuses = 0, overflowing = 0;
   board::watch_floats();
   board::paint_stack();
-  one_step(other_state, run.point[0].sample);
+  one_step(other_state, run_points[0].sample);
   board::print("stack_bytes", board::used_stack_bytes());
   for (std::uint32_t k = 0; k < run.points; ++k) {
-    const Point& point = run.point[k];
+    const Point& point = run_points[k];
     const std::uint32_t before = board::ticks_left;
     const spoolflow::sensor::Estimate<float>& estimate = one_step(state, point.sample);
     const std::uint32_t ticks = ((before - board::ticks_left) & 0xFFFFFFU) - overhead;

@@ -1,0 +1,83 @@
+/// `spoolflow estimate` over recordings whose coil signals broke in between.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/apps/command_line.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Row {
+  double flow_L_min, lower_L_min, upper_L_min;
+  std::string status;
+};
+
+class EstimateFaults : public CommandLine {
+ protected:
+  /// Strokes of the example's valve; `broken` is what amplifier and line make of 0.2 s in their middle.
+  template <class Broken>
+  std::vector<Row> estimate(const Broken& broken) {
+    std::string text = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
+    for (int k = 0; k < samples; ++k) {
+      const double swing = std::sin(0.004 * k), current_A = 1.2 + 0.5 * swing;
+      const auto [shown_A, shown_V] = k >= from && k < to ? broken(current_A) : std::pair(current_A, 2.9 * current_A);
+      text += fmt::format("{:.3f},{},{},{:.5f},50\n", 1e-3 * k, shown_A, shown_V, 1.1 + 0.9 * swing);
+    }
+    write("run.csv", text);
+    const Answer answer = run("estimate -q " SPOOLFLOW_EXAMPLE_MODEL " run.csv -o flow.csv");
+    EXPECT_EQ(answer.status, 0) << answer.message;
+    std::istringstream lines(content("flow.csv"));
+    std::string line;
+    std::getline(lines, line);
+    std::vector<Row> rows;
+    while (std::getline(lines, line)) {
+      Row row;
+      char comma{};
+      double time_s{};
+      std::istringstream cells(line);
+      cells >> time_s >> comma >> row.flow_L_min >> comma >> row.lower_L_min >> comma >> row.upper_L_min;
+      row.status = line.substr(line.rfind(',') + 1);
+      rows.push_back(row);
+    }
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(samples));
+    return rows;
+  }
+  static constexpr int samples = 2000, from = 1000, to = 1200;
+};
+
+TEST_F(EstimateFaults, ACurrentThatNoCoilCarriesHoldsTheFlowWithABandThatHoldsTheTruth) {
+  const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
+  for (const double broken_A : {4.0, 8.0, 20.0}) {
+    const std::vector<Row> rows = estimate([&](double current_A) { return std::pair(broken_A, 2.9 * current_A); });
+    int inside = 0;
+    for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
+      ASSERT_THAT(rows[k].status, HasSubstr("sample_missing|coil_fault")) << broken_A << " A, sample " << k;
+      inside += rows[k].lower_L_min <= sound[k].flow_L_min && sound[k].flow_L_min <= rows[k].upper_L_min ? 1 : 0;
+    }
+    EXPECT_GT(inside, 190) << broken_A;
+    EXPECT_THAT(rows[to + 100].status, Not(HasSubstr("sample_missing")));
+  }
+}
+
+TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsTold) {
+  const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
+  const std::vector<Row> rows = estimate([](double current_A) { return std::pair(current_A, 200.0); });
+  for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
+    ASSERT_THAT(rows[k].status, HasSubstr("coil_fault")) << k;
+    ASSERT_THAT(rows[k].status, Not(HasSubstr("sample_missing"))) << k;
+    EXPECT_NEAR(rows[k].flow_L_min, sound[k].flow_L_min, 0.1) << k;
+  }
+}
+
+}  // namespace
+}  // namespace spoolflow::apps
