@@ -28,7 +28,7 @@
 #include "spoolflow/monitor/watch.hpp"
 #include "spoolflow/rig/bench/operation_protocols.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
-#include "spoolflow/rig/bench/valve_under_test.hpp"
+#include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace {
 
@@ -221,7 +221,7 @@ struct Bench {
 
 Valve read_valve(const std::string& name, const std::string& file) {
   const std::size_t colon = name.find(':');
-  Valve out{name, rig::valve_preset(name.substr(0, colon)), model::read_model(file), 0};
+  Valve out{name, rig::read_valve_and_campaign(name.substr(0, colon)).valve, model::read_model(file), 0};
   if (colon != std::string::npos) {
     out.healthy.seed = std::stoull(name.substr(colon + 1));
     out.healthy.spread.amount = 1;
