@@ -7,7 +7,8 @@
 /// takes valve k modulo their number and has its own noise, strokes, pressure differences and oil temperature. Of each
 /// fault the smallest level is sought by halving that is found, raised and with its own cause first, in all cases but
 /// one of twenty. Keys: cases; strokes; dithered (0, 1; both if absent); fault (its number, all if absent); alarms
-/// (wanted a year); amplitude (of the dither, A), frequency (Hz); slowest, fastest (of the strokes, % of the stroke/s).
+/// (wanted a year); amplitude (of the dither, A), frequency (Hz); slowest, fastest (of the strokes, % of the
+/// stroke/s); lowest, highest (level that is tried, in the unit of the fault).
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -183,7 +184,9 @@ struct Bench {
     return out;
   }
 
-  void seek(const FaultKind& kind, bool dithered) const {
+  void seek(FaultKind kind, bool dithered) const {
+    std::erase_if(kind.levels, [&](double level) { return level < set.at("lowest") || level > set.at("highest"); });
+    if (kind.levels.empty()) throw std::runtime_error("there is no level between lowest and highest");
     const int all = static_cast<int>(set.at("cases"));
     std::size_t low = 0, high = kind.levels.size();  // found from `high` on
     std::map<std::size_t, Found> seen;
@@ -240,7 +243,9 @@ Bench bench_of(int argc, char** argv) {
              {"amplitude", 0.1},
              {"frequency", 120},
              {"slowest", 15},
-             {"fastest", 60}}};
+             {"fastest", 60},
+             {"lowest", 0},
+             {"highest", 1e9}}};
   for (int k = 1; k < argc; ++k) {
     const std::string argument = argv[k];
     const std::size_t equals = argument.find('=');

@@ -99,7 +99,7 @@ bool cancels(unsigned set) {
 }
 
 /// What wears the lands wears the edges, too: given one of the two, the other is as likely as this.
-constexpr double edges_beside_friction = 0.3;
+constexpr double edges_beside_friction = 1;
 
 double log_prior(unsigned set) {
   const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
