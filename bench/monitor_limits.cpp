@@ -63,7 +63,7 @@ const std::vector<FaultKind>& kinds() {
   using Tested = rig::ValveUnderTest;
   static const std::vector<FaultKind> all{
       {"friction",
-       "+ %",
+       "% more",
        Fault::friction,
        {20, 30, 40, 50, 60, 80, 100, 150},
        [](Tested& valve, double level) { valve.wear.friction_factor = 1 + 0.01 * level; }},
@@ -72,14 +72,14 @@ const std::vector<FaultKind>& kinds() {
        Fault::edge_wear,
        {15, 20, 25, 30, 35, 40, 45, 50, 60, 75},
        [](Tested& valve, double level) { valve.wear.edge_rounding_m = 1e-6 * level; }},
-      {"spring preload (rate 0.55 of it)", "- %", Fault::spring, {4, 5, 6, 7, 8, 9, 10, 12, 15, 20}, weaken},
+      {"spring preload (rate 0.55 of it)", "% less", Fault::spring, {4, 5, 6, 7, 8, 9, 10, 12, 15, 20}, weaken},
       {"shorted turns",
        "%",
        Fault::coil,
        {2, 2.5, 3, 3.5, 4, 5, 6, 8, 12},
        [](Tested& valve, double level) { valve.wear.shorted_turns_fraction = 0.01 * level; }},
       {"resistance",
-       "+ %",
+       "% more",
        Fault::coil,
        {20, 30, 35, 40, 45, 50, 60, 70, 80},
        [](Tested& valve, double level) {

@@ -98,7 +98,7 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   rest.mean_m += (position_m - rest.mean_m) / rest.weight;
   const bool lowest = rest.weight <= 1 || position_m < rest.lowest_m;
   rest.lowest_m = lowest ? position_m : rest.lowest_m + lowest_forgetting * (position_m - rest.lowest_m);
-  if (rest.weight <= 1) return;  // the first may be held by friction
+  if (rest.weight <= 1 || reference.whole) return;  // the first may be held by friction
   const std::size_t k = index(Magnitude::position_zero);
   const double unit_m = usual_fault[k];
   const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
@@ -168,7 +168,9 @@ void finish(const SideReference& reference, const Limits& limits, SideState& sta
 }
 
 Evidence evidence_of(const SideReference& reference, const SideState& state) {
-  Evidence out = evidence_of(state.learnt);
+  Learnt learnt = state.learnt;
+  if (reference.whole) learnt.rest = {};
+  Evidence out = evidence_of(learnt);
   const double learnt_Ohm = reference.baseline.resistance_Ohm;
   const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
   const double expected_Ohm = learnt_Ohm > 0 ? learnt_Ohm : usual_resistance_ratio * calibrated_Ohm;

@@ -49,6 +49,7 @@ static_assert(std::is_trivially_copyable_v<SideState>);
 struct SideReference {
   const sensor::ObserverParameters<double>* valve = nullptr;
   double stroke_m = 0;
+  bool whole = false;  ///< springs of both ends centre the spool: friction, not the sensor's zero, says where it rests
   SideBaseline baseline;
 };
 

@@ -63,6 +63,7 @@ Watch::Watch(const model::Model& model, const Options& options, const std::optio
   for (std::size_t k = 0; k < sides(); ++k) {
     reference_[k].valve = &parameters(model, k == 1);
     reference_[k].stroke_m = model.valve.stroke_m;
+    reference_[k].whole = model.whole();
     if (baseline) reference_[k].baseline = baseline->side[k];
   }
   if (baseline) {
