@@ -65,6 +65,7 @@ struct MonitorArguments {
   std::string baseline;                 ///< empty: the model is the reference
   std::string report;                   ///< to write; empty: none
   std::string json;                     ///< to write; empty: none
+  std::string adapt = {};               ///< corrected model to write; empty: none
   std::string channels;                 ///< channel map; empty: none
   std::vector<std::string> units = {};  ///< of the report
   double false_alarms_per_year = 1;     ///< wanted, over all indicators

@@ -1,4 +1,5 @@
 /// `spoolflow monitor`: the condition of a valve from recordings of its operation.
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
@@ -71,15 +73,18 @@ class BandWatch {
 void monitor_one(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
                  monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
                  const std::function<void(std::optional<double>)>& progress) {
-  const auto reader = validation::open_sensor_channels(recording, validation::sensor_channels(model, channels));
+  recording::ReadOptions options = validation::sensor_channels(model, channels);
+  options.optional.push_back(recording::Channel::position_set);
+  const auto reader = validation::open_sensor_channels(recording, options);
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
   recording::SampleBlock block;
   while (reader->next(block)) {
     const estimation::Columns columns = validation::sensor_columns(block);
+    const std::vector<double>& command = block.column(recording::Channel::position_set);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const estimation::TimedSample sample = columns[k];
       const sensor::Estimate<double> answer = sensor.step(sample);
-      watch.take(sample, answer);
+      watch.take(sample, answer, command.empty() ? estimation::not_measured : model.valve.stroke_m * command[k]);
       band.take(model, watch, sample, answer);
     }
     follow_trend(watch, trend);
@@ -87,6 +92,21 @@ void monitor_one(const model::Model& model, const std::string& recording, const 
   }
   watch.finish();
   follow_trend(watch, trend);
+}
+
+/// The model with what was found put right, and from which recordings.
+void write_corrected(std::ostream& out, const MonitorArguments& arguments, const model::Model& model,
+                     const monitor::Watch& watch, const std::vector<std::uint64_t>& samples) {
+  model::Adaptation how{
+      std::string(tool_version()), model::creation_time(), model::sha256_of_file(arguments.model), {}, {}};
+  model::Model from = model;
+  for (std::size_t k = 0; k < arguments.recordings.size(); ++k) {
+    const std::filesystem::path recording = arguments.recordings[k];
+    how.files.push_back(recording.filename().string());
+    from.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.filename().string(),
+                                      model::sha256_of_file(recording), samples[k]});
+  }
+  model::write_model(out, monitor::adapted(from, watch.findings(), std::move(how)));
 }
 
 void print_condition(const monitor::Watch& watch) {
@@ -121,6 +141,14 @@ void monitor_recordings(const MonitorArguments& arguments) {
   }
   std::optional<OutputFile> json;
   if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
+  std::optional<OutputFile> corrected;
+  if (!arguments.adapt.empty()) {
+    if (std::find(arguments.recordings.begin(), arguments.recordings.end(), "-") != arguments.recordings.end())
+      throw model::ModelError("-: a corrected model tells its recordings by their checksums; --adapt needs files");
+    inputs.emplace_back(arguments.json);
+    corrected.emplace(arguments.adapt, inputs);
+  }
+  std::vector<std::uint64_t> samples;
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
   BandWatch band;
@@ -129,17 +157,20 @@ void monitor_recordings(const MonitorArguments& arguments) {
     const auto total = static_cast<double>(arguments.recordings.size());
     for (const std::string& recording : arguments.recordings) {
       const auto before = static_cast<double>(runs.size());
+      const std::uint64_t samples_before = watch.usage().samples;
       monitor_one(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
         if (share) progress.update((before + *share) / total);
       });
       runs.push_back(
           {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
+      samples.push_back(watch.usage().samples - samples_before);
     }
   }
+  if (corrected) write_corrected(corrected->stream(), arguments, model, watch, samples);
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
-  commit_together({page ? &*page : nullptr, json ? &*json : nullptr});
-  if (arguments.json != "-" && arguments.report != "-") print_condition(watch);
+  commit_together({page ? &*page : nullptr, json ? &*json : nullptr, corrected ? &*corrected : nullptr});
+  if (arguments.json != "-" && arguments.report != "-" && arguments.adapt != "-") print_condition(watch);
 }
 
 void add_monitor_command(CLI::App& program) {
@@ -153,7 +184,8 @@ void add_monitor_command(CLI::App& program) {
        "indicators, causes and the sign of NE 107 as JSON, which is a baseline for later runs, too; a summary on "
        "standard output",
        {"spoolflow monitor valve_a.json monday.csv tuesday.csv --json condition.json",
-        "spoolflow monitor valve_a.json friday.csv --baseline condition.json --json friday.json"}});
+        "spoolflow monitor valve_a.json friday.csv --baseline condition.json --json friday.json",
+        "spoolflow monitor valve_a.json week*.csv --adapt valve_a_as_worn.json"}});
   command->add_option("model", arguments->model, "model file")->required();
   command->add_option("recordings", arguments->recordings, "recordings of the valve at work, oldest first")->required();
   command
@@ -163,6 +195,11 @@ void add_monitor_command(CLI::App& program) {
   command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "condition to write as JSON; - for standard output")
       ->type_name("OUT.json");
+  command
+      ->add_option("--adapt", arguments->adapt,
+                   "corrected model to write: friction, spring, force factor and position zero as found, where they "
+                   "are raised")
+      ->type_name("MODEL2.json");
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");

@@ -15,10 +15,31 @@ struct InputFile {
   std::uint64_t samples;  ///< rows read; 0 for the campaign file
 };
 
+/// One number that was put right after calibration.
+struct Correction {
+  std::string direction;  ///< "b" or "a"
+  std::string of;         ///< "friction ratio", …
+  std::string unit;       ///< SI; "1" for ratios and shares
+  double value;           ///< against the model that it was applied to
+  double uncertainty_95;  ///< half width about `value`, >= 0
+};
+
+/// What the valve's operation has told against its model, put right in it (monitor/adaptation.hpp). The recordings it
+/// is from stand among the provenance's inputs, as of protocol `adaptation_protocol`.
+struct Adaptation {
+  std::string tool_version;
+  std::string created;             ///< UTC, ISO 8601
+  std::string adapted_from;        ///< sha256 of the model file that was corrected
+  std::vector<std::string> files;  ///< recordings, by their names among the inputs
+  std::vector<Correction> corrections;
+};
+inline constexpr std::string_view adaptation_protocol = "adaptation";
+
 struct Provenance {
   std::string tool_version;
   std::string created;  ///< UTC, ISO 8601
   std::vector<InputFile> inputs;
+  std::vector<Adaptation> adaptations = {};  ///< oldest first
 };
 
 /// Throws std::runtime_error where the file cannot be read.

@@ -20,17 +20,38 @@ Range range(const JsonNode& node) {
   return {ends[0], ends[1]};
 }
 
-Provenance provenance(const JsonNode& node) {
-  Provenance out{node.at("tool").text(), node.at("created").text(), {}};
+std::string tool_version(const JsonNode& node) {
+  std::string out = node.text();
   const std::string tool = "spoolflow ";
-  if (out.tool_version.starts_with(tool)) out.tool_version.erase(0, tool.size());
+  if (out.starts_with(tool)) out.erase(0, tool.size());
+  return out;
+}
+
+std::string sha256(const JsonNode& node) {
+  const std::string out = node.text();
+  if (out.size() != 64 || out.find_first_not_of("0123456789abcdef") != std::string::npos)
+    node.refuse("no sha256 of 64 hexadecimal digits");
+  return out;
+}
+
+Adaptation adaptation(const JsonNode& node) {
+  Adaptation out{tool_version(node.at("tool")), node.at("created").text(), sha256(node.at("adapted_from")), {}, {}};
+  for (const JsonNode& file : node.at("files").elements()) out.files.push_back(file.text());
+  for (const JsonNode& each : node.at("corrections").elements()) {
+    out.corrections.push_back({each.at("direction").text(), each.at("of").text(), each.at("unit").text(),
+                               each.at("value").number(), each.at("uncertainty_95").number(0, 1e15)});
+  }
+  return out;
+}
+
+Provenance provenance(const JsonNode& node) {
+  Provenance out{tool_version(node.at("tool")), node.at("created").text(), {}};
   for (const JsonNode& input : node.at("inputs").elements()) {
-    const std::string sha256 = input.at("sha256").text();
-    if (sha256.size() != 64 || sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
-      input.at("sha256").refuse("no sha256 of 64 hexadecimal digits");
-    }
-    out.inputs.push_back({input.at("protocol").text(), input.at("file").text(), sha256,
+    out.inputs.push_back({input.at("protocol").text(), input.at("file").text(), sha256(input.at("sha256")),
                           static_cast<std::uint64_t>(input.at("samples").number(0, 1e15))});
+  }
+  if (node.has("adaptations")) {
+    for (const JsonNode& each : node.at("adaptations").elements()) out.adaptations.push_back(adaptation(each));
   }
   return out;
 }

@@ -24,7 +24,23 @@ Json provenance(const Provenance& provenance) {
     inputs.push_back(
         {{"protocol", input.protocol}, {"file", input.file}, {"sha256", input.sha256}, {"samples", input.samples}});
   }
-  return {{"tool", "spoolflow " + provenance.tool_version}, {"created", provenance.created}, {"inputs", inputs}};
+  Json out{{"tool", "spoolflow " + provenance.tool_version}, {"created", provenance.created}, {"inputs", inputs}};
+  for (const Adaptation& each : provenance.adaptations) {
+    Json corrections = Json::array();
+    for (const Correction& correction : each.corrections) {
+      corrections.push_back({{"direction", correction.direction},
+                             {"of", correction.of},
+                             {"unit", correction.unit},
+                             {"value", correction.value},
+                             {"uncertainty_95", correction.uncertainty_95}});
+    }
+    out["adaptations"].push_back({{"tool", "spoolflow " + each.tool_version},
+                                  {"created", each.created},
+                                  {"adapted_from", each.adapted_from},
+                                  {"files", each.files},
+                                  {"corrections", corrections}});
+  }
+  return out;
 }
 
 Json valve(const Valve& valve) {

@@ -19,6 +19,8 @@ struct SideBaseline {
 struct Baseline {
   std::uint64_t model = 0;  ///< fingerprint of the model against which it was learnt
   std::array<SideBaseline, 2> side{};
+  double dither_amplitude_A = 0;   ///< of the electronics' dither; 0: none was found
+  double dither_frequency_Hz = 0;  ///< likewise
 };
 
 /// A hash of the model's parameters, the same wherever it was read.

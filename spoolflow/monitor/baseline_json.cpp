@@ -60,6 +60,8 @@ std::string baseline_text(const Baseline& baseline) {
   for (std::size_t k = 0; k < side_names.size(); ++k) {
     if (baseline.side[k].windows > 0) out[side_names[k]] = side_json(baseline.side[k]);
   }
+  if (baseline.dither_frequency_Hz > 0)
+    out["dither"] = {{"amplitude_A", baseline.dither_amplitude_A}, {"frequency_Hz", baseline.dither_frequency_Hz}};
   return out.dump();
 }
 
@@ -87,6 +89,10 @@ Baseline parse_baseline(const std::string& text, const std::string& file) {
     out.side[k].centre = numbers(*side, file, path, "centre", -most_centre, most_centre);
     out.side[k].spread = numbers(*side, file, path, "spread", 1e-3, most_centre);
     any = true;
+  }
+  if (const auto dither = found->find("dither"); dither != found->end()) {
+    out.dither_amplitude_A = number(*dither, file, "/baseline/dither", "amplitude_A", 1e3);
+    out.dither_frequency_Hz = number(*dither, file, "/baseline/dither", "frequency_Hz", 1e5);
   }
   if (!any) refuse(file, "/baseline", "the runs that it was made from told nothing");
   return out;

@@ -41,6 +41,16 @@ enum class IndicatorState : std::uint8_t {
 /// "unknown", "learning", "good", "raised", "counts".
 [[nodiscard]] std::string_view name(IndicatorState state);
 
+/// Where an indicator goes, told only where its slope is beyond chance (trend.hpp).
+struct Trend {
+  bool there = false;
+  double per_hour = 0;        ///< of watched time, in the indicator's unit
+  double uncertainty_95 = 0;  ///< half width about it
+  double limit = 0;           ///< twice the usual fault (fault_parameters.hpp), in the indicator's unit
+  /// Watched time until it is reached [h]; the first and the last with 95 %. Infinite: perhaps never.
+  double earliest_h = 0, expected_h = 0, latest_h = 0;
+};
+
 /// A figure of a valve's condition. NaN where it is not known.
 struct Indicator {
   std::string_view name;  ///< in snake case, with no unit; static storage
@@ -49,6 +59,7 @@ struct Indicator {
   double uncertainty_95;  ///< half width about `value`, >= 0
   double baseline;        ///< what it is compared with: learnt, or the model's
   IndicatorState state;
+  Trend trend = {};
 };
 
 }  // namespace spoolflow::monitor

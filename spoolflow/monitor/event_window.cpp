@@ -249,12 +249,13 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   }
   const std::vector<double> factor = factor_of(equations, window, restless[kind], highest_Pa, filled(0));
   if (factor.empty()) return {};
-  WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count};
+  WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count, {}};
   out.misfit = misfit_of(equations, factor, out.evidence);
   const bool settled = std::abs(error_Pa) < unsettled_share * highest_Pa;
   if (!settled || out.misfit > largest_shape_misfit || pressure_Pa < least_shape_pressure_share * highest_Pa)
     out.shape_tells = false;
   if (out.misfit > largest_misfit) return {};
+  if (settled && kind < steady_kinds) out.contact = read_contacts(valve, stroke_m, window, pressure_Pa);
   if (!out.shape_tells) out.evidence = friction_only(out.evidence);
   const double scale = 1 / std::max(out.misfit, least_misfit);
   for (double& value : out.evidence.information) value *= scale;

@@ -5,11 +5,10 @@
 #include <array>
 #include <optional>
 
-#include "spoolflow/monitor/signatures.hpp"
+#include "spoolflow/monitor/contact_reading.hpp"
 
 namespace spoolflow::monitor {
 
-inline constexpr std::size_t window_events = 72;
 inline constexpr std::size_t least_window_events = 8;
 inline constexpr double longest_window_s = 60;
 inline constexpr double longest_event_gap_s = 12;  ///< a longer pause ends the window
@@ -21,13 +20,6 @@ inline constexpr double least_return_share = 0.1;
 /// A valve that stays closed so long [s] ends the window: behind it the pressure may do as it likes.
 inline constexpr double closing_pause_s = 0.3;
 
-struct WindowState {
-  std::array<ForceEvent, window_events> events{};
-  std::size_t count = 0;
-  double closed_s = 0;
-};
-static_assert(std::is_trivially_copyable_v<WindowState>);
-
 /// What a window tells.
 struct WindowResult {
   Evidence evidence;
@@ -35,6 +27,7 @@ struct WindowResult {
   double misfit;     ///< mean squared residual over what is expected: 1 where the model holds
   bool shape_tells;  ///< the pressure difference was steady enough for all magnitudes, else for friction alone
   std::size_t events;
+  ContactReading contact{};  ///< where the pressure difference was steady
 };
 
 /// Fits a window. None where it has too few events or nothing explains them.

@@ -99,7 +99,7 @@ bool cancels(unsigned set) {
 }
 
 /// What wears the lands wears the edges, too: given one of the two, the other is as likely as this.
-constexpr double edges_beside_friction = 0.3;
+constexpr double edges_beside_friction = 1;
 
 double log_prior(unsigned set) {
   const auto has = [&](Fault fault) { return (set >> static_cast<unsigned>(fault) & 1U) != 0; };
@@ -143,15 +143,21 @@ Isolation isolate(const Evidence& evidence, const Magnitudes& centre, const Magn
   }
   Isolation out;
   std::array<double, isolated_faults> with{}, without{};
+  double all = 0;
   for (unsigned set = 0; set < sets; ++set) {
     if (left_out(set)) continue;
     const double share = std::exp(weight[set] - most);
+    all += share;
     for (std::size_t f = 0; f < isolated_faults; ++f) ((set >> f & 1U) != 0 ? with : without)[f] += share;
   }
   for (std::size_t f = 0; f < isolated_faults; ++f) {
     out.odds[f] = std::clamp(with[f] / std::max(without[f], 1e-300), 1 / most_odds, most_odds);
     out.likeliest[f] = (best >> f & 1U) != 0;
   }
+  Prior anything;
+  for (std::size_t k = 0; k < magnitudes; ++k) anything.variance[k] = spread[k] * spread[k] + 1;
+  const double unexplained = explain_by(evidence, pull, anything).evidence - most;
+  out.unexplained_odds = std::min(wrong_model_prior_odds * std::exp(std::min(unexplained, 50.0)) / all, most_odds);
   out.value = of_set[best].value;
   out.deviation = of_set[best].deviation;
   for (std::size_t k = 0; k < magnitudes; ++k) out.value[k] += centre[k];

@@ -15,6 +15,8 @@ namespace spoolflow::monitor {
 /// The odds of each fault before anything is seen, to one.
 inline constexpr double prior_odds = 0.05;
 inline constexpr double most_odds = 1e6;
+/// The same that the model is wrong in some other way.
+inline constexpr double wrong_model_prior_odds = 0.0025;
 /// Faults whose magnitudes the forces tell: friction, edge wear, spring, coil, position sensor.
 inline constexpr std::size_t isolated_faults = 5;
 
@@ -23,6 +25,8 @@ struct Isolation {
   std::array<bool, isolated_faults> likeliest{};  ///< the set that explains best
   Magnitudes value{};                             ///< by that set
   Magnitudes deviation{};                         ///< one standard deviation of each
+  /// That no set explains: each magnitude off by a fault's size and either way, to all sets.
+  double unexplained_odds = 0;
   double gain = 0;  ///< ln of how much likelier that set makes what was seen than no fault, prior left out
 };
 

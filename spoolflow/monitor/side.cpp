@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/monitor/correction.hpp"
 #include "spoolflow/monitor/dense.hpp"
 
 namespace spoolflow::monitor {
@@ -16,6 +17,25 @@ constexpr double learnt_resistance_spread = 0.025;
 
 /// So many spreads of healthy valves are no change.
 constexpr double tolerated_spreads = 1.5;
+
+/// A window that tells a magnitude worse than this [usual faults] is no point of its course.
+constexpr double usual_deviation = 1;
+
+/// A winding is no warmer than this over calibration, or over what the valve itself showed [K]; with copper's 0.39 %
+/// per kelvin (IEC 60028) more resistance is a plug or a strand that fails. Falls below this share of the excess.
+constexpr double hottest_over_calibration_K = 100;
+constexpr double hottest_over_baseline_K = 60;
+constexpr double falls_share = 0.9;
+constexpr double least_winding_windows = 3;
+
+void follow_resistance(const SideReference& reference, SideState& state) {
+  const double learnt_Ohm = reference.baseline.resistance_Ohm;
+  const double base_Ohm = learnt_Ohm > 0 ? learnt_Ohm : reference.valve->actuator.coil_resistance.resistance_Ohm;
+  if (!(base_Ohm > 0) || state.winding.windows < least_winding_windows) return;
+  const double hottest_K = learnt_Ohm > 0 ? hottest_over_baseline_K : hottest_over_calibration_K;
+  const double excess_Ohm = copper_per_K * hottest_K * base_Ohm * (state.resistive ? falls_share : 1.0);
+  state.resistive = state.winding.resistance_Ohm - 2 * resistance_deviation_Ohm(state.winding) > base_Ohm + excess_Ohm;
+}
 
 /// How far a value lies beyond what healthy ones do, in standard deviations of the window.
 double beyond(double value, double spread, double deviation) {
@@ -32,15 +52,13 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
     if (!shape_tells && f != static_cast<std::size_t>(Fault::friction)) continue;
     const Score found = score(evidence, base.centre, base.spread, static_cast<Fault>(f));
     if (!std::isfinite(found.deviation)) continue;
-    constexpr std::array<Magnitude, isolated_faults> first{Magnitude::friction, Magnitude::edge_rounding,
-                                                           Magnitude::preload_loss, Magnitude::shorted_turns,
-                                                           Magnitude::position_zero};
-    const double spread = base.spread[index(first[f])];
+    const double spread = base.spread[index(first_magnitude[f])];
+    if (found.deviation < usual_deviation) follow(state.course[f], state.watched_s / 3600, found.value);
     follow(state.chart[f], beyond(found.value, spread, found.deviation), cusum_allowance, limits.sum, limits.single);
     const double below = beyond(-found.value, spread, found.deviation);
     if (f == static_cast<std::size_t>(Fault::position_sensor)) {
       follow(state.chart[zero_below], below, cusum_allowance, limits.sum, limits.single);
-    } else {
+    } else if (f != static_cast<std::size_t>(Fault::friction)) {  // faster strokes have less of it than calibrated
       against = std::max(against, below);
       judged = shape_tells;
     }
@@ -53,6 +71,7 @@ void close(const SideReference& reference, const Limits& limits, SideState& stat
   if (!result) return;
   ++state.windows;
   state.pressure_Pa = result->pressure_difference_Pa;
+  learn(state.contacts, result->contact);
   learn(result->shape_tells ? state.learnt.shape : state.learnt.friction, result->evidence);
   follow_charts(reference, limits, state, result->evidence, result->shape_tells);
 }
@@ -60,8 +79,9 @@ void close(const SideReference& reference, const Limits& limits, SideState& stat
 /// The closed stop, once for each time that the coil falls silent.
 void follow_rest(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
   RestReading& rest = state.learnt.rest;
+  const double from_stop_m = sample.motion.position_m - closed_stop_m(*reference.valve);
   const bool silent = sample.motion.current_A < silent_current_share * reference.valve->largest_current_A &&
-                      std::abs(sample.motion.position_m) < farthest_rest_m;
+                      std::abs(from_stop_m) < farthest_rest_m;
   if (!silent) {
     rest.silent_s = rest.sum_m = rest.sum_s = 0;
     return;
@@ -69,7 +89,7 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   const double before_s = rest.silent_s;
   rest.silent_s += sample.motion.time_step_s;
   if (before_s >= rest_ends_s || rest.silent_s < rest_begins_s) return;
-  rest.sum_m += sample.motion.position_m * sample.motion.time_step_s;
+  rest.sum_m += from_stop_m * sample.motion.time_step_s;
   rest.sum_s += sample.motion.time_step_s;
   if (rest.silent_s < rest_ends_s || !(rest.sum_s > 0)) return;
   const double position_m = rest.sum_m / rest.sum_s;
@@ -78,7 +98,7 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   rest.mean_m += (position_m - rest.mean_m) / rest.weight;
   const bool lowest = rest.weight <= 1 || position_m < rest.lowest_m;
   rest.lowest_m = lowest ? position_m : rest.lowest_m + lowest_forgetting * (position_m - rest.lowest_m);
-  if (rest.weight <= 1) return;  // the first may be held by friction
+  if (rest.weight <= 1 || reference.whole) return;  // the first may be held by friction
   const std::size_t k = index(Magnitude::position_zero);
   const double unit_m = usual_fault[k];
   const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
@@ -91,7 +111,8 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
 
 void follow_closing(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
   constexpr double closed_share = 0.6;
-  const bool closed = sample.motion.position_m < closed_share * reference.valve->closed_below_m;
+  const double stop_m = closed_stop_m(*reference.valve);
+  const bool closed = sample.motion.position_m - stop_m < closed_share * (reference.valve->closed_below_m - stop_m);
   const double before_s = state.window.closed_s;
   state.window.closed_s = closed ? before_s + sample.motion.time_step_s : 0;
   if (closed && before_s < closing_pause_s && state.window.closed_s >= closing_pause_s && state.window.count > 0)
@@ -116,10 +137,12 @@ void take(const SideReference& reference, const Limits& limits, SideState& state
     leave(state);
     return;
   }
+  state.watched_s += sample.motion.time_step_s;
   if (std::isfinite(sample.voltage_V)) {
-    follow_winding(reference.valve->actuator, reference.valve->largest_current_A, state.winding,
-                   {sample.motion.time_step_s, sample.motion.current_A, sample.voltage_V, sample.raw_position_m,
-                    sample.motion.oil_temperature_K});
+    if (follow_winding(reference.valve->actuator, reference.valve->largest_current_A, state.winding,
+                       {sample.motion.time_step_s, sample.motion.current_A, sample.voltage_V, sample.raw_position_m,
+                        sample.motion.oil_temperature_K}))
+      follow_resistance(reference, state);
   } else {
     begin_winding_window(state.winding);
   }
@@ -145,7 +168,9 @@ void finish(const SideReference& reference, const Limits& limits, SideState& sta
 }
 
 Evidence evidence_of(const SideReference& reference, const SideState& state) {
-  Evidence out = evidence_of(state.learnt);
+  Learnt learnt = state.learnt;
+  if (reference.whole) learnt.rest = {};
+  Evidence out = evidence_of(learnt);
   const double learnt_Ohm = reference.baseline.resistance_Ohm;
   const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
   const double expected_Ohm = learnt_Ohm > 0 ? learnt_Ohm : usual_resistance_ratio * calibrated_Ohm;
@@ -165,6 +190,11 @@ Isolation isolation_of(const SideReference& reference, const SideState& state) {
 
 bool raised(const SideState& state) {
   return std::any_of(state.chart.begin(), state.chart.end(), [](const Cusum& chart) { return chart.raised; });
+}
+
+bool decided(const SideState& state, const Isolation& found) {
+  const double likeliest = *std::max_element(found.odds.begin(), found.odds.end());
+  return raised(state) && (likeliest > least_told_odds || found.unexplained_odds >= 1);
 }
 
 SideBaseline baseline_of(const SideReference& /*reference*/, const SideState& state) {

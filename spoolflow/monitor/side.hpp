@@ -8,6 +8,7 @@
 #include "spoolflow/monitor/event_window.hpp"
 #include "spoolflow/monitor/isolation.hpp"
 #include "spoolflow/monitor/learnt.hpp"
+#include "spoolflow/monitor/trend.hpp"
 #include "spoolflow/monitor/winding.hpp"
 
 namespace spoolflow::monitor {
@@ -35,9 +36,12 @@ struct SideState {
   WindingState winding;
   Learnt learnt;
   std::array<Cusum, charts> chart{};
-  double misfits = 0;      ///< share of the last windows that nothing explained
-  double windows = 0;      ///< that told
-  double pressure_Pa = 0;  ///< of the last window
+  Contacts contacts;
+  std::array<Course, isolated_faults> course{};  ///< of each fault's first magnitude
+  double watched_s = 0;                          ///< time of its samples
+  bool resistive = false;                        ///< latched: the coil's resistance is more than warm copper has
+  double windows = 0;                            ///< that told
+  double pressure_Pa = 0;                        ///< of the last window
 };
 static_assert(std::is_trivially_copyable_v<SideState>);
 
@@ -45,6 +49,7 @@ static_assert(std::is_trivially_copyable_v<SideState>);
 struct SideReference {
   const sensor::ObserverParameters<double>* valve = nullptr;
   double stroke_m = 0;
+  bool whole = false;  ///< springs of both ends centre the spool: friction, not the sensor's zero, says where it rests
   SideBaseline baseline;
 };
 
@@ -61,10 +66,21 @@ void leave(SideState& state);
 /// The window that was begun is judged.
 void finish(const SideReference& reference, const Limits& limits, SideState& state);
 
+/// The first magnitude of each fault, in the order of Fault.
+inline constexpr std::array<Magnitude, isolated_faults> first_magnitude{
+    Magnitude::friction, Magnitude::edge_rounding, Magnitude::preload_loss, Magnitude::shorted_turns,
+    Magnitude::position_zero};
+
 /// What the side has shown, and which faults explain it.
 [[nodiscard]] Evidence evidence_of(const SideReference& reference, const SideState& state);
 [[nodiscard]] Isolation isolation_of(const SideReference& reference, const SideState& state);
 [[nodiscard]] bool raised(const SideState& state);
+/// Something is wrong: a chart is raised, and by what was seen in all a fault, or that the model is wrong, is likely
+/// enough. Charts weigh each window by its own noise; what windows share, as how fast the spool moves, does not average
+/// out and is weighed here.
+[[nodiscard]] bool decided(const SideState& state, const Isolation& found);
+/// Odds from which a raised chart is told with a fault that is not likelier than not.
+inline constexpr double least_told_odds = 0.1;
 [[nodiscard]] SideBaseline baseline_of(const SideReference& reference, const SideState& state);
 
 }  // namespace spoolflow::monitor

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/monitor/correction.hpp"
+
 namespace spoolflow::monitor {
 namespace {
 
@@ -10,6 +12,8 @@ namespace {
 constexpr double pressure_step_share = 0.03;
 constexpr double position_step_m = 5e-6;
 constexpr double current_step_A = 0.01;
+/// A flatter force map tells no current.
+constexpr double least_force_slope_N_A = 1;
 /// The flow force's rise over the opening is read at this share of the stroke behind the edge.
 constexpr double rise_share = 0.15;
 /// Where the edge opens, its rounding's force rises over this length [m] about the calibrated opening.
@@ -34,7 +38,7 @@ class EventModel {
   EventModel(const sensor::ObserverParameters<double>& valve, const ForceEvent& event)
       : valve_(valve),
         event_(event),
-        x_(std::max(event.position_m, 0.0)),
+        x_(std::max(event.position_m, closed_stop_m(valve))),
         aged_(event.kind == EventKind::dithered ? 1.0 : sensor::ageing(valve.friction, event.rested_s)),
         armature_N_(valve.actuator.friction_N.at(event.current_A, x_).value),
         highest_Pa_(valve.edge.highest_pressure_difference_Pa()) {}
@@ -57,6 +61,18 @@ class EventModel {
     return magnetic_force_N(event_.current_A, position_m) - valve_.spring.at(position_m).value -
            flow_force_N(pressure_Pa, position_m);
   }
+  /// Over the current [N/A], > 0.
+  [[nodiscard]] double force_slope_N_A() const {
+    return std::max((magnetic_force_N(event_.current_A + current_step_A, x_) -
+                     magnetic_force_N(event_.current_A - current_step_A, x_)) /
+                        (2 * current_step_A),
+                    least_force_slope_N_A);
+  }
+  /// Half the loop's width in force without friction of the armature.
+  [[nodiscard]] double magnetic_half_width_N() const {
+    return std::max(valve_.actuator.magnetic_force.hysteresis_half_width_N.at(event_.current_A).value - armature_N_,
+                    0.0);
+  }
   [[nodiscard]] double conductance(double pressure_Pa, double position_m) const {
     return valve_.edge.at(event_.oil_temperature_K, pressure_Pa, position_m).conductance;
   }
@@ -76,12 +92,10 @@ Magnitudes slopes(const sensor::ObserverParameters<double>& valve, double stroke
   const double behind_m = rise_share * stroke_m;
   const double rise_N_per_m = model.flow_force_N(p, opens_m + behind_m) / behind_m;
   const double open = std::clamp((x - opens_m + rounding_begins_m) / rounding_rise_m, 0.0, 1.0);
-  const double preload_N = valve.spring.at(0.0).value;
-  const double rate_N = valve.spring.at(stroke_m).value - preload_N;
-  const double per_current_N_A = (model.magnetic_force_N(event.current_A + current_step_A, x) -
-                                  model.magnetic_force_N(event.current_A - current_step_A, x)) /
-                                 (2 * current_step_A);
-  const double low_m = std::max(x - position_step_m, 0.0);
+  const double stop_m = closed_stop_m(valve);
+  const double preload_N = valve.spring.at(stop_m).value;
+  const double rate_N = valve.spring.at(stop_m + stroke_m).value - preload_N;
+  const double low_m = std::max(x - position_step_m, stop_m);
   const double per_position_N_m =
       (model.net_force_N(p, x + position_step_m) - model.net_force_N(p, low_m)) / (x + position_step_m - low_m);
   Magnitudes out{};
@@ -91,8 +105,8 @@ Magnitudes slopes(const sensor::ObserverParameters<double>& valve, double stroke
   put(Magnitude::friction, event.kind == EventKind::dithered ? 0.0 : friction_N);
   put(Magnitude::edge_rounding, rise_N_per_m * open);
   put(Magnitude::preload_loss, -preload_N);
-  put(Magnitude::rate_loss, -rate_N * x / stroke_m);
-  put(Magnitude::shorted_turns, event.current_A * per_current_N_A);
+  put(Magnitude::rate_loss, -rate_N * (x - stop_m) / stroke_m);
+  put(Magnitude::shorted_turns, event.current_A * model.force_slope_N_A());
   put(Magnitude::position_zero, per_position_N_m);
   return out;
 }
@@ -125,6 +139,9 @@ Explained explain(const sensor::ObserverParameters<double>& valve, double stroke
   const double scatter_N = (dithered ? dithered_scatter_share : limit_scatter_share) * at_p.aged_N;
   out.noise_N = std::sqrt(scatter_N * scatter_N + force_scatter_N * force_scatter_N +
                           std::pow(ageing_scatter_share * std::max(out.ageing_N, 0.0), 2));
+  const double slope_N_A = model.force_slope_N_A();
+  out.current_off_A = model.net_force_N(p, x) / slope_N_A;
+  out.half_width_A = (std::abs(friction_N) + model.magnetic_half_width_N()) / slope_N_A;
   out.slope_N = slopes(valve, stroke_m, event, model, p, friction_N);
   return out;
 }

@@ -14,6 +14,8 @@ struct Explained {
   double ageing_N;           ///< of it what rest has added to the spool's friction
   double load_slope_N;       ///< change where the whole pressure difference is lost behind the valve, fully open
   double noise_N;            ///< one standard deviation of an event about it, but for what the residual shows
+  double current_off_A;      ///< coil current less what the static force map needs without friction
+  double half_width_A;       ///< by how much friction and the magnetic loop explain that, >= 0
   Magnitudes slope_N;        ///< over each magnitude, in its units of usual_fault
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "spoolflow/monitor/tell.hpp"
+
 namespace spoolflow::monitor {
 namespace {
 
@@ -11,8 +13,6 @@ namespace {
 constexpr double longest_step_s = 0.1;
 /// The oil temperature is smoothed over this [s].
 constexpr double oil_smoothing_s = 2;
-/// A copper winding's resistance per kelvin, as a share of that at 20 degC (IEC 60028).
-constexpr double copper_per_K = 3.93e-3;
 
 const sensor::ObserverParameters<double>& parameters(const model::Model& model, bool opens_a) {
   return opens_a ? model.p_to_a->observer->parameters : model.observer->parameters;
@@ -63,7 +63,12 @@ Watch::Watch(const model::Model& model, const Options& options, const std::optio
   for (std::size_t k = 0; k < sides(); ++k) {
     reference_[k].valve = &parameters(model, k == 1);
     reference_[k].stroke_m = model.valve.stroke_m;
+    reference_[k].whole = model.whole();
     if (baseline) reference_[k].baseline = baseline->side[k];
+  }
+  if (baseline) {
+    dither_amplitude_A_ = baseline->dither_amplitude_A;
+    dither_frequency_Hz_ = baseline->dither_frequency_Hz;
   }
 }
 
@@ -78,7 +83,7 @@ void Watch::take(std::span<const estimation::TimedSample> samples, std::span<con
   for (std::size_t k = 0; k < samples.size(); ++k) take(samples[k], answers[k]);
 }
 
-void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer) {
+void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer, double position_set_m) {
   const double since_s = sample.time_s - state_.last_time_s;
   const bool timed = std::isfinite(sample.time_s);
   const bool follows = state_.started && timed && since_s > 0 && since_s <= longest_step_s;
@@ -109,9 +114,17 @@ void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<d
       follows && usable && (static_cast<std::uint32_t>(answer.status) & static_cast<std::uint32_t>(held)) == 0;
   if (!judged) {
     for (SideState& side : state_.side) leave(side);
+    interrupt(state_.dither);
+    interrupt(state_.response);
     return;
   }
+  take_command(position_set_m, sample.position_m, time_step_s);
   take_motion(sample, answer, time_step_s);
+}
+
+void Watch::take_command(double position_set_m, double position_m, double time_step_s) {
+  if (!std::isfinite(position_set_m) || !std::isfinite(position_m)) return;
+  follow(state_.response, model_->valve.stroke_m, {time_step_s, position_set_m, position_m});
 }
 
 void Watch::take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
@@ -138,6 +151,8 @@ void Watch::take_motion(const estimation::TimedSample& sample, const sensor::Est
                             .sliding = !has(answer.status, sensor::Status::spool_at_rest),
                             .dithered = has(answer.status, sensor::Status::dithered)};
   const double voltage_V = of_a ? sample.voltage_a_V : sample.voltage_V;
+  if (std::isfinite(motion.current_A))
+    follow(state_.dither, valve.largest_current_A, {time_step_s, motion.current_A, motion.sliding});
   monitor::take(reference, limits_, state_.side[own],
                 {motion, voltage_V, raw_m, std::isfinite(motion.current_A) && std::isfinite(net_force_N)});
 }
@@ -146,83 +161,12 @@ void Watch::finish() {
   for (std::size_t k = 0; k < sides(); ++k) monitor::finish(reference_[k], limits_, state_.side[k]);
 }
 
-namespace {
-
-struct Told {
-  std::string_view name_b;
-  std::string_view name_a;
-  Magnitude magnitude;
-  Fault fault;
-  double factor;  ///< from usual_fault to what is told
-  double at_zero;
-  std::string_view unit;
-};
-constexpr std::array<Told, magnitudes> told{{
-    {"friction_ratio", "friction_ratio_a", Magnitude::friction, Fault::friction, 1, 1, "1"},
-    {"edge_rounding", "edge_rounding_a", Magnitude::edge_rounding, Fault::edge_wear, 1, 0, "m"},
-    {"spring_preload_ratio", "spring_preload_ratio_a", Magnitude::preload_loss, Fault::spring, -1, 1, "1"},
-    {"spring_rate_ratio", "spring_rate_ratio_a", Magnitude::rate_loss, Fault::spring, -1, 1, "1"},
-    {"shorted_turns", "shorted_turns_a", Magnitude::shorted_turns, Fault::coil, 1, 0, "1"},
-    {"position_zero", "position_zero_a", Magnitude::position_zero, Fault::position_sensor, 1, 0, "m"},
-}};
-
-void tell_side(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out) {
-  constexpr double unknown = estimation::not_measured;
-  constexpr double least_windows = 2;
-  const Isolation found = isolation_of(reference, side);
-  const Evidence evidence = evidence_of(reference, side);
-  for (const Told& each : told) {
-    const std::size_t k = index(each.magnitude);
-    const bool known = evidence.information[k * magnitudes + k] > 0;
-    const double unit = each.factor * usual_fault[k];
-    const bool is_raised = raised(side) && found.likeliest[static_cast<std::size_t>(each.fault)];
-    const IndicatorState state = !known                         ? IndicatorState::unknown
-                                 : is_raised                    ? IndicatorState::raised
-                                 : side.windows < least_windows ? IndicatorState::learning
-                                                                : IndicatorState::good;
-    out.push_back({a ? each.name_a : each.name_b, known ? each.at_zero + unit * found.value[k] : unknown, each.unit,
-                   known ? 2 * std::abs(unit) * found.deviation[k] : unknown,
-                   each.at_zero + unit * reference.baseline.centre[k], state});
-  }
-  const WindingState& winding = side.winding;
-  const bool warm = winding.windows > 0;
-  const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
-  const double base_Ohm = reference.baseline.resistance_Ohm > 0 ? reference.baseline.resistance_Ohm : calibrated_Ohm;
-  out.push_back({a ? "coil_resistance_a" : "coil_resistance", warm ? winding.resistance_Ohm : unknown, "Ohm",
-                 warm ? 2 * resistance_deviation_Ohm(winding) : unknown, base_Ohm,
-                 warm ? IndicatorState::good : IndicatorState::unknown});
-  out.push_back({a ? "winding_warmer_than_reference_a" : "winding_warmer_than_reference",
-                 warm && base_Ohm > 0 ? (winding.resistance_Ohm / base_Ohm - 1) / copper_per_K : unknown, "K",
-                 warm && base_Ohm > 0 ? 2 * resistance_deviation_Ohm(winding) / base_Ohm / copper_per_K : unknown, 0,
-                 warm ? IndicatorState::good : IndicatorState::unknown});
-  out.push_back(
-      {a ? "closed_position_a" : "closed_position", side.learnt.rest.weight > 0 ? side.learnt.rest.mean_m : unknown,
-       "m", side.learnt.rest.weight > 0 ? 2 * rest_deviation_m : unknown,
-       reference.baseline.centre[index(Magnitude::position_zero)] * usual_fault[index(Magnitude::position_zero)],
-       side.learnt.rest.weight > 0 ? IndicatorState::good : IndicatorState::unknown});
-}
-
-}  // namespace
-
 std::vector<Indicator> Watch::indicators() const {
   std::vector<Indicator> out;
-  double windows = 0;
-  for (std::size_t k = 0; k < sides(); ++k) {
-    tell_side(reference_[k], state_.side[k], k == 1, out);
-    windows += state_.side[k].windows;
-  }
-  const auto counted = [&](std::string_view name, double value, std::string_view unit) {
-    out.push_back({name, value, unit, 0, estimation::not_measured, IndicatorState::counts});
-  };
-  const Usage& usage = state_.usage;
-  counted("judged_windows", windows, "1");
-  counted("watched_time", usage.watched_s, "s");
-  counted("driven_time", usage.driven_s, "s");
-  counted("strokes", static_cast<double>(usage.strokes), "1");
-  counted("reversals", static_cast<double>(usage.reversals), "1");
-  counted("distance", usage.distance_m, "m");
-  counted("oil_volume", usage.volume_m3, "m3");
-  counted("hydraulic_energy", usage.energy_J, "J");
+  for (std::size_t k = 0; k < sides(); ++k) tell_side(reference_[k], state_.side[k], k == 1, out);
+  tell_command(state_.response, out);
+  tell_dither(state_.dither, dither_amplitude_A_, dither_frequency_Hz_, out);
+  tell_usage(state_.usage, judged_windows(), out);
   return out;
 }
 
@@ -230,9 +174,9 @@ std::vector<Cause> Watch::causes() const {
   std::array<double, faults> odds{};
   for (std::size_t k = 0; k < sides(); ++k) {
     const SideState& side = state_.side[k];
-    const bool decided = raised(side);
-    if (!decided && side.learnt.shape.weight == 0) continue;
+    if (!raised(side) && side.learnt.shape.weight == 0) continue;
     const Isolation found = isolation_of(reference_[k], side);
+    const bool decided = monitor::decided(side, found);
     std::size_t best = 0;
     bool explained = false;
     for (std::size_t f = 0; f < isolated_faults; ++f) {
@@ -243,11 +187,14 @@ std::vector<Cause> Watch::causes() const {
     }
     if (explained || !decided) continue;
     // Something is wrong: the likeliest explanation, or that there is none.
-    constexpr double least_odds = 0.1;
-    const std::size_t told = found.odds[best] > least_odds ? best : static_cast<std::size_t>(Fault::wrong_model);
-    odds[told] = std::max(odds[told], found.odds[best]);
+    const bool likely = found.odds[best] > least_told_odds;
+    const std::size_t told = likely ? best : static_cast<std::size_t>(Fault::wrong_model);
+    odds[told] = std::max(odds[told], likely ? found.odds[best] : found.unexplained_odds);
   }
-  if (status_raised(state_.status, sensor::Status::coil_fault)) odds[static_cast<std::size_t>(Fault::coil)] = most_odds;
+  const bool resistive =
+      std::any_of(state_.side.begin(), state_.side.end(), [](const SideState& side) { return side.resistive; });
+  if (resistive || status_raised(state_.status, sensor::Status::coil_fault))
+    odds[static_cast<std::size_t>(Fault::coil)] = most_odds;
   if (status_raised(state_.status, sensor::Status::temperature_fault))
     odds[static_cast<std::size_t>(Fault::temperature_sensor)] = most_odds;
   if (status_raised(state_.status, sensor::Status::position_fault))
@@ -262,19 +209,31 @@ std::vector<Cause> Watch::causes() const {
 
 Ne107 Watch::condition() const {
   Ne107 worst = monitor::sign_of(state_.status);
-  bool decided = false;
-  for (std::size_t k = 0; k < sides(); ++k) decided = decided || raised(state_.side[k]);
-  if (!decided) return worst;
+  bool any = false;
+  for (std::size_t k = 0; k < sides(); ++k) {
+    const SideState& side = state_.side[k];
+    any = any || side.resistive || (raised(side) && decided(side, isolation_of(reference_[k], side)));
+  }
+  if (!any) return worst;
   for (const Cause& cause : causes()) worst = std::max(worst, sign_of(cause.fault));
   return worst;
 }
 
-Doubt Watch::doubt() const {
-  Doubt out;
+Findings Watch::findings() const {
+  Findings out;
   for (std::size_t k = 0; k < sides(); ++k) {
     if (!raised(state_.side[k])) continue;
-    out.side[k] = {true, isolation_of(reference_[k], state_.side[k]).value};
+    const Isolation found = isolation_of(reference_[k], state_.side[k]);
+    if (!decided(state_.side[k], found)) continue;
+    out.side[k] = {true, found.likeliest, found.value, found.deviation};
   }
+  return out;
+}
+
+Doubt Watch::doubt() const {
+  Doubt out;
+  const Findings found = findings();
+  for (std::size_t k = 0; k < sides(); ++k) out.side[k] = {found.side[k].raised, found.side[k].value};
   return out;
 }
 
@@ -286,6 +245,10 @@ double Watch::judged_windows() const {
 
 Baseline Watch::learnt() const {
   Baseline out{fingerprint(*model_), {}};
+  if (state_.dither.dithered_s >= least_dithered_s) {
+    out.dither_amplitude_A = state_.dither.amplitude_A;
+    out.dither_frequency_Hz = state_.dither.frequency_Hz;
+  }
   for (std::size_t k = 0; k < sides(); ++k) out.side[k] = baseline_of(reference_[k], state_.side[k]);
   return out;
 }

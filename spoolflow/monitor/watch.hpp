@@ -13,8 +13,11 @@
 
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/monitor/adaptation.hpp"
 #include "spoolflow/monitor/baseline.hpp"
+#include "spoolflow/monitor/command_response.hpp"
 #include "spoolflow/monitor/condition.hpp"
+#include "spoolflow/monitor/dither_health.hpp"
 #include "spoolflow/monitor/doubt.hpp"
 #include "spoolflow/monitor/side.hpp"
 #include "spoolflow/monitor/status_share.hpp"
@@ -23,7 +26,7 @@
 namespace spoolflow::monitor {
 
 /// Grows with the layout of WatchState; kept state of another version is not taken.
-inline constexpr std::uint32_t watch_state_version = 2;
+inline constexpr std::uint32_t watch_state_version = 3;
 
 struct Options {
   double false_alarms_per_year = 1;  ///< wanted, over all indicators of one valve, > 0
@@ -37,6 +40,8 @@ struct WatchState {
   double oil_temperature_K = 0;  ///< smoothed; 0 before it was measured
   Usage usage;
   StatusShares status;
+  CommandResponse response;
+  DitherHealth dither;
   std::array<SideState, 2> side;  ///< of solenoids b and a; a valve of one direction has the first
 };
 static_assert(std::is_trivially_copyable_v<WatchState>);
@@ -49,7 +54,9 @@ class Watch {
   /// The next samples and the observer's answers to them, equally many. Samples that the sensor held are counted by
   /// their status and tell nothing else. Throws std::invalid_argument where their numbers differ.
   void take(std::span<const estimation::TimedSample> samples, std::span<const sensor::Estimate<double>> answers);
-  void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);
+  /// `position_set_m`: the command of that instant, in the position's signs; NaN: not known.
+  void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
+            double position_set_m = estimation::not_measured);
   /// The recording is over, or the valve is taken off: what was gathered is judged.
   void finish();
 
@@ -60,6 +67,8 @@ class Watch {
   [[nodiscard]] Ne107 condition() const;
   /// What the raised indicators say against the model, for `widened`; changes with a window at most.
   [[nodiscard]] Doubt doubt() const;
+  /// The same with what `adapted` needs to put it right in the model.
+  [[nodiscard]] Findings findings() const;
   /// Windows of events that were judged.
   [[nodiscard]] double judged_windows() const;
   /// What was learnt, to compare later runs of the same valve and model with.
@@ -72,9 +81,11 @@ class Watch {
  private:
   [[nodiscard]] std::size_t sides() const { return model_->whole() ? 2 : 1; }
   void take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer, double time_step_s);
+  void take_command(double position_set_m, double position_m, double time_step_s);
   const model::Model* model_;
   std::array<SideReference, 2> reference_;
   Limits limits_;
+  double dither_amplitude_A_ = 0, dither_frequency_Hz_ = 0;  ///< of the baseline; 0: not known
   WatchState state_;
 };
 

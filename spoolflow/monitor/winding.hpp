@@ -21,6 +21,9 @@ inline constexpr double resistance_channel_error = 0.002;
 /// The winding warms and cools: what was learnt counts for about so many windows.
 inline constexpr double winding_memory_windows = 60;
 
+/// A copper winding's resistance per kelvin, as a share of that at 20 degC (IEC 60028).
+inline constexpr double copper_per_K = 3.93e-3;
+
 struct WindingState {
   double window_s = 0;
   double voltage_Vs = 0;  ///< integral of the voltage over the window

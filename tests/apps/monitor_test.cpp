@@ -33,6 +33,10 @@ TEST_F(Monitor, AHealthyValveIsGoodAndItsJudgementIsABaseline) {
   for (const char* key : {"name", "value", "unit", "uncertainty_95", "baseline", "state"})
     EXPECT_TRUE(json["indicators"][0].contains(key)) << key;
   EXPECT_THAT(content("page.html"), HasSubstr("friction ratio"));
+  double loaded_s = 0;
+  for (const auto& row : json["load_histogram"]["time_s"])
+    for (const double part_s : row) loaded_s += part_s;
+  EXPECT_NEAR(loaded_s, 47 + 180, 1);
   const Answer later = run("monitor " + model + " " + ramp + " --baseline base.json --json - -q");
   ASSERT_EQ(later.status, 0) << later.message;
   EXPECT_EQ(nlohmann::json::parse(later.output)["ne107"], "good");
@@ -48,6 +52,8 @@ TEST_F(Monitor, UnusableInputIsOneClearError) {
   write("other.json", R"({"baseline": {"model": "12", "b": {"windows": 3, "resistance_Ohm": 3,
          "centre": [0, 0, 0, 0, 0, 0], "spread": [0.1, 0.1, 0.1, 0.1, 0.1, 0.1]}}})");
   refused(model + " " + ramp + " --baseline other.json", "another model");
+  refused(model + " " + ramp + " --adapt model2.json", "nothing to correct");
+  EXPECT_FALSE(std::filesystem::exists(folder / "model2.json"));
 }
 
 }  // namespace

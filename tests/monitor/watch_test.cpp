@@ -88,6 +88,38 @@ TEST(Watch, MoreFrictionIsRaisedAsFriction) {
   EXPECT_EQ(named(watch.indicators(), "friction_ratio").state, IndicatorState::raised);
 }
 
+TEST(Watch, WhatItFoundIsPutRightInTheModelAndNoLongerThere) {
+  Answered run = ramp();
+  for (sensor::Estimate<double>& answer : run.answers) {
+    const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
+    answer.magnetic_force_N += 0.6 * apparent_N;
+  }
+  const auto watched = [&](const model::Model& model) {
+    Watch watch(model);
+    for (int k = 0; k < 4; ++k) {
+      watch.take(run.samples, run.answers);
+      watch.finish();
+    }
+    return watch.findings();
+  };
+  const Findings found = watched(example());
+  ASSERT_TRUE(found.side[0].raised);
+  const model::Model corrected = adapted(example(), found, {});
+  EXPECT_NEAR(corrected.provenance.adaptations.back().corrections.front().value, 1.6, 0.25);
+  EXPECT_FALSE(watched(corrected).side[0].raised);
+}
+
+TEST(Watch, TellsHowTheSpoolFollowsItsCommand) {
+  Watch watch(example());
+  for (std::size_t k = 0; k < 3000; ++k) {
+    estimation::TimedSample sample = ramp().samples[k];
+    sample.position_m = k > 1010 ? 0.4e-3 : 0;
+    watch.take(sample, ramp().answers[k], k > 1000 ? 0.4e-3 : 0);
+  }
+  EXPECT_NEAR(named(watch.indicators(), "response_time").value, 0.01, 0.002);
+  EXPECT_NEAR(named(watch.indicators(), "overshoot").value, 0, 1e-6);
+}
+
 TEST(Doubt, WidensTheBandByWhatTheFaultMakesOfTheFlow) {
   const std::size_t middle = ramp().samples.size() / 2;
   const estimation::TimedSample& sample = ramp().samples[middle];

@@ -73,6 +73,20 @@ TEST(Window, EachFaultIsToldApart) {
   }
 }
 
+TEST(Window, FasterStrokesWithLessFrictionAreNoWrongModel) {
+  const auto result = fit_window(valve(), example().valve.stroke_m, triangle({-0.7, 0, 0, 0, 0, 0}, 50e5));
+  ASSERT_TRUE(result);
+  const Isolation found = isolate(result->evidence, {}, healthy_spread);
+  EXPECT_LT(found.unexplained_odds, 1);
+  for (const bool there : found.likeliest) EXPECT_FALSE(there);
+}
+
+TEST(Window, StrongerSpringsAreExplainedByNoFault) {
+  const auto result = fit_window(valve(), example().valve.stroke_m, triangle({0, 0, -1.5, -1.5, 0, 0}, 50e5));
+  ASSERT_TRUE(result);
+  EXPECT_GT(isolate(result->evidence, {}, healthy_spread).unexplained_odds, 1);
+}
+
 TEST(Window, OneWayAloneTellsNothing) {
   EXPECT_FALSE(fit_window(valve(), example().valve.stroke_m, triangle({}, 50e5, 1)));
 }
