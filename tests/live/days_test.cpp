@@ -27,7 +27,7 @@ class Days : public InFolder {
     std::vector<Event> none;
     for (int minute = 0; minute < 1440; ++minute) {
       ValveCommit valve;
-      valve.state = {"a", 7, 1000, 1000, 5, "layout", {std::byte{1}}, {std::byte{2}}};
+      valve.state = {"a", 7, 1000, 1000, 5, "layout", {std::byte{1}, std::byte{2}}};
       valve.since_last = {.samples = 1000,
                           .time_s = 60.0 * minute,
                           .flow_min_m3_per_s = 0,

@@ -19,15 +19,6 @@ constexpr int rows_move_every = 60;
 /// A state of more bytes is none that a valve has.
 constexpr std::int64_t largest_state = 16 << 20;
 
-/// What the store has of a valve's state, so that changes can be told from it.
-struct OlderState {
-  std::string layout;
-  std::vector<std::byte> bytes;
-  std::size_t written = 0;  ///< bytes that it took
-  std::size_t least = 0;    ///< bytes of the smallest change since
-  std::size_t wasted = 0;   ///< bytes of all changes since beyond that
-};
-
 StateChanges changes_in(Database& database) {
   Statement all(database, "SELECT of_valves FROM state_change");
   return all.next() ? parted(all.bytes(0)) : StateChanges();
@@ -36,6 +27,15 @@ StateChanges changes_in(Database& database) {
 }  // namespace
 
 struct Store::Statements {
+  /// What the store has of a valve's state, so that changes can be told from it.
+  struct OlderState {
+    std::string layout;
+    std::vector<std::byte> bytes;
+    std::size_t written = 0;  ///< bytes that it took
+    std::size_t least = 0;    ///< bytes of the smallest change since
+    std::size_t wasted = 0;   ///< bytes of all changes since beyond that
+  };
+
   Statement second, indicator, event, state, state_change, older_state, new_valve;
   std::map<std::string, std::int64_t> numbers;  ///< of valves
   std::map<std::int64_t, OlderState> states;    ///< as written since the program began
@@ -122,7 +122,7 @@ void Store::put_row(std::int64_t valve, std::int64_t wall_ms, const Summary& row
 /// The change against the older state; that one anew once all that was written beyond the smallest change is more than
 /// it takes itself.
 void Store::put_state(std::int64_t valve, const KeptState& state) {
-  OlderState& older = statements_->states[valve];
+  Statements::OlderState& older = statements_->states[valve];
   std::vector<std::byte>& change = statements_->changes[valve];
   const bool comparable = older.written > 0 && older.layout == state.layout && older.bytes.size() == state.bytes.size();
   if (comparable) {
