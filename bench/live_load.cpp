@@ -1,13 +1,15 @@
 /// `spoolflow live` under load: valves of the rig sent as datagrams from a process of their own, everything on (ingest,
-/// observer, monitor, store, page with an open plot).
+/// observer, monitor, store, page with an open plot). At the end it is killed and started again.
 /// live_load SPOOLFLOW MODEL.json [VALVES=200] [SECONDS=20] [SAMPLES_PER_SECOND=1000]
+/// Above two minutes there is a line a minute: what would grow or drift shows.
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -24,6 +26,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/live_page.hpp"
 #include "spoolflow/live/sources/datagram.hpp"
 #include "spoolflow/live/sources/intake.hpp"
 #include "spoolflow/live/sources/socket.hpp"
@@ -33,6 +36,7 @@
 namespace {
 
 using namespace spoolflow;
+using bench::asked;
 namespace fs = std::filesystem;
 
 constexpr int samples_a_block = 20;
@@ -55,92 +59,9 @@ std::vector<estimation::TimedSample> course(double rate_Hz) {
   return out;
 }
 
-int connection_to(std::uint16_t port) {
-  const int out = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(port);
-  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(out, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0) throw std::runtime_error("no page");
-  return out;
-}
-
-void receive(int socket, char* out, std::size_t count) {
-  while (count > 0) {
-    const ssize_t got = ::recv(socket, out, count, 0);
-    if (got <= 0) throw std::runtime_error("the page ended");
-    out += got;
-    count -= static_cast<std::size_t>(got);
-  }
-}
-
-std::string header_of(int socket) {
-  std::string header;
-  for (char c = 0; !header.ends_with("\r\n\r\n"); header += c) receive(socket, &c, 1);
-  return header;
-}
-
-nlohmann::json asked(std::uint16_t port, const std::string& target) {
-  const int socket = connection_to(port);
-  const std::string request = "GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-  if (::send(socket, request.data(), request.size(), 0) < 0) throw std::runtime_error("no page");
-  header_of(socket);
-  std::string body;
-  std::array<char, 65536> bytes;
-  for (ssize_t got = 1; got > 0;) {
-    got = ::recv(socket, bytes.data(), bytes.size(), 0);
-    if (got > 0) body.append(bytes.data(), static_cast<std::size_t>(got));
-  }
-  ::close(socket);
-  return nlohmann::json::parse(body);
-}
-
-/// For each message of a valve's plot the least and the largest time that its new samples waited since they had come.
-struct Waits {
-  std::vector<double> ms;
-};
-
-void follow_plot(std::uint16_t port, const std::string& valve, Waits& waits, const std::stop_token& stop) {
-  const int socket = connection_to(port);
-  const std::string request = "GET /api/v1/valves/" + valve +
-                              "/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-                              "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-  if (::send(socket, request.data(), request.size(), 0) < 0) throw std::runtime_error("no page");
-  header_of(socket);
-  std::int64_t before_ns = 0;
-  std::vector<char> body;
-  while (!stop.stop_requested()) {
-    std::array<unsigned char, 2> head{};
-    receive(socket, reinterpret_cast<char*>(head.data()), 2);
-    std::size_t length = head[1] & 0x7FU;
-    const int more = length == 126 ? 2 : length == 127 ? 8 : 0;
-    if (more > 0) length = 0;
-    for (int k = 0; k < more; ++k) {
-      unsigned char byte = 0;
-      receive(socket, reinterpret_cast<char*>(&byte), 1);
-      length = length << 8U | byte;
-    }
-    body.resize(length);
-    receive(socket, body.data(), length);
-    std::int64_t arrived_ns = 0;
-    if ((head[0] & 0x0FU) != 2 || length < 32) continue;
-    std::memcpy(&arrived_ns, body.data() + 16, 8);
-    const std::int64_t now_ns = live::steady_ns();
-    if (before_ns != 0 && arrived_ns > before_ns) {
-      constexpr int parts = 8;  // samples that came in between are spread evenly
-      for (int k = 1; k <= parts; ++k) {
-        const double came_ns = static_cast<double>(before_ns) + static_cast<double>(arrived_ns - before_ns) * k / parts;
-        waits.ms.push_back(1e-6 * (static_cast<double>(now_ns) - came_ns));
-      }
-    }
-    before_ns = arrived_ns;
-  }
-  ::close(socket);
-}
-
-/// Processor seconds and resident megabytes of a process.
+/// What a process has used so far.
 struct Usage {
-  double cpu_s, resident_MB;
+  double cpu_s, resident_MB, written_MB;
 };
 Usage usage_of(pid_t process) {
   std::ifstream stat(fmt::format("/proc/{}/stat", process));
@@ -150,8 +71,20 @@ Usage usage_of(pid_t process) {
   std::vector<std::string> all;
   for (std::string field; fields >> field;) all.push_back(field);
   const double ticks = static_cast<double>(::sysconf(_SC_CLK_TCK));
+  std::ifstream io(fmt::format("/proc/{}/io", process));
+  double written = 0;
+  for (std::string key; io >> key >> text;) {
+    if (key == "write_bytes:") written = std::stod(text);  // to the disk; the folder must not lie in memory
+  }
   return {(std::stod(all.at(11)) + std::stod(all.at(12))) / ticks,
-          1e-6 * std::stod(all.at(21)) * static_cast<double>(::sysconf(_SC_PAGESIZE))};
+          1e-6 * std::stod(all.at(21)) * static_cast<double>(::sysconf(_SC_PAGESIZE)), 1e-6 * written};
+}
+
+/// Mean number of programs that wanted a core in the last minute.
+double load_average() {
+  double out = 0;
+  std::ifstream("/proc/loadavg") >> out;
+  return out;
 }
 
 /// The program as a child, and the port of its page.
@@ -188,7 +121,7 @@ struct Sent {
   double cpu_s = 0;
 };
 
-Sent send_all(const Child& child, int valves, double seconds, double rate_Hz) {
+Sent send_all(const Child& child, int valves, double seconds, double rate_Hz, std::atomic<std::int64_t>& began_ns) {
   const auto samples = course(rate_Hz);
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in to{};
@@ -198,6 +131,7 @@ Sent send_all(const Child& child, int valves, double seconds, double rate_Hz) {
   const auto period_ns = static_cast<std::uint32_t>(1e9 / rate_Hz);
   const std::int64_t block_ns = std::int64_t{samples_a_block} * period_ns;
   const std::int64_t begin_ns = live::steady_ns() + 500'000'000;
+  began_ns = begin_ns;
   Sent sent;
   const std::clock_t cpu = std::clock();
   const auto blocks = static_cast<std::int64_t>(1e9 * seconds / static_cast<double>(block_ns));
@@ -226,6 +160,35 @@ Sent send_all(const Child& child, int valves, double seconds, double rate_Hz) {
   return sent;
 }
 
+/// A line a minute: memory, writes, and how far the newest answers are behind the clock of the sender, which is that of
+/// this process.
+void tell_each_minute(const Child& child, const fs::path& store, const std::atomic<std::int64_t>& began_ns,
+                      const std::stop_token& stop) {
+  double written_MB = usage_of(child.process).written_MB;
+  for (int second = 1; !stop.stop_requested(); ++second) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    if (second % 60 != 0 || stop.stop_requested()) continue;
+    const auto all = asked(child.page, "/api/v1/valves")["valves"];
+    const double clock_s = 1e-9 * static_cast<double>(live::steady_ns() - began_ns);
+    std::vector<double> behind_ms;
+    std::uint64_t missed = 0;
+    for (const auto& valve : all) {
+      behind_ms.push_back(1e3 * (clock_s - valve["time_s"].get<double>()));
+      missed += valve["source"]["dropped"].get<std::uint64_t>() + valve["source"]["lost"].get<std::uint64_t>();
+    }
+    std::sort(behind_ms.begin(), behind_ms.end());
+    const Usage now = usage_of(child.process);
+    fmt::print(
+        "  {:5.0f} s: {:.1f} MB resident, {:.2f} MB/s written, store {:.1f} MB, {} lost, answers behind the clock: "
+        "median "
+        "{:.0f} ms, largest {:.0f} ms; load average {:.1f}\n",
+        clock_s, now.resident_MB, (now.written_MB - written_MB) / 60, 1e-6 * static_cast<double>(fs::file_size(store)),
+        missed, behind_ms[behind_ms.size() / 2], behind_ms.back(), load_average());
+    std::fflush(stdout);
+    written_MB = now.written_MB;
+  }
+}
+
 void report(const Child& child, int valves, double seconds, const Sent& sent, const Usage& used,
             std::vector<double> ms) {
   const auto all = asked(child.page, "/api/v1/valves")["valves"];
@@ -242,10 +205,29 @@ void report(const Child& child, int valves, double seconds, const Sent& sent, co
   fmt::print(
       "{} valves, {:.0f} s: {} samples sent, {} worked on, {} dropped, {} lost on the way\n"
       "  from a sample's arrival to its answer on the WebSocket: median {:.1f} ms, 99 % {:.1f} ms, largest {:.1f} ms\n"
-      "  spoolflow live took {:.2f} cores ({:.2f} us a sample), {:.0f} MB resident; the sender {:.2f} cores\n",
+      "  spoolflow live took {:.2f} cores ({:.2f} us a sample), {:.0f} MB resident; the sender {:.2f} cores\n"
+      "  written to the disk: {:.3f} MB/s, {:.2f} kB a valve and second; load average {:.1f}\n",
       valves, seconds, sent.samples, worked, dropped, lost, share(0.5), share(0.99), share(1.0), used.cpu_s / seconds,
       1e6 * used.cpu_s / static_cast<double>(std::max<std::uint64_t>(1, worked)), used.resident_MB,
-      sent.cpu_s / seconds);
+      sent.cpu_s / seconds, used.written_MB / seconds, 1e3 * used.written_MB / seconds / valves, load_average());
+}
+
+void end(const Child& child, int signal) {
+  ::kill(child.process, signal);
+  ::waitpid(child.process, nullptr, 0);
+}
+
+/// Killed at an instant of its own choosing; what a start takes then.
+Child killed_and_back(const Child& child, const char* spoolflow, const fs::path& folder) {
+  end(child, SIGKILL);
+  const std::int64_t begin_ns = live::steady_ns();
+  const Child out = started(spoolflow, folder);
+  fmt::print("  after kill -9 it was back in {:.2f} s", 1e-9 * static_cast<double>(live::steady_ns() - begin_ns));
+  std::uint64_t samples = 0;
+  const auto all = asked(out.page, "/api/v1/valves")["valves"];
+  for (const auto& valve : all) samples += valve["samples"].get<std::uint64_t>();
+  fmt::print(" with {} samples\n", samples);
+  return out;
 }
 
 }  // namespace
@@ -268,22 +250,29 @@ int main(int argc, char** argv) {
       }
     }
     const Child child = started(argv[1], folder);
-    Waits waits;
+    bench::Waits waits;
+    std::atomic<std::int64_t> began_ns = live::steady_ns();
     std::jthread page([&](const std::stop_token& stop) {
       try {
-        follow_plot(child.page, fmt::format("v{}", valves / 2), waits, stop);
+        bench::follow_plot(child.page, fmt::format("v{}", valves / 2), waits, stop);
       } catch (const std::exception&) {  // the child was ended
       }
     });
+    std::jthread teller;
+    if (seconds > 120) {
+      teller = std::jthread(
+          [&](const std::stop_token& stop) { tell_each_minute(child, folder / "s.sqlite", began_ns, stop); });
+    }
     const Usage before = usage_of(child.process);
-    const Sent sent = send_all(child, valves, seconds, rate_Hz);
+    const Sent sent = send_all(child, valves, seconds, rate_Hz, began_ns);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const Usage after = usage_of(child.process);
+    teller = {};
     page.request_stop();
     page.join();
-    report(child, valves, seconds, sent, {after.cpu_s - before.cpu_s, after.resident_MB}, waits.ms);
-    ::kill(child.process, SIGTERM);
-    ::waitpid(child.process, nullptr, 0);
+    report(child, valves, seconds, sent,
+           {after.cpu_s - before.cpu_s, after.resident_MB, after.written_MB - before.written_MB}, waits.ms);
+    end(killed_and_back(child, argv[1], folder), SIGTERM);
     fmt::print("  the store holds {:.2f} MB\n", 1e-6 * static_cast<double>(fs::file_size(folder / "s.sqlite")));
     fs::remove_all(folder);
     return 0;

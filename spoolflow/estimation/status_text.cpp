@@ -8,11 +8,13 @@ std::string_view StatusText::operator()(sensor::Status status) {
     if (bits == status) return text;
   }
   std::string text;
-  for (const sensor::StatusName& entry : sensor::status_names) {
-    if (!sensor::has(status, entry.bit)) continue;
+  const auto add = [&](const sensor::StatusName& entry) {
+    if (!sensor::has(status, entry.bit)) return;
     if (!text.empty()) text += '|';
     text += entry.name;
-  }
+  };
+  for (const sensor::StatusName& entry : sensor::status_names) add(entry);
+  add(sensor::monitor_status_name);
   known_.emplace_back(status, std::move(text));
   return known_.back().second;
 }

@@ -66,7 +66,9 @@ Engine::Engine(SiteSettings site, std::string program)
                                    [&](const auto& place) { return place->valve->id() == kept.valve; });
     if (same == valves_.end()) continue;
     (*same)->after = {kept.session, kept.next};
-    if ((*same)->valve->restore(kept)) continue;
+    const bool goes_on = (*same)->valve->restore(kept);
+    (*same)->told_condition = (*same)->valve->view().condition;  // it was told before
+    if (goes_on) continue;
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,
                  .kind = "program",

@@ -13,6 +13,9 @@ namespace spoolflow::live {
 namespace {
 
 constexpr std::size_t most_samples = 1'000'000;
+constexpr std::size_t piece_samples = 1024;
+/// Of samples that come slowly: their times since its begin need 32 bits.
+constexpr double longest_piece_s = 400;
 
 /// Of a recording's column; the order is that of the numbers.
 struct Column {
@@ -40,46 +43,61 @@ float kept(double value) {
 
 }  // namespace
 
-/// Grows while the samples are few, and by doubling: nobody says how fast they will come.
-void RawTrace::make_room() {
-  const std::size_t before = time_s_.size();
-  if (count_ < before) return;
-  std::rotate(time_s_.begin(), time_s_.begin() + static_cast<std::ptrdiff_t>(first_), time_s_.end());
-  std::rotate(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(first_ * width_), numbers_.end());
-  first_ = 0;
-  const std::size_t room = std::min(most_samples, std::max<std::size_t>(1024, before + before / 2));
-  time_s_.resize(room);
-  numbers_.resize(room * width_);
+/// Of those that became too old one is filled again.
+void RawTrace::begin_piece(double time_s) {
+  Piece next;
+  while (!pieces_.empty() && (count_ + piece_samples > most_samples || pieces_.front().last_s() < time_s - length_s_)) {
+    next = std::move(pieces_.front());
+    pieces_.pop_front();
+    count_ -= next.since_begin.size();
+    next.since_begin.clear();
+    next.numbers.clear();
+  }
+  next.since_begin.reserve(piece_samples);
+  next.numbers.reserve(piece_samples * width_);
+  next.begin_s = time_s;
+  pieces_.push_back(std::move(next));
 }
 
 void RawTrace::add(const estimation::TimedSample& sample) {
   if (length_s_ <= 0 || !std::isfinite(sample.time_s)) return;
-  const auto time_of = [this](std::size_t k) { return time_s_[(first_ + k) % time_s_.size()]; };
-  if (count_ > 0 && sample.time_s < time_of(count_ - 1)) count_ = 0;
-  while (count_ > 0 && (time_of(0) < sample.time_s - length_s_ || count_ == most_samples)) {
-    first_ = (first_ + 1) % time_s_.size();
-    --count_;
+  if (!pieces_.empty() && sample.time_s < pieces_.back().last_s() - raw_time_step_s) {
+    pieces_.clear();
+    count_ = 0;
   }
-  make_room();
-  const std::size_t at = (first_ + count_) % time_s_.size();
-  time_s_[at] = sample.time_s;
+  if (pieces_.empty() || pieces_.back().since_begin.size() == piece_samples ||
+      sample.time_s - pieces_.back().begin_s > longest_piece_s) {
+    begin_piece(sample.time_s);
+  }
+  Piece& piece = pieces_.back();
+  const double since_s = std::max(sample.time_s - piece.begin_s, 0.0);
+  piece.since_begin.push_back(static_cast<std::uint32_t>(since_s / raw_time_step_s + 0.5));
   const std::array<double, 10> values{
       sample.current_A,   sample.voltage_V,  sample.position_m, sample.oil_temperature_K, sample.current_a_A,
       sample.voltage_a_V, sample.ports.p_Pa, sample.ports.a_Pa, sample.ports.b_Pa,        sample.ports.t_Pa};
-  for (std::size_t k = 0; k < width_; ++k) numbers_[at * width_ + k] = kept(values[k]);
+  for (std::size_t k = 0; k < width_; ++k) piece.numbers.push_back(kept(values[k]));
   ++count_;
 }
 
 std::string RawTrace::csv(double from_s, double to_s) const {
-  std::vector<std::size_t> rows;
+  struct Row {
+    double time_s;
+    const float* numbers;
+  };
+  std::vector<Row> rows;
   // Without current and position it would be no recording: where neither was measured, that is what there is to see.
   std::array<bool, columns.size()> measured{true, false, true};
-  for (std::size_t k = 0; k < count_; ++k) {
-    const std::size_t at = (first_ + k) % time_s_.size();
-    if (time_s_[at] < from_s || time_s_[at] > to_s) continue;
-    rows.push_back(at);
-    for (std::size_t column = 0; column < width_; ++column) {
-      measured[column] = measured[column] || !std::isnan(numbers_[at * width_ + column]);
+  if (!pieces_.empty()) from_s = std::max(from_s, pieces_.back().last_s() - length_s_);
+  from_s -= 0.5 * raw_time_step_s;
+  to_s += 0.5 * raw_time_step_s;
+  for (const Piece& piece : pieces_) {
+    for (std::size_t k = 0; k < piece.since_begin.size(); ++k) {
+      const Row row{piece.time_s(k), piece.numbers.data() + k * width_};
+      if (row.time_s < from_s || row.time_s > to_s) continue;
+      rows.push_back(row);
+      for (std::size_t column = 0; column < width_; ++column) {
+        measured[column] = measured[column] || !std::isnan(row.numbers[column]);
+      }
     }
   }
   if (rows.empty()) return {};
@@ -92,12 +110,12 @@ std::string RawTrace::csv(double from_s, double to_s) const {
   {
     recording::CsvWriter writer(text);
     writer.header(header);
-    for (const std::size_t at : rows) {
-      writer.number(time_s_[at], 6);
+    for (const Row& row : rows) {
+      writer.number(row.time_s, 6);
       for (std::size_t column = 0; column < width_; ++column) {
         if (!measured[column]) continue;
         const Column& of = columns[column];
-        writer.number(of.factor * double{numbers_[at * width_ + column]} + of.offset, of.decimals);
+        writer.number(of.factor * double{row.numbers[column]} + of.offset, of.decimals);
       }
       writer.end_row();
     }

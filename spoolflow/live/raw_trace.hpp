@@ -1,6 +1,8 @@
 #pragma once
 /// The newest raw samples of a valve, so that those around an alarm can be kept as a recording.
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -10,8 +12,8 @@ namespace spoolflow::live {
 
 class RawTrace {
  public:
-  /// `whole`: coils of both sides and port pressures are kept, too. `length_s` of samples are kept, but never more than
-  /// a million; 0: none.
+  /// `whole`: coils of both sides and port pressures are kept, too. `length_s` of samples are kept and few more, but
+  /// never more than a million; 0: none. Their times are rounded to a tenth of a microsecond.
   RawTrace(bool whole, double length_s) : width_(whole ? 10 : 4), length_s_(length_s) {}
 
   /// A sample without a time is left out, and a time that runs back begins anew: the recording's time never does.
@@ -22,13 +24,21 @@ class RawTrace {
   [[nodiscard]] std::string csv(double from_s, double to_s) const;
 
  private:
-  void make_room();
+  static constexpr double raw_time_step_s = 1e-7;
+  /// Consecutive samples, at least one. Full ones are let go as a whole, and used again.
+  struct Piece {
+    double begin_s = 0;
+    std::vector<std::uint32_t> since_begin;  ///< of each sample, in raw_time_step_s
+    std::vector<float> numbers;              ///< of each sample as many as there are channels, as in datagram_channels
+    [[nodiscard]] double last_s() const { return time_s(since_begin.size() - 1); }
+    [[nodiscard]] double time_s(std::size_t k) const { return begin_s + raw_time_step_s * since_begin[k]; }
+  };
+  void begin_piece(double time_s);
 
   std::size_t width_;
   double length_s_;
-  std::vector<double> time_s_;  ///< a ring, as the numbers beside it
-  std::vector<float> numbers_;  ///< in the order of datagram_channels
-  std::size_t first_ = 0, count_ = 0;
+  std::deque<Piece> pieces_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace spoolflow::live

@@ -13,41 +13,39 @@
 namespace spoolflow::live {
 namespace {
 
+/// What is kept of a state, behind what is there already.
 template <class State>
-std::vector<std::byte> bytes_of(const State& state) {
+void put_bytes(std::vector<std::byte>& out, const State& state) {
+  static_assert(std::is_trivially_copyable_v<State>);
   const auto bytes = std::as_bytes(std::span(&state, 1));
-  return {bytes.begin(), bytes.end()};
+  out.insert(out.end(), bytes.begin(), bytes.end());
 }
 
+/// Takes it off the front. False where there is not enough.
 template <class State>
-bool read_bytes(const std::vector<std::byte>& bytes, State& state) {
-  if (bytes.size() != sizeof state) return false;
-  std::memcpy(&state, bytes.data(), sizeof state);
+bool take_bytes(std::span<const std::byte>& from, State& state) {
+  if (from.size() < sizeof state) return false;
+  std::memcpy(&state, from.data(), sizeof state);
+  from = from.subspan(sizeof state);
   return true;
 }
 
 /// A step in which energy is counted; a longer one is a gap.
 constexpr double longest_counted_step_s = 1;
 
-/// Doubt changes with the monitor's windows, which last longer.
-constexpr std::int64_t doubt_asked_each_ns = 1'000'000'000;
-
 }  // namespace
 
 ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s)
     : id_(std::move(id)),
       model_(std::move(model)),
-      program_(program),
       sensor_(estimation::running_sensor(*model_.model, estimation::best_estimator(*model_.model))),
       time_s_(std::numeric_limits<double>::quiet_NaN()),
+      doubt_second_(std::numeric_limits<double>::quiet_NaN()),
       raw_(model_.model->whole(), raw_s) {
   if (model_.model->has_observer()) watch_.emplace(*model_.model);
-}
-
-std::string ValveAtWork::layout() const {
-  return fmt::format("{}, model {}, sensor {} bytes, monitor {} bytes of version {}", program_, model_.sha256,
-                     sizeof(estimation::RunningState), watch_ ? sizeof(monitor::WatchState) : 0,
-                     monitor::watch_state_version);
+  layout_ = fmt::format("{}, model {}, sensor {} bytes, doubt {} bytes, monitor {} bytes of version {}", program,
+                        model_.sha256, sizeof(estimation::RunningState), sizeof(monitor::Doubt),
+                        watch_ ? sizeof(monitor::WatchState) : 0, monitor::watch_state_version);
 }
 
 bool ValveAtWork::restore(const KeptState& kept) {
@@ -55,13 +53,24 @@ bool ValveAtWork::restore(const KeptState& kept) {
   after_ = {kept.session, kept.next};
   samples_ = kept.samples;
   energy_J_ = kept.energy_J;
-  if (kept.layout != layout()) return false;
+  if (kept.layout != layout_) return false;
+  std::span<const std::byte> bytes(kept.bytes);
   estimation::RunningState state;
-  if (!read_bytes(kept.sensor, state)) return false;
+  if (!take_bytes(bytes, state) || !take_bytes(bytes, doubt_) || !take_bytes(bytes, doubt_second_)) return false;
   sensor_.set_state(state);
+  if (state.times.started) time_s_ = state.times.last_time_s;
   if (!watch_) return true;
   auto watched = std::make_unique<monitor::WatchState>();
-  return read_bytes(kept.watch, *watched) && watch_->set_state(*watched);
+  return take_bytes(bytes, *watched) && watch_->set_state(*watched);
+}
+
+/// Once a second of the source's clock, so that the same samples get the same answers at any speed: doubt changes with
+/// the monitor's windows, which last longer.
+void ValveAtWork::ask_doubt(double time_s) {
+  const double second = std::floor(time_s);
+  if (second == doubt_second_ || !std::isfinite(second)) return;
+  doubt_second_ = second;
+  doubt_ = watch_->doubt();
 }
 
 void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer) {
@@ -92,15 +101,11 @@ void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const se
 
 void ValveAtWork::work(const SampleBlock& block) {
   const std::lock_guard lock(mutex_);
-  if (watch_ && block.arrived_ns - doubt_asked_ns_ > doubt_asked_each_ns) {
-    doubt_ = watch_->doubt();
-    doubt_asked_ns_ = block.arrived_ns;
-  }
-  const bool doubted = doubt_.any();
   for (const estimation::TimedSample& sample : block.samples) {
+    if (watch_) ask_doubt(sample.time_s);
     last_ = sensor_.step(sample);
     if (watch_) watch_->take(sample, last_);
-    if (doubted) {
+    if (doubt_.any()) {
       last_ = monitor::widened(*model_.model, doubt_, sample, watch_->state().oil_temperature_K, last_);
     }
     add_to_summary(sample, last_);
@@ -122,7 +127,7 @@ ValveView ValveAtWork::view() const {
   ValveView out;
   out.id = id_;
   out.rated_flow_m3_per_s = model_.model->valve.rated_flow_m3_per_s;
-  out.time_s = time_s_;
+  out.time_s = arrived_ns_ == 0 ? std::numeric_limits<double>::quiet_NaN() : time_s_;
   out.answer = last_;
   out.doubted = doubt_.any();
   out.samples = samples_;
@@ -130,6 +135,7 @@ ValveView ValveAtWork::view() const {
   out.arrived_ns = arrived_ns_;
   if (watch_) {
     out.condition = watch_->condition();
+    if (out.doubted) out.condition = std::max(out.condition, monitor::Ne107::maintenance_required);
     out.causes = watch_->causes();
     out.indicators = watch_->indicators();
   }
@@ -163,9 +169,14 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
   ValveCommit out;
   const std::lock_guard lock(mutex_);
   out.since_last = std::exchange(summary_, {});
-  out.state = {id_, after_.session, after_.next, samples_, energy_J_, layout(), bytes_of(sensor_.state()), {}};
+  out.state = {id_, after_.session, after_.next, samples_, energy_J_, layout_, {}};
+  out.state.bytes.reserve(sizeof(estimation::RunningState) + sizeof(monitor::Doubt) + sizeof(double) +
+                          (watch_ ? sizeof(monitor::WatchState) : 0));
+  put_bytes(out.state.bytes, sensor_.state());
+  put_bytes(out.state.bytes, doubt_);
+  put_bytes(out.state.bytes, doubt_second_);
   if (!watch_) return out;
-  out.state.watch = bytes_of(watch_->state());
+  put_bytes(out.state.bytes, watch_->state());
   if (!with_indicators) return out;
   for (const monitor::Indicator& one : watch_->indicators()) {
     out.indicators.push_back({std::string(one.name), one.value, one.uncertainty_95, one.baseline,

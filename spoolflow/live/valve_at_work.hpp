@@ -26,7 +26,7 @@ struct SharedModel {
 struct ValveView {
   std::string id;
   double rated_flow_m3_per_s = 0;
-  double time_s = 0;                ///< of the last sample; NaN: none yet
+  double time_s = 0;                ///< of the last sample; NaN: none since the start
   sensor::Estimate<double> answer;  ///< its band widened while the monitor doubts the model
   bool doubted = false;             ///< whether it does
   std::uint64_t samples = 0;        ///< since the store began
@@ -72,20 +72,20 @@ class ValveAtWork {
 
  private:
   void add_to_summary(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);
-  [[nodiscard]] std::string layout() const;
+  void ask_doubt(double time_s);
 
   std::string id_;
   SharedModel model_;
-  std::string program_;
+  std::string layout_;  ///< of what is kept: other bytes are not taken
   mutable std::mutex mutex_;
   estimation::RunningSensor sensor_;
   std::optional<monitor::Watch> watch_;  ///< of models that have an observer
   monitor::Doubt doubt_;
-  std::int64_t doubt_asked_ns_ = 0;
   SourcePosition after_;
   std::uint64_t samples_ = 0;
   double energy_J_ = 0;
-  double time_s_;
+  double time_s_;        ///< of the last sample, also before this start
+  double doubt_second_;  ///< of the source's clock, in which doubt was asked last
   std::int64_t arrived_ns_ = 0;
   sensor::Estimate<double> last_{};
   Summary summary_;

@@ -18,7 +18,9 @@ sensor::Estimate<double> widened(const model::Model& model, const Doubt& doubt, 
   const bool opens_a = model.whole() && sample.position_m < 0;
   const SideDoubt& side = doubt.side[opens_a ? 1 : 0];
   sensor::Estimate<double> out = answer;
-  if (!side.raised || !std::isfinite(sample.position_m)) return out;
+  if (!side.raised) return out;
+  out.status |= sensor::Status::model_doubt;
+  if (!std::isfinite(sample.position_m)) return out;
   const sensor::ObserverParameters<double>& valve =
       opens_a ? model.p_to_a->observer->parameters : model.observer->parameters;
   const double position_m = sensor::drift_free_m(valve.position_sensor, std::abs(sample.position_m), oil_temperature_K);

@@ -18,7 +18,8 @@ struct Doubt {
 
 /// The answer with its band widened to both sides by what the explanation makes of the flow rate: its force as an error
 /// of the pressure difference, friction's by its size whichever its sign, and the opening that rounded edges or a
-/// shifted position add. The estimate itself stays; without doubt all does. `oil_temperature_K`: smoothed.
+/// shifted position add, and with `model_doubt` in its status. The estimate itself stays; without doubt all does.
+/// `oil_temperature_K`: smoothed.
 [[nodiscard]] sensor::Estimate<double> widened(const model::Model& model, const Doubt& doubt,
                                                const estimation::TimedSample& sample, double oil_temperature_K,
                                                const sensor::Estimate<double>& answer);

@@ -71,6 +71,8 @@ const char* meaning(sensor::Status bit) {
     case Status::temperature_fault:
       return "The oil temperature read what no oil has, or leapt; the one before was held. Look at its sensor and "
              "line.";
+    case Status::model_doubt:
+      return "Indicators of the valve's condition contradict the model; the band is wider by what they say.";
     case Status::coil_fault:
       return "Voltage and current give a coil resistance that no sound coil has; look for shorted turns, a bad "
              "contact, or "

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
-#include <sqlite3.h>
 #include <string>
 #include <unistd.h>
 
@@ -11,49 +9,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/apps/command_line.hpp"
+#include "tests/apps/live_site.hpp"
 #include "tests/apps/running_command.hpp"
 
 namespace spoolflow::apps {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr const char* live_header = "time_s,current_A,voltage_V,position_mm,oil_temperature_C\n";
-
-std::string live_rows(int count) {
-  std::string out;
-  for (int k = 0; k < count; ++k) out += fmt::format("{:.3f},{:.3f},4.8,1.000,50\n", 0.001 * k, 1.5 + 1e-3 * (k % 50));
-  return out;
-}
-
-class Live : public CommandLine {
- protected:
-  void SetUp() override {
-    CommandLine::SetUp();
-    fs::copy_file(SPOOLFLOW_EXAMPLES "/live/size_6.json", folder / "model.json");
-  }
-  void write_site(const std::string& source) const {
-    write("site.toml",
-          "[page]\nlisten = \"127.0.0.1:0\"\n[[valve]]\nid = \"v\"\nmodel = \"model.json\"\nsource = " + source + "\n");
-  }
-  /// Of the store, a single number.
-  [[nodiscard]] double kept(const char* sql) const {
-    sqlite3* store = nullptr;
-    sqlite3_open_v2((folder / "s.sqlite").c_str(), &store, SQLITE_OPEN_READONLY, nullptr);
-    sqlite3_stmt* statement = nullptr;
-    double out = -1;
-    if (sqlite3_prepare_v2(store, sql, -1, &statement, nullptr) == SQLITE_OK && sqlite3_step(statement) == SQLITE_ROW) {
-      out = sqlite3_column_double(statement, 0);
-    }
-    sqlite3_finalize(statement);
-    sqlite3_close(store);
-    return out;
-  }
-};
+class Live : public LiveSite {};
 
 TEST_F(Live, RunsUntilItIsEnded) {
   for (const int ended_by : {SIGINT, SIGTERM}) {
@@ -66,7 +32,7 @@ TEST_F(Live, RunsUntilItIsEnded) {
 }
 
 TEST_F(Live, HistoryIsWhatCame) {
-  write("run.csv", live_header + live_rows(3000));
+  write("run.csv", std::string(live_header) + live_rows(3000));
   write_site("{ kind = \"replay\", recording = \"run.csv\", speed = 0 }");
   {
     RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
@@ -87,31 +53,9 @@ TEST_F(Live, HistoryIsWhatCame) {
   EXPECT_EQ(run("history model.json --valve v -o -").status, 2);
 }
 
-// Killed again and again in the middle of its work, it has worked on every sample once when it is done.
-TEST_F(Live, AKilledProgramGoesOnWhereItWas) {
-  constexpr int samples = 8000;
-  write("run.csv", live_header + live_rows(samples));
-  write_site("{ kind = \"replay\", recording = \"run.csv\", speed = 2 }");
-  int killed = 0;
-  while (kept("SELECT samples FROM state") < samples && killed < 20) {
-    RunningCommand live(folder, {"live", "site.toml", "--store", "s.sqlite"});
-    EXPECT_THAT(live.message_line(), StartsWith("1 valves; page at"));
-    const double before = kept("SELECT samples FROM state");
-    for (int k = 0; k < 1000 && kept("SELECT samples FROM state") == before; ++k) ::usleep(10000);
-    ::usleep(static_cast<useconds_t>(100000 + 37000 * killed));
-    live.signal(SIGKILL);
-    EXPECT_EQ(live.wait(), 128 + SIGKILL);
-    ++killed;
-  }
-  EXPECT_GE(killed, 2);
-  EXPECT_EQ(kept("SELECT samples FROM state"), samples);
-  EXPECT_EQ(kept("SELECT sum(samples) FROM second"), samples);
-  EXPECT_NEAR(kept("SELECT sum(energy_J) FROM second"), kept("SELECT energy_J FROM state"), 1e-6);
-}
-
 // The senders of examples/live, as processes of their own.
 TEST_F(Live, TheExamplesSendersAreUnderstood) {
-  write("run.csv", live_header + live_rows(1000));
+  write("run.csv", std::string(live_header) + live_rows(1000));
   write("site.toml",
         "[page]\nlisten = \"127.0.0.1:0\"\n[sources]\nudp = \"127.0.0.1:0\"\n[[valve]]\nid = \"v\"\nmodel = "
         "\"model.json\"\nsource = { kind = \"udp\" }\n");

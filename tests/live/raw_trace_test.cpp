@@ -37,6 +37,15 @@ TEST(RawTrace, ItsTimeNeverRunsBack) {
   EXPECT_EQ(raw_rows(trace.csv(0, 10)), 50U);
 }
 
+TEST(RawTrace, SlowAndLeapingSamplesKeepTheirTimes) {
+  RawTrace trace(false, 3600.0);
+  for (int k = 0; k < 100; ++k) trace.add(raw_sample(1e6 + 30.0 * k));
+  EXPECT_EQ(raw_rows(trace.csv(0, 1e9)), 100U);
+  EXPECT_THAT(trace.csv(1e6 + 2970, 1e9), ::testing::HasSubstr("\n1002970.000000,"));
+  trace.add(raw_sample(2e6));
+  EXPECT_EQ(raw_rows(trace.csv(0, 1e9)), 1U);
+}
+
 TEST(RawTrace, OfAWholeValveBothCoilsAreKept) {
   RawTrace trace(true, 10.0);
   estimation::TimedSample sample = raw_sample(1);

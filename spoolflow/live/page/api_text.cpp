@@ -1,6 +1,7 @@
 #include "spoolflow/live/page/api_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -18,7 +19,8 @@ Json status_of(const ValveView& valve, const SourceView& source) {
   for (const sensor::StatusName& entry : sensor::status_names) {
     if (sensor::has(valve.answer.status, entry.bit)) out.push_back(entry.name);
   }
-  if (valve.doubted) out.push_back("model_doubt");
+  if (sensor::has(valve.answer.status, sensor::monitor_status_name.bit))
+    out.push_back(sensor::monitor_status_name.name);
   if (source.stalled) out.push_back("stalled");
   return out;
 }
@@ -123,9 +125,12 @@ std::string recordings_json(const Engine& engine) {
 
 std::string site_json(const Engine& engine) {
   double flow_m3_per_s = 0, power_W = 0;
-  std::size_t stalled = 0;
+  std::size_t stalled = 0, doubted = 0;
+  std::array<std::size_t, 5> signs{};
   for (std::size_t k = 0; k < engine.size(); ++k) {
     const ValveView valve = engine.view(k);
+    ++signs.at(static_cast<std::size_t>(valve.condition));
+    doubted += sensor::has(valve.answer.status, sensor::Status::model_doubt) ? 1 : 0;
     if (engine.source(k).stalled) {
       ++stalled;
       continue;
@@ -135,9 +140,14 @@ std::string site_json(const Engine& engine) {
     if (std::isfinite(flow)) flow_m3_per_s += flow;
     if (std::isfinite(power)) power_W += power;
   }
+  Json with_sign = Json::object();
+  for (std::size_t k = 0; k < signs.size(); ++k)
+    with_sign[std::string(monitor::name(static_cast<monitor::Ne107>(k)))] = signs[k];
   const UdpCounters udp = engine.udp_counters();
   return written(Json{{"valves", engine.size()},
                       {"stalled", stalled},
+                      {"model_doubt", doubted},
+                      {"ne107", std::move(with_sign)},
                       {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
                       {"hydraulic_power_W", rounded(power_W, 1)},
                       {"store", engine.site().store},

@@ -104,7 +104,7 @@ BoundSocket bind_socket(const Address& address, Transport transport) {
   Descriptor socket(::socket(family, (tcp ? SOCK_STREAM : SOCK_DGRAM) | SOCK_CLOEXEC, 0));
   const int on = 1;
   if (tcp) ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  const int room = 8 << 20;  // as much of it as the system grants
+  const int room = 64 << 20;  // as much of it as the system grants
   if (!tcp && ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUFFORCE, &room, sizeof room) != 0) {
     ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
   }

@@ -2,12 +2,54 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <memory>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include "spoolflow/live/sources/peer.hpp"
 
 namespace spoolflow::live {
+namespace {
+
+constexpr int idle_ms = 100;
+constexpr int receiver_niceness = -10;
+constexpr std::size_t datagrams_together = 128;
+constexpr auto pause = std::chrono::milliseconds(1);
+
+/// Room for the datagrams of one call of the system. Of its pages those are in memory that were ever written to.
+class Datagrams {
+ public:
+  Datagrams() : room_(std::make_unique_for_overwrite<std::uint8_t[]>(datagrams_together * largest_datagram)) {
+    for (std::size_t k = 0; k < datagrams_together; ++k) {
+      parts_[k] = {room_.get() + k * largest_datagram, largest_datagram};
+      msghdr& header = heads_[k].msg_hdr;
+      header.msg_iov = &parts_[k];
+      header.msg_iovlen = 1;
+      header.msg_name = &peers_[k];
+    }
+  }
+  /// Those that wait at the socket; returns how many there are.
+  std::size_t take(int socket) {
+    for (mmsghdr& head : heads_) head.msg_hdr.msg_namelen = sizeof(sockaddr_storage);
+    const int got = ::recvmmsg(socket, heads_.data(), datagrams_together, MSG_DONTWAIT, nullptr);
+    return got < 0 ? 0 : static_cast<std::size_t>(got);
+  }
+  [[nodiscard]] std::span<const std::uint8_t> bytes(std::size_t k) const {
+    return {room_.get() + k * largest_datagram, heads_[k].msg_len};
+  }
+  [[nodiscard]] const sockaddr_storage& peer(std::size_t k) const { return peers_[k]; }
+
+ private:
+  std::unique_ptr<std::uint8_t[]> room_;
+  std::array<iovec, datagrams_together> parts_{};
+  std::array<sockaddr_storage, datagrams_together> peers_{};
+  std::array<mmsghdr, datagrams_together> heads_{};
+};
+
+}  // namespace
 
 SampleBlock DatagramOrder::next(Datagram&& datagram, Intake& intake) {
   SampleBlock block{.arrived_ns = steady_ns()};
@@ -58,24 +100,28 @@ void UdpReceiver::receive(std::span<const std::uint8_t> bytes) {
 }
 
 void UdpReceiver::run(const std::stop_token& stop) {
-  constexpr int look_up_ms = 100;
-  std::vector<std::uint8_t> bytes(largest_datagram);
+  // Ahead of the threads that work: they have queues, and what the socket cannot hold is lost. Where the system does
+  // not allow it, the socket's buffer must do.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), receiver_niceness);
+  Datagrams received;
   while (!stop.stop_requested()) {
-    pollfd waiting{socket_.descriptor.number(), POLLIN, 0};
-    if (::poll(&waiting, 1, look_up_ms) <= 0) continue;
-    for (;;) {
-      sockaddr_storage peer{};
-      socklen_t length = sizeof peer;
-      const ssize_t got = ::recvfrom(socket_.descriptor.number(), bytes.data(), bytes.size(), MSG_DONTWAIT,
-                                     reinterpret_cast<sockaddr*>(&peer), &length);
-      if (got < 0 || stop.stop_requested()) break;
-      ++datagrams_;
-      if (!may_send(allowed_, peer)) {
-        ++not_allowed_;
-        continue;
-      }
-      receive({bytes.data(), static_cast<std::size_t>(got)});
+    const std::size_t count = received.take(socket_.descriptor.number());
+    if (count == 0) {
+      pollfd waiting{socket_.descriptor.number(), POLLIN, 0};
+      (void)::poll(&waiting, 1, idle_ms);
+      continue;
     }
+    datagrams_ += count;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (may_send(allowed_, received.peer(k))) {
+        receive(received.bytes(k));
+      } else {
+        ++not_allowed_;
+      }
+    }
+    // What comes meanwhile is taken together: thousands of valves would else wake the thread for each of their
+    // datagrams.
+    if (count < datagrams_together) std::this_thread::sleep_for(pause);
   }
 }
 

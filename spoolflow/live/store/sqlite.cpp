@@ -90,7 +90,9 @@ Statement& Statement::put(std::string_view text) {
 }
 
 Statement& Statement::put(std::span<const std::byte> bytes) {
-  check(sqlite3_bind_blob64(handle_.get(), ++bound_, bytes.data(), bytes.size(), SQLITE_TRANSIENT));
+  const void* const from =
+      bytes.empty() ? "" : static_cast<const void*>(bytes.data());  // from nowhere it would be null
+  check(sqlite3_bind_blob64(handle_.get(), ++bound_, from, bytes.size(), SQLITE_TRANSIENT));
   return *this;
 }
 

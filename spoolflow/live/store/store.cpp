@@ -1,108 +1,52 @@
 #include "spoolflow/live/store/store.hpp"
 
 #include <algorithm>
-#include <fcntl.h>
 #include <filesystem>
 #include <map>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "spoolflow/live/store/preparation.hpp"
+#include "spoolflow/live/store/state_change.hpp"
+
 namespace spoolflow::live {
 namespace {
 
-constexpr std::int64_t application_id = 0x53464C57;  // "SFLW"
+/// Rows move to the table of each valve's after so many commits.
+constexpr int rows_move_every = 60;
+/// A state of more bytes is none that a valve has.
+constexpr std::int64_t largest_state = 16 << 20;
 
-constexpr const char* schema = R"(
-CREATE TABLE valve(number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE);
-CREATE TABLE second(
-  valve INTEGER NOT NULL, wall_ms INTEGER NOT NULL, time_s REAL, samples INTEGER NOT NULL,
-  flow_min REAL, flow_mean REAL, flow_max REAL, lower_min REAL, upper_max REAL, energy_J REAL, status INTEGER NOT NULL,
-  PRIMARY KEY(valve, wall_ms)) WITHOUT ROWID;
-CREATE TABLE indicator(
-  valve INTEGER NOT NULL, wall_ms INTEGER NOT NULL, name TEXT NOT NULL, value REAL, uncertainty_95 REAL, baseline REAL,
-  state TEXT NOT NULL, PRIMARY KEY(valve, name, wall_ms)) WITHOUT ROWID;
-CREATE TABLE event(
-  id INTEGER PRIMARY KEY AUTOINCREMENT, wall_ms INTEGER NOT NULL, valve TEXT NOT NULL, time_s REAL, kind TEXT NOT NULL,
-  text TEXT NOT NULL, acknowledged_ms INTEGER NOT NULL DEFAULT 0);
-CREATE TABLE recording(
-  id INTEGER PRIMARY KEY AUTOINCREMENT, wall_ms INTEGER NOT NULL, valve TEXT NOT NULL, why TEXT NOT NULL,
-  csv BLOB NOT NULL);
-CREATE TABLE state(
-  valve INTEGER PRIMARY KEY, session INTEGER NOT NULL, next INTEGER NOT NULL, samples INTEGER NOT NULL,
-  energy_J REAL NOT NULL, layout TEXT NOT NULL, sensor BLOB NOT NULL, watch BLOB NOT NULL);
-)";
-
-/// Held as long as the program runs; SQLite's own locks let several programs write by turns.
-int only_program(const std::string& path) {
-  const std::string name = path + ".lock";
-  const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    throw StoreError(fmt::format("{}: its folder does not exist or may not be written to; name another", path));
-  }
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor);
-    throw StoreError(fmt::format("{}: another spoolflow live is running on it; end that or name another store", path));
-  }
-  return descriptor;
-}
-
-/// Of a file that is there: whether this program can use it.
-void check_version(Database& database) {
-  const std::string& path = database.path();
-  if (database.number("PRAGMA application_id") != application_id) {
-    throw StoreError(fmt::format("{}: is a database of another program; name another file", path));
-  }
-  const std::int64_t version = database.number("PRAGMA user_version");
-  if (version != store_version) {
-    throw StoreError(
-        fmt::format("{}: is a store of version {}, this program knows version {}; use the program that "
-                    "made it, or name another file",
-                    path, version, store_version));
-  }
-}
-
-void prepare(Database& database) {
-  const bool empty = database.number("SELECT count(*) FROM sqlite_master") == 0;
-  if (!empty) check_version(database);
-  database.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL");
-  if (empty) {
-    Transaction whole(database);
-    database.run(
-        fmt::format("{} PRAGMA application_id={}; PRAGMA user_version={};", schema, application_id, store_version));
-    whole.commit();
-  }
-  make_alarm_tables(database);
-  // The whole of a large one would take minutes; damage is then told where it is met.
-  constexpr std::int64_t most_pages = 50'000;
-  if (database.number("PRAGMA page_count") > most_pages) return;
-  Statement check(database, "PRAGMA quick_check(1)");
-  if (check.next() && check.text(0) != "ok") {
-    throw StoreError(
-        fmt::format("{0}: is damaged ({1}); keep a copy of it, save what can be read with `sqlite3 {0} "
-                    ".recover`, and name another file",
-                    database.path(), check.text(0)));
-  }
-}
-
-std::vector<std::byte> copied(std::span<const std::byte> bytes) {
-  return {bytes.begin(), bytes.end()};
-}
+/// What the store has of a valve's state, so that changes can be told from it.
+struct OlderState {
+  std::string layout;
+  std::vector<std::byte> bytes;
+  std::size_t written = 0;  ///< bytes that it took
+  std::size_t least = 0;    ///< bytes of the smallest change since
+  std::size_t wasted = 0;   ///< bytes of all changes since beyond that
+};
 
 }  // namespace
 
 struct Store::Statements {
-  Statement second, indicator, event, state, new_valve;
+  Statement second, indicator, event, state, older_state, new_valve;
   std::map<std::string, std::int64_t> numbers;  ///< of valves
+  std::map<std::int64_t, OlderState> states;    ///< as written since the program began
+  int rows_moved_before = 0;                    ///< commits
 
   explicit Statements(Database& database)
-      : second(database, "INSERT OR REPLACE INTO second VALUES(?,?,?,?,?,?,?,?,?,?,?)"),
+      : second(database, "INSERT OR REPLACE INTO newest_second VALUES(?,?,?,?,?,?,?,?,?,?,?)"),
         indicator(database, "INSERT OR REPLACE INTO indicator VALUES(?,?,?,?,?,?,?)"),
         event(database, "INSERT INTO event(wall_ms,valve,time_s,kind,text,acknowledged_ms) VALUES(?,?,?,?,?,?)"),
-        state(database, "INSERT OR REPLACE INTO state VALUES(?,?,?,?,?,?,?,?)"),
+        state(database, "INSERT OR REPLACE INTO state VALUES(?,?,?,?,?,?)"),
+        older_state(database, "INSERT OR REPLACE INTO older_state VALUES(?,?,?,?)"),
         new_valve(database, "INSERT INTO valve(id) VALUES(?)") {
+    read_numbers(database);
+  }
+  void read_numbers(Database& database) {
+    numbers.clear();
     Statement known(database, "SELECT id, number FROM valve");
     while (known.next()) numbers.emplace(known.text(0), known.integer(1));
   }
@@ -128,12 +72,23 @@ Store::~Store() {
 std::vector<KeptState> Store::states() {
   std::vector<KeptState> out;
   Statement each(*database_,
-                 "SELECT id, session, next, samples, energy_J, layout, sensor, watch FROM state JOIN valve ON "
-                 "state.valve = valve.number");
+                 "SELECT id, session, next, samples, energy_J, layout, bytes, content, change FROM state "
+                 "JOIN older_state USING(valve) JOIN valve ON state.valve = valve.number");
   while (each.next()) {
-    out.push_back({each.text(0), static_cast<std::uint64_t>(each.integer(1)),
-                   static_cast<std::uint64_t>(each.integer(2)), static_cast<std::uint64_t>(each.integer(3)),
-                   each.real(4), each.text(5), copied(each.bytes(6)), copied(each.bytes(7))});
+    KeptState kept{.valve = each.text(0),
+                   .session = static_cast<std::uint64_t>(each.integer(1)),
+                   .next = static_cast<std::uint64_t>(each.integer(2)),
+                   .samples = static_cast<std::uint64_t>(each.integer(3)),
+                   .energy_J = each.real(4),
+                   .layout = each.text(5)};
+    const std::int64_t length = each.integer(6);
+    bool whole = length >= 0 && length <= largest_state;
+    if (whole) {
+      kept.bytes.resize(static_cast<std::size_t>(length));
+      whole = apply_change(each.bytes(7), kept.bytes) && apply_change(each.bytes(8), kept.bytes);
+    }
+    if (!whole) kept.layout = "damaged";  // sensor and monitor begin anew, counts go on
+    out.push_back(std::move(kept));
   }
   return out;
 }
@@ -145,28 +100,56 @@ std::int64_t Store::number_of(const std::string& valve) {
   return statements_->numbers[valve] = database_->number("SELECT last_insert_rowid()");
 }
 
-void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
-                   const std::vector<Alarm>& alarms) {
+void Store::put_row(std::int64_t valve, std::int64_t wall_ms, const Summary& row) {
+  Statement& to = statements_->second;
+  to.put(valve).put(wall_ms).put(row.time_s).put(row.samples);
+  to.put(row.flow_min_m3_per_s).put(row.flow_mean_m3_per_s).put(row.flow_max_m3_per_s);
+  to.put(row.lower_min_m3_per_s).put(row.upper_max_m3_per_s).put(row.energy_J).put(std::int64_t{row.status}).run();
+}
+
+/// The change against the older state; that one anew once all that was written beyond the smallest change is more than
+/// it takes itself.
+void Store::put_state(std::int64_t valve, const KeptState& state) {
+  OlderState& older = statements_->states[valve];
+  std::vector<std::byte> change;
+  const bool comparable = older.written > 0 && older.layout == state.layout && older.bytes.size() == state.bytes.size();
+  if (comparable) {
+    change = state_change(older.bytes, state.bytes);
+    older.least = older.least == 0 ? change.size() : std::min(older.least, change.size());
+    older.wasted += change.size() - older.least;
+  }
+  if (!comparable || older.wasted > older.written) {
+    const std::vector<std::byte> content = state_change({}, state.bytes);
+    older = {.layout = state.layout, .bytes = state.bytes, .written = content.size() + 1};
+    change.clear();
+    statements_->older_state.put(valve).put(std::string_view(state.layout));
+    statements_->older_state.put(static_cast<std::int64_t>(state.bytes.size())).put(std::span(content)).run();
+  }
+  Statement& to = statements_->state;
+  to.put(valve).put(static_cast<std::int64_t>(state.session)).put(static_cast<std::int64_t>(state.next));
+  to.put(static_cast<std::int64_t>(state.samples)).put(state.energy_J).put(std::span(change)).run();
+}
+
+void Store::move_rows() {
+  database_->run(
+      "INSERT OR REPLACE INTO second_of_valve SELECT * FROM newest_second ORDER BY valve, wall_ms; "
+      "DELETE FROM newest_second");
+  statements_->rows_moved_before = 0;
+}
+
+void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+                       const std::vector<Alarm>& alarms) {
   Transaction whole(*database_);
   Statements& to = *statements_;
   for (const ValveCommit& valve : valves) {
-    const KeptState& state = valve.state;
-    const Summary& row = valve.since_last;
-    const std::int64_t number = number_of(state.valve);
-    if (row.samples > 0) {
-      to.second.put(number).put(wall_ms).put(row.time_s).put(row.samples);
-      to.second.put(row.flow_min_m3_per_s).put(row.flow_mean_m3_per_s).put(row.flow_max_m3_per_s);
-      to.second.put(row.lower_min_m3_per_s).put(row.upper_max_m3_per_s).put(row.energy_J);
-      to.second.put(std::int64_t{row.status}).run();
-    }
+    const std::int64_t number = number_of(valve.state.valve);
+    if (valve.since_last.samples > 0) put_row(number, wall_ms, valve.since_last);
     for (const KeptIndicator& one : valve.indicators) {
       to.indicator.put(number).put(wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
       to.indicator.put(one.baseline).put(std::string_view(one.state)).run();
     }
-    if (row.samples == 0 && valve.indicators.empty()) continue;  // nothing has changed since it was written
-    to.state.put(number).put(static_cast<std::int64_t>(state.session)).put(static_cast<std::int64_t>(state.next));
-    to.state.put(static_cast<std::int64_t>(state.samples)).put(state.energy_J).put(std::string_view(state.layout));
-    to.state.put(std::span(state.sensor)).put(std::span(state.watch)).run();
+    if (valve.since_last.samples == 0 && valve.indicators.empty()) continue;  // nothing has changed since
+    put_state(number, valve.state);
   }
   for (Event& event : events) {
     if (event.id != 0) continue;
@@ -175,10 +158,18 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
     event.id = database_->number("SELECT last_insert_rowid()");
   }
   keep_alarms(*database_, alarms);
+  if (++to.rows_moved_before >= rows_move_every) move_rows();
+  whole.commit();
+}
+
+void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+                   const std::vector<Alarm>& alarms) {
   try {
-    whole.commit();
+    commit_all(wall_ms, valves, events, alarms);
   } catch (...) {
     for (Event& event : events) event.id = 0;
+    statements_->states.clear();  // what is there was taken back
+    statements_->read_numbers(*database_);
     throw;
   }
 }
@@ -204,12 +195,18 @@ std::vector<Event> Store::events(int most) {
 }
 
 void Store::retain(std::int64_t wall_ms, const Retention& retention) {
+  {
+    Transaction whole(*database_);
+    move_rows();
+    whole.commit();
+  }
   const auto delete_before = [&](std::int64_t oldest_ms) {
     Transaction whole(*database_);
     // By the tables' own keys: each valve's rows are in order of time.
-    Statement seconds(*database_, "DELETE FROM second WHERE valve = ? AND wall_ms < ?");
+    Statement seconds(*database_, "DELETE FROM second_of_valve WHERE valve = ? AND wall_ms < ?");
     for (const auto& entry : statements_->numbers) seconds.put(entry.second).put(oldest_ms).run();
-    Statement(*database_, "DELETE FROM indicator WHERE wall_ms < ?").put(oldest_ms).run();
+    Statement indicators(*database_, "DELETE FROM indicator WHERE valve = ? AND wall_ms < ?");
+    for (const auto& entry : statements_->numbers) indicators.put(entry.second).put(oldest_ms).run();
     Statement(*database_, "DELETE FROM recording WHERE wall_ms < ?").put(oldest_ms).run();
     Statement(*database_, "DELETE FROM event WHERE wall_ms < ?").put(oldest_ms).run();
     delete_alarms(*database_, oldest_ms);
@@ -222,7 +219,7 @@ void Store::retain(std::int64_t wall_ms, const Retention& retention) {
   };
   const auto extreme = [&](const char* which) {  // of the rows' times; by the table's key, valve by valve
     std::optional<std::int64_t> out;
-    Statement one(*database_, fmt::format("SELECT {}(wall_ms) FROM second WHERE valve = ?", which));
+    Statement one(*database_, fmt::format("SELECT {}(wall_ms) FROM second_of_valve WHERE valve = ?", which));
     for (const auto& entry : statements_->numbers) {
       one.put(entry.second);
       if (!one.next()) continue;

@@ -2,6 +2,10 @@
 /// What one machine keeps of its valves, in one SQLite file (WAL). Each commit covers all valves: a summary of what
 /// came since the commit before, the state from which the program goes on, events. After an end at any instant the file
 /// is that of the last commit.
+///
+/// SQLite writes whole pages: the rows of one second lie side by side in a table of the newest, and move to that in
+/// which each valve's are together once a minute (the view `second` has both). Of a state what differs from an older
+/// one is written, and that one anew where the differences have grown.
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -13,8 +17,6 @@
 #include "spoolflow/live/store/sqlite.hpp"
 
 namespace spoolflow::live {
-
-inline constexpr int store_version = 1;
 
 /// Smallest, mean and largest value of the answers between two commits, which are a second apart.
 struct Summary {
@@ -32,8 +34,8 @@ struct KeptState {
   std::uint64_t session = 0, next = 0;  ///< of its source
   std::uint64_t samples = 0;            ///< worked on since the store began
   double energy_J = 0;                  ///< since then
-  std::string layout;                   ///< what the bytes are of; of another layout they are not taken
-  std::vector<std::byte> sensor, watch;
+  std::string layout{};                 ///< what the bytes are of; of another layout they are not taken
+  std::vector<std::byte> bytes{};       ///< of sensor and monitor
 };
 
 struct ValveCommit {
@@ -94,6 +96,11 @@ class Store {
  private:
   struct Statements;
   std::int64_t number_of(const std::string& valve);
+  void put_row(std::int64_t valve, std::int64_t wall_ms, const Summary& row);
+  void put_state(std::int64_t valve, const KeptState& state);
+  void move_rows();
+  void commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+                  const std::vector<Alarm>& alarms);
 
   int lock_ = -1;
   std::unique_ptr<Database> database_;
