@@ -67,7 +67,7 @@ Engine::Engine(SiteSettings site, std::string program)
     if (same == valves_.end()) continue;
     (*same)->after = {kept.session, kept.next};
     const bool goes_on = (*same)->valve->restore(kept);
-    (*same)->told_condition = (*same)->valve->view().condition;  // it was told before
+    (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
     if (goes_on) continue;
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,
@@ -182,7 +182,7 @@ void Engine::watch_for_events() {
       place.valve->finish();
       place.finished = true;
     }
-    const ValveView valve = place.valve->view();
+    const ValveView valve = place.valve->view(false);
     const auto add = [&](const char* kind, std::string text) {
       events_.add(
           {.wall_ms = wall_ms(), .valve = valve.id, .time_s = valve.time_s, .kind = kind, .text = std::move(text)});
@@ -196,7 +196,8 @@ void Engine::watch_for_events() {
       add("source", source_now.trouble);
     }
     place.told_trouble = source_now.trouble;
-    follow_alarms(place, valve, source_now.stalled);
+    // Indicators take long: they are asked for where an alarm may keep them.
+    follow_alarms(place, valve.condition == monitor::Ne107::good ? valve : place.valve->view(), source_now.stalled);
     keep_raw_samples(place, valve, source_now.stalled || place.finished);
     if (valve.condition == place.told_condition) continue;
     std::string causes;

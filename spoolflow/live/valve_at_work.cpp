@@ -122,7 +122,7 @@ void ValveAtWork::finish() {
   if (watch_) watch_->finish();
 }
 
-ValveView ValveAtWork::view() const {
+ValveView ValveAtWork::view(bool with_indicators) const {
   const std::lock_guard lock(mutex_);
   ValveView out;
   out.id = id_;
@@ -137,7 +137,7 @@ ValveView ValveAtWork::view() const {
     out.condition = watch_->condition();
     if (out.doubted) out.condition = std::max(out.condition, monitor::Ne107::maintenance_required);
     out.causes = watch_->causes();
-    out.indicators = watch_->indicators();
+    if (with_indicators) out.indicators = watch_->indicators();
   }
   return out;
 }

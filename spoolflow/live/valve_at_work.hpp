@@ -50,7 +50,8 @@ class ValveAtWork {
   /// The source is over: the monitor judges what it had gathered.
   void finish();
 
-  [[nodiscard]] ValveView view() const;
+  /// Indicators take as long as a hundred samples: not for those who look often and need none.
+  [[nodiscard]] ValveView view(bool with_indicators = true) const;
   /// When the last sample came, by the steady clock; 0: none yet.
   [[nodiscard]] std::int64_t arrived_ns() const;
   /// The points of the plot from that number on, and which was the first; `arrived_ns` of the newest sample in them.

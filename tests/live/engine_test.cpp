@@ -4,8 +4,10 @@
 #include <arpa/inet.h>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <thread>
@@ -252,6 +254,36 @@ TEST_F(EngineTest, AnotherModelBeginsAnewAndCountsOn) {
   EXPECT_EQ(second.view(0).samples, 100U);
   ASSERT_FALSE(second.events().empty());
   EXPECT_THAT(second.events().back().text, HasSubstr("begin anew"));
+}
+
+// A file that may not grow stands for the full disk.
+TEST_F(EngineTest, AFullDiskStopsKeepingNotWatching) {
+  SiteSettings kept = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
+  kept.store = path("kept.sqlite");
+  Engine engine(kept, "test");
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  sender.send(engine_header + rows(0, 100));
+  ASSERT_TRUE(has(engine, 0, 100));
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit no_more{4096, limit.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &no_more);
+  sender.send(rows(100, 200));
+  const bool told = comes_true([&] { return !engine.store_trouble().empty(); });
+  sender.send(rows(200, 300));
+  const bool watched = has(engine, 0, 300);
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, before);
+  EXPECT_TRUE(told);
+  EXPECT_TRUE(watched);
+  EXPECT_TRUE(comes_true([&] { return engine.store_trouble().empty(); }));
+  engine.stop();
+  std::int64_t samples = 0;
+  read_history(kept.store, "t", 0, std::int64_t{1} << 60,
+               [&](const HistoryRow& row) { samples += row.summary.samples; });
+  EXPECT_EQ(samples, 300);
 }
 
 TEST_F(EngineTest, ARigValveWorks) {

@@ -44,6 +44,15 @@ TEST(StateChange, MakesTheLaterStateOfTheEarlier) {
   }
 }
 
+TEST(StateChange, OfAllValvesAreOnePiece) {
+  const StateChanges changes{{1, noise(10, 1)}, {2, {}}, {900, noise(5000, 2)}};
+  EXPECT_EQ(parted(joined(changes)), changes);
+  auto cut = joined(changes);
+  cut.pop_back();
+  EXPECT_EQ(parted(cut).size(), 2U);  // the last is damaged
+  EXPECT_TRUE(parted({}).empty());
+}
+
 TEST(StateChange, DamagedOnesAreRefusedOrHarmless) {
   const auto before = noise(900, 1);
   const auto change = state_change(before, noise(900, 2));

@@ -104,6 +104,23 @@ TEST_F(StoreTest, AStateOfAnotherLengthOrLayoutTakesThePlaceOfTheOneBefore) {
   }
 }
 
+// A site may lose a valve and get it back: what others write meanwhile leaves its state as it was.
+TEST_F(StoreTest, AValveThatRestsKeepsItsState) {
+  ValveCommit a = kept("a", 1, 1e-4), b = kept("b", 1, 1e-4);
+  {
+    Store store(path("s.sqlite"));
+    commit(store, 1000, {a, b});
+    a.state.bytes[1] = b.state.bytes[1] = std::byte{77};
+    commit(store, 2000, {a, b});
+  }
+  Store store(path("s.sqlite"));
+  a.state.bytes[2] = std::byte{78};
+  for (int second = 3; second < 6; ++second) commit(store, 1000 * second, {a});
+  ASSERT_EQ(store.states().size(), 2U);
+  EXPECT_EQ(store.states()[0].bytes, a.state.bytes);
+  EXPECT_EQ(store.states()[1].bytes, b.state.bytes);
+}
+
 TEST_F(StoreTest, RowsAreWholeInWhicheverTableTheyLie) {
   Store store(path("s.sqlite"));
   for (int second = 0; second < 150; ++second) commit(store, 1000 * second, {kept("a", 1, 1e-4), kept("b", 1, 2e-4)});

@@ -35,12 +35,13 @@ CREATE TABLE recording(
   csv BLOB NOT NULL);
 CREATE TABLE state(
   valve INTEGER PRIMARY KEY, session INTEGER NOT NULL, next INTEGER NOT NULL, samples INTEGER NOT NULL,
-  energy_J REAL NOT NULL, change BLOB NOT NULL);
+  energy_J REAL NOT NULL);
+CREATE TABLE state_change(one INTEGER PRIMARY KEY CHECK(one = 1), of_valves BLOB NOT NULL);
 CREATE TABLE older_state(valve INTEGER PRIMARY KEY, layout TEXT NOT NULL, bytes INTEGER NOT NULL, content BLOB NOT NULL);
 )";
 
 /// Pages of the log before its newest are written to their places; most are written over many times until then.
-constexpr int checkpoint_pages = 4000;
+constexpr int checkpoint_pages = 16000;
 }  // namespace
 
 int only_program(const std::string& path) {
@@ -73,8 +74,10 @@ void check_version(Database& database) {
 void prepare(Database& database) {
   const bool empty = database.number("SELECT count(*) FROM sqlite_master") == 0;
   if (!empty) check_version(database);
-  database.run(fmt::format("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; PRAGMA wal_autocheckpoint={}",
-                           checkpoint_pages));
+  // Many systems build SQLite to overwrite what it deletes, which doubles what is written.
+  database.run(fmt::format(
+      "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; PRAGMA secure_delete=OFF; PRAGMA wal_autocheckpoint={}",
+      checkpoint_pages));
   if (empty) {
     Transaction whole(database);
     database.run(

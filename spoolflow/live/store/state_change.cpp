@@ -35,12 +35,14 @@ std::optional<std::size_t> take_number(std::span<const std::byte>& from) {
 
 std::vector<std::byte> state_change(std::span<const std::byte> before, std::span<const std::byte> now) {
   const std::size_t words = words_in(now.size());
-  const auto changes = [&](std::size_t word) {
+  const auto word_of = [&](std::span<const std::byte> state, std::size_t word) {
+    std::uint64_t out = 0;
     const std::size_t at = word * word_bytes;
-    const std::size_t length = std::min(word_bytes, now.size() - at);
-    constexpr std::uint64_t zero = 0;
-    const void* const old = before.empty() ? static_cast<const void*>(&zero) : before.data() + at;
-    return std::memcmp(old, now.data() + at, length) != 0;
+    std::memcpy(&out, state.data() + at, now.size() - at >= word_bytes ? word_bytes : now.size() - at);
+    return out;
+  };
+  const auto changes = [&](std::size_t word) {
+    return word_of(now, word) != (before.empty() ? 0 : word_of(before, word));
   };
   std::vector<std::byte> out;
   for (std::size_t word = 0; word < words;) {
@@ -71,6 +73,29 @@ bool apply_change(std::span<const std::byte> change, std::span<std::byte> state)
     change = change.subspan(length);
   }
   return true;
+}
+
+std::vector<std::byte> joined(const StateChanges& changes) {
+  std::vector<std::byte> out;
+  for (const auto& [valve, change] : changes) {
+    put_number(out, static_cast<std::size_t>(valve));
+    put_number(out, change.size());
+    out.insert(out.end(), change.begin(), change.end());
+  }
+  return out;
+}
+
+StateChanges parted(std::span<const std::byte> joined) {
+  StateChanges out;
+  while (!joined.empty()) {
+    const auto valve = take_number(joined);
+    const auto length = take_number(joined);
+    if (!valve || !length || *length > joined.size()) break;
+    out[static_cast<std::int64_t>(*valve)].assign(joined.begin(),
+                                                  joined.begin() + static_cast<std::ptrdiff_t>(*length));
+    joined = joined.subspan(*length);
+  }
+  return out;
 }
 
 }  // namespace spoolflow::live

@@ -2,6 +2,8 @@
 /// What differs between two states of one length: of a valve's sensor and monitor little does from second to second,
 /// and only that is written.
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -14,5 +16,11 @@ namespace spoolflow::live {
 /// Makes `now` of `before`. Returns false where the change is none of a state of this length; the state is then
 /// worthless.
 [[nodiscard]] bool apply_change(std::span<const std::byte> change, std::span<std::byte> state);
+
+/// The changes of all valves, by their numbers in the store, as one piece: small pieces would waste the rest of a page.
+using StateChanges = std::map<std::int64_t, std::vector<std::byte>>;
+[[nodiscard]] std::vector<std::byte> joined(const StateChanges& changes);
+/// What is damaged is left out.
+[[nodiscard]] StateChanges parted(std::span<const std::byte> joined);
 
 }  // namespace spoolflow::live

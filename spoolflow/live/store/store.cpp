@@ -28,24 +28,34 @@ struct OlderState {
   std::size_t wasted = 0;   ///< bytes of all changes since beyond that
 };
 
+StateChanges changes_in(Database& database) {
+  Statement all(database, "SELECT of_valves FROM state_change");
+  return all.next() ? parted(all.bytes(0)) : StateChanges();
+}
+
 }  // namespace
 
 struct Store::Statements {
-  Statement second, indicator, event, state, older_state, new_valve;
+  Statement second, indicator, event, state, state_change, older_state, new_valve;
   std::map<std::string, std::int64_t> numbers;  ///< of valves
   std::map<std::int64_t, OlderState> states;    ///< as written since the program began
+  StateChanges changes;                         ///< against the older states in the file
   int rows_moved_before = 0;                    ///< commits
 
   explicit Statements(Database& database)
       : second(database, "INSERT OR REPLACE INTO newest_second VALUES(?,?,?,?,?,?,?,?,?,?,?)"),
         indicator(database, "INSERT OR REPLACE INTO indicator VALUES(?,?,?,?,?,?,?)"),
         event(database, "INSERT INTO event(wall_ms,valve,time_s,kind,text,acknowledged_ms) VALUES(?,?,?,?,?,?)"),
-        state(database, "INSERT OR REPLACE INTO state VALUES(?,?,?,?,?,?)"),
+        state(database, "INSERT OR REPLACE INTO state VALUES(?,?,?,?,?)"),
+        state_change(database, "INSERT OR REPLACE INTO state_change VALUES(1,?)"),
         older_state(database, "INSERT OR REPLACE INTO older_state VALUES(?,?,?,?)"),
         new_valve(database, "INSERT INTO valve(id) VALUES(?)") {
-    read_numbers(database);
+    read(database);
   }
-  void read_numbers(Database& database) {
+  /// What is in the file.
+  void read(Database& database) {
+    states.clear();
+    changes = changes_in(database);
     numbers.clear();
     Statement known(database, "SELECT id, number FROM valve");
     while (known.next()) numbers.emplace(known.text(0), known.integer(1));
@@ -71,8 +81,9 @@ Store::~Store() {
 
 std::vector<KeptState> Store::states() {
   std::vector<KeptState> out;
+  const StateChanges changes = changes_in(*database_);
   Statement each(*database_,
-                 "SELECT id, session, next, samples, energy_J, layout, bytes, content, change FROM state "
+                 "SELECT id, session, next, samples, energy_J, layout, bytes, content, number FROM state "
                  "JOIN older_state USING(valve) JOIN valve ON state.valve = valve.number");
   while (each.next()) {
     KeptState kept{.valve = each.text(0),
@@ -82,10 +93,11 @@ std::vector<KeptState> Store::states() {
                    .energy_J = each.real(4),
                    .layout = each.text(5)};
     const std::int64_t length = each.integer(6);
-    bool whole = length >= 0 && length <= largest_state;
+    const auto change = changes.find(each.integer(8));
+    bool whole = length >= 0 && length <= largest_state && change != changes.end();
     if (whole) {
       kept.bytes.resize(static_cast<std::size_t>(length));
-      whole = apply_change(each.bytes(7), kept.bytes) && apply_change(each.bytes(8), kept.bytes);
+      whole = apply_change(each.bytes(7), kept.bytes) && apply_change(change->second, kept.bytes);
     }
     if (!whole) kept.layout = "damaged";  // sensor and monitor begin anew, counts go on
     out.push_back(std::move(kept));
@@ -111,7 +123,7 @@ void Store::put_row(std::int64_t valve, std::int64_t wall_ms, const Summary& row
 /// it takes itself.
 void Store::put_state(std::int64_t valve, const KeptState& state) {
   OlderState& older = statements_->states[valve];
-  std::vector<std::byte> change;
+  std::vector<std::byte>& change = statements_->changes[valve];
   const bool comparable = older.written > 0 && older.layout == state.layout && older.bytes.size() == state.bytes.size();
   if (comparable) {
     change = state_change(older.bytes, state.bytes);
@@ -127,7 +139,7 @@ void Store::put_state(std::int64_t valve, const KeptState& state) {
   }
   Statement& to = statements_->state;
   to.put(valve).put(static_cast<std::int64_t>(state.session)).put(static_cast<std::int64_t>(state.next));
-  to.put(static_cast<std::int64_t>(state.samples)).put(state.energy_J).put(std::span(change)).run();
+  to.put(static_cast<std::int64_t>(state.samples)).put(state.energy_J).run();
 }
 
 void Store::move_rows() {
@@ -141,6 +153,7 @@ void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& val
                        const std::vector<Alarm>& alarms) {
   Transaction whole(*database_);
   Statements& to = *statements_;
+  bool any = false;
   for (const ValveCommit& valve : valves) {
     const std::int64_t number = number_of(valve.state.valve);
     if (valve.since_last.samples > 0) put_row(number, wall_ms, valve.since_last);
@@ -150,6 +163,7 @@ void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& val
     }
     if (valve.since_last.samples == 0 && valve.indicators.empty()) continue;  // nothing has changed since
     put_state(number, valve.state);
+    any = true;
   }
   for (Event& event : events) {
     if (event.id != 0) continue;
@@ -158,6 +172,10 @@ void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& val
     event.id = database_->number("SELECT last_insert_rowid()");
   }
   keep_alarms(*database_, alarms);
+  if (any) {
+    const std::vector<std::byte> all = joined(to.changes);
+    to.state_change.put(std::span(all)).run();
+  }
   if (++to.rows_moved_before >= rows_move_every) move_rows();
   whole.commit();
 }
@@ -168,8 +186,7 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
     commit_all(wall_ms, valves, events, alarms);
   } catch (...) {
     for (Event& event : events) event.id = 0;
-    statements_->states.clear();  // what is there was taken back
-    statements_->read_numbers(*database_);
+    statements_->read(*database_);  // what is in memory was taken back
     throw;
   }
 }
