@@ -297,7 +297,7 @@ void Engine::keep_each_second(const std::stop_token& stop) {
       continue;
     }
     keep(second % indicators_every == 1);
-    if (second % retention_every != 0) continue;
+    if (second % retention_every != 1) continue;
     try {
       store_->retain(wall_ms(), site_.retention);
     } catch (const StoreError&) {  // the next commit meets the same and tells
