@@ -66,6 +66,7 @@ std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
   if (stalled) out.push_back({std::string(no_samples), Ne107::function_check});
   if (valve.condition == Ne107::good) return out;
   const bool decided =
+      valve.doubted ||
       std::any_of(valve.indicators.begin(), valve.indicators.end(),
                   [](const monitor::Indicator& one) { return one.state == monitor::IndicatorState::raised; }) ||
       std::any_of(valve.causes.begin(), valve.causes.end(),
@@ -79,8 +80,11 @@ std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
     out.push_back({std::string(monitor::name(cause.fault)), sign, cause.odds});
   }
   if (explained >= valve.condition) return out;
-  // The share of time of a status made the sign.
+  // No cause is told: the share of time of a status made the sign, or the charts did, and nothing explains them.
   switch (valve.condition) {
+    case Ne107::maintenance_required:
+      out.push_back({"maintenance_required", valve.condition});
+      break;
     case Ne107::out_of_specification:
       out.push_back({"out_of_specification", valve.condition});
       break;
@@ -91,7 +95,6 @@ std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
       out.push_back({"failure", valve.condition});
       break;
     case Ne107::good:
-    case Ne107::maintenance_required:
       break;
   }
   return out;

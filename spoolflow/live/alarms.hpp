@@ -21,7 +21,7 @@ namespace spoolflow::live {
 
 /// One thing that is wrong with a valve at an instant.
 struct Trouble {
-  std::string cause;  ///< of the monitor, no_samples, "function_check", "out_of_specification" or "failure"
+  std::string cause;  ///< of the monitor, no_samples, or the words of its sign ("function_check")
   monitor::Ne107 sign;
   double odds = 0;  ///< of the monitor's causes; 0: no matter of odds
 };

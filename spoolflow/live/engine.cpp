@@ -196,7 +196,8 @@ void Engine::watch_for_events() {
       add("source", source_now.trouble);
     }
     place.told_trouble = source_now.trouble;
-    follow_alarms(place, valve, source_now.stalled);
+    // Indicators take long: they are asked for where an alarm may keep them.
+    follow_alarms(place, valve.condition == monitor::Ne107::good ? valve : place.valve->view(), source_now.stalled);
     keep_raw_samples(place, valve, source_now.stalled || place.finished);
     if (valve.condition == place.told_condition) continue;
     std::string causes;
@@ -296,7 +297,7 @@ void Engine::keep_each_second(const std::stop_token& stop) {
       continue;
     }
     keep(second % indicators_every == 1);
-    if (second % retention_every != 0) continue;
+    if (second % retention_every != 1) continue;
     try {
       store_->retain(wall_ms(), site_.retention);
     } catch (const StoreError&) {  // the next commit meets the same and tells

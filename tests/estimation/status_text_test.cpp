@@ -13,6 +13,7 @@ TEST(StatusText, JoinsTheNamesOfTheSetBits) {
   EXPECT_EQ(text(Status::closed), "closed");
   EXPECT_EQ(text(Status::closed | Status::sample_missing), "closed|sample_missing");
   EXPECT_EQ(text(Status::closed), "closed");
+  EXPECT_EQ(text(Status::closed | Status::model_doubt), "closed|model_doubt");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// sent: as it is, as the target of a request, or as messages behind an opened WebSocket.
 #include <arpa/inet.h>
 #include <array>
+#include <cerrno>
 #include <netinet/in.h>
 #include <string>
 #include <sys/socket.h>
@@ -23,11 +24,11 @@ struct Server {
     out.udp = live::Address{"127.0.0.1", 0};
     return out;
   }
-  Server() : engine(site(), "fuzz"), page(engine, {"127.0.0.1", 0}) { engine.start(); }
+  Server() : engine(site(), "fuzz"), page(engine, {.listen = {"127.0.0.1", 0}}) { engine.start(); }
 };
 
 /// Sends it, ends its side and waits until the server has ended, too; returns how much came.
-std::size_t exchange(std::uint16_t port, const std::string& bytes) {
+std::size_t answered(std::uint16_t port, const std::string& bytes) {
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   // Closed at once, so that thousands of connections leave no ports behind.
   const linger at_once{1, 0};
@@ -43,6 +44,7 @@ std::size_t exchange(std::uint16_t port, const std::string& bytes) {
   std::array<char, 65536> room;
   for (;;) {
     const ssize_t got = ::recv(socket, room.data(), room.size(), 0);
+    if (got < 0 && errno == EINTR) continue;  // the fuzzer's alarm
     if (got <= 0) break;
     all += static_cast<std::size_t>(got);
   }
@@ -59,13 +61,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint16_t port = server.page.port();
   switch (data[0]) {
     case 'r':
-      (void)exchange(port, rest);
+      (void)answered(port, rest);
       break;
     case 't':
-      (void)exchange(port, "GET " + rest + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+      (void)answered(port, "GET " + rest + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
       break;
     case 'w':
-      (void)exchange(port,
+      (void)answered(port,
                      "GET /api/v1/valves/a/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: "
                      "websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n" +
                          rest);
@@ -74,6 +76,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       return 0;
   }
   // Whatever was sent, the next visitor is served.
-  fuzz::require(exchange(port, "GET /api/v1/site HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n") > 200);
+  fuzz::require(answered(port, "GET /api/v1/site HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n") > 200);
   return 0;
 }

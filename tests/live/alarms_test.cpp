@@ -135,6 +135,14 @@ TEST(Troubles, AreWhatIsDecidedAndNotWhatIsSuspected) {
   const auto specification = troubles_of(suspected, false);
   ASSERT_EQ(specification.size(), 1U);
   EXPECT_EQ(specification[0].cause, "out_of_specification");
+  // The charts have decided, and no indicator alone stands out.
+  ValveView decided = healthy();
+  decided.causes = {{Fault::friction, 0.8}};
+  decided.condition = Ne107::maintenance_required;
+  EXPECT_EQ(troubles_of(decided, false)[0].cause, "maintenance_required");
+  decided.doubted = true;
+  ASSERT_EQ(troubles_of(decided, false).size(), 1U);
+  EXPECT_EQ(troubles_of(decided, false)[0].cause, "friction");
   const auto both = troubles_of(worn(), true);
   ASSERT_EQ(both.size(), 2U);
   EXPECT_EQ(both[0].cause, "no_samples");

@@ -47,7 +47,8 @@ class Days : public InFolder {
 TEST_F(Days, AreThinnedWithoutLosingPeaks) {
   keep_a_day();
   const Span day{begin_ms, begin_ms + 1440 * minute_ms, 100};
-  const auto friction = read_indicator(path("s.sqlite"), "a", "friction_ratio", day);
+  IndicatorHistories indicators = read_indicators(path("s.sqlite"), "a", day);
+  const std::vector<IndicatorPoint>& friction = indicators["friction_ratio"];
   ASSERT_GE(friction.size(), 100U);
   ASSERT_LE(friction.size(), 102U);
   EXPECT_EQ(friction.front().smallest, 1);
@@ -56,17 +57,16 @@ TEST_F(Days, AreThinnedWithoutLosingPeaks) {
   EXPECT_FALSE(friction[50].raised);
   EXPECT_TRUE(friction.back().raised);
   for (std::size_t k = 1; k < friction.size(); ++k) EXPECT_GT(friction[k].wall_ms, friction[k - 1].wall_ms);
-  const auto edge = read_indicator(path("s.sqlite"), "a", "edge_rounding", day);
-  EXPECT_TRUE(std::isnan(edge.front().value));
+  EXPECT_TRUE(std::isnan(indicators["edge_rounding"].front().value));
   const auto flow = read_flow(path("s.sqlite"), "a", day);
   double largest = 0;
   for (const FlowPoint& point : flow) largest = std::max(largest, point.largest_m3_per_s);
   EXPECT_EQ(largest, 9e-3);
   EXPECT_EQ(flow.front().power_W, 5);
   EXPECT_TRUE(read_flow(path("s.sqlite"), "b", day).empty());
-  EXPECT_TRUE(read_indicator(path("s.sqlite"), "a", "nothing", day).empty());
+  EXPECT_TRUE(read_indicators(path("s.sqlite"), "b", day).empty());
   const Span hour{begin_ms, begin_ms + 60 * minute_ms, 1000};
-  EXPECT_EQ(read_indicator(path("s.sqlite"), "a", "friction_ratio", hour).size(), 60U);  // never more than there are
+  EXPECT_EQ(read_indicators(path("s.sqlite"), "a", hour)["friction_ratio"].size(), 60U);  // never more than there are
 }
 
 TEST_F(Days, AreAskedForByInstants) {

@@ -286,6 +286,29 @@ TEST_F(EngineTest, AFullDiskStopsKeepingNotWatching) {
   EXPECT_EQ(samples, 300);
 }
 
+TEST_F(EngineTest, WhatIsTooOldIsDeletedWhileItRuns) {
+  SiteSettings kept = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
+  kept.store = path("kept.sqlite");
+  kept.retention.days = 1;
+  {
+    Store store(kept.store);
+    std::vector<Event> none;
+    store.commit(1000, {{.state = {.valve = "t", .layout = "old"}, .since_last = {.samples = 7}, .indicators = {}}},
+                 none);
+  }
+  const auto samples = [&] {
+    std::int64_t out = 0;
+    read_history(kept.store, "t", 0, std::int64_t{1} << 60, [&](const HistoryRow& row) { out += row.summary.samples; });
+    return out;
+  };
+  ASSERT_EQ(samples(), 7);
+  Engine engine(kept, "test");
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  sender.send(engine_header + rows(0, 100));
+  EXPECT_TRUE(comes_true([&] { return samples() == 100; }));  // those of 1970 are gone
+}
+
 TEST_F(EngineTest, ARigValveWorks) {
   const RigSettings rig{.valve = rig::valve_preset("size_6"), .seed = 3, .speed = 20};
   Engine engine(site({{"v", rig}}), "test");

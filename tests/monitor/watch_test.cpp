@@ -126,12 +126,14 @@ TEST(Doubt, WidensTheBandByWhatTheFaultMakesOfTheFlow) {
   const sensor::Estimate<double>& answer = ramp().answers[middle];
   const sensor::Estimate<double> same = widened(example(), {}, sample, 323, answer);
   EXPECT_EQ(same.flow_upper_m3_per_s, answer.flow_upper_m3_per_s);
+  EXPECT_EQ(same.status, answer.status);
   double last = answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
   for (const double size : {0.5, 1.0, 2.0}) {
     Doubt doubt;
     doubt.side[0] = {true, {0, 0, 0, 0, size, 0}};
     const sensor::Estimate<double> wider = widened(example(), doubt, sample, 323, answer);
     EXPECT_EQ(wider.flow_m3_per_s, answer.flow_m3_per_s);
+    EXPECT_TRUE(sensor::has(wider.status, sensor::Status::model_doubt));
     EXPECT_GT(wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s, last);
     last = wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
   }

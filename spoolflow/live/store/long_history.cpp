@@ -13,20 +13,19 @@ std::int64_t width_ms(const Span& span, std::int64_t least_ms) {
 
 }  // namespace
 
-std::vector<IndicatorPoint> read_indicator(const std::string& path, const std::string& valve,
-                                           const std::string& indicator, const Span& span) {
+IndicatorHistories read_indicators(const std::string& path, const std::string& valve, const Span& span) {
   Database database = open_store_to_read(path);
-  Statement rows(database,
-                 "SELECT CAST(avg(wall_ms) AS INTEGER), avg(value), min(value), max(value), avg(uncertainty_95), "
-                 "avg(baseline), max(state = 'raised') FROM indicator WHERE valve = (SELECT number FROM valve WHERE id "
-                 "= ?) AND name = ? AND wall_ms >= ? AND wall_ms < ? GROUP BY wall_ms / ? ORDER BY 1");
+  Statement rows(
+      database,
+      "SELECT name, CAST(avg(wall_ms) AS INTEGER) AS at, avg(value), min(value), max(value), "
+      "avg(uncertainty_95), avg(baseline), max(state = 'raised') FROM indicator WHERE valve = (SELECT number "
+      "FROM valve WHERE id = ?) AND wall_ms >= ? AND wall_ms < ? GROUP BY name, wall_ms / ? ORDER BY name, at");
   constexpr std::int64_t minute_ms = 60'000;
-  rows.put(std::string_view(valve)).put(std::string_view(indicator)).put(span.from_ms).put(span.to_ms);
-  rows.put(width_ms(span, minute_ms));
-  std::vector<IndicatorPoint> out;
+  rows.put(std::string_view(valve)).put(span.from_ms).put(span.to_ms).put(width_ms(span, minute_ms));
+  IndicatorHistories out;
   while (rows.next()) {
-    out.push_back(
-        {rows.integer(0), rows.real(1), rows.real(2), rows.real(3), rows.real(4), rows.real(5), rows.integer(6) != 0});
+    out[rows.text(0)].push_back(
+        {rows.integer(1), rows.real(2), rows.real(3), rows.real(4), rows.real(5), rows.real(6), rows.integer(7) != 0});
   }
   return out;
 }

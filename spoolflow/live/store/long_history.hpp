@@ -1,6 +1,7 @@
 #pragma once
 /// What the store keeps of a valve, thinned to so many points that a page can show days of it.
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ struct IndicatorPoint {
   double value, smallest, largest, uncertainty_95, baseline;
   bool raised;  ///< at least once
 };
-/// Throws StoreError where the file is no store; empty where it knows neither valve nor indicator.
-[[nodiscard]] std::vector<IndicatorPoint> read_indicator(const std::string& path, const std::string& valve,
-                                                         const std::string& indicator, const Span& span);
+using IndicatorHistories = std::map<std::string, std::vector<IndicatorPoint>>;
+/// By their names. Throws StoreError where the file is no store; empty where it does not know the valve.
+[[nodiscard]] IndicatorHistories read_indicators(const std::string& path, const std::string& valve, const Span& span);
 
 struct FlowPoint {
   std::int64_t wall_ms;

@@ -10,6 +10,10 @@ const states: Record<Alarm['state'], string> = {
   cleared: 'gone, acknowledged',
 };
 
+/** What is there and not seen comes first. */
+const urgency: Record<Alarm['state'], number> =
+  { raised_unacknowledged: 0, gone_unacknowledged: 1, raised_acknowledged: 2, cleared: 3 };
+
 class Entry {
   readonly place = element('li', 'alarm');
   private readonly sign = element('span', 'sign');
@@ -92,8 +96,8 @@ export class AlarmList {
   }
 
   show(alarms: readonly Alarm[]): void {
-    const all = alarms.filter(this.wanted).sort((a, b) => Number(a.state === 'cleared') - Number(b.state === 'cleared') ||
-      Number(a.acknowledged !== null) - Number(b.acknowledged !== null) || severity[b.ne107] - severity[a.ne107] || b.id - a.id);
+    const all = alarms.filter(this.wanted)
+      .sort((a, b) => urgency[a.state] - urgency[b.state] || severity[b.ne107] - severity[a.ne107] || b.id - a.id);
     const shown = all.slice(0, this.most);
     const known = new Set(shown.map((alarm) => alarm.id));
     for (const id of [...this.entries.keys()]) if (!known.has(id)) this.entries.delete(id);

@@ -155,7 +155,7 @@ export const signs: Record<Sign, string> = {
 export const severity: Record<Sign, number> = { good: 0, M: 1, S: 2, C: 3, F: 4 };
 
 export function figure(value: number | null, digits: number): string {
-  return value === null ? '–' : value.toFixed(digits).replace(/^-/, '−');
+  return value === null ? '–' : value.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace(/^-/, '−');
 }
 
 /** Four digits that matter, for figures of any size. */
