@@ -4,6 +4,7 @@
 
 #include "spoolflow/live/sources/datagram.hpp"
 #include "spoolflow/live/sources/udp_receiver.hpp"
+#include "spoolflow/numerics/crc32.hpp"
 #include "tests/fuzz/live_valve.hpp"
 
 namespace {
@@ -25,7 +26,7 @@ std::vector<std::uint8_t> made_whole(std::vector<std::uint8_t> bytes) {
   const std::size_t samples = width == 0 ? 0 : numbers / width;
   put(bytes, 12, static_cast<std::uint32_t>(samples), 2);
   bytes.resize(live::datagram_header_bytes + 4 * width * (samples & 0xFFFFU));
-  const std::uint32_t checksum = live::crc32(bytes);
+  const std::uint32_t checksum = numerics::crc32(bytes);
   bytes.resize(bytes.size() + live::datagram_checksum_bytes);
   put(bytes, bytes.size() - live::datagram_checksum_bytes, checksum, 4);
   return bytes;
