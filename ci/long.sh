@@ -1,13 +1,15 @@
 #!/bin/sh
-# ci/long.sh [SECONDS]: what takes too long for every day, over the built release: `live` killed at fifty instants, its
-# parsers fuzzed for SECONDS each (an hour where none are given), and 500 valves at 1 kHz for as long. Prints figures;
-# the exit status tells of kills and fuzzing.
+# ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, `live` killed at fifty
+# instants, its parsers fuzzed for SECONDS each (an hour where none are given), and 500 valves at 1 kHz for as long. Prints
+# figures; the exit status tells of clang-tidy, kills and fuzzing.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
 status=0
 ci/build.sh release apps_test
 ci/build.sh release live_load
+echo "== clang-tidy"
+ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
 echo "== 50 kills"
 SPOOLFLOW_KILLS=50 build/release/tests/apps/apps_test --gtest_filter='Kills.*' --gtest_brief=1 || status=1
 for name in live_datagram live_csv live_site live_http; do

@@ -205,7 +205,8 @@ TEST(ForceErrorRatio, ScalesTheBandSoThatItHoldsTheErrorsOnWhichItWasFound) {
     const Judged as_found = judged(found);
     // A force error that never changes its sign lies as deep in the band as the worst of them: 81 and 74 % are inside.
     EXPECT_GT(as_found.sliding.coverage(), 0.7) << deviations;
-    EXPECT_LT(judged(0.5 * found).sliding.coverage(), as_found.sliding.coverage() - 0.02) << deviations;
+    // What friction at speed may be is in the band whatever the ratio.
+    EXPECT_LT(judged(0.5 * found).sliding.mean_width(), 0.85 * as_found.sliding.mean_width()) << deviations;
     EXPECT_GT(as_found.at_rest.coverage(), 0.95) << deviations;
     // At rest the limits of friction count as well, which the ratio does not move: 1.30 and 1.52 times as wide.
     EXPECT_GT(judged(2 * found).at_rest.mean_width(), 1.25 * as_found.at_rest.mean_width()) << deviations;
