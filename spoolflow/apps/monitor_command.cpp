@@ -195,10 +195,7 @@ void add_monitor_command(CLI::App& program) {
   command->add_option("--report", arguments->report, "HTML report to write")->type_name("REPORT.html");
   command->add_option("--json", arguments->json, "condition to write as JSON; - for standard output")
       ->type_name("OUT.json");
-  command
-      ->add_option("--adapt", arguments->adapt,
-                   "corrected model to write: friction, spring, force factor and position zero as found, where they "
-                   "are raised")
+  command->add_option("--adapt", arguments->adapt, "corrected model to write: what is raised as it was found")
       ->type_name("MODEL2.json");
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")

@@ -74,7 +74,7 @@ TEST(Operation, FindsTheFrictionRatioThatTheValveHas) {
     const OperationFit fit =
         fit_operation(parameters, only(run), valve.full_scale_m3_per_s(), [&](double share) { shown = share; });
     // The pull towards the ratio 1 costs most of it, where the ratio that is followed while running makes up for it.
-    EXPECT_NEAR(parameters.friction.operation_ratio, truth, 0.16 * truth);
+    EXPECT_NEAR(parameters.friction.operation_ratio, truth, 0.17 * truth);
     EXPECT_LT(fit.score, 0.6 * fit.score_before) << truth;
     EXPECT_LT(fit.flow_m3_per_s.rms(), 0.02 * valve.full_scale_m3_per_s()) << truth;
     EXPECT_GT(fit.band_coverage, 0.93) << truth;
