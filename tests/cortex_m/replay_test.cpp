@@ -69,7 +69,8 @@ TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
 }
 
 TEST_P(CortexM, CondensedSensorOfAWholeValveAnswersAsTheHost) {
-  expect_fit_for_a_valve(replay(whole(model), Estimator::condensed, minute, GetParam()), {150, 4, 131072});
+  // 150 but for a sample without a position, after which the band opens to both sides.
+  expect_fit_for_a_valve(replay(whole(model), Estimator::condensed, minute, GetParam()), {350, 4, 131072});
 }
 
 INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),
