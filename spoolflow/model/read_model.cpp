@@ -28,7 +28,7 @@ std::string tool_version(const JsonNode& node) {
 }
 
 std::string sha256(const JsonNode& node) {
-  const std::string out = node.text();
+  std::string out = node.text();
   if (out.size() != 64 || out.find_first_not_of("0123456789abcdef") != std::string::npos)
     node.refuse("no sha256 of 64 hexadecimal digits");
   return out;
