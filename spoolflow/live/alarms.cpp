@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/monitor/isolation.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::live {
@@ -12,15 +13,6 @@ namespace {
 
 using monitor::Fault;
 using monitor::Ne107;
-
-/// Odds of a cause that the sensor's status tells by itself.
-constexpr double certain_odds = 1e6;
-
-Ne107 sign_of_fault(Fault fault) {
-  const bool wears =
-      fault == Fault::friction || fault == Fault::edge_wear || fault == Fault::spring || fault == Fault::coil;
-  return wears ? Ne107::maintenance_required : Ne107::out_of_specification;
-}
 
 bool is_cleared(const Alarm& alarm) {
   return alarm.gone_ms != 0 && alarm.acknowledged_ms != 0;
@@ -73,9 +65,10 @@ std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
                   [](const monitor::Cause& one) { return one.fault == Fault::wrong_model; });
   Ne107 explained = Ne107::good;
   for (const monitor::Cause& cause : valve.causes) {
-    const bool failed = valve.condition == Ne107::failure && cause.odds >= certain_odds;
+    // What the status tells by itself is certain.
+    const bool failed = valve.condition == Ne107::failure && cause.odds >= monitor::most_odds;
     if (!decided && !failed) continue;
-    const Ne107 sign = failed ? Ne107::failure : sign_of_fault(cause.fault);
+    const Ne107 sign = failed ? Ne107::failure : monitor::sign_of(cause.fault);
     explained = std::max(explained, sign);
     out.push_back({std::string(monitor::name(cause.fault)), sign, cause.odds});
   }

@@ -13,6 +13,21 @@ std::string_view name(Fault fault) {
   return names.at(static_cast<std::size_t>(fault));
 }
 
+Ne107 sign_of(Fault fault) {
+  switch (fault) {
+    case Fault::friction:
+    case Fault::edge_wear:
+    case Fault::spring:
+    case Fault::coil:
+      return Ne107::maintenance_required;
+    case Fault::position_sensor:
+    case Fault::temperature_sensor:
+    case Fault::wrong_model:
+      return Ne107::out_of_specification;
+  }
+  return Ne107::good;
+}
+
 std::string_view name(IndicatorState state) {
   constexpr std::array<std::string_view, 5> names{"unknown", "learning", "good", "raised", "counts"};
   return names.at(static_cast<std::size_t>(state));

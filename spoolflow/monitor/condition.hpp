@@ -23,6 +23,8 @@ enum class Fault : std::uint8_t { friction, edge_wear, spring, coil, position_se
 inline constexpr std::size_t faults = 7;
 /// "friction", "edge_wear", "spring", "coil", "position_sensor", "temperature_sensor", "wrong_model".
 [[nodiscard]] std::string_view name(Fault fault);
+/// That the fault makes as a cause: M or S.
+[[nodiscard]] Ne107 sign_of(Fault fault);
 
 /// One explanation of raised indicators.
 struct Cause {

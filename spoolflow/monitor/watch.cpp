@@ -21,22 +21,6 @@ const sensor::ObserverParameters<double>& parameters(const model::Model& model, 
 /// Odds from which a cause is told before its charts have decided: it is suspected, and raises no sign.
 constexpr double suspicion_odds = 10;
 
-/// Signs of NE 107 that the causes make.
-Ne107 sign_of(Fault fault) {
-  switch (fault) {
-    case Fault::friction:
-    case Fault::edge_wear:
-    case Fault::spring:
-    case Fault::coil:
-      return Ne107::maintenance_required;
-    case Fault::position_sensor:
-    case Fault::temperature_sensor:
-    case Fault::wrong_model:
-      return Ne107::out_of_specification;
-  }
-  return Ne107::good;
-}
-
 using sensor::has;
 
 bool status_raised(const StatusShares& shares, sensor::Status status) {

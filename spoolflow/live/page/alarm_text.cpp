@@ -11,10 +11,10 @@ Json json_of(const Alarm& alarm) {
   Json indicators = Json::array();
   for (const KeptIndicator& then : alarm.indicators) {
     indicators.push_back({{"name", then.name},
-                          {"value", number(then.value)},
+                          {"value", then.value},
                           {"unit", then.unit},
-                          {"uncertainty_95", number(then.uncertainty_95)},
-                          {"baseline", number(then.baseline)},
+                          {"uncertainty_95", then.uncertainty_95},
+                          {"baseline", then.baseline},
                           {"state", then.state}});
   }
   return {{"id", alarm.id},

@@ -11,17 +11,12 @@
 
 namespace spoolflow::live {
 
-using Json = nlohmann::ordered_json;
-
-/// JSON knows no NaN.
-inline Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using Json = nlohmann::ordered_json;  // writes null for what is no number
 
 /// With so many decimals: further digits tell no more than is known.
 inline Json rounded(double value, int decimals) {
   const double power = std::pow(10.0, decimals);
-  return number(std::round(value * power) / power);
+  return std::round(value * power) / power;
 }
 
 inline std::string utc(std::int64_t wall_ms) {
