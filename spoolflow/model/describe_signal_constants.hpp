@@ -64,29 +64,29 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "block_length_s",
                     .unit = "s",
                     .meaning = "length of the blocks over which the position is averaged",
-                    .evidence = "ramp_60bar: p95 15.01, 0.28, 0.42 % FS, band 81.3, 97.5, 98.2 %"},
+                    .evidence = "ramp_60bar: p95 15.06, 0.28, 0.40 % FS, band 79.7, 97.8, 98.5 %"},
                    sensor::block_length_s);
   visitor.constant(
       {.name = "short_window_deviations",
        .unit = "1",
        .meaning = "standard deviations of the noise beyond which short windows must travel for the spool to slide",
-       .evidence = "orifice_duty_dither: p95 0.94, 0.93, 0.87 % FS, band 95.5, 95.8, 94.5 %"},
+       .evidence = "orifice_duty_dither: p95 0.94, 0.94, 0.87 % FS, band 97.0, 97.3, 96.2 %"},
       sensor::short_window_deviations);
   visitor.constant({.name = "long_window_deviations",
                     .unit = "1",
                     .meaning = "the same of long windows, for a spool that creeps",
-                    .evidence = "ramp_60bar: p95 0.33, 0.28, 15.57 % FS, band 94.5, 97.5, 76.7 %"},
+                    .evidence = "ramp_60bar: p95 0.33, 0.28, 15.61 % FS, band 94.9, 97.8, 76.5 %"},
                    sensor::long_window_deviations);
   visitor.constant({.name = "even_travel_ratio",
                     .unit = "1",
                     .meaning = "windows travel evenly where the longest is no more than so many times the shortest",
-                    .evidence = "fast_10kHz: p95 3.29, 2.37, 1.98 % FS, band 92.0, 93.0, 93.6 %"},
+                    .evidence = "fast_10kHz: p95 3.29, 2.37, 1.99 % FS, band 92.7, 93.7, 94.5 %"},
                    sensor::even_travel_ratio);
   visitor.constant(
       {.name = "slowing_travel_ratio",
        .unit = "1",
        .meaning = "a spool whose newest window travels less than one over this of the others is about to stop",
-       .evidence = "fast_10kHz: p95 3.58, 2.37, 2.39 % FS, band 94.4, 93.0, 90.6 %"},
+       .evidence = "duty_cycle_1: p95 3.91, 3.29, 3.31 % FS, band 88.5, 94.8, 95.1 %"},
       sensor::slowing_travel_ratio);
   visitor.constant({.name = "longest_tremble_block_s",
                     .unit = "s",
@@ -101,33 +101,33 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "velocity_smoothing_s",
                     .unit = "s",
                     .meaning = "smoothing of the velocity",
-                    .evidence = "orifice_duty_dither: p95 0.89, 0.93, 1.00 % FS, band 96.1, 95.8, 95.1 %"},
+                    .evidence = "orifice_duty_dither: p95 0.89, 0.94, 1.00 % FS, band 97.6, 97.3, 96.6 %"},
                    sensor::velocity_smoothing_s);
   visitor.constant({.name = "slip_speed_m_per_s",
                     .unit = "m/s",
                     .meaning = "a slip is faster than this",
-                    .evidence = "fast_10kHz: p95 2.35, 2.37, 2.32 % FS, band 93.1, 93.0, 92.9 %"},
+                    .evidence = "fast_10kHz: p95 2.35, 2.37, 2.32 % FS, band 93.8, 93.7, 93.6 %"},
                    sensor::slip_speed_m_per_s);
   visitor.constant({.name = "slip_deviations",
                     .unit = "1",
                     .meaning = "standard deviations of the noise beyond which a slip moves",
-                    .evidence = "temperature_sweep: p95 2.51, 0.27, 0.27 % FS, band 56.2, 96.9, 96.9 %"},
+                    .evidence = "temperature_sweep: p95 2.51, 0.27, 0.27 % FS, band 56.6, 97.1, 97.1 %"},
                    sensor::slip_deviations);
   visitor.constant({.name = "slip_settling_s",
                     .unit = "s",
                     .meaning = "how long friction and inertia are in motion after a slip",
-                    .evidence = "ramps_30_to_70bar: p95 0.34, 0.33, 0.32 % FS, band 93.6, 94.6, 95.4 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.34, 0.33, 0.32 % FS, band 94.1, 95.1, 95.9 %"},
                    sensor::slip_settling_s);
   visitor.constant(
       {.name = "credible_jump_deviations",
        .unit = "1",
        .meaning = "standard deviations of the noise up to which a change of the position signal is credible",
-       .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 94.6, 94.6, 94.0 %"},
+       .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
       sensor::credible_jump_deviations);
   visitor.constant({.name = "credible_jump_m",
                     .unit = "m",
                     .meaning = "and so much more",
-                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 94.6, 94.6, 94.0 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
                    sensor::credible_jump_m);
   visitor.constant(
       {.name = "quiet_current_share",
@@ -141,7 +141,7 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "quiet_jump_m",
                     .unit = "m",
                     .meaning = "no acceleration is credible for more than this where neither changed",
-                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 94.6, 94.6, 94.0 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
                    sensor::quiet_jump_m);
   visitor.constant({.name = "longest_position_fault_s",
                     .unit = "s",
