@@ -1,6 +1,6 @@
 /// `spoolflow calibrate`: from a campaign's bench recordings to a model file.
 #include <algorithm>
-#include <iostream>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
 #include "spoolflow/sensor/band.hpp"
@@ -59,6 +60,21 @@ void print_summary(const model::Model& model) {
                    model.observer->parameters.band.flow_residual_m3_per_s);
   }
 }
+/// Never a file that no command would read.
+void write_readable(std::ostream& out, const model::Model& model, const std::string& file) {
+  std::ostringstream text;
+  model::write_model(text, model);
+  try {
+    (void)model::parse_model(text.str(), file);
+  } catch (const model::ModelError& error) {
+    throw calibration::CalibrationError(fmt::format(
+        "the recordings make a model that cannot be ({}); nothing was written; look at their channels, signs "
+        "and units",
+        error.what()));
+  }
+  out << text.str();
+}
+
 }  // namespace
 
 void calibrate(const CalibrateArguments& arguments) {
@@ -74,12 +90,16 @@ void calibrate(const CalibrateArguments& arguments) {
   model::Model model;
   {
     Progress progress("calibrating", arguments.quiet);
-    model = calibration::calibrate(campaign, std::string(tool_version()), [&](const std::string& step, double share) {
-      progress.task(step);
-      progress.update(share);
-    });
+    model = calibration::calibrate(
+        campaign, std::string(tool_version()),
+        [&](const std::string& step, double share) {
+          progress.task(step);
+          progress.update(share);
+        },
+        arguments.despite_doubts ? calibration::Contradictions::noted : calibration::Contradictions::refused);
   }
-  model::write_model(output.stream(), model);
+  for (const std::string& doubt : model.provenance.doubts) say("spoolflow: doubt: {}\n", doubt);
+  write_readable(output.stream(), model, arguments.model);
   if (page) report::write_calibration_report(page->stream(), model, units);
   commit_together({&output, page ? &*page : nullptr});
   if (!arguments.quiet) print_summary(model);
@@ -104,6 +124,8 @@ void add_calibrate_command(CLI::App& program) {
       ->type_name("PAGE.html");
   command->add_flag("--allow-outside", arguments->allow_outside,
                     "read recordings that the campaign names outside its own folder, too");
+  command->add_flag("--despite-doubts", arguments->despite_doubts,
+                    "make a model of recordings that contradict each other or physics, too");
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { calibrate(*arguments); });

@@ -29,6 +29,7 @@ struct CalibrateArguments {
   std::string report;                   ///< to write; empty: none
   std::vector<std::string> units = {};  ///< of the report
   bool allow_outside = false;           ///< recordings outside the campaign's folder
+  bool despite_doubts = false;          ///< recordings that contradict each other or physics
   bool quiet = false;
 };
 void calibrate(const CalibrateArguments& arguments);

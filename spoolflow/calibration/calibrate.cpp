@@ -1,14 +1,20 @@
 #include "spoolflow/calibration/calibrate.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/condensed.hpp"
 #include "spoolflow/calibration/edges_in_operation.hpp"
 #include "spoolflow/calibration/fits/bench_dither.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
+#include "spoolflow/consistency/campaign_doubts.hpp"
 
 namespace spoolflow::calibration {
 namespace {
+
+constexpr double usual_density_kg_per_m3 = 870;  // of mineral oil, where the campaign gives none
 
 void add_runs(std::vector<OperatingRun>& to, const Recordings& recordings, RunOf of,
               sensor::ObserverParameters<double>* other) {
@@ -35,6 +41,42 @@ model::Direction calibrate_benches(const CampaignRecordings& recordings, const m
 void tell_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& operation, const model::Valve& valve) {
   AxialForceMaps& maps = benches.axial_force_maps;
   if (maps.edges_are_unknown()) maps.edge_ratio = edge_ratio_in_operation(benches, operation, valve);
+}
+
+/// Of each direction's recordings. Throws CalibrationError where one cannot be and that is refused.
+std::vector<std::string> doubts_about(const ReadCampaign& recordings, const recording::Campaign& campaign,
+                                      Contradictions contradictions) {
+  std::vector<std::string> out;
+  std::string refused;
+  for (const std::string& direction : recordings.directions()) {
+    const CampaignRecordings of = recordings.of(direction);
+    const AxialForceMaps& maps = of.axial_force_maps;
+    for (const Recordings* edges : {&maps.joined, &maps.inlet, &maps.outlet}) {
+      if (edges->empty()) continue;
+      const bool path = edges == &maps.joined;  // both edges: what operation has to do with
+      const std::vector<consistency::Doubt> doubts = consistency::doubts_about(
+          {.spring = &of.spring,
+           .solenoid_force_map = &of.solenoid_force_map,
+           .solenoid_dynamic = of.solenoid_dynamic,
+           .axial_force_maps = *edges,
+           .operation = path ? of.operation : Recordings{},
+           .rated_flow_m3_per_s = campaign.valve.rated_flow_m3_per_s,
+           .stroke_m = campaign.valve.stroke_m,
+           .density_kg_per_m3 = campaign.fluid.density_15C_kg_per_m3.value_or(usual_density_kg_per_m3)});
+      for (const consistency::Doubt& doubt : doubts) {
+        if (std::ranges::count(out, doubt.text) > 0) continue;
+        out.push_back(doubt.text);
+        if (doubt.cannot_be) refused += fmt::format("{}{}", refused.empty() ? "" : "; also ", doubt.text);
+      }
+    }
+  }
+  if (!refused.empty() && contradictions == Contradictions::refused) {
+    throw CalibrationError(fmt::format(
+        "{}: {}; nothing was corrected: mend the recording, its channel map or the campaign, or calibrate all the same "
+        "with --despite-doubts",
+        campaign.file.string(), refused));
+  }
+  return out;
 }
 
 }  // namespace
@@ -88,7 +130,7 @@ model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings
 }
 
 model::Model calibrate(const recording::Campaign& campaign, const std::string& tool_version,
-                       const CalibrationProgress& progress) {
+                       const CalibrationProgress& progress, Contradictions contradictions) {
   model::Provenance provenance{tool_version, model::creation_time(), {}};
   provenance.inputs.push_back({"campaign", campaign.file.filename().string(), model::sha256_of_file(campaign.file), 0});
   ReadCampaign recordings(campaign);
@@ -106,6 +148,8 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   const bool whole = recordings.directions().size() > 1;
   const std::string direction =
       recordings.directions().empty() ? campaign.valve.direction : recordings.directions().front();
+  progress("what physics says of the recordings", reading_share);
+  provenance.doubts = doubts_about(recordings, campaign, contradictions);
   model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
   if (campaign.load.area_ratio != 1) valve.load_area_ratio = campaign.load.area_ratio;
   model::Model out =

@@ -1,5 +1,6 @@
 #pragma once
 /// From a campaign's recordings to a model.
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -21,9 +22,15 @@ using CalibrationProgress = std::function<void(const std::string& step, double s
                                                  const Recordings& through_centre, const model::Valve& valve,
                                                  const CalibrationProgress& progress);
 
+/// What becomes of recordings that contradict each other or physics (consistency/campaign_doubts.hpp).
+enum class Contradictions : std::uint8_t { refused, noted };
+
 /// Reads the recordings, fits every part and fills in provenance: of a whole valve where benches of both directions are
-/// named. Throws RecordingError or CalibrationError, naming the campaign's line where a protocol is missing.
+/// named. What is only unusual about the recordings stands among the provenance's doubts, what cannot be as well where
+/// it is not refused. Throws RecordingError or CalibrationError, naming the campaign's line where a protocol is
+/// missing, and file, channel and likely cause of what cannot be.
 [[nodiscard]] model::Model calibrate(const recording::Campaign& campaign, const std::string& tool_version,
-                                     const CalibrationProgress& progress);
+                                     const CalibrationProgress& progress,
+                                     Contradictions contradictions = Contradictions::refused);
 
 }  // namespace spoolflow::calibration

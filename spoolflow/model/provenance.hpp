@@ -40,6 +40,7 @@ struct Provenance {
   std::string created;  ///< UTC, ISO 8601
   std::vector<InputFile> inputs;
   std::vector<Adaptation> adaptations = {};  ///< oldest first
+  std::vector<std::string> doubts = {};      ///< what physics says against the recordings, a sentence each
 };
 
 /// Throws std::runtime_error where the file cannot be read.

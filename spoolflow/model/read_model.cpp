@@ -53,6 +53,9 @@ Provenance provenance(const JsonNode& node) {
   if (node.has("adaptations")) {
     for (const JsonNode& each : node.at("adaptations").elements()) out.adaptations.push_back(adaptation(each));
   }
+  if (node.has("doubts")) {
+    for (const JsonNode& each : node.at("doubts").elements()) out.doubts.push_back(each.text());
+  }
   return out;
 }
 

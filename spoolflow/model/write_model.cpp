@@ -40,6 +40,7 @@ Json provenance(const Provenance& provenance) {
                                   {"files", each.files},
                                   {"corrections", corrections}});
   }
+  if (!provenance.doubts.empty()) out["doubts"] = provenance.doubts;
   return out;
 }
 

@@ -1,0 +1,51 @@
+#include "spoolflow/consistency/block_means.hpp"
+
+#include <algorithm>
+
+namespace spoolflow::consistency {
+namespace {
+
+using recording::Channel;
+
+std::vector<double> means_of(const std::vector<double>& values, std::size_t width) {
+  std::vector<double> out(values.size() / width);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    double sum = 0;
+    for (std::size_t j = 0; j < width; ++j) sum += values[k * width + j];
+    out[k] = sum / static_cast<double>(width);
+  }
+  return out;
+}
+
+}  // namespace
+
+recording::Recording block_means(const recording::Recording& recording, std::size_t most) {
+  recording::Recording out{recording.file, {}};
+  const std::size_t width = std::max<std::size_t>(recording.size() / most, 1);
+  for (const Channel channel : recording::all_channels()) {
+    if (recording.has(channel)) out.column(channel) = means_of(recording.column(channel), width);
+  }
+  if (!out.has(Channel::pressure_difference) && out.has(Channel::pressure_upstream) &&
+      out.has(Channel::pressure_downstream)) {
+    const std::vector<double>& down = out.column(Channel::pressure_downstream);
+    std::vector<double> difference = out.column(Channel::pressure_upstream);
+    for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= down[k];
+    out.column(Channel::pressure_difference) = std::move(difference);
+  }
+  if (!out.has(Channel::flow)) out.column(Channel::flow) = out.column(Channel::flow_reference);
+  out.column(Channel::flow_reference).clear();
+  return out;
+}
+
+std::vector<double> velocities(const recording::Recording& means) {
+  const std::vector<double>& time_s = means.column(Channel::time);
+  const std::vector<double>& position_m = means.column(Channel::position);
+  std::vector<double> out(position_m.size(), 0.0);
+  for (std::size_t k = 1; k + 1 < out.size(); ++k) {
+    const double step_s = time_s[k + 1] - time_s[k - 1];
+    if (step_s > 0) out[k] = (position_m[k + 1] - position_m[k - 1]) / step_s;
+  }
+  return out;
+}
+
+}  // namespace spoolflow::consistency

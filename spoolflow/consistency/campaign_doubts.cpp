@@ -1,0 +1,268 @@
+#include "spoolflow/consistency/campaign_doubts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "spoolflow/consistency/block_means.hpp"
+#include "spoolflow/consistency/relation.hpp"
+#include "spoolflow/consistency/slip.hpp"
+#include "spoolflow/consistency/valve_curves.hpp"
+
+namespace spoolflow::consistency {
+namespace {
+
+using recording::Channel;
+using recording::Recording;
+
+enum class Role : std::uint8_t { spring, force_map, dynamic, axial_map, operation };
+
+struct Piece {
+  Role role;
+  Recording means;
+};
+
+/// The campaign as it stands, or with slips undone.
+class Trial {
+ public:
+  explicit Trial(const Benches& benches)
+      : rated_flow_m3_per_s(benches.rated_flow_m3_per_s),
+        stroke_m_(benches.stroke_m),
+        density_(benches.density_kg_per_m3) {
+    const auto add = [&](Role role, const Recording* recording, std::size_t most) {
+      if (recording != nullptr) pieces.push_back({role, block_means(*recording, most)});
+    };
+    add(Role::spring, benches.spring, 500);
+    add(Role::force_map, benches.solenoid_force_map, 1500);
+    for (const Recording* recording : benches.solenoid_dynamic) add(Role::dynamic, recording, 1500);
+    for (const Recording* recording : benches.axial_force_maps) add(Role::axial_map, recording, 1000);
+    for (const Recording* recording : benches.operation) add(Role::operation, recording, 2500);
+  }
+
+  /// All relations; of the curves only what `changed` reaches is fitted anew.
+  std::vector<Deviation> deviations(std::optional<Role> changed) {
+    const Recording* map = first(Role::force_map);
+    const std::vector<const Recording*> maps = all(Role::axial_map);
+    if (!changed || *changed == Role::spring || *changed == Role::axial_map)
+      hydraulics_ = fit_hydraulics(first(Role::spring), maps, stroke_m_, density_);
+    if (map != nullptr && (!changed || *changed == Role::force_map)) magnetics_ = fit_magnetics(*map, stroke_m_);
+    std::vector<Deviation> out;
+    add_hydraulic_deviations(out, hydraulics_, first(Role::spring), maps);
+    add_rated_flow_deviation(out, hydraulics_, rated_flow_m3_per_s);
+    if (map != nullptr) add_magnetic_deviations(out, magnetics_, *map);
+    std::vector<const Recording*> coils = all(Role::dynamic);
+    if (map != nullptr) coils.push_back(map);
+    for (const Recording* run : all(Role::operation)) {
+      if (map != nullptr) add_run_deviations(out, hydraulics_, magnetics_, *run);
+      coils.push_back(run);
+    }
+    add_resistance_deviation(out, coils);
+    return out;
+  }
+
+  [[nodiscard]] double stroke_m() const { return stroke_m_; }
+
+  std::vector<Piece> pieces;
+  double rated_flow_m3_per_s;
+
+ private:
+  [[nodiscard]] const Recording* first(Role role) const {
+    const auto found = std::ranges::find(pieces, role, &Piece::role);
+    return found == pieces.end() ? nullptr : &found->means;
+  }
+  [[nodiscard]] std::vector<const Recording*> all(Role role) const {
+    std::vector<const Recording*> out;
+    for (const Piece& piece : pieces) {
+      if (piece.role == role) out.push_back(&piece.means);
+    }
+    return out;
+  }
+
+  double stroke_m_;
+  double density_;
+  HydraulicCurves hydraulics_;
+  MagneticCurves magnetics_;
+};
+
+/// Recordings that may share a slip, since one instrument took them.
+using Group = std::vector<std::size_t>;
+
+std::vector<Group> groups_of(const Trial& trial) {
+  std::vector<Group> out;
+  Group axial, axial_rig, solenoid, operation;
+  for (std::size_t k = 0; k < trial.pieces.size(); ++k) {
+    out.push_back({k});
+    const Role role = trial.pieces[k].role;
+    if (role == Role::axial_map) axial.push_back(k);
+    if (role == Role::axial_map || role == Role::spring) axial_rig.push_back(k);
+    if (role == Role::force_map || role == Role::dynamic) solenoid.push_back(k);
+    if (role == Role::operation) operation.push_back(k);
+  }
+  for (const Group& group : {axial, axial_rig, solenoid, operation}) {
+    if (group.size() > 1) out.push_back(group);
+  }
+  return out;
+}
+
+struct Explanation {
+  Group group;  ///< empty: the rated flow
+  Channel channel;
+  const Slip* slip;
+  double badness;
+  std::vector<Deviation> deviations;
+};
+
+void undo(Trial& trial, const Group& group, Channel channel, const Slip& slip) {
+  if (group.empty()) trial.rated_flow_m3_per_s = slip.undone(trial.rated_flow_m3_per_s, 0);
+  for (const std::size_t k : group) {
+    for (double& value : trial.pieces[k].means.column(channel)) value = slip.undone(value, trial.stroke_m());
+  }
+}
+
+bool all_have(const Trial& trial, const Group& group, Channel channel) {
+  return std::ranges::all_of(group, [&](std::size_t k) {
+    const Piece& piece = trial.pieces[k];
+    const bool read =
+        piece.role != Role::spring || (channel != Channel::pressure_difference && channel != Channel::flow);
+    const bool told = piece.role != Role::dynamic || channel == Channel::current || channel == Channel::voltage;
+    return read && told && piece.means.has(channel);
+  });
+}
+
+/// The slip that leaves least.
+std::optional<Explanation> best_explanation(Trial& trial, std::size_t relations) {
+  std::optional<Explanation> best;
+  const auto judge = [&](const Group& group, Channel channel, const Slip& slip, std::optional<Role> changed) {
+    std::vector<Deviation> deviations = trial.deviations(changed);
+    if (deviations.size() < relations) return;  // it leaves nothing to be judged
+    const double left = badness(deviations);
+    if (!best || left < best->badness) best = Explanation{group, channel, &slip, left, std::move(deviations)};
+  };
+  for (const Slip& slip : usual_slips_of_rated_flow()) {
+    const double kept = trial.rated_flow_m3_per_s;
+    undo(trial, {}, Channel::flow, slip);
+    judge({}, Channel::flow, slip, Role::operation);
+    trial.rated_flow_m3_per_s = kept;
+  }
+  for (const Group& group : groups_of(trial)) {
+    for (const Channel channel : recording::all_channels()) {
+      if (!all_have(trial, group, channel)) continue;
+      std::vector<std::vector<double>> kept;
+      for (const std::size_t k : group) kept.push_back(trial.pieces[k].means.column(channel));
+      const bool both = group.size() > 1 && trial.pieces[group.front()].role != trial.pieces[group.back()].role;
+      const std::optional<Role> changed = both ? std::optional<Role>{} : trial.pieces[group.front()].role;
+      for (const Slip& slip : usual_slips(channel)) {
+        undo(trial, group, channel, slip);
+        judge(group, channel, slip, changed);
+        for (std::size_t k = 0; k < group.size(); ++k) trial.pieces[group[k]].means.column(channel) = kept[k];
+      }
+      (void)trial.deviations(changed);  // the curves as they were
+    }
+  }
+  return best;
+}
+
+struct Change {
+  const Deviation* before;
+  const Deviation* after;
+};
+
+/// What is worst as it stands and no longer with the slip undone.
+Change telling_change(const std::vector<Deviation>& before, const std::vector<Deviation>& after) {
+  Change out{&before.front(), &after.front()};
+  double most = -1;
+  for (const Deviation& old : before) {
+    const auto same = std::ranges::find_if(
+        after, [&](const Deviation& deviation) { return deviation.of == old.of && deviation.file == old.file; });
+    if (same == after.end()) continue;
+    const double gain = std::min(old.over_limit, 1e3) - std::min(same->over_limit, 1e3);
+    if (gain > most) {
+      most = gain;
+      out = {&old, &*same};
+    }
+  }
+  return out;
+}
+
+std::string files_of(const Trial& trial, const Group& group) {
+  std::string out;
+  for (const std::size_t k : group) {
+    if (!out.empty()) out += k == group.back() ? " and " : ", ";
+    out += trial.pieces[k].means.file.filename().string();
+  }
+  return out;
+}
+
+std::string_view name_of(const Trial& trial, const Explanation& found) {
+  const bool reference = found.channel == Channel::flow && trial.pieces[found.group.front()].role == Role::operation;
+  return recording::name(reference ? Channel::flow_reference : found.channel);
+}
+
+std::string explained(const Trial& trial, const Explanation& found, const std::vector<Deviation>& before) {
+  const Change change = telling_change(before, found.deviations);
+  const std::string what = found.group.empty()
+                               ? "the rated flow"
+                               : fmt::format("{}: {}", files_of(trial, found.group), name_of(trial, found));
+  return fmt::format("{} looks {}: with {}, {} goes from {} to {}", what, found.slip->looks, found.slip->undo,
+                     change.before->of, change.before->shown, change.after->shown);
+}
+
+/// Channels that a protocol moves, and that stand still in its recording.
+void add_dead_channels(std::vector<Doubt>& to, const Trial& trial) {
+  constexpr std::array moved{
+      Channel::position, Channel::current, Channel::force, Channel::axial_force, Channel::pressure_difference,
+      Channel::flow};
+  for (const Piece& piece : trial.pieces) {
+    const bool maps = piece.role == Role::axial_map;
+    for (const Channel channel : moved) {
+      if (piece.role == Role::dynamic && channel == Channel::position) continue;  // held by the protocol
+      if (!maps && (channel == Channel::pressure_difference || channel == Channel::flow)) continue;
+      const std::vector<double>& values = piece.means.column(channel);
+      double lowest = 1e300, highest = -1e300;
+      for (const double value : values) {
+        if (!std::isfinite(value)) continue;
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+      constexpr double still = 1e-9;
+      if (lowest > highest || highest - lowest > still * std::max(std::abs(lowest), std::abs(highest))) continue;
+      to.push_back({true, fmt::format("{}: {} stands still at {:.3g} (SI) all along: its wire, its column in the "
+                                      "channel map or its unit is wrong",
+                                      piece.means.file.filename().string(), recording::name(channel), lowest)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Doubt> doubts_about(const Benches& benches) {
+  constexpr int most_slips = 3;
+  constexpr double surely = 1.5;      // over a limit: no valve does that
+  constexpr double left_share = 0.7;  // of the badness: what a slip must take away to be told
+  std::vector<Doubt> out;
+  Trial trial(benches);
+  add_dead_channels(out, trial);
+  if (!out.empty()) return out;
+  std::vector<Deviation> now = trial.deviations(std::nullopt);
+  for (int round = 0; round < most_slips; ++round) {
+    const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
+    if (worst == now.end() || !(worst->over_limit > 1)) break;
+    const bool cannot_be = worst->over_limit > surely;
+    const std::optional<Explanation> found = best_explanation(trial, now.size());
+    if (!found || !(found->badness < left_share * badness(now))) {
+      out.push_back({cannot_be, fmt::format("{}{} is {}, which no usual slip of one channel explains; look at units, "
+                                            "signs and channels of the recordings, and whether all are of one valve",
+                                            worst->file.empty() ? "" : worst->file + ": ", worst->of, worst->shown)});
+      break;
+    }
+    out.push_back({cannot_be, explained(trial, *found, now)});
+    undo(trial, found->group, found->channel, *found->slip);
+    now = trial.deviations(std::nullopt);
+  }
+  return out;
+}
+
+}  // namespace spoolflow::consistency
