@@ -40,6 +40,8 @@ struct EstimateArguments {
   std::string output;
   std::string estimator;  ///< "condensed" or "observer"; empty: the observer where the model has one
   std::string channels;   ///< channel map; empty: none
+  std::string json = {};  ///< summary to write; empty: none
+  bool strict = false;    ///< faults and doubts fail
   bool quiet = false;
 };
 void estimate(const EstimateArguments& arguments);

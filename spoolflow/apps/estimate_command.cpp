@@ -2,7 +2,7 @@
 #include <exception>
 #include <map>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
@@ -15,12 +15,15 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
 #include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/report/json/estimate_json.hpp"
 #include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/estimate_summary.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
@@ -79,12 +82,14 @@ struct Task {
   model::Model model;
   estimation::Estimator estimator;
   recording::ChannelMap channels;
+  std::vector<consistency::KnownValve> known;  ///< what its recordings should be of
   std::vector<std::filesystem::path> inputs;
   bool quiet;
 };
 
 Task task_of(const EstimateArguments& arguments) {
-  Task task{model::read_model(arguments.model), {}, {}, {arguments.model}, arguments.quiet};
+  Task task{model::read_model(arguments.model), {}, {}, {}, {arguments.model}, arguments.quiet};
+  task.known = consistency::known_valve(task.model);
   task.estimator = estimation::best_estimator(task.model);
   if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;
   if (arguments.estimator == "observer") task.estimator = estimation::Estimator::observer;
@@ -97,15 +102,16 @@ Task task_of(const EstimateArguments& arguments) {
 }
 
 /// `beside`: whether reading, estimating and writing may have a thread each.
-recording::ReadNotes estimate_one(const Task& task, const std::string& recording, const std::filesystem::path& target,
-                                  bool beside) {
+validation::EstimateSummary estimate_one(const Task& task, const std::string& recording,
+                                         const std::filesystem::path& target, bool beside) {
   const bool runs_on = recording == "-";
   recording::ReadOptions channels = validation::sensor_channels(task.model, task.channels);
   channels.runs_on = runs_on;
   const auto reader = validation::open_sensor_channels(recording, channels);
   estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
   OutputFile output(target, task.inputs);
-  recording::ReadNotes notes;
+  validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
+  consistency::RunMeans means;
   {
     Progress progress("estimating", task.quiet);
     recording::CsvWriter writer(output.stream());
@@ -125,6 +131,7 @@ recording::ReadNotes estimate_one(const Task& task, const std::string& recording
           if (read == nullptr) return false;
           block.estimates.resize(read->samples.rows);
           estimation::run(sensor, validation::sensor_columns(read->samples), block.estimates);
+          means.take(read->samples);
           std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
           block.notes = read->notes;
           block.share = read->share;
@@ -134,17 +141,20 @@ recording::ReadNotes estimate_one(const Task& task, const std::string& recording
     estimation::StatusText status_text;
     while (const EstimatedBlock* block = estimating.next()) {
       write_rows(writer, *block, status_text);
+      summary.add(block->estimates);
       if (runs_on) {  // whoever reads waits for these rows
         writer.flush();
         output.stream().flush();
       }
-      notes = block->notes;
-      progress.update(block->share, notes.rows);
+      summary.notes = block->notes;
+      progress.update(block->share, block->notes.rows);
     }
     writer.flush();
   }
   output.commit();
-  return notes;
+  for (consistency::Doubt& doubt : consistency::doubts_about(task.known, means, recording))
+    summary.doubts.push_back(std::move(doubt.text));
+  return summary;
 }
 
 /// FOLDER/NAME.csv for each recording NAME.*. Throws OutputError where two would be the same.
@@ -183,37 +193,58 @@ std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folde
 }
 
 /// All recordings, as many at a time as the machine has cores. Failures are thrown when the others are done.
-void estimate_all(const Task& task, const std::vector<std::string>& recordings,
-                  const std::vector<std::filesystem::path>& targets) {
-  std::mutex told;
+std::vector<validation::EstimateSummary> estimate_all(const Task& task, const std::vector<std::string>& recordings,
+                                                      const std::vector<std::filesystem::path>& targets) {
   std::vector<std::exception_ptr> failures(recordings.size());
+  std::vector<validation::EstimateSummary> out(recordings.size());
   const auto nursery = recording::nursery_for({recordings.begin(), recordings.end()});
   parallel::for_each(recordings.size(), parallel::cores(), [&](std::size_t k) {
     try {
-      const recording::ReadNotes notes = estimate_one(task, recordings[k], targets[k], false);
-      const std::lock_guard lock(told);
-      tell(notes, recordings[k]);
+      out[k] = estimate_one(task, recordings[k], targets[k], false);
     } catch (...) {
       failures[k] = std::current_exception();
     }
   });
   std::erase(failures, nullptr);
   if (!failures.empty()) throw_together(failures);
+  return out;
+}
+
+/// What the user should know of the recordings; with --strict a fault or a doubt fails.
+void tell(const std::vector<validation::EstimateSummary>& summaries, const Task& task,
+          const EstimateArguments& arguments) {
+  bool sound = true;
+  for (const validation::EstimateSummary& summary : summaries) {
+    tell(summary.notes, summary.file);
+    if (!arguments.quiet) say("{}\n", summary.sentence(task.model.valve.rated_flow_m3_per_s));
+    for (const std::string& doubt : summary.doubts) say("spoolflow: doubt: {}\n", doubt);
+    sound = sound && summary.doubts.empty() && summary.with_fault == 0;
+  }
+  if (arguments.strict && !sound)
+    throw std::runtime_error("the estimate is written, but there are faults or doubts about the recording (--strict)");
 }
 
 }  // namespace
 
 void estimate(const EstimateArguments& arguments) {
   Task task = task_of(arguments);
+  std::optional<OutputFile> summary_file;
+  if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);
+  std::vector<validation::EstimateSummary> summaries;
   if (arguments.recordings.size() == 1) {
     const bool beside = parallel::cores() > 1;
-    tell(estimate_one(task, arguments.recordings.front(), arguments.output, beside), arguments.recordings.front());
-    return;
+    summaries.push_back(estimate_one(task, arguments.recordings.front(), arguments.output, beside));
+  } else {
+    const auto targets = targets_in(arguments.output, arguments.recordings);
+    make_output_folder(arguments.output);
+    task.quiet = true;  // one line cannot tell of many
+    summaries = estimate_all(task, arguments.recordings, targets);
   }
-  const auto targets = targets_in(arguments.output, arguments.recordings);
-  make_output_folder(arguments.output);
-  task.quiet = true;  // one line cannot tell of many
-  estimate_all(task, arguments.recordings, targets);
+  if (summary_file) {
+    report::write_estimate_summary(summary_file->stream(), summaries);
+    summary_file->commit();
+  }
+  tell(summaries, task, arguments);
 }
 
 void add_estimate_command(CLI::App& program) {
@@ -243,6 +274,12 @@ void add_estimate_command(CLI::App& program) {
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");
+  command
+      ->add_option("--json", arguments->json,
+                   "summary to write: samples, mean flow and band, shares of each status, doubts")
+      ->type_name("SUMMARY.json");
+  command->add_flag("--strict", arguments->strict,
+                    "exit status 1 where any sample has a fault, or physics speaks against a recording");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { estimate(*arguments); });
 }

@@ -10,6 +10,7 @@
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/consistency/campaign_doubts.hpp"
+#include "spoolflow/consistency/run_doubts.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -43,40 +44,59 @@ void tell_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& oper
   if (maps.edges_are_unknown()) maps.edge_ratio = edge_ratio_in_operation(benches, operation, valve);
 }
 
-/// Of each direction's recordings. Throws CalibrationError where one cannot be and that is refused.
+/// Benches of one path, and what its runs of one direction have to do with them.
+consistency::Benches benches_of(const CampaignRecordings& of, const Recordings& maps, const Recordings& operation,
+                                const recording::Campaign& campaign) {
+  return {.spring = &of.spring,
+          .solenoid_force_map = &of.solenoid_force_map,
+          .solenoid_dynamic = of.solenoid_dynamic,
+          .axial_force_maps = maps,
+          .operation = operation,
+          .rated_flow_m3_per_s = campaign.valve.rated_flow_m3_per_s,
+          .stroke_m = campaign.valve.stroke_m,
+          .density_kg_per_m3 = campaign.fluid.density_15C_kg_per_m3.value_or(usual_density_kg_per_m3)};
+}
+
+/// Of each direction's recordings, and of runs through the centre where the path was measured as a whole. Throws
+/// CalibrationError where one cannot be and that is refused.
 std::vector<std::string> doubts_about(const ReadCampaign& recordings, const recording::Campaign& campaign,
                                       Contradictions contradictions) {
   std::vector<std::string> out;
   std::string refused;
+  const auto keep = [&](const std::vector<consistency::Doubt>& doubts) {
+    for (const consistency::Doubt& doubt : doubts) {
+      if (std::ranges::count(out, doubt.text) > 0) continue;
+      out.push_back(doubt.text);
+      if (doubt.cannot_be) refused += (refused.empty() ? "" : "; also ") + doubt.text;
+    }
+  };
+  std::vector<consistency::KnownValve> paths;
   for (const std::string& direction : recordings.directions()) {
     const CampaignRecordings of = recordings.of(direction);
     const AxialForceMaps& maps = of.axial_force_maps;
-    for (const Recordings* edges : {&maps.joined, &maps.inlet, &maps.outlet}) {
-      if (edges->empty()) continue;
-      const bool path = edges == &maps.joined;  // both edges: what operation has to do with
-      const std::vector<consistency::Doubt> doubts = consistency::doubts_about(
-          {.spring = &of.spring,
-           .solenoid_force_map = &of.solenoid_force_map,
-           .solenoid_dynamic = of.solenoid_dynamic,
-           .axial_force_maps = *edges,
-           .operation = path ? of.operation : Recordings{},
-           .rated_flow_m3_per_s = campaign.valve.rated_flow_m3_per_s,
-           .stroke_m = campaign.valve.stroke_m,
-           .density_kg_per_m3 = campaign.fluid.density_15C_kg_per_m3.value_or(usual_density_kg_per_m3)});
-      for (const consistency::Doubt& doubt : doubts) {
-        if (std::ranges::count(out, doubt.text) > 0) continue;
-        out.push_back(doubt.text);
-        if (doubt.cannot_be) refused += fmt::format("{}{}", refused.empty() ? "" : "; also ", doubt.text);
-      }
+    if (!maps.joined.empty()) {
+      const consistency::Benches path = benches_of(of, maps.joined, of.operation, campaign);
+      keep(consistency::doubts_about(path));
+      paths.push_back(consistency::known_valve(path));
+      continue;
+    }
+    for (const Recordings* edge : {&maps.inlet, &maps.outlet}) {
+      if (!edge->empty()) keep(consistency::doubts_about(benches_of(of, *edge, {}, campaign)));
     }
   }
-  if (!refused.empty() && contradictions == Contradictions::refused) {
-    throw CalibrationError(fmt::format(
-        "{}: {}; nothing was corrected: mend the recording, its channel map or the campaign, or calibrate all the same "
-        "with --despite-doubts",
-        campaign.file.string(), refused));
+  const bool equal_flows = campaign.load.area_ratio == 1;  // else the joined path is not the working one
+  if (refused.empty() && equal_flows && paths.size() > 1) {
+    for (const recording::Recording* run : recordings.through_centre()) {
+      consistency::RunMeans means;
+      means.take({run->columns, run->size()});
+      keep(consistency::doubts_about(paths, means, run->file));
+    }
   }
-  return out;
+  if (refused.empty() || contradictions == Contradictions::noted) return out;
+  throw CalibrationError(fmt::format(
+      "{}: {}; nothing was corrected: mend the recording, its channel map or the campaign, or calibrate all "
+      "the same with --despite-doubts",
+      campaign.file.string(), refused));
 }
 
 }  // namespace

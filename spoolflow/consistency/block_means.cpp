@@ -19,21 +19,25 @@ std::vector<double> means_of(const std::vector<double>& values, std::size_t widt
 
 }  // namespace
 
+void name_alike(recording::Recording& means) {
+  if (!means.has(Channel::pressure_difference) && means.has(Channel::pressure_upstream) &&
+      means.has(Channel::pressure_downstream)) {
+    const std::vector<double>& down = means.column(Channel::pressure_downstream);
+    std::vector<double> difference = means.column(Channel::pressure_upstream);
+    for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= down[k];
+    means.column(Channel::pressure_difference) = std::move(difference);
+  }
+  if (!means.has(Channel::flow)) means.column(Channel::flow) = means.column(Channel::flow_reference);
+  means.column(Channel::flow_reference).clear();
+}
+
 recording::Recording block_means(const recording::Recording& recording, std::size_t most) {
   recording::Recording out{recording.file, {}};
   const std::size_t width = std::max<std::size_t>(recording.size() / most, 1);
   for (const Channel channel : recording::all_channels()) {
     if (recording.has(channel)) out.column(channel) = means_of(recording.column(channel), width);
   }
-  if (!out.has(Channel::pressure_difference) && out.has(Channel::pressure_upstream) &&
-      out.has(Channel::pressure_downstream)) {
-    const std::vector<double>& down = out.column(Channel::pressure_downstream);
-    std::vector<double> difference = out.column(Channel::pressure_upstream);
-    for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= down[k];
-    out.column(Channel::pressure_difference) = std::move(difference);
-  }
-  if (!out.has(Channel::flow)) out.column(Channel::flow) = out.column(Channel::flow_reference);
-  out.column(Channel::flow_reference).clear();
+  name_alike(out);
   return out;
 }
 

@@ -133,11 +133,11 @@ bool all_have(const Trial& trial, const Group& group, Channel channel) {
 }
 
 /// The slip that leaves least.
-std::optional<Explanation> best_explanation(Trial& trial, std::size_t relations) {
+std::optional<Explanation> best_explanation(Trial& trial, const std::vector<Deviation>& before) {
   std::optional<Explanation> best;
   const auto judge = [&](const Group& group, Channel channel, const Slip& slip, std::optional<Role> changed) {
     std::vector<Deviation> deviations = trial.deviations(changed);
-    if (deviations.size() < relations) return;  // it leaves nothing to be judged
+    if (!judges_as_much(deviations, before)) return;
     const double left = badness(deviations);
     if (!best || left < best->badness) best = Explanation{group, channel, &slip, left, std::move(deviations)};
   };
@@ -165,28 +165,6 @@ std::optional<Explanation> best_explanation(Trial& trial, std::size_t relations)
   return best;
 }
 
-struct Change {
-  const Deviation* before;
-  const Deviation* after;
-};
-
-/// What is worst as it stands and no longer with the slip undone.
-Change telling_change(const std::vector<Deviation>& before, const std::vector<Deviation>& after) {
-  Change out{&before.front(), &after.front()};
-  double most = -1;
-  for (const Deviation& old : before) {
-    const auto same = std::ranges::find_if(
-        after, [&](const Deviation& deviation) { return deviation.of == old.of && deviation.file == old.file; });
-    if (same == after.end()) continue;
-    const double gain = std::min(old.over_limit, 1e3) - std::min(same->over_limit, 1e3);
-    if (gain > most) {
-      most = gain;
-      out = {&old, &*same};
-    }
-  }
-  return out;
-}
-
 std::string files_of(const Trial& trial, const Group& group) {
   std::string out;
   for (const std::size_t k : group) {
@@ -206,8 +184,7 @@ std::string explained(const Trial& trial, const Explanation& found, const std::v
   const std::string what = found.group.empty()
                                ? "the rated flow"
                                : fmt::format("{}: {}", files_of(trial, found.group), name_of(trial, found));
-  return fmt::format("{} looks {}: with {}, {} goes from {} to {}", what, found.slip->looks, found.slip->undo,
-                     change.before->of, change.before->shown, change.after->shown);
+  return fmt::format("{} looks {}: with {}, {}", what, found.slip->looks, found.slip->undo, told(change));
 }
 
 /// Channels that a protocol moves, and that stand still in its recording.
@@ -251,7 +228,7 @@ std::vector<Doubt> doubts_about(const Benches& benches) {
     const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
     if (worst == now.end() || !(worst->over_limit > 1)) break;
     const bool cannot_be = worst->over_limit > surely;
-    const std::optional<Explanation> found = best_explanation(trial, now.size());
+    const std::optional<Explanation> found = best_explanation(trial, now);
     if (!found || !(found->badness < left_share * badness(now))) {
       out.push_back({cannot_be, fmt::format("{}{} is {}, which no usual slip of one channel explains; look at units, "
                                             "signs and channels of the recordings, and whether all are of one valve",

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -37,12 +38,13 @@ class SparseFit {
   }
 
   /// An unknown of which no sample tells becomes nearly zero.
-  [[nodiscard]] Eigen::VectorXd solve() const {
+  [[nodiscard]] std::vector<double> solve() const {
     constexpr double ridge = 1e-7;
     const double least = ridge * std::max(matrix_.trace() / static_cast<double>(matrix_.rows()), 1e-300);
     Eigen::MatrixXd damped = matrix_;
     damped.diagonal().array() += least;
-    return damped.ldlt().solve(right_);
+    const Eigen::VectorXd solution = damped.ldlt().solve(right_);
+    return {solution.begin(), solution.end()};
   }
 
  private:
@@ -51,9 +53,9 @@ class SparseFit {
 };
 
 /// What a fit makes of a row.
-inline double of(std::span<const Weight> row, const Eigen::VectorXd& solution) {
+inline double of(std::span<const Weight> row, std::span<const double> solution) {
   double out = 0;
-  for (const Weight& weight : row) out += weight.factor * solution[weight.unknown];
+  for (const Weight& weight : row) out += weight.factor * solution[static_cast<std::size_t>(weight.unknown)];
   return out;
 }
 

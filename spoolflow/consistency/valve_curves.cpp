@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "spoolflow/consistency/block_means.hpp"
 #include "spoolflow/consistency/sparse_fit.hpp"
@@ -18,10 +20,6 @@ constexpr int map_knots = 6;
 constexpr double least_pressure_Pa = 2e4;
 /// Slower than this share of the fast strokes the direction of friction is not known.
 constexpr double least_speed_share = 0.25;
-
-double squared(double value) {
-  return value * value;
-}
 
 /// Least speed at which the spool surely moves [m/s].
 double moving_speed(std::vector<double> speeds) {
@@ -75,9 +73,11 @@ void fit_forces(HydraulicCurves& out, const Recording* spring, const std::vector
       most = std::max(most, block.force_N);
     }
   }
-  const Eigen::VectorXd solution = fit.solve();
-  out.spring_N = solution.head(position_knots);
-  out.force_per_Pa = solution.segment(position_knots, position_knots) / bar;
+  const std::vector<double> solution = fit.solve();
+  out.spring_N.assign(solution.begin(), solution.begin() + position_knots);
+  out.force_per_Pa.assign(solution.begin() + position_knots, solution.begin() + 2 * position_knots);
+  for (double& per_bar : out.force_per_Pa) per_bar /= bar;
+  out.friction_N = std::abs(solution[2 * position_knots]);
   out.force_range_N = most - least;
   for (const std::vector<ForceBlock>& blocks : recordings) {
     double sum = 0;
@@ -108,6 +108,7 @@ void fit_flows(HydraulicCurves& out, const std::vector<const Recording*>& maps) 
     auto row = between_knots(position_m, out.stroke_m, position_knots);
     for (Weight& weight : row) weight.factor *= std::sqrt(pressure_Pa);
     fit.add(row, flow);
+    out.highest_pressure_Pa = std::max(out.highest_pressure_Pa, pressure_Pa);
     out.largest_flow_m3_per_s = std::max(out.largest_flow_m3_per_s, std::abs(flow));
   });
   out.conductance = fit.solve();
@@ -132,7 +133,7 @@ double momentum_share(const HydraulicCurves& curves, const std::vector<const Rec
   return square > 0 ? product / square : std::nan("");
 }
 
-double on_knots(const Eigen::VectorXd& knots, double position_m, double stroke_m) {
+double on_knots(const std::vector<double>& knots, double position_m, double stroke_m) {
   return of(between_knots(position_m, stroke_m, position_knots), knots);
 }
 
@@ -203,12 +204,10 @@ MagneticCurves fit_magnetics(const Recording& map, double stroke_m) {
     ++count;
   }
   if (count > 0) out.residual_N = std::sqrt(sum / count);
-  out.mean_N = out.force_N.mean();
-  out.rises = true;
-  for (int c = 0; c + 1 < map_knots; ++c) {
-    out.rises = out.rises && out.force_N.segment((c + 1) * map_knots, map_knots).mean() >
-                                 out.force_N.segment(c * map_knots, map_knots).mean();
-  }
+  std::array<double, map_knots> over_position_N{};
+  for (std::size_t k = 0; k < out.force_N.size(); ++k) over_position_N[k / map_knots] += out.force_N[k] / map_knots;
+  out.mean_N = std::accumulate(over_position_N.begin(), over_position_N.end(), 0.0) / map_knots;
+  out.rises = std::ranges::adjacent_find(over_position_N, std::ranges::greater_equal{}) == over_position_N.end();
   return out;
 }
 

@@ -3,23 +3,27 @@
 /// force over few knots. Too coarse for a sensor, true enough to tell a slip from a measurement.
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::consistency {
+
+inline double squared(double value) {
+  return value * value;
+}
 
 /// Of spring and axial-force recordings: axial force = S(x) + g(x) dp + friction with the direction of motion,
 /// flow = C(x) sqrt(dp) (paper sections 2 and 3).
 struct HydraulicCurves {
   double stroke_m = 0;
-  Eigen::VectorXd spring_N;           ///< over position, closing > 0
-  Eigen::VectorXd force_per_Pa;       ///< flow force over pressure difference, closing > 0
-  Eigen::VectorXd conductance;        ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
+  std::vector<double> spring_N;       ///< over position, closing > 0
+  std::vector<double> force_per_Pa;   ///< flow force over pressure difference, closing > 0
+  std::vector<double> conductance;    ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
   double force_residual_N = 0;        ///< RMS of the recording that fits worst
   double force_range_N = 0;           ///< of all axial forces
   double flow_residual_m3_per_s = 0;  ///< RMS
   double largest_flow_m3_per_s = 0;   ///< without sign
+  double friction_N = 0;              ///< half width
+  double highest_pressure_Pa = 0;     ///< measured
   double jet_momentum_share = 0;      ///< flow force over rho Q sqrt(2 dp / rho): the cosine of the jet's angle, nearly
 
   [[nodiscard]] double spring_at(double position_m) const;
@@ -36,7 +40,7 @@ struct HydraulicCurves {
 struct MagneticCurves {
   double stroke_m = 0;
   double largest_current_A = 0;
-  Eigen::VectorXd force_N;
+  std::vector<double> force_N;
   double residual_N = 0;  ///< RMS
   double range_N = 0;     ///< of all forces
   double mean_N = 0;      ///< of all knots

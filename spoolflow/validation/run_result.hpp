@@ -101,6 +101,7 @@ struct RunResult {
   std::vector<FlowPoint> flow_points;
   std::vector<SolenoidPoint> solenoid_points;
   std::optional<StepResponse> step_response;
+  std::vector<std::string> doubts;       ///< what physics says against the run, a sentence each
   std::vector<EstimatorResult> results;  ///< in the order of the options; the leading estimator last
 };
 

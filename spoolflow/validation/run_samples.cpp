@@ -72,6 +72,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
       estimation::run(sensors[s], sensor_columns(block), estimates);
       append(run.answers[s], estimates);
     }
+    run.means.take(block);
     append(run.time_s, block, Channel::time);
     append(run.position_m, block, Channel::position);
     append(run.position_set, block, Channel::position_set);

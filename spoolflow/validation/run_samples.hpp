@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "spoolflow/consistency/run_means.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/recording/reader.hpp"
@@ -28,6 +29,7 @@ struct RunSamples {
   std::vector<float> reference_m3_per_s, pressure_difference_Pa;  ///< instruments; no sensor reads them
   std::vector<Answers> answers;                                   ///< in the order of the estimators
   recording::ReadNotes notes;
+  consistency::RunMeans means;  ///< of all channels that were read
 };
 
 /// Runs the estimators over a recording. The reference is the channel flow_reference, else flow; the pressure

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/validation/judge_run.hpp"
 #include "spoolflow/validation/judged_limits.hpp"
@@ -32,6 +35,17 @@ void name_run(RunResult& result, const model::Model& model, const std::filesyste
                                        [&](const model::InputFile& input) { return input.sha256 == result.sha256; });
 }
 
+/// `before`: the runs that came before it.
+void add_doubts(RunResult& result, const std::vector<RunResult>& before, const std::vector<consistency::Doubt>& found) {
+  for (const consistency::Doubt& doubt : found) result.doubts.push_back(doubt.text);
+  const auto same = std::ranges::find_if(
+      before, [&](const RunResult& run) { return !result.sha256.empty() && run.sha256 == result.sha256; });
+  if (same != before.end()) {
+    result.doubts.push_back(
+        fmt::format("{}: the same run as {}, byte for byte; it counts twice", result.file, same->file));
+  }
+}
+
 }  // namespace
 
 Validation validate(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
@@ -47,6 +61,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
                                                       empty_profiles(model.valve),
                                                       empty_direction(model.valve),
                                                       {}});
+  const std::vector<consistency::KnownValve> known = consistency::known_valve(model);
   const auto total = static_cast<double>(recordings.size());
   for (const std::filesystem::path& recording : recordings) {
     const auto before = static_cast<double>(out.runs.size());
@@ -55,6 +70,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     JudgedRun judged = judge_run(model.valve, samples, options, options.traced_values / recordings.size());
     if (judged.result.has_reference) lags_s.push_back(judged.result.reference_meter.lag_s);
     name_run(judged.result, model, recording);
+    add_doubts(judged.result, out.runs, consistency::doubts_about(known, samples.means, recording));
     for (std::size_t e = 0; e < judged.compared.size(); ++e) {
       pools[e].samples.append(judged.compared[e]);
       for (std::size_t q = 0; q < quantities.size(); ++q) {

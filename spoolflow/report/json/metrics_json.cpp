@@ -183,6 +183,7 @@ Json MetricsJson::run(const validation::RunResult& run) const {
            {"estimators", Json::array()}};
   for (const validation::EstimatorResult& result : run.results) out["estimators"].push_back(estimator(result));
   if (run.step_response) out["step_response"] = steps(*run.step_response);
+  if (!run.doubts.empty()) out["doubts"] = run.doubts;
   return out;
 }
 

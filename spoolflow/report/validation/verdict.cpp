@@ -172,6 +172,10 @@ void Judge::add_known_runs(std::vector<Text>& out) const {
 
 std::vector<Text> Judge::limits() const {
   std::vector<Text> out;
+  for (const validation::RunResult& run : validation_.runs) {
+    for (const std::string& doubt : run.doubts) out.emplace_back("Doubt: " + doubt + ".");
+  }
+  const std::size_t doubts = out.size();
   add_status(out, true);
   if (!leading().metrics) {
     add_status(out, false);
@@ -183,7 +187,7 @@ std::vector<Text> Judge::limits() const {
     add_known_runs(out);
     add_status(out, false);
   }
-  const std::size_t most = leading().sign ? 6 : 5;
+  const std::size_t most = doubts + (leading().sign ? 6 : 5);
   if (out.size() > most) out.resize(most);
   return out;
 }

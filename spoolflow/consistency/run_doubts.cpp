@@ -1,0 +1,270 @@
+#include "spoolflow/consistency/run_doubts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "spoolflow/consistency/block_means.hpp"
+#include "spoolflow/consistency/relation.hpp"
+#include "spoolflow/consistency/slip.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
+
+namespace spoolflow::consistency {
+namespace {
+
+using recording::Channel;
+using recording::Recording;
+
+/// Strokes to and fro as a recording at an even speed.
+class Strokes {
+ public:
+  void add(const std::vector<double>& position_m, bool opening) {
+    std::vector<double>& x = strokes_.column(Channel::position);
+    x.insert(x.end(), position_m.begin(), position_m.end());
+    if (!opening) std::reverse(x.end() - static_cast<std::ptrdiff_t>(position_m.size()), x.end());
+  }
+  void add(Channel channel, const std::vector<double>& values, bool opening) {
+    std::vector<double>& column = strokes_.column(channel);
+    column.insert(column.end(), values.begin(), values.end());
+    if (!opening) std::reverse(column.end() - static_cast<std::ptrdiff_t>(values.size()), column.end());
+  }
+  [[nodiscard]] Recording done() {
+    std::vector<double>& time_s = strokes_.column(Channel::time);
+    for (std::size_t k = 0; k < strokes_.column(Channel::position).size(); ++k)
+      time_s.push_back(static_cast<double>(k));
+    return std::move(strokes_);
+  }
+
+ private:
+  Recording strokes_;
+};
+
+KnownValve direction_of(const model::Evidence& evidence, double stroke_m) {
+  Strokes axial, magnetic;
+  for (const model::AxialForceLoop& loop : evidence.axial_force) {
+    for (const bool opening : {true, false}) {
+      axial.add(loop.position_m, opening);
+      axial.add(Channel::axial_force, opening ? loop.opening_N : loop.closing_N, opening);
+      axial.add(Channel::flow, loop.flow_m3_per_s, opening);
+      axial.add(Channel::pressure_difference, loop.pressure_difference_Pa, opening);
+    }
+  }
+  for (const model::MagneticForceLoop& loop : evidence.magnetic_force) {
+    for (const bool opening : {true, false}) {
+      magnetic.add(loop.position_m, opening);
+      magnetic.add(Channel::force, opening ? loop.opening_N : loop.closing_N, opening);
+      magnetic.add(Channel::current, std::vector<double>(loop.position_m.size(), loop.current_A), opening);
+    }
+  }
+  const Recording axial_strokes = axial.done();
+  constexpr double any_density_kg_per_m3 = 870;  // the jet's momentum is not asked for
+  return {fit_hydraulics(nullptr, {&axial_strokes}, stroke_m, any_density_kg_per_m3),
+          fit_magnetics(magnetic.done(), stroke_m), 0};
+}
+
+/// Rows in which the spool stands open to one side (+1 or -1), in that side's signs, with that side's coil.
+Recording one_side(const Recording& run, int side) {
+  const Channel current = side > 0 ? Channel::current_b : Channel::current_a;
+  const Channel voltage = side > 0 ? Channel::voltage_b : Channel::voltage_a;
+  const std::array<std::pair<Channel, Channel>, 6> taken{
+      {{Channel::time, Channel::time},
+       {Channel::position, Channel::position},
+       {Channel::current, current},
+       {Channel::voltage, voltage},
+       {Channel::flow, Channel::flow},
+       {Channel::pressure_difference, Channel::pressure_difference}}};
+  Recording out{run.file, {}};
+  const std::vector<double>& position_m = run.column(Channel::position);
+  for (const auto& [to, from] : taken) {
+    if (!run.has(from)) continue;
+    const bool is_signed = to == Channel::position || to == Channel::flow;
+    for (std::size_t k = 0; k < position_m.size(); ++k) {
+      if (side * position_m[k] > 0) out.column(to).push_back((is_signed ? side : 1) * run.column(from)[k]);
+    }
+  }
+  return out;
+}
+
+/// A run beside the valve that it should be of.
+class RunTrial {
+ public:
+  RunTrial(const std::vector<KnownValve>& valve, Recording means)
+      : run(std::move(means)), valve_(valve), both_(valve.size() > 1 && recording::has_both_coils(run)) {}
+
+  [[nodiscard]] std::vector<Deviation> deviations() const {
+    std::vector<Deviation> out;
+    if (!both_) {
+      add_run_deviations(out, valve_.front().hydraulics, valve_.front().magnetics, run);
+      add_resistance_deviation(out, {&run}, valve_.front().resistance_Ohm);
+      return out;
+    }
+    for (const int side : {1, -1}) {
+      const KnownValve& known = valve_[side > 0 ? 0 : 1];
+      const Recording part = one_side(run, side);
+      if (part.size() < 2) continue;
+      std::vector<Deviation> found;
+      add_resistance_deviation(found, {&part}, known.resistance_Ohm);
+      add_run_deviations(found, known.hydraulics, known.magnetics, part);
+      std::erase_if(found, [](const Deviation& deviation) { return deviation.of == "travel"; });
+      for (Deviation& deviation : found) {
+        deviation.of += side > 0 ? ", P to B," : ", P to A,";
+        out.push_back(std::move(deviation));
+      }
+    }
+    return out;
+  }
+  [[nodiscard]] double stroke_m() const { return valve_.front().hydraulics.stroke_m; }
+  [[nodiscard]] bool both() const { return both_; }
+
+  Recording run;
+
+ private:
+  const std::vector<KnownValve>& valve_;
+  bool both_;
+};
+
+struct RunExplanation {
+  std::string text;  ///< "position looks reversed: with …"
+  double badness;
+  std::vector<Deviation> deviations;
+};
+
+bool wholly(const RunExplanation& explanation) {
+  return std::ranges::max(explanation.deviations, {}, &Deviation::over_limit).over_limit <= 1;
+}
+
+void keep_better(std::optional<RunExplanation>& best, const RunTrial& trial, const std::vector<Deviation>& before,
+                 std::string text) {
+  std::vector<Deviation> deviations = trial.deviations();
+  if (!judges_as_much(deviations, before)) return;
+  const double left = badness(deviations);
+  if (!best || left < best->badness) best = RunExplanation{std::move(text), left, std::move(deviations)};
+}
+
+std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vector<Deviation>& before) {
+  std::optional<RunExplanation> best;
+  for (const Channel channel :
+       {Channel::position, Channel::current, Channel::voltage, Channel::flow, Channel::pressure_difference}) {
+    if (!trial.run.has(channel)) continue;
+    const std::vector<double> kept = trial.run.column(channel);
+    const std::string_view name = recording::name(channel == Channel::flow ? Channel::flow_reference : channel);
+    for (const Slip& slip : usual_slips(channel)) {
+      if (slip.from_other_end && trial.both()) continue;
+      for (double& value : trial.run.column(channel)) value = slip.undone(value, trial.stroke_m());
+      keep_better(best, trial, before, fmt::format("{} looks {}: with {}", name, slip.looks, slip.undo));
+      trial.run.column(channel) = kept;
+    }
+  }
+  const std::array<std::pair<Channel, Channel>, 4> pairs{{{Channel::current, Channel::voltage},
+                                                          {Channel::current_a, Channel::current_b},
+                                                          {Channel::current_a, Channel::voltage_a},
+                                                          {Channel::flow, Channel::pressure_difference}}};
+  for (const auto& [one, other] : pairs) {
+    if (!trial.run.has(one) || !trial.run.has(other)) continue;
+    std::swap(trial.run.column(one), trial.run.column(other));
+    keep_better(
+        best, trial, before,
+        fmt::format("{} and {} look swapped: with each as the other", recording::name(one), recording::name(other)));
+    std::swap(trial.run.column(one), trial.run.column(other));
+  }
+  if (best && wholly(*best)) return best;
+  std::optional<RunExplanation> scaled;  // by no number that a slip has: told where it explains all
+  for (const Deviation& deviation : before) {
+    if (!deviation.of.starts_with(reference_ratio) || !(deviation.ratio > 0)) continue;
+    const std::vector<double> kept = trial.run.column(Channel::flow);
+    for (double& value : trial.run.column(Channel::flow)) value /= deviation.ratio;
+    keep_better(best, trial, before,
+                fmt::format("flow_reference reads {:.3g} times what this model's valve passes: with it divided by that",
+                            deviation.ratio));
+    trial.run.column(Channel::flow) = kept;
+  }
+  return scaled && wholly(*scaled) ? scaled : best;
+}
+
+std::string dead_channel(const Recording& run) {
+  for (const Channel channel : {Channel::position, Channel::current}) {
+    const std::vector<double>& values = run.column(channel);
+    double lowest = 1e300, highest = -1e300;
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    constexpr double still = 1e-9;
+    if (lowest <= highest && highest - lowest <= still * std::max(std::abs(lowest), std::abs(highest)))
+      return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
+                         recording::name(channel), lowest);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<KnownValve> known_valve(const model::Model& model) {
+  std::vector<KnownValve> out{direction_of(model.evidence, model.valve.stroke_m)};
+  const auto add_resistance = [&](const std::optional<model::Observer>& observer) {
+    if (observer) out.back().resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
+  };
+  add_resistance(model.observer);
+  if (model.whole()) {
+    out.push_back(direction_of(model.p_to_a->evidence, model.valve.stroke_m));
+    add_resistance(model.p_to_a->observer);
+  }
+  return out;
+}
+
+KnownValve known_valve(const Benches& benches) {
+  constexpr std::size_t most = 1000;
+  std::vector<Recording> maps;
+  for (const Recording* map : benches.axial_force_maps) maps.push_back(block_means(*map, most));
+  std::vector<const Recording*> of;
+  for (const Recording& map : maps) of.push_back(&map);
+  const Recording spring = block_means(*benches.spring, most);
+  const Recording force_map = block_means(*benches.solenoid_force_map, most);
+  const double resistance_Ohm = coil_resistance(force_map);
+  return {fit_hydraulics(&spring, of, benches.stroke_m, benches.density_kg_per_m3),
+          fit_magnetics(force_map, benches.stroke_m), std::isfinite(resistance_Ohm) ? resistance_Ohm : 0};
+}
+
+std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunMeans& run,
+                                const std::filesystem::path& file) {
+  constexpr double surely = 1.5;
+  const std::string name = file == "-" ? "standard input" : file.filename().string();
+  std::vector<Doubt> out;
+  if (run.gaps().count > 0) {
+    out.push_back({false, fmt::format("{}: {} gap{} without samples, the longest {:.3g} s from {:.3f} s on: the answer "
+                                      "is held there and begins anew behind it",
+                                      name, run.gaps().count, run.gaps().count == 1 ? "" : "s", run.gaps().longest_s,
+                                      run.gaps().longest_from_s)});
+  }
+  RunTrial trial(valve, run.means(file));
+  if (const std::string dead = dead_channel(trial.run); !dead.empty()) {
+    out.push_back({true, fmt::format("{}: {}", name, dead)});
+    return out;
+  }
+  const std::vector<Deviation> now = trial.deviations();
+  const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
+  if (worst == now.end() || !(worst->over_limit > 1)) return out;
+  const bool cannot_be = worst->over_limit > surely;
+  const std::optional<RunExplanation> found = best_explanation(trial, now);
+  constexpr double left_share = 0.35;
+  const auto left = [&](const Deviation& of) {
+    const auto same = std::ranges::find(found->deviations, of.of, &Deviation::of);
+    return same == found->deviations.end() ? 0.0 : same->over_limit;
+  };
+  const bool all = found && wholly(*found);
+  const bool explains = all || (found && found->badness < left_share * badness(now) && left(*worst) <= 1);
+  if (worst->of.starts_with(largest_opening) && !all) return out;
+  out.push_back(
+      {cannot_be, explains ? fmt::format("{}: {}, {}", name, found->text, told(telling_change(now, found->deviations)))
+                           : fmt::format("{}: {} is {}, which no usual slip of one channel explains: is the model of "
+                                         "this valve, and is every channel in its unit?",
+                                         name, worst->of, worst->shown)});
+  return out;
+}
+
+}  // namespace spoolflow::consistency
