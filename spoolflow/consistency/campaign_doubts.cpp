@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/consistency/bench_relations.hpp"
 #include "spoolflow/consistency/block_means.hpp"
-#include "spoolflow/consistency/relation.hpp"
+#include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/consistency/valve_curves.hpp"
 
@@ -113,6 +114,7 @@ struct Explanation {
   const Slip* slip;
   double badness;
   std::vector<Deviation> deviations;
+  std::vector<const Slip*> alike{};  ///< of the same channel and recordings, that leave hardly more
 };
 
 void undo(Trial& trial, const Group& group, Channel channel, const Slip& slip) {
@@ -135,10 +137,12 @@ bool all_have(const Trial& trial, const Group& group, Channel channel) {
 /// The slip that leaves least.
 std::optional<Explanation> best_explanation(Trial& trial, const std::vector<Deviation>& before) {
   std::optional<Explanation> best;
+  std::vector<Explanation> tried;
   const auto judge = [&](const Group& group, Channel channel, const Slip& slip, std::optional<Role> changed) {
     std::vector<Deviation> deviations = trial.deviations(changed);
     if (!judges_as_much(deviations, before)) return;
     const double left = badness(deviations);
+    tried.push_back({group, channel, &slip, left, {}});
     if (!best || left < best->badness) best = Explanation{group, channel, &slip, left, std::move(deviations)};
   };
   for (const Slip& slip : usual_slips_of_rated_flow()) {
@@ -162,6 +166,12 @@ std::optional<Explanation> best_explanation(Trial& trial, const std::vector<Devi
       (void)trial.deviations(changed);  // the curves as they were
     }
   }
+  constexpr double alike = 0.05;
+  for (const Explanation& other : tried) {
+    if (best && other.slip != best->slip && other.channel == best->channel && other.group == best->group &&
+        other.badness < best->badness + alike)
+      best->alike.push_back(other.slip);
+  }
   return best;
 }
 
@@ -184,7 +194,9 @@ std::string explained(const Trial& trial, const Explanation& found, const std::v
   const std::string what = found.group.empty()
                                ? "the rated flow"
                                : fmt::format("{}: {}", files_of(trial, found.group), name_of(trial, found));
-  return fmt::format("{} looks {}: with {}, {}", what, found.slip->looks, found.slip->undo, told(change));
+  std::string looks(found.slip->looks);
+  for (const Slip* other : found.alike) looks += fmt::format(", or {}", other->looks);
+  return fmt::format("{} looks {}: with {}, {}", what, looks, found.slip->undo, told(change));
 }
 
 /// Channels that a protocol moves, and that stand still in its recording.

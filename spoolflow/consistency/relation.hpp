@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/consistency/valve_curves.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::consistency {
@@ -20,28 +19,13 @@ struct Deviation {
 inline constexpr const char* largest_opening = "largest opening";
 inline constexpr const char* reference_ratio = "reference flow over that of edge and pressure difference";
 
-/// Of spring and axial-force recordings: stiffness, one spring in all, one flow curve, jet momentum, set pressure,
-/// travel.
-void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves& curves,
-                              const recording::Recording* spring, const std::vector<const recording::Recording*>& maps);
-
-/// Of the solenoid's force map: it pulls, more with more current, over the stroke.
-void add_magnetic_deviations(std::vector<Deviation>& to, const MagneticCurves& curves, const recording::Recording& map);
-
-/// Of an operating run against both: balance of forces, flow against what edge and pressure difference make, positions.
-/// Reads current, position, and of flow and pressure difference what is there.
-void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
-                        const recording::Recording& run);
-
-/// Largest recorded flow against the rated one.
-void add_rated_flow_deviation(std::vector<Deviation>& to, const HydraulicCurves& curves, double rated_flow_m3_per_s);
-
-/// Voltage over current while the current holds [Ohm]; NaN where the recording does not tell.
-[[nodiscard]] double coil_resistance(const recording::Recording& means);
-
-/// Of the coil's resistance in all recordings that tell it, and beside `known_Ohm` where that is > 0.
-void add_resistance_deviation(std::vector<Deviation>& to, const std::vector<const recording::Recording*>& recordings,
-                              double known_Ohm = 0);
+/// How far `value` is from what is usual, in units of the largest factor that is: the logarithm of both; 20 where it
+/// has the wrong sign.
+[[nodiscard]] double factor_over(double value, double usual, double factor);
+/// The recording's file without its folder.
+[[nodiscard]] std::string file_of(const recording::Recording& recording);
+/// Positions lie within the stroke, bench strokes go over half of it at least, an operating run opens the valve.
+void add_travel(std::vector<Deviation>& to, const recording::Recording& means, double stroke_m, bool strokes);
 
 /// One relation as it stands, and with a slip undone.
 struct Change {

@@ -8,8 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/consistency/bench_relations.hpp"
 #include "spoolflow/consistency/block_means.hpp"
-#include "spoolflow/consistency/relation.hpp"
+#include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 

@@ -1,0 +1,20 @@
+#pragma once
+/// Limits of the relations: two to five times what valves A and W and the rig's valves have.
+namespace spoolflow::consistency {
+
+inline constexpr double force_residual_share = 0.06;     ///< of the range of forces
+inline constexpr double flow_residual_share = 0.04;      ///< of the largest flow
+inline constexpr double usual_jet_momentum = 0.35;       ///< nearly cos 69 deg; notches and compensated spools differ
+inline constexpr double jet_momentum_factor = 2.0;       ///< either way
+inline constexpr double set_pressure_factor = 1.4;       ///< either way
+inline constexpr double rated_flow_factor = 2.5;         ///< either way
+inline constexpr double resistance_factor = 1.45;        ///< a coil of copper is so much higher 115 K warmer
+inline constexpr double balance_share = 0.09;            ///< of the range of axial forces
+inline constexpr double run_flow_factor = 1.13;          ///< either way
+inline constexpr double run_flow_residual_share = 0.05;  ///< of the largest flow
+inline constexpr double outside_share = 0.1;             ///< of positions beyond the stroke
+inline constexpr double least_opening = 0.1;             ///< share of the stroke from which forces and flow tell
+inline constexpr double least_blocks = 50;
+inline constexpr double impossible = 10;
+
+}  // namespace spoolflow::consistency

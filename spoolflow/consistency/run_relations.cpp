@@ -1,0 +1,147 @@
+#include "spoolflow/consistency/run_relations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "spoolflow/consistency/block_means.hpp"
+#include "spoolflow/consistency/limits.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::consistency {
+namespace {
+
+using recording::Channel;
+using recording::Recording;
+
+/// Without pressure and flow: what the solenoid holds is no less than the springs and no more than springs and the
+/// largest flow force, but for friction.
+void add_force_bounds(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                      const Recording& run) {
+  const std::vector<double>& position_m = run.column(Channel::position);
+  const std::vector<double>& current_A = run.column(Channel::current);
+  double square = 0, count = 0;
+  for (std::size_t k = 0; k < position_m.size(); ++k) {
+    const double x = position_m[k];
+    if (!(x > least_opening * hydraulics.stroke_m) || !std::isfinite(current_A[k])) continue;
+    const double net_N = magnetics.at(current_A[k], x) - hydraulics.spring_at(x);
+    const double most_N = hydraulics.force_per_Pa_at(x) * hydraulics.highest_pressure_Pa;
+    const double beyond_N =
+        std::max({0.0, -net_N - 2 * hydraulics.friction_N, net_N - most_N - 2 * hydraulics.friction_N});
+    square += beyond_N * beyond_N;
+    ++count;
+  }
+  if (count < least_blocks) return;
+  const double beyond_N = std::sqrt(square / count);
+  to.push_back({.of = "force that neither springs, flow nor friction explain",
+                .shown = fmt::format("{:.2g} N RMS", beyond_N),
+                .over_limit = beyond_N / (balance_share * hydraulics.force_range_N),
+                .file = file_of(run),
+                .blocks = count});
+}
+
+/// Magnetic force against spring, flow force and friction, at the measured pressure difference or that of the flow.
+void add_balance(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                 const Recording& run) {
+  const std::vector<double>& position_m = run.column(Channel::position);
+  const std::vector<double>& current_A = run.column(Channel::current);
+  const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
+  const std::vector<double>& flow = run.column(Channel::flow);
+  const std::vector<double> velocity = velocities(run);
+  constexpr double least_share = 0.02;
+  const double least_conductance = least_share * std::ranges::max(hydraulics.conductance);
+  struct Block {
+    double error_N, direction;
+  };
+  std::vector<Block> blocks;
+  for (std::size_t k = 0; k < position_m.size(); ++k) {
+    const double x = position_m[k];
+    const double conductance = hydraulics.conductance_at(x);
+    if (!(x > least_opening * hydraulics.stroke_m) || conductance < least_conductance) continue;
+    const double pressure = pressure_Pa.empty() ? squared(std::max(flow[k], 0.0) / conductance) : pressure_Pa[k];
+    const double error_N =
+        magnetics.at(current_A[k], x) - hydraulics.spring_at(x) - hydraulics.force_per_Pa_at(x) * pressure;
+    if (std::isfinite(error_N)) blocks.push_back({error_N, velocity[k] > 0 ? 1.0 : -1.0});
+  }
+  const auto count = static_cast<double>(blocks.size());
+  if (count < least_blocks) return;
+  double friction_N = 0, square = 0;
+  for (const Block& block : blocks) friction_N += block.error_N * block.direction / count;
+  for (const Block& block : blocks) square += squared(block.error_N - friction_N * block.direction) / count;
+  to.push_back({.of = "balance of forces in operation",
+                .shown = fmt::format("{:.2g} N RMS", std::sqrt(square)),
+                .over_limit = std::sqrt(square) / (balance_share * hydraulics.force_range_N),
+                .file = file_of(run),
+                .blocks = count});
+}
+
+struct FlowFit {
+  double ratio;     ///< reference over expected flow; NaN where too little is known
+  double residual;  ///< RMS of their difference [m3/s]
+};
+
+FlowFit compared(std::span<const double> reference, std::span<const double> expected) {
+  double product = 0, expected2 = 0, residual2 = 0, count = 0;
+  for (std::size_t k = 0; k < reference.size(); ++k) {
+    if (!std::isfinite(reference[k] + expected[k])) continue;
+    product += reference[k] * expected[k];
+    expected2 += squared(expected[k]);
+    residual2 += squared(reference[k] - expected[k]);
+    ++count;
+  }
+  if (count < least_blocks || !(expected2 > 0)) return {std::nan(""), 0};
+  return {product / expected2, std::sqrt(residual2 / count)};
+}
+
+/// The reference against what edge and pressure difference make, shown as late as the meter is where that matters.
+void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const Recording& run) {
+  const std::vector<double>& position_m = run.column(Channel::position);
+  const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
+  const std::vector<double>& reference = run.column(Channel::flow);
+  std::vector<double> expected(reference.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const double conductance = std::max(hydraulics.conductance_at(std::max(position_m[k], 0.0)), 0.0);
+    expected[k] = conductance * std::copysign(std::sqrt(std::abs(pressure_Pa[k])), pressure_Pa[k]);
+    if (std::isfinite(expected[k])) largest = std::max(largest, std::abs(expected[k]));
+  }
+  FlowFit found = compared(reference, expected);
+  if (!std::isfinite(found.ratio)) return;
+  if (found.ratio > 0 && found.residual > run_flow_residual_share * largest) {
+    std::vector<double> alike = expected;
+    for (double& value : alike) value *= found.ratio;
+    const std::vector<double>& time_s = run.column(Channel::time);
+    numerics::apply_lag<double>(time_s, expected, numerics::find_meter_lag(time_s, alike, reference));
+    found = compared(reference, expected);
+  }
+  to.push_back({.of = reference_ratio,
+                .shown = fmt::format("{:.3g}", found.ratio),
+                .over_limit = factor_over(found.ratio, 1, run_flow_factor),
+                .file = file_of(run),
+                .ratio = found.ratio});
+  to.push_back({.of = "reference flow less that of edge and pressure difference",
+                .shown = fmt::format("{:.2g} L/min RMS", units::L_per_min_from_m3_per_s(found.residual)),
+                .over_limit = found.residual / (run_flow_residual_share * largest),
+                .file = file_of(run)});
+}
+
+}  // namespace
+
+void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                        const Recording& run) {
+  add_travel(to, run, hydraulics.stroke_m, false);
+  const bool with_pressure = run.has(Channel::pressure_difference), with_flow = run.has(Channel::flow);
+  if (run.has(Channel::current)) {
+    if (with_pressure || with_flow) {
+      add_balance(to, hydraulics, magnetics, run);
+    } else {
+      add_force_bounds(to, hydraulics, magnetics, run);
+    }
+  }
+  if (with_pressure && with_flow) add_flow_deviations(to, hydraulics, run);
+}
+
+}  // namespace spoolflow::consistency

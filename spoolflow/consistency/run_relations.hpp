@@ -1,0 +1,15 @@
+#pragma once
+/// What an operating run must satisfy beside the valve's curves.
+#include <vector>
+
+#include "spoolflow/consistency/relation.hpp"
+#include "spoolflow/consistency/valve_curves.hpp"
+
+namespace spoolflow::consistency {
+
+/// Of an operating run against both: balance of forces, flow against what edge and pressure difference make, positions.
+/// Reads current, position, and of flow and pressure difference what is there.
+void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                        const recording::Recording& run);
+
+}  // namespace spoolflow::consistency
