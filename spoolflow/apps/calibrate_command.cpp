@@ -15,6 +15,7 @@
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/recording/campaign.hpp"
+#include "spoolflow/report/calibration/calibration_summary.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
 #include "spoolflow/sensor/band.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -41,11 +42,9 @@ void print_summary(const model::Model& model) {
       condensed.current_A.upper, units::mm_from_m(condensed.position_m.upper),
       units::bar_from_Pa(condensed.pressure_difference_Pa.lower),
       units::bar_from_Pa(condensed.pressure_difference_Pa.upper));
-  for (const model::Residual& residual : condensed.residuals) {
-    const bool flow = residual.unit == "m3/s";
-    const double scale = flow ? units::litre_per_minute_per_m3_per_s : 1.0;
-    say("  {:<15} residual {:.3g} RMS, {:.3g} at most [{}]\n", residual.of, residual.rms * scale,
-        residual.largest * scale, flow ? "L/min" : residual.unit);
+  for (const report::SummaryLine& line : report::calibration_summary(model)) {
+    say("  {:<40} {:>9} {:<6} usually {}{}\n", line.of, line.value, line.unit, line.usually,
+        line.usual ? "" : "  <- UNUSUAL");
   }
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
   say("  flow force tells the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),

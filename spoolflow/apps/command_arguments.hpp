@@ -58,6 +58,7 @@ struct ValidateArguments {
   std::vector<std::string> units = {};  ///< of the report
   std::optional<double> reference_lag_ms = {};
   bool apply_reference_lag = true;
+  bool fail_unmet = false;  ///< a requirement that is not met fails
   bool quiet = false;
 };
 void validate(const ValidateArguments& arguments);

@@ -36,7 +36,7 @@ extern "C" void tidy_up(int) {
   remove_unfinished();
 }
 
-extern "C" void end_interrupted(int) {
+extern "C" void end_interrupted(int signal) {
   if (ending.test_and_set()) return;
   remove_unfinished();
   if (terminal) say_at_once("\r\033[K");  // a progress line may stand there
@@ -52,7 +52,8 @@ extern "C" void end_interrupted(int) {
       say_at_once(": interrupted; only the files finished before were written\n");
       break;
   }
-  _exit(interrupted_status);
+  constexpr int ended_by_signal = 128;
+  _exit(ended_by_signal + signal);
 }
 
 sigset_t interruptions() {

@@ -1,12 +1,11 @@
 #pragma once
-/// Ctrl-C and SIGTERM in mid-run: unfinished outputs are removed, and the program ends with status 2 at once.
+/// Ctrl-C and SIGTERM in mid-run: unfinished outputs are removed, and the program ends at once, with status 130
+/// or 143 as shells have it (128 and the signal).
 #include <atomic>
 #include <string>
 #include <string_view>
 
 namespace spoolflow::apps {
-
-inline constexpr int interrupted_status = 2;
 
 /// From now on an interruption ends the program with one line such as "spoolflow estimate: interrupted; nothing was
 /// written". SIGPIPE and SIGXFSZ become errors of the write that caused them.

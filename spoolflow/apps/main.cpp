@@ -102,9 +102,20 @@ int help_or_refuse(const CLI::App& program, const CLI::ParseError& error) {
   return wrong_usage;
 }
 
+/// `spoolflow help calibrate` is `spoolflow calibrate --help`; CLI11 takes arguments from the back.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::ranges::reverse(words);
+  return words;
+}
+
 int run(CLI::App& program, int argc, char** argv) {
   try {
-    program.parse(argc, argv);
+    program.parse(arguments_of(argc, argv));
     if (chosen(program) != nullptr) {
       flush_standard_output();
       return done;

@@ -1,4 +1,7 @@
 /// `spoolflow validate`: how good the sensor is on recordings with a reference flow.
+#include <algorithm>
+#include <stdexcept>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -77,6 +80,10 @@ void validate(const ValidateArguments& arguments) {
   if (figures) report::write_metrics(figures->stream(), model, validation);
   commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
   if (arguments.json != "-" && arguments.report != "-") print_figures(model, validation);
+  const auto unmet = std::ranges::count(validation.limits, false, &validation::JudgedLimit::met);
+  if (arguments.fail_unmet && unmet > 0)
+    throw std::runtime_error(
+        fmt::format("{} of {} requirements are not met (--fail-unmet)", unmet, validation.limits.size()));
 }
 
 void add_validate_command(CLI::App& program) {
@@ -97,8 +104,12 @@ void add_validate_command(CLI::App& program) {
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");
-  command->add_option("--requirements", arguments->requirements, "limits (TOML) against which the figures are judged")
-      ->type_name("LIMITS.toml");
+  CLI::Option* requirements =
+      command
+          ->add_option("--requirements", arguments->requirements, "limits (TOML) against which the figures are judged")
+          ->type_name("LIMITS.toml");
+  command->add_flag("--fail-unmet", arguments->fail_unmet, "exit status 1 where a requirement is not met")
+      ->needs(requirements);
   command
       ->add_option("--compare", arguments->compare,
                    "figures of another valve or model to show side by side; may be repeated")

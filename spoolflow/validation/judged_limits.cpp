@@ -84,6 +84,7 @@ class Judge {
 
   [[nodiscard]] JudgedLimit together(const Limit& limit) const {
     const estimation::Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
+    if (!validation_.held_out) return judged(limit, "all runs", estimator, std::nullopt);
     if (limit.figure == Figure::fault_share) return judged(limit, "all runs", estimator, fault_share(estimator));
     for (const PooledResult& pooled : validation_.pooled) {
       if (pooled.estimator != estimator || !pooled.metrics) continue;
@@ -94,6 +95,7 @@ class Judge {
   }
   [[nodiscard]] JudgedLimit alone(const Limit& limit, const RunResult& run) const {
     const estimation::Estimator estimator = limit.estimator.value_or(validation_.pooled.back().estimator);
+    if (run.calibrated_with) return judged(limit, run.name, estimator, std::nullopt);
     const EstimatorResult& result = result_of(run, estimator);
     if (limit.figure == Figure::fault_share) {
       return judged(limit, run.name, estimator,
@@ -108,6 +110,7 @@ class Judge {
     double samples = 0;
     double faulty = 0;
     for (const RunResult& run : validation_.runs) {
+      if (run.calibrated_with) continue;
       samples += static_cast<double>(run.samples);
       faulty += static_cast<double>(run.samples) * result_of(run, estimator).fault_share;
     }
@@ -135,7 +138,8 @@ std::vector<JudgedLimit> judge(const Requirements& requirements, const Validatio
   for (const Limit& limit : requirements.limits) {
     if (limit.run == "all") out.push_back(judge_of.together(limit));
     for (const RunResult& run : validation.runs) {
-      if (limit.run == "each" || limit.run == run.name) out.push_back(judge_of.alone(limit, run));
+      const bool each = limit.run == "each" && !(run.calibrated_with && validation.held_out);
+      if (each || limit.run == run.name) out.push_back(judge_of.alone(limit, run));
     }
   }
   return out;

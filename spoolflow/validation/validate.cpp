@@ -25,14 +25,22 @@ std::string run_name(const std::filesystem::path& recording) {
   return recording == "-" ? "standard input" : recording.stem().string();
 }
 
-void name_run(RunResult& result, const model::Model& model, const std::filesystem::path& recording) {
+/// What names a run, and whether the calibration knows it.
+struct RunName {
+  std::string name, file, sha256;
+  bool calibrated_with = false;
+};
+
+RunName name_of(const model::Model& model, const std::filesystem::path& recording) {
+  RunName result;
   result.name = run_name(recording);
   result.file = recording == "-" ? "standard input" : recording.filename().string();
   std::error_code error;
-  if (!std::filesystem::is_regular_file(recording, error)) return;
+  if (!std::filesystem::is_regular_file(recording, error)) return result;
   result.sha256 = model::sha256_of_file(recording);
   result.calibrated_with = std::any_of(model.provenance.inputs.begin(), model.provenance.inputs.end(),
                                        [&](const model::InputFile& input) { return input.sha256 == result.sha256; });
+  return result;
 }
 
 /// `before`: the runs that came before it.
@@ -56,6 +64,9 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     check_names(*options.requirements, runs, options.estimators);
   }
   Validation out{{}, {}, 0, options.apply_reference_lag, {}, {}};
+  std::vector<RunName> names;
+  for (const std::filesystem::path& recording : recordings) names.push_back(name_of(model, recording));
+  out.held_out = std::ranges::any_of(names, [](const RunName& run) { return !run.calibrated_with; });
   std::vector<double> lags_s;
   std::vector<Pool> pools(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
                                                       empty_profiles(model.valve),
@@ -64,14 +75,19 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
   const std::vector<consistency::KnownValve> known = consistency::known_valve(model);
   const auto total = static_cast<double>(recordings.size());
   for (const std::filesystem::path& recording : recordings) {
+    const RunName& named = names[out.runs.size()];
     const auto before = static_cast<double>(out.runs.size());
     RunSamples samples = estimate_run(model, recording, options.channels, options.estimators,
                                       [&](double share) { progress((before + share) / total); });
     JudgedRun judged = judge_run(model.valve, samples, options, options.traced_values / recordings.size());
     if (judged.result.has_reference) lags_s.push_back(judged.result.reference_meter.lag_s);
-    name_run(judged.result, model, recording);
+    judged.result.name = named.name;
+    judged.result.file = named.file;
+    judged.result.sha256 = named.sha256;
+    judged.result.calibrated_with = named.calibrated_with;
     add_doubts(judged.result, out.runs, consistency::doubts_about(known, samples.means, recording));
-    for (std::size_t e = 0; e < judged.compared.size(); ++e) {
+    const bool counts = !named.calibrated_with || !out.held_out;
+    for (std::size_t e = 0; counts && e < judged.compared.size(); ++e) {
       pools[e].samples.append(judged.compared[e]);
       for (std::size_t q = 0; q < quantities.size(); ++q) {
         pools[e].profiles[q].append(judged.result.results[e].profiles[q]);

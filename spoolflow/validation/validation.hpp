@@ -32,11 +32,12 @@ struct PooledResult {
 
 struct Validation {
   std::vector<RunResult> runs;
-  std::vector<PooledResult> pooled;  ///< in the order of the options
+  std::vector<PooledResult> pooled;  ///< in the order of the options; of the runs that the calibration did not know
   double reference_lag_s = 0;        ///< of the runs, the median
   bool reference_lag_applied = false;
   std::string requirements_file;    ///< empty: nothing was asked
   std::vector<JudgedLimit> limits;  ///< in the file's order
+  bool held_out = true;             ///< there is a run that the calibration did not know; else all are pooled
 };
 
 }  // namespace spoolflow::validation

@@ -188,7 +188,7 @@ TEST_F(OutputFileDeathTest, RemovesTheUnfinishedFileOnCtrlC) {
     output.stream() << std::string(1 << 20, 'x') << std::flush;
     ::raise(SIGINT);
   };
-  EXPECT_EXIT(interrupted(), ::testing::ExitedWithCode(2), "spoolflow estimate: interrupted; nothing was written\n");
+  EXPECT_EXIT(interrupted(), ::testing::ExitedWithCode(130), "spoolflow estimate: interrupted; nothing was written\n");
   EXPECT_EQ(content(target), "old");
   EXPECT_EQ(files(), 1);
 }
@@ -201,7 +201,7 @@ TEST_F(OutputFileDeathTest, SaysThatAnEarlierFileWasFinishedWhenTerminated) {
     report.commit();
     ::raise(SIGTERM);
   };
-  EXPECT_EXIT(interrupted(), ::testing::ExitedWithCode(2), "only the files finished before were written");
+  EXPECT_EXIT(interrupted(), ::testing::ExitedWithCode(143), "only the files finished before were written");
   EXPECT_EQ(content(folder / "report.html"), "report");
   EXPECT_EQ(files(), 1);
 }

@@ -135,7 +135,7 @@ TEST_F(WrongOutput, CtrlCAndTerminationInMidRun) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_EQ(files().size(), 4u) << "no unfinished file appeared";
     const Answer answer = estimate.interrupt(signal);
-    EXPECT_EQ(answer.status, 2);
+    EXPECT_EQ(answer.status, 128 + signal);
     EXPECT_EQ(answer.message, "spoolflow estimate: interrupted; nothing was written\n");
   }
 }

@@ -43,6 +43,7 @@ const validation::RunResult* Judge::run_of_largest_error() const {
   const validation::RunResult* out = nullptr;
   double largest = -1;
   for (const validation::RunResult& run : validation_.runs) {
+    if (run.calibrated_with && validation_.held_out) continue;
     const auto& worst = run.results.back().worst;
     if (worst && std::abs(worst->error_m3_per_s) > largest) largest = std::abs(worst->error_m3_per_s), out = &run;
   }
@@ -56,8 +57,10 @@ Text Judge::sentence() const {
         leading_name(), validation_.runs.size(), validation_.runs.size() == 1 ? "" : "s");
   }
   const validation::ErrorFigures& error = leading().metrics->all.error;
-  Text out = phrase("95 % of the {}'s errors lie within {} of full scale ({})", leading_name(), percent(error.p95),
-                    fixed(units::flow(error.p95), 1));
+  Text out =
+      phrase("{}95 % of the {}'s errors lie within {} of full scale ({})",
+             validation_.held_out ? "" : "No independent test, the calibration knows every run: ", leading_name(),
+             percent(error.p95), fixed(units::flow(error.p95), 1));
   if (validation_.pooled.size() > 1) {
     out += fmt::format(", those of the {} sensor within {}", estimation::name(validation_.pooled.front().estimator),
                        percent(validation_.pooled.front().metrics->all.error.p95));
@@ -167,7 +170,9 @@ void Judge::add_known_runs(std::vector<Text>& out) const {
   for (const validation::RunResult& run : validation_.runs) {
     if (run.calibrated_with) names += (names.empty() ? "" : ", ") + run.name;
   }
-  if (!names.empty()) out.emplace_back("Also an input of the calibration, so no independent test: " + names + ".");
+  if (names.empty()) return;
+  out.emplace_back("Also an input of the calibration, so no independent test" +
+                   std::string(validation_.held_out ? " and not counted: " : ": ") + names + ".");
 }
 
 std::vector<Text> Judge::limits() const {
