@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,31 +16,63 @@
 namespace spoolflow::recording {
 namespace {
 
-/// Words by which people call a channel, in English and German; the longer match wins.
+/// Words by which people call a channel, in English, German, French, Italian, Spanish and Japanese in Latin letters;
+/// accents are left out. The longer match wins.
 struct Words {
   Channel channel;
-  std::array<std::string_view, 9> words;
+  std::array<std::string_view, 20> words;
 };
 constexpr std::array<Words, 19> vocabulary{{
-    {Channel::time, {"time", "t", "zeit", "timestamp", "seconds"}},
-    {Channel::current, {"current", "i", "strom", "isol", "icoil", "coilcurrent"}},
-    {Channel::current_set, {"currentset", "iset", "icmd", "sollstrom", "isoll", "currentcommand"}},
-    {Channel::voltage, {"voltage", "u", "v", "spannung", "usol", "ucoil", "coilvoltage"}},
-    {Channel::current_a, {"currenta", "ia", "stroma", "isola", "icoila", "coilcurrenta"}},
-    {Channel::current_b, {"currentb", "ib", "stromb", "isolb", "icoilb", "coilcurrentb"}},
-    {Channel::voltage_a, {"voltagea", "ua", "va", "spannunga", "usola", "ucoila", "coilvoltagea"}},
-    {Channel::voltage_b, {"voltageb", "ub", "vb", "spannungb", "usolb", "ucoilb", "coilvoltageb"}},
-    {Channel::position, {"position", "x", "lvdt", "weg", "stroke", "spool", "spoolposition", "pos", "xist"}},
-    {Channel::position_set, {"positionset", "xset", "xsoll", "xcmd", "setpoint", "sollwert", "positioncommand", "xs"}},
-    {Channel::force, {"force", "f", "kraft", "loadcell", "fmag", "magneticforce"}},
-    {Channel::axial_force, {"axialforce", "fax", "axialkraft"}},
-    {Channel::pressure_upstream, {"pressureupstream", "p1", "pp", "pressurep", "pupstream", "pu"}},
-    {Channel::pressure_downstream, {"pressuredownstream", "p2", "pb", "pressureb", "pdownstream", "pd"}},
-    {Channel::pressure_difference, {"pressuredifference", "dp", "deltap", "pdiff", "druckdifferenz"}},
+    {Channel::time, {"time", "t", "zeit", "timestamp", "seconds", "temps", "tempo", "tiempo", "jikan", "zeitstempel"}},
+    {Channel::current,
+     {"current", "i", "strom", "isol", "icoil", "coilcurrent", "courant", "corrente", "corriente", "denryu",
+      "spulenstrom", "magnetstrom", "solenoidcurrent", "courantbobine", "correntebobina"}},
+    {Channel::current_set,
+     {"currentset", "iset", "icmd", "sollstrom", "isoll", "currentcommand", "consignecourant", "stromsoll"}},
+    {Channel::voltage,
+     {"voltage", "u", "v", "spannung", "usol", "ucoil", "coilvoltage", "tension", "tensione", "voltaje", "denatsu",
+      "spulenspannung", "tensionbobine"}},
+    {Channel::current_a, {"currenta", "ia", "stroma", "isola", "icoila", "coilcurrenta", "couranta"}},
+    {Channel::current_b, {"currentb", "ib", "stromb", "isolb", "icoilb", "coilcurrentb", "courantb"}},
+    {Channel::voltage_a, {"voltagea", "ua", "va", "spannunga", "usola", "ucoila", "coilvoltagea", "tensiona"}},
+    {Channel::voltage_b, {"voltageb", "ub", "vb", "spannungb", "usolb", "ucoilb", "coilvoltageb", "tensionb"}},
+    {Channel::position,
+     {"position", "x", "lvdt", "weg", "stroke", "spool", "spoolposition", "pos", "xist", "posizione", "posicion",
+      "corsa", "carrera", "course", "ichi", "deplacement", "spostamento", "kolbenweg", "schieberweg"}},
+    {Channel::position_set,
+     {"positionset", "xset", "xsoll", "xcmd", "setpoint", "sollwert", "positioncommand", "xs", "consigne",
+      "consigneposition", "riferimento", "consigna", "wegsoll"}},
+    {Channel::force,
+     {"force", "f", "kraft", "loadcell", "fmag", "magneticforce", "forza", "fuerza", "chikara", "magnetkraft",
+      "effort"}},
+    {Channel::axial_force, {"axialforce", "fax", "axialkraft", "forceaxiale", "forzaassiale", "fuerzaaxial"}},
+    {Channel::pressure_upstream,
+     {"pressureupstream", "p1", "pp", "pressurep", "pupstream", "pu", "pressionamont", "pressionemonte",
+      "presionaguasarriba", "inletpressure", "supplypressure", "druckvor"}},
+    {Channel::pressure_downstream,
+     {"pressuredownstream", "p2", "pb", "pressureb", "pdownstream", "pd", "pressionaval", "pressionevalle",
+      "presionaguasabajo", "outletpressure", "drucknach"}},
+    {Channel::pressure_difference,
+     {"pressuredifference", "dp", "deltap", "pdiff", "druckdifferenz", "differentialpressure", "pressuredrop",
+      "differencedepression", "pertedecharge", "pressionedifferenziale", "presiondiferencial", "saatsu"}},
     {Channel::pressure_difference_set, {"pressuredifferenceset", "dpset", "dpsoll"}},
-    {Channel::oil_temperature, {"oiltemperature", "temperature", "temp", "toil", "temperatur", "oeltemperatur", "t"}},
-    {Channel::flow, {"flow", "q", "flowrate", "volumenstrom", "qmeas"}},
-    {Channel::flow_reference, {"flowreference", "qref", "flowmeter", "referenceflow"}},
+    {Channel::oil_temperature,
+     {"oiltemperature", "temperature", "temp", "toil", "temperatur", "oeltemperatur", "t", "oiltemp",
+      "temperaturehuile", "temperaturaaceite", "temperaturaolio", "temperatura", "yuon", "thuile", "tolio"}},
+    {Channel::flow,
+     {"flow", "q", "flowrate", "volumenstrom", "qmeas", "debit", "portata", "caudal", "ryuryo", "durchfluss"}},
+    {Channel::flow_reference,
+     {"flowreference", "qref", "flowmeter", "referenceflow", "debitreference", "portatariferimento",
+      "caudalreferencia"}},
+}};
+
+/// Letters with accents as they are typed without them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 22> plain_letters{{
+    {"\xC3\xA4", "ae"}, {"\xC3\xB6", "oe"}, {"\xC3\xBC", "ue"}, {"\xC3\x84", "ae"}, {"\xC3\x96", "oe"},
+    {"\xC3\x9C", "ue"}, {"\xC3\x9F", "ss"}, {"\xC3\xA9", "e"},  {"\xC3\xA8", "e"},  {"\xC3\xAA", "e"},
+    {"\xC3\x89", "e"},  {"\xC3\xA0", "a"},  {"\xC3\xA1", "a"},  {"\xC3\xA2", "a"},  {"\xC3\xAD", "i"},
+    {"\xC3\xB3", "o"},  {"\xC3\xBA", "u"},  {"\xC3\xB1", "n"},  {"\xC3\xA7", "c"},  {"\xC3\xB2", "o"},
+    {"\xC3\xB9", "u"},  {"\xC3\xAC", "i"},
 }};
 
 /// A column's name taken apart: "I_sol [mA]" is "isol" with unit "mA".
@@ -50,9 +83,15 @@ struct NameParts {
 
 std::string letters_of(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const auto accent =
+        std::ranges::find(plain_letters, text.substr(at, 2), &std::pair<std::string_view, std::string_view>::first);
+    if (accent != plain_letters.end()) {
+      out += accent->second;
+      ++at;
+    } else if (std::isalnum(static_cast<unsigned char>(text[at])) != 0) {
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(text[at])));
+    }
   }
   return out;
 }
@@ -79,6 +118,17 @@ NameParts parts_of(std::string name, const std::string& told_unit) {
   return out;
 }
 
+/// As it is, or less what measured values are called by.
+bool names_it(const Words& entry, std::string_view word) {
+  constexpr std::array<std::string_view, 10> measured{"",         "ist",  "act",   "actual", "meas",
+                                                      "measured", "mess", "value", "signal", "raw"};
+  return std::ranges::any_of(measured, [&](std::string_view ending) {
+    if (!word.ends_with(ending)) return false;
+    const std::string_view stem = word.substr(0, word.size() - ending.size());
+    return !stem.empty() && std::ranges::count(entry.words, stem) > 0;
+  });
+}
+
 /// Whether the unit may be the channel's: of its quantity, or a voltage (a raw sensor signal), or a share of the
 /// stroke.
 bool may_have(Channel channel, const std::string& unit_name) {
@@ -101,8 +151,7 @@ ChannelMap propose_channels(const FileContents& contents) {
     }
     const NameParts parts = parts_of(contents.columns[k], contents.units[k]);
     for (const Words& entry : vocabulary) {
-      if (std::find(entry.words.begin(), entry.words.end(), parts.word) == entry.words.end() || parts.word.empty())
-        continue;
+      if (!names_it(entry, parts.word)) continue;
       if (!may_have(entry.channel, parts.unit)) continue;
       out.sources.try_emplace(entry.channel, ChannelSource{contents.columns[k], parts.unit, 1.0, 0.0, {}});
       break;

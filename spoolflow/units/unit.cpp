@@ -9,8 +9,8 @@
 namespace spoolflow::units {
 namespace {
 
-// Factors of the SI brochure; psi and degF by NIST SP 811, appendix B.8.
-constexpr std::array<Unit, 31> table{{
+// Factors of the SI brochure; psi, degF, inch, lbf, kgf and US gallons by NIST SP 811, appendix B.8.
+constexpr std::array<Unit, 40> table{{
     {"1", "1", Dimension::ratio, 1.0},
     {"percent", "percent", Dimension::ratio, 0.01},
     {"s", "s", Dimension::time, 1.0},
@@ -23,14 +23,20 @@ constexpr std::array<Unit, 31> table{{
     {"mm", "mm", Dimension::length, 1e-3},
     {"um", "um", Dimension::length, 1e-6},
     {"m", "m", Dimension::length, 1.0},
+    {"cm", "cm", Dimension::length, 1e-2},
+    {"in", "in", Dimension::length, 0.0254},
+    {"mil", "mil", Dimension::length, 2.54e-5},
     {"N", "N", Dimension::force, 1.0},
     {"kN", "kN", Dimension::force, 1e3},
+    {"kgf", "kgf", Dimension::force, 9.80665},
+    {"lbf", "lbf", Dimension::force, 4.4482216152605},
     {"bar", "bar", Dimension::pressure, pascal_per_bar},
     {"mbar", "mbar", Dimension::pressure, 100.0},
     {"Pa", "Pa", Dimension::pressure, 1.0},
     {"kPa", "kPa", Dimension::pressure, 1e3},
     {"MPa", "MPa", Dimension::pressure, 1e6},
     {"psi", "psi", Dimension::pressure, 6894.757293168361},
+    {"kgf/cm2", "kgf_cm2", Dimension::pressure, 98066.5},
     {"C", "C", Dimension::temperature, 1.0, kelvin_at_0_degC},
     {"K", "K", Dimension::temperature, 1.0},
     {"degF", "degF", Dimension::temperature, 5.0 / 9.0, kelvin_at_0_degC - 32.0 * 5.0 / 9.0},
@@ -38,6 +44,9 @@ constexpr std::array<Unit, 31> table{{
     {"L/s", "L_s", Dimension::volume_flow, 1e-3},
     {"m3/s", "m3_s", Dimension::volume_flow, 1.0},
     {"m3/h", "m3_h", Dimension::volume_flow, 1.0 / 3600.0},
+    {"L/h", "L_h", Dimension::volume_flow, 1e-3 / 3600.0},
+    {"mL/min", "mL_min", Dimension::volume_flow, 1e-6 / 60.0},
+    {"gal/min", "gal_min", Dimension::volume_flow, 3.785411784e-3 / 60.0},
     {"mm2/s", "mm2_s", Dimension::kinematic_viscosity, m2_per_s_per_mm2_per_s},
     {"m2/s", "m2_s", Dimension::kinematic_viscosity, 1.0},
     {"kg/m3", "kg_m3", Dimension::density, 1.0},
@@ -45,7 +54,7 @@ constexpr std::array<Unit, 31> table{{
 }};
 
 // Other spellings, in small letters, after plain() has brought them to ASCII.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 40> spellings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 60> spellings{{
     {"-", "1"},
     {"%", "percent"},
     {"pct", "percent"},
@@ -61,7 +70,26 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 40> spelling
     {"volts", "V"},
     {"micron", "um"},
     {"microns", "um"},
+    {"inch", "in"},
+    {"inches", "in"},
+    {"\"", "in"},
+    {"thou", "mil"},
+    {"mils", "mil"},
     {"newton", "N"},
+    {"lb", "lbf"},
+    {"lbs", "lbf"},
+    {"kp", "kgf"},
+    {"kg/cm2", "kgf/cm2"},
+    {"kgf/cm^2", "kgf/cm2"},
+    {"gpm", "gal/min"},
+    {"usgpm", "gal/min"},
+    {"us gpm", "gal/min"},
+    {"us gal/min", "gal/min"},
+    {"l/hr", "L/h"},
+    {"lph", "L/h"},
+    {"cm3/min", "mL/min"},
+    {"ccm/min", "mL/min"},
+    {"cc/min", "mL/min"},
     {"pascal", "Pa"},
     {"degc", "C"},
     {"deg c", "C"},

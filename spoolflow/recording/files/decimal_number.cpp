@@ -1,5 +1,7 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fast_float/fast_float.h>
 #include <system_error>
@@ -19,11 +21,23 @@ std::string_view bare(std::string_view text) {
   return text;
 }
 
+/// How programs write that there is no number.
+bool says_missing(std::string_view text) {
+  constexpr std::array<std::string_view, 10> words{"nan",  "null", "-",   "na",   "n/a",
+                                                   "#n/a", "--",   "---", "none", "1.#qnan"};
+  constexpr std::size_t longest = 8;
+  if (text.size() > longest) return false;
+  std::array<char, longest> small{};
+  std::ranges::transform(text, small.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return std::ranges::count(words, std::string_view(small.data(), text.size())) > 0;
+}
+
 }  // namespace
 
 Digits read_number(std::string_view text, char point, double& value) {
   text = bare(text);
-  if (text.empty()) return Digits::empty;
+  if (text.empty() || says_missing(text)) return Digits::empty;
   constexpr std::size_t longest = 400;  // no number of a recording is longer
   if (text.size() > longest) return Digits::not_a_number;
   if (text.front() == '+' && text.size() > 1 && text[1] != '-') text.remove_prefix(1);

@@ -9,8 +9,8 @@ namespace spoolflow::recording {
 
 enum class Digits : std::uint8_t {
   number,
-  empty,         ///< nothing but spaces
-  not_finite,    ///< nan or inf written out
+  empty,         ///< nothing but spaces, or NaN, NULL, -, n/a and the like
+  not_finite,    ///< inf written out
   out_of_range,  ///< larger than a double can be
   not_a_number,
 };

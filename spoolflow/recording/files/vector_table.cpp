@@ -39,12 +39,10 @@ std::size_t VectorTable::read(std::span<double* const> out, std::size_t rows) {
   count = at_once(next_, count);
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     copy(chosen_[k], next_, count, out[k]);
-    const double* const wrong =
-        std::find_if(out[k], out[k] + count, [](double value) { return !std::isfinite(value); });
+    const double* const wrong = std::find_if(out[k], out[k] + count, [](double value) { return std::isinf(value); });
     if (wrong == out[k] + count) continue;
     throw RecordingError(
-        fmt::format("{}, '{}': {} is not finite; remove or interpolate the samples that are missing "
-                    "(MATLAB: fillmissing) and save again",
+        fmt::format("{}, '{}': {} is not finite; remove it, or write NaN where a sample is missing, and save again",
                     place(static_cast<std::size_t>(wrong - out[k])), columns_[chosen_[k]].name, *wrong));
   }
   next_ += count;

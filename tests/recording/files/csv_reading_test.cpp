@@ -79,11 +79,18 @@ TEST(CsvReading, LeavesTextInColumnsThatNobodyAskedFor) {
 TEST(CsvReading, SaysWhereANumberIsNone) {
   const std::string text = refused("time_s,position_mm\n0,1\n0.001,abc\n");
   EXPECT_THAT(text, HasSubstr("run.csv, line 3, column 'position_mm': 'abc' is not a number"));
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,nan\n"), HasSubstr("line 3, column 'position_mm': 'nan' is not"));
   EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,-inf\n"), HasSubstr("'-inf' is not finite"));
   EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,1e999\n"), HasSubstr("'1e999' is larger than"));
   EXPECT_THAT(refused("time_s,position_mm\n0,1\n,2\n"),
               HasSubstr("line 3, column 'time_s': the time stamp is missing"));
+}
+
+TEST(CsvReading, TakesTheUsualWordsForNoNumberAsMissing) {
+  for (const char* word : {"NaN", "nan", "NULL", "null", "-", "--", "n/a", "#N/A", "1.#QNAN"}) {
+    const Recording run = read("time_s,position_mm\n0,1\n0.001," + std::string(word) + "\n0.002,3\n");
+    ASSERT_EQ(run.size(), 3u) << word;
+    EXPECT_TRUE(std::isnan(run[Channel::position][1])) << word;
+  }
 }
 
 TEST(CsvReading, SaysWhereTimeRunsBackwards) {
@@ -116,7 +123,7 @@ TEST(CsvReading, RefusesFilesWithoutHeaderOrSamples) {
 TEST(CsvReading, NamesAMissingChannelWithTheColumnsThatAreThere) {
   const std::string text = refused("time_s,flow_L_min\n0,1\n");
   EXPECT_THAT(text, HasSubstr("channel position is missing; the columns are time_s, flow_L_min"));
-  EXPECT_THAT(refused("time_s,position_inch\n0,1\n"), HasSubstr("'inch' is no known unit"));
+  EXPECT_THAT(refused("time_s,position_furlong\n0,1\n"), HasSubstr("'furlong' is no known unit"));
 }
 
 TEST(CsvReading, DoesNotStumbleOverLatin1DegreeSigns) {
