@@ -274,12 +274,10 @@ void add_estimate_command(CLI::App& program) {
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");
-  command
-      ->add_option("--json", arguments->json,
-                   "summary to write: samples, mean flow and band, shares of each status, doubts")
+  command->add_option("--json", arguments->json, "summary to write: mean flow and band, share of each status, doubts")
       ->type_name("SUMMARY.json");
   command->add_flag("--strict", arguments->strict,
-                    "exit status 1 where any sample has a fault, or physics speaks against a recording");
+                    "exit status 1 where a sample has a fault or a recording is doubted");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { estimate(*arguments); });
 }

@@ -10,7 +10,7 @@ namespace spoolflow::units {
 namespace {
 
 // Factors of the SI brochure; psi, degF, inch, lbf, kgf and US gallons by NIST SP 811, appendix B.8.
-constexpr std::array<Unit, 40> table{{
+constexpr std::array<Unit, 39> table{{
     {"1", "1", Dimension::ratio, 1.0},
     {"percent", "percent", Dimension::ratio, 0.01},
     {"s", "s", Dimension::time, 1.0},
@@ -23,7 +23,6 @@ constexpr std::array<Unit, 40> table{{
     {"mm", "mm", Dimension::length, 1e-3},
     {"um", "um", Dimension::length, 1e-6},
     {"m", "m", Dimension::length, 1.0},
-    {"cm", "cm", Dimension::length, 1e-2},
     {"in", "in", Dimension::length, 0.0254},
     {"mil", "mil", Dimension::length, 2.54e-5},
     {"N", "N", Dimension::force, 1.0},
