@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ class Judge {
   /// `grave`: faults that last; they come first.
   void add_status(std::vector<Text>& out, bool grave) const;
   void add_band(std::vector<Text>& out) const;
+  void add_bands_of_runs(std::vector<Text>& out) const;
   void add_known_runs(std::vector<Text>& out) const;
 
   const validation::Validation& validation_;
@@ -163,6 +165,28 @@ void Judge::add_band(std::vector<Text>& out) const {
   out.emplace_back(fmt::format("The 95 % band holds {} % of the samples, {} % FS wide on average: {}.",
                                fixed(100 * all.band_coverage, 1), fixed(all.band_mean_width_m3_per_s * percent_, 1),
                                judgement));
+  add_bands_of_runs(out);
+}
+
+void Judge::add_bands_of_runs(std::vector<Text>& out) const {
+  constexpr double least_coverage = 0.92, most_coverage = 0.99, most_widths = 8;
+  std::map<std::string, std::string> narrow, wide;  // by name, whatever the order of the arguments
+  for (const validation::RunResult& run : validation_.runs) {
+    const auto& metrics = run.results.back().metrics;
+    if (!metrics || metrics->all.error.samples == 0) continue;
+    const validation::GroupFigures& all = metrics->all;
+    const std::string share = fmt::format("{} ({} %)", run.name, fixed(100 * all.band_coverage, 1));
+    if (all.band_coverage < least_coverage) narrow[run.name] = share;
+    if (all.band_coverage > most_coverage && all.band_mean_width_m3_per_s > most_widths * all.error.rms)
+      wide[run.name] = share;
+  }
+  const auto tell = [&](const std::map<std::string, std::string>& runs, const char* how) {
+    std::string names;
+    for (const auto& [name, share] : runs) names += (names.empty() ? "" : ", ") + share;
+    if (!names.empty()) out.emplace_back(fmt::format("The band is too {} on {}.", how, names));
+  };
+  tell(narrow, "narrow");
+  tell(wide, "wide");
 }
 
 void Judge::add_known_runs(std::vector<Text>& out) const {
@@ -192,7 +216,7 @@ std::vector<Text> Judge::limits() const {
     add_known_runs(out);
     add_status(out, false);
   }
-  const std::size_t most = doubts + (leading().sign ? 6 : 5);
+  const std::size_t most = doubts + (leading().sign ? 8 : 7);
   if (out.size() > most) out.resize(most);
   return out;
 }

@@ -10,7 +10,7 @@ namespace spoolflow::report {
 
 struct Verdict {
   Text sentence;             ///< the figures
-  std::vector<Text> limits;  ///< what limits them, doubts about runs before all, then the most telling, at most five
+  std::vector<Text> limits;  ///< what limits them, doubts about runs before all, then the most telling, at most seven
 };
 
 [[nodiscard]] Verdict verdict(const model::Model& model, const validation::Validation& validation);
