@@ -43,6 +43,10 @@ struct ContactReading {
 [[nodiscard]] ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, double stroke_m,
                                            const WindowState& window, double pressure_difference_Pa);
 
+/// By how much friction may differ from the calibrated one because strokes are faster, one standard deviation in
+/// usual_fault: contacts age while they slide.
+[[nodiscard]] double friction_unknown_by_speed(const WindowState& window, double stroke_m);
+
 /// All windows so far, the newest counting most.
 struct Contacts {
   ContactReading mean;

@@ -52,6 +52,9 @@ struct Equations {
 constexpr double friction_shape_share = 0.08;
 constexpr double friction_shape_length = 0.25;
 
+/// What rest adds to friction is no better known than by this share of it, one standard deviation, alike in a window.
+constexpr double ageing_share = 0.15;
+
 /// Covariance of the residuals with magnitudes of standard deviations `magnitude_scale`, factorised; empty on failure.
 std::vector<double> factor_of(const Equations& equations, const WindowState& window, const Restlessness& how,
                               double highest_Pa, const Magnitudes& magnitude_scale) {
@@ -72,6 +75,8 @@ std::vector<double> factor_of(const Equations& equations, const WindowState& win
       const double friction = friction_shape_share * friction_shape_share * window.events[r].direction *
                               window.events[c].direction * a.friction_limit_N * b.friction_limit_N;
       sum += friction * std::exp(-apart);
+      sum += ageing_share * ageing_share * window.events[r].direction * window.events[c].direction * a.ageing_N *
+             b.ageing_N;
       for (std::size_t k = 0; k < magnitudes; ++k)
         sum += a.slope_N[k] * b.slope_N[k] * magnitude_scale[k] * magnitude_scale[k];
       out[r * n + c] = sum;
@@ -249,7 +254,7 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   }
   const std::vector<double> factor = factor_of(equations, window, restless[kind], highest_Pa, filled(0));
   if (factor.empty()) return {};
-  WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count, {}};
+  WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count, {}, {}};
   out.misfit = misfit_of(equations, factor, out.evidence);
   const bool settled = std::abs(error_Pa) < unsettled_share * highest_Pa;
   if (!settled || out.misfit > largest_shape_misfit || pressure_Pa < least_shape_pressure_share * highest_Pa)
@@ -260,6 +265,7 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   const double scale = 1 / std::max(out.misfit, least_misfit);
   for (double& value : out.evidence.information) value *= scale;
   for (double& value : out.evidence.pull) value *= scale;
+  out.friction_unknown = friction_unknown_by_speed(window, stroke_m);
   return out;
 }
 

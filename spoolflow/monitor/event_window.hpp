@@ -27,7 +27,8 @@ struct WindowResult {
   double misfit;     ///< mean squared residual over what is expected: 1 where the model holds
   bool shape_tells;  ///< the pressure difference was steady enough for all magnitudes, else for friction alone
   std::size_t events;
-  ContactReading contact{};  ///< where the pressure difference was steady
+  double friction_unknown = 0;  ///< by what the strokes' speed makes of it, one standard deviation [usual_fault]
+  ContactReading contact{};     ///< where the pressure difference was steady
 };
 
 /// Fits a window. None where it has too few events or nothing explains them.
