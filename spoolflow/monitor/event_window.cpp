@@ -37,7 +37,7 @@ constexpr double largest_shape_misfit = 0.6;
 /// shape of its own.
 constexpr double least_shape_pressure_share = 0.1;
 /// A misfit below this is not believed.
-constexpr double least_misfit = 0.35;
+constexpr double least_misfit = 0.25;
 
 /// The window's equations about one pressure difference.
 struct Equations {
