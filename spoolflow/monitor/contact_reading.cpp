@@ -52,10 +52,12 @@ void mean(Weighted& into, double& expected_into, const Weighted& more, double ex
 }
 
 /// Strokes up to this speed [share of the stroke a second] have the calibrated friction. Faster ones have less, as
-/// contacts age while they slide: unknown by so much a doubling, and by no more than that, both in usual_fault.
+/// contacts age while they slide, some valves' more than others': by so much a doubling and no more than that, with one
+/// standard deviation about it, all in usual_fault.
 constexpr double calibrated_speed_1_s = 0.07;
-constexpr double friction_a_doubling = 0.2;
-constexpr double most_friction_by_speed = 0.6;
+constexpr double friction_a_doubling = 0.1;
+constexpr double unknown_a_doubling = 0.12;
+constexpr double most_doublings = 3;
 /// Events tell a speed where they lie in one stroke: no further apart in time, no nearer in position.
 constexpr double longest_between_s = 4;
 constexpr double shortest_between_share = 0.01;
@@ -131,9 +133,10 @@ ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, do
   return out;
 }
 
-double friction_unknown_by_speed(const WindowState& window, double stroke_m) {
-  const double doublings = std::log2(std::max(stroke_speed_1_s(window, stroke_m) / calibrated_speed_1_s, 1.0));
-  return std::min(friction_a_doubling * doublings, most_friction_by_speed);
+SpeedEffect friction_by_speed(const WindowState& window, double stroke_m) {
+  const double faster = std::max(stroke_speed_1_s(window, stroke_m) / calibrated_speed_1_s, 1.0);
+  const double doublings = std::min(std::log2(faster), most_doublings);
+  return {friction_a_doubling * doublings, unknown_a_doubling * doublings};
 }
 
 void learn(Contacts& contacts, const ContactReading& reading) {

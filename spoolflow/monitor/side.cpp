@@ -41,6 +41,10 @@ void follow_resistance(const SideReference& reference, SideState& state) {
 /// than this share of the limit to the chart's sum, so that one alone decides nothing.
 constexpr double share_of_unsteady = 0.5;
 
+/// Odds from which the evidence of three windows (older ones forgotten by and by) raises a chart.
+constexpr double certain_odds = 10;
+constexpr double three_windows = 2.8;
+
 /// How far a value lies beyond what healthy ones do, in standard deviations of the window.
 double beyond(double value, double spread, double deviation) {
   return (value - tolerated_spreads * spread) / deviation;
@@ -82,6 +86,21 @@ void keep_explained(const SideReference& reference, const std::array<Cusum, char
   }
 }
 
+/// A chart rises, too, where all windows of steady pressure, three and more, make its fault that likely.
+void raise_explained(const SideReference& reference, const Limits& limits, SideState& state) {
+  if (state.learnt.shape.weight < three_windows) return;
+  const Isolation found = isolation_of(reference, state);
+  for (std::size_t f = 0; f < isolated_faults; ++f) {
+    if (found.odds[f] < certain_odds) continue;
+    const bool below =
+        first_magnitude[f] == Magnitude::position_zero &&
+        found.value[index(Magnitude::position_zero)] < reference.baseline.centre[index(Magnitude::position_zero)];
+    Cusum& chart = state.chart[below ? zero_below : f];
+    chart.sum = std::max(chart.sum, limits.sum);
+    chart.raised = true;
+  }
+}
+
 void close(const SideReference& reference, const Limits& limits, SideState& state,
            const std::optional<WindowResult>& result) {
   if (!result) return;
@@ -93,6 +112,7 @@ void close(const SideReference& reference, const Limits& limits, SideState& stat
   const std::array<Cusum, charts> before = state.chart;
   follow_charts(reference, limits, state, result->evidence, result->shape_tells);
   keep_explained(reference, before, state);
+  raise_explained(reference, limits, state);
 }
 
 /// The closed stop, once for each time that the coil falls silent.

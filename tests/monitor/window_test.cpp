@@ -126,11 +126,13 @@ TEST(Window, WhatRestAddsToFrictionIsNotTakenForAFault) {
 
 TEST(Window, FasterStrokesLeaveFrictionLessKnown) {
   WindowState window = triangle({1, 0, 0, 0, 0, 0}, 50e5);  // 4 % of the stroke a second
-  EXPECT_EQ(friction_unknown_by_speed(window, example().valve.stroke_m), 0);
+  EXPECT_EQ(friction_by_speed(window, example().valve.stroke_m).unknown, 0);
   for (std::size_t k = 0; k < window.count; ++k) window.events[k].time_s /= 8;
-  const double unknown = friction_unknown_by_speed(window, example().valve.stroke_m);
-  EXPECT_GT(unknown, 0.3);
-  EXPECT_LT(unknown, 0.7);
+  const SpeedEffect faster = friction_by_speed(window, example().valve.stroke_m);
+  const double unknown = faster.unknown;
+  EXPECT_GT(unknown, 0.2);
+  EXPECT_LT(unknown, 0.4);
+  EXPECT_GT(faster.less, 0.1);
   const auto result = fit_window(valve(), example().valve.stroke_m, window);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->friction_unknown, unknown);
