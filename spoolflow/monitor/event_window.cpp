@@ -36,11 +36,8 @@ constexpr double largest_shape_misfit = 0.6;
 /// ... and where the pressure difference is no less than this share of the highest: oil that loads hold back has no
 /// shape of its own.
 constexpr double least_shape_pressure_share = 0.1;
-/// A misfit below this is not believed: in strokes as slow as calibration, and more where speed leaves friction unknown
-/// (by so much a usual_fault), up to the last.
-constexpr double least_misfit = 0.12;
-constexpr double misfit_by_speed = 0.6;
-constexpr double least_misfit_fast = 0.25;
+/// A misfit below this is not believed.
+constexpr double least_misfit = 0.3;
 
 /// The window's equations about one pressure difference.
 struct Equations {
@@ -269,8 +266,7 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   out.friction_unknown = by_speed.unknown;
   for (std::size_t k = 0; k < magnitudes; ++k)
     out.evidence.pull[k] += by_speed.less * out.evidence.information[k * magnitudes + index(Magnitude::friction)];
-  const double floor = std::min(least_misfit + misfit_by_speed * by_speed.unknown, least_misfit_fast);
-  const double scale = 1 / std::max(out.misfit, floor);
+  const double scale = 1 / std::max(out.misfit, least_misfit);
   for (double& value : out.evidence.information) value *= scale;
   for (double& value : out.evidence.pull) value *= scale;
   return out;
