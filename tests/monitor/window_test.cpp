@@ -222,6 +222,25 @@ TEST(Side, AWindowOfWanderingPressureDecidesNothingAlone) {
   EXPECT_TRUE(raised(state));
 }
 
+TEST(Side, ThreeWindowsThatMakeAFaultTenTimesLikelierRaiseIt) {
+  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  constexpr Limits never{1e9, 1e9};  // charts of single windows decide nothing
+  SideState state;
+  for (int window = 1; window <= 3; ++window) {
+    EXPECT_FALSE(raised(state));
+    state.window = triangle({0, 0, 0, 0, 1.5, 0}, 50e5);
+    finish(reference, never, state);
+  }
+  ASSERT_TRUE(raised(state));
+  EXPECT_TRUE(decided(state, isolation_of(reference, state)));
+  SideState healthy;
+  for (int window = 1; window <= 6; ++window) {
+    healthy.window = triangle({}, 50e5);
+    finish(reference, never, healthy);
+  }
+  EXPECT_FALSE(raised(healthy));
+}
+
 TEST(Side, ASilentCoilEndsTheWindowOfASpoolThatFrictionHoldsOpen) {
   SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
   SideState state;
