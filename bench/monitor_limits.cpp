@@ -6,7 +6,8 @@
 /// VALVE is PRESET or PRESET:SEED (drawn from a series), MODEL.json what `campaign` and `calibrate` make of it. Case k
 /// takes valve k modulo their number and has its own noise, strokes, pressure differences and oil temperature. Of each
 /// fault the smallest level is sought by halving that is found, raised and with its own cause first, in all cases but
-/// one of twenty. Keys: cases; strokes; dithered (0, 1; both if absent); fault (its number, all if absent); alarms
+/// one of twenty. Keys: cases; strokes; dithered (0, 1; both if absent); fault (its number, or that after the last for
+/// healthy valves; all if absent); alarms
 /// (wanted a year); amplitude (of the dither, A), frequency (Hz); slowest, fastest (of the strokes, % of the
 /// stroke/s); lowest, highest (level that is tried, in the unit of the fault).
 #include <algorithm>
@@ -270,9 +271,10 @@ int main(int argc, char** argv) {
     const Bench bench = bench_of(argc, argv);
     for (const bool dithered : {false, true}) {
       if (bench.set.at("dithered") >= 0 && dithered != (bench.set.at("dithered") > 0)) continue;
-      if (bench.set.at("fault") < 0) bench.healthy(dithered);
+      const double fault = bench.set.at("fault");
+      if (fault < 0 || fault == static_cast<double>(kinds().size())) bench.healthy(dithered);
       for (std::size_t k = 0; k < kinds().size(); ++k) {
-        if (bench.set.at("fault") >= 0 && static_cast<double>(k) != bench.set.at("fault")) continue;
+        if (fault >= 0 && static_cast<double>(k) != fault) continue;
         bench.seek(kinds()[k], dithered);
       }
     }

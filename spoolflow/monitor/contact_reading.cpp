@@ -51,6 +51,35 @@ void mean(Weighted& into, double& expected_into, const Weighted& more, double ex
   expected_into += share * (expected - expected_into);
 }
 
+/// Strokes up to this speed [share of the stroke a second] have the calibrated friction. Faster ones have less, as
+/// contacts age while they slide, some valves' more than others': by so much a doubling and no more than that, with one
+/// standard deviation about it, all in usual_fault.
+constexpr double calibrated_speed_1_s = 0.07;
+constexpr double friction_a_doubling = 0.1;
+constexpr double unknown_a_doubling = 0.12;
+constexpr double most_doublings = 3;
+/// Events tell a speed where they lie in one stroke: no further apart in time, no nearer in position.
+constexpr double longest_between_s = 4;
+constexpr double shortest_between_share = 0.01;
+constexpr std::size_t least_speeds = 3;
+
+/// Median speed of the travel between neighbouring events [share of the stroke a second]; 0 where too few tell.
+double stroke_speed_1_s(const WindowState& window, double stroke_m) {
+  std::array<double, window_events> speed_1_s{};
+  std::size_t count = 0;
+  for (std::size_t k = 1; k < window.count; ++k) {
+    const ForceEvent &from = window.events[k - 1], &to = window.events[k];
+    const double time_s = to.time_s - from.time_s;
+    const double way = to.direction * (to.position_m - from.position_m) / stroke_m;
+    if (from.direction == to.direction && time_s > 0 && time_s < longest_between_s && way > shortest_between_share)
+      speed_1_s[count++] = way / time_s;
+  }
+  if (count < least_speeds) return 0;
+  const auto middle = speed_1_s.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(speed_1_s.begin(), middle, speed_1_s.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
 }  // namespace
 
 ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, double stroke_m,
@@ -102,6 +131,12 @@ ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, do
     out.breakaway_expected_N = expected_N / told;
   }
   return out;
+}
+
+SpeedEffect friction_by_speed(const WindowState& window, double stroke_m) {
+  const double faster = std::max(stroke_speed_1_s(window, stroke_m) / calibrated_speed_1_s, 1.0);
+  const double doublings = std::min(std::log2(faster), most_doublings);
+  return {friction_a_doubling * doublings, unknown_a_doubling * doublings};
 }
 
 void learn(Contacts& contacts, const ContactReading& reading) {

@@ -43,6 +43,13 @@ struct ContactReading {
 [[nodiscard]] ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, double stroke_m,
                                            const WindowState& window, double pressure_difference_Pa);
 
+/// What faster strokes than those of calibration do to friction [usual_fault], as contacts age while they slide.
+struct SpeedEffect {
+  double less;     ///< friction than the calibrated, >= 0
+  double unknown;  ///< one standard deviation about it
+};
+[[nodiscard]] SpeedEffect friction_by_speed(const WindowState& window, double stroke_m);
+
 /// All windows so far, the newest counting most.
 struct Contacts {
   ContactReading mean;

@@ -113,10 +113,12 @@ FoundEvents find_events(const sensor::ObserverParameters<double>& valve, double 
 
   const double threshold_m = std::max(breakaway_travel_m, breakaway_noises * valve.position_sensor.noise_m);
   const double from_m = block.position_m - state.rest_m;
-  const bool breaks = state.resting && std::abs(from_m) > threshold_m;
+  const bool jumps = std::abs(block.position_m - state.last[2].position_m) > breakaway_jump_share * threshold_m;
+  const bool breaks =
+      state.resting && std::abs(from_m) > threshold_m && (jumps || std::abs(from_m) > creep_travels * threshold_m);
   if (breaks) {
     const double rested_s = state.still_s - state.rest_since_s;
-    if (!dithered && !slides && state.blocks > 3 && rested_s > shortest_event_rest_s &&
+    if (!dithered && !slides && jumps && state.blocks > 3 && rested_s > shortest_event_rest_s &&
         rested_s < longest_event_rest_s && tells(state.rest_m, stroke_m)) {
       const double direction = from_m > 0 ? 1 : -1;
       ForceEvent found = event(state.last[2], sample.time_s, direction, EventKind::breakaway);

@@ -13,6 +13,10 @@ inline constexpr double event_block_s = 2e-3;
 /// The spool has broken away where it stands further from its rest than pre-sliding and noise explain [m].
 inline constexpr double breakaway_travel_m = 6e-6;
 inline constexpr double breakaway_noises = 8;  ///< and than so many standard deviations of the position's noise
+/// A spool that breaks away jumps by this share of it within two blocks. Slower, contacts creep before they slide, and
+/// rest on until they have crept so many times as far.
+inline constexpr double breakaway_jump_share = 0.5;
+inline constexpr double creep_travels = 2.5;
 /// Shorter rests [s] are part of a motion; after longer ones nobody knows how far contacts have aged.
 inline constexpr double shortest_event_rest_s = 0.03;
 inline constexpr double longest_event_rest_s = 1.5;

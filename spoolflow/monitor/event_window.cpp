@@ -37,7 +37,7 @@ constexpr double largest_shape_misfit = 0.6;
 /// shape of its own.
 constexpr double least_shape_pressure_share = 0.1;
 /// A misfit below this is not believed.
-constexpr double least_misfit = 0.35;
+constexpr double least_misfit = 0.3;
 
 /// The window's equations about one pressure difference.
 struct Equations {
@@ -51,6 +51,9 @@ struct Equations {
 /// share of the stroke, and the same both ways.
 constexpr double friction_shape_share = 0.08;
 constexpr double friction_shape_length = 0.25;
+
+/// What rest adds to friction is no better known than by this share of it, one standard deviation, alike in a window.
+constexpr double ageing_share = 0.15;
 
 /// Covariance of the residuals with magnitudes of standard deviations `magnitude_scale`, factorised; empty on failure.
 std::vector<double> factor_of(const Equations& equations, const WindowState& window, const Restlessness& how,
@@ -72,6 +75,8 @@ std::vector<double> factor_of(const Equations& equations, const WindowState& win
       const double friction = friction_shape_share * friction_shape_share * window.events[r].direction *
                               window.events[c].direction * a.friction_limit_N * b.friction_limit_N;
       sum += friction * std::exp(-apart);
+      sum += ageing_share * ageing_share * window.events[r].direction * window.events[c].direction * a.ageing_N *
+             b.ageing_N;
       for (std::size_t k = 0; k < magnitudes; ++k)
         sum += a.slope_N[k] * b.slope_N[k] * magnitude_scale[k] * magnitude_scale[k];
       out[r * n + c] = sum;
@@ -249,7 +254,7 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   }
   const std::vector<double> factor = factor_of(equations, window, restless[kind], highest_Pa, filled(0));
   if (factor.empty()) return {};
-  WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count, {}};
+  WindowResult out{evidence_of(equations, factor), pressure_Pa, 0, kind < steady_kinds, window.count, {}, {}};
   out.misfit = misfit_of(equations, factor, out.evidence);
   const bool settled = std::abs(error_Pa) < unsettled_share * highest_Pa;
   if (!settled || out.misfit > largest_shape_misfit || pressure_Pa < least_shape_pressure_share * highest_Pa)
@@ -257,6 +262,10 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   if (out.misfit > largest_misfit) return {};
   if (settled && kind < steady_kinds) out.contact = read_contacts(valve, stroke_m, window, pressure_Pa);
   if (!out.shape_tells) out.evidence = friction_only(out.evidence);
+  const SpeedEffect by_speed = friction_by_speed(window, stroke_m);
+  out.friction_unknown = by_speed.unknown;
+  for (std::size_t k = 0; k < magnitudes; ++k)
+    out.evidence.pull[k] += by_speed.less * out.evidence.information[k * magnitudes + index(Magnitude::friction)];
   const double scale = 1 / std::max(out.misfit, least_misfit);
   for (double& value : out.evidence.information) value *= scale;
   for (double& value : out.evidence.pull) value *= scale;

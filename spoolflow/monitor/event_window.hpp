@@ -11,7 +11,7 @@ namespace spoolflow::monitor {
 
 inline constexpr std::size_t least_window_events = 8;
 inline constexpr double longest_window_s = 60;
-inline constexpr double longest_event_gap_s = 12;  ///< a longer pause ends the window
+inline constexpr double longest_event_gap_s = 20;  ///< a longer pause ends the window
 /// Events in one direction within this share of the stroke and this time [s] count as one.
 inline constexpr double alike_position_share = 0.025;
 inline constexpr double alike_time_s = 1.0;
@@ -27,7 +27,8 @@ struct WindowResult {
   double misfit;     ///< mean squared residual over what is expected: 1 where the model holds
   bool shape_tells;  ///< the pressure difference was steady enough for all magnitudes, else for friction alone
   std::size_t events;
-  ContactReading contact{};  ///< where the pressure difference was steady
+  double friction_unknown = 0;  ///< by what the strokes' speed makes of it, one standard deviation [usual_fault]
+  ContactReading contact{};     ///< where the pressure difference was steady
 };
 
 /// Fits a window. None where it has too few events or nothing explains them.

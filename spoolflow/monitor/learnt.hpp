@@ -55,6 +55,20 @@ inline void learn(MeanEvidence& mean, const Evidence& evidence) {
   mean.weight = mean.weight * left + 1;
 }
 
+/// The same evidence where friction is off by an unknown with that standard deviation [usual_fault].
+inline Evidence with_friction_unknown(const Evidence& evidence, double deviation) {
+  if (!(deviation > 0)) return evidence;
+  constexpr std::size_t friction = index(Magnitude::friction);
+  const auto of = [&](std::size_t row) { return evidence.information[row * magnitudes + friction]; };
+  const double precision = 1 / (deviation * deviation) + of(friction);
+  Evidence out = evidence;
+  for (std::size_t r = 0; r < magnitudes; ++r) {
+    out.pull[r] -= of(r) * evidence.pull[friction] / precision;
+    for (std::size_t c = 0; c < magnitudes; ++c) out.information[r * magnitudes + c] -= of(r) * of(c) / precision;
+  }
+  return out;
+}
+
 inline void add(Evidence& to, const MeanEvidence& mean) {
   if (mean.weight == 0) return;
   const double share = mean.weight < independent_windows ? 1.0 : independent_windows / mean.weight;

@@ -37,6 +37,14 @@ void follow_resistance(const SideReference& reference, SideState& state) {
   state.resistive = state.winding.resistance_Ohm - 2 * resistance_deviation_Ohm(state.winding) > base_Ohm + excess_Ohm;
 }
 
+/// Where the pressure wanders, its step between opening and closing is as good as friction: such a window adds no more
+/// than this share of the limit to the chart's sum, so that one alone decides nothing.
+constexpr double share_of_unsteady = 0.5;
+
+/// Odds from which the evidence of three windows (older ones forgotten by and by) raises a chart.
+constexpr double certain_odds = 10;
+constexpr double three_windows = 2.8;
+
 /// How far a value lies beyond what healthy ones do, in standard deviations of the window.
 double beyond(double value, double spread, double deviation) {
   return (value - tolerated_spreads * spread) / deviation;
@@ -54,7 +62,9 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
     if (!std::isfinite(found.deviation)) continue;
     const double spread = base.spread[index(first_magnitude[f])];
     if (found.deviation < usual_deviation) follow(state.course[f], state.watched_s / 3600, found.value);
-    follow(state.chart[f], beyond(found.value, spread, found.deviation), cusum_allowance, limits.sum, limits.single);
+    const double most = shape_tells ? limits.single + 1 : share_of_unsteady * limits.sum + cusum_allowance;
+    const double above = std::min(beyond(found.value, spread, found.deviation), most);
+    follow(state.chart[f], above, cusum_allowance, limits.sum, limits.single);
     const double below = beyond(-found.value, spread, found.deviation);
     if (f == static_cast<std::size_t>(Fault::position_sensor)) {
       follow(state.chart[zero_below], below, cusum_allowance, limits.sum, limits.single);
@@ -66,14 +76,43 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
   if (judged) follow(state.chart[against_faults], against, 2 * cusum_allowance, limits.sum);
 }
 
+/// A chart that has risen falls only once the evidence of all windows, too, speaks against its fault: operation that
+/// tells little of it, as faster strokes, is no repair.
+void keep_explained(const SideReference& reference, const std::array<Cusum, charts>& before, SideState& state) {
+  for (std::size_t k = 0; k < against_faults; ++k) {
+    if (!before[k].raised || state.chart[k].raised) continue;
+    const std::size_t fault = std::min(k, isolated_faults - 1);
+    state.chart[k].raised = isolation_of(reference, state).odds[fault] >= 1;
+  }
+}
+
+/// A chart rises, too, where all windows of steady pressure, three and more, make its fault that likely.
+void raise_explained(const SideReference& reference, const Limits& limits, SideState& state) {
+  if (state.learnt.shape.weight < three_windows) return;
+  const Isolation found = isolation_of(reference, state);
+  for (std::size_t f = 0; f < isolated_faults; ++f) {
+    if (found.odds[f] < certain_odds) continue;
+    const bool below =
+        first_magnitude[f] == Magnitude::position_zero &&
+        found.value[index(Magnitude::position_zero)] < reference.baseline.centre[index(Magnitude::position_zero)];
+    Cusum& chart = state.chart[below ? zero_below : f];
+    chart.sum = std::max(chart.sum, limits.sum);
+    chart.raised = true;
+  }
+}
+
 void close(const SideReference& reference, const Limits& limits, SideState& state,
            const std::optional<WindowResult>& result) {
   if (!result) return;
   ++state.windows;
   state.pressure_Pa = result->pressure_difference_Pa;
   learn(state.contacts, result->contact);
-  learn(result->shape_tells ? state.learnt.shape : state.learnt.friction, result->evidence);
+  learn(result->shape_tells ? state.learnt.shape : state.learnt.friction,
+        with_friction_unknown(result->evidence, result->friction_unknown));
+  const std::array<Cusum, charts> before = state.chart;
   follow_charts(reference, limits, state, result->evidence, result->shape_tells);
+  keep_explained(reference, before, state);
+  raise_explained(reference, limits, state);
 }
 
 /// The closed stop, once for each time that the coil falls silent.
@@ -112,7 +151,10 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
 void follow_closing(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
   constexpr double closed_share = 0.6;
   const double stop_m = closed_stop_m(*reference.valve);
-  const bool closed = sample.motion.position_m - stop_m < closed_share * (reference.valve->closed_below_m - stop_m);
+  // Friction holds a worn spool open: then the silent coil says that it is meant to be closed.
+  const bool silent = sample.motion.current_A < silent_current_share * reference.valve->largest_current_A;
+  const bool closed =
+      silent || sample.motion.position_m - stop_m < closed_share * (reference.valve->closed_below_m - stop_m);
   const double before_s = state.window.closed_s;
   state.window.closed_s = closed ? before_s + sample.motion.time_step_s : 0;
   if (closed && before_s < closing_pause_s && state.window.closed_s >= closing_pause_s && state.window.count > 0)

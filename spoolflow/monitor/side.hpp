@@ -80,7 +80,7 @@ inline constexpr std::array<Magnitude, isolated_faults> first_magnitude{
 /// out and is weighed here.
 [[nodiscard]] bool decided(const SideState& state, const Isolation& found);
 /// Odds from which a raised chart is told with a fault that is not likelier than not.
-inline constexpr double least_told_odds = 0.1;
+inline constexpr double least_told_odds = 0.5;
 [[nodiscard]] SideBaseline baseline_of(const SideReference& reference, const SideState& state);
 
 }  // namespace spoolflow::monitor

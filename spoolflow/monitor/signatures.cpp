@@ -23,7 +23,7 @@ constexpr double rounding_begins_m = 20e-6;
 /// adds, as a share of that.
 constexpr double limit_scatter_share = 0.06;
 constexpr double force_scatter_N = 0.25;
-constexpr double ageing_scatter_share = 0.25;
+constexpr double ageing_scatter_share = 0.15;
 /// Under dither friction is told by its swing alone: as a share of its limit.
 constexpr double dithered_scatter_share = 0.25;
 

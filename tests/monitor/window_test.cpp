@@ -8,6 +8,7 @@
 #include "spoolflow/monitor/event_finder.hpp"
 #include "spoolflow/monitor/event_window.hpp"
 #include "spoolflow/monitor/isolation.hpp"
+#include "spoolflow/monitor/side.hpp"
 #include "tests/monitor/example.hpp"
 
 namespace spoolflow::monitor {
@@ -109,6 +110,39 @@ TEST(Window, AHuntingSpoolsEventsAreMergedEachWay) {
   EXPECT_EQ(window.events[0].count, 3);
 }
 
+TEST(Window, WhatRestAddsToFrictionIsNotTakenForAFault) {
+  WindowState window = triangle({}, 50e5);
+  for (std::size_t k = 0; k < window.count; ++k) {
+    ForceEvent& event = window.events[k];
+    const Explained healthy = explain(valve(), example().valve.stroke_m, event, 50e5);
+    event.net_force_N -= 0.5 * event.direction * healthy.ageing_N;  // contacts age half as much as the model's
+  }
+  const auto result = fit_window(valve(), example().valve.stroke_m, window);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->shape_tells);
+  const Isolation found = isolate(result->evidence, {}, healthy_spread);
+  for (const bool there : found.likeliest) EXPECT_FALSE(there);
+}
+
+TEST(Window, FasterStrokesLeaveFrictionLessKnown) {
+  WindowState window = triangle({1, 0, 0, 0, 0, 0}, 50e5);  // 4 % of the stroke a second
+  EXPECT_EQ(friction_by_speed(window, example().valve.stroke_m).unknown, 0);
+  for (std::size_t k = 0; k < window.count; ++k) window.events[k].time_s /= 8;
+  const SpeedEffect faster = friction_by_speed(window, example().valve.stroke_m);
+  const double unknown = faster.unknown;
+  EXPECT_GT(unknown, 0.2);
+  EXPECT_LT(unknown, 0.4);
+  EXPECT_GT(faster.less, 0.1);
+  const auto result = fit_window(valve(), example().valve.stroke_m, window);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->friction_unknown, unknown);
+  const Evidence loosened = with_friction_unknown(result->evidence, unknown);
+  const auto deviation = [](const Evidence& evidence) {
+    return score(evidence, {}, healthy_spread, Fault::friction).deviation;
+  };
+  EXPECT_NEAR(deviation(loosened), std::hypot(deviation(result->evidence), unknown), 1e-6);
+}
+
 TEST(EventFinder, TellsTheForceAtWhichARestingSpoolBreaksAway) {
   FinderState state;
   std::vector<ForceEvent> found;
@@ -136,6 +170,98 @@ TEST(EventFinder, TellsTheForceAtWhichARestingSpoolBreaksAway) {
   EXPECT_NEAR(found[0].rested_s, 0.4, 0.01);
   EXPECT_EQ(found[0].direction, 1);
   EXPECT_NEAR(found[0].position_m, begin_m + 30e-6, 1e-9);
+}
+
+TEST(EventFinder, ContactsThatCreepDoNotBreakAway) {
+  FinderState state;
+  std::vector<ForceEvent> found;
+  const double begin_m = 0.4 * example().valve.stroke_m;
+  // A jump, a rest of 0.4 s in which contacts creep by 10 um, and the break-away.
+  for (int k = 0; k < 1000; ++k) {
+    const int in_rest = k - 400;
+    const double crept_m = in_rest < 0 ? 0 : 10e-6 * std::min(in_rest, 400) / 400;
+    const double jumped_m = (in_rest >= 0 ? 40e-6 : 0) + (in_rest >= 400 ? 100e-6 : 0);
+    const FinderSample sample{.time_s = 1e-3 * k,
+                              .time_step_s = 1e-3,
+                              .position_m = begin_m + jumped_m + crept_m,
+                              .net_force_N = 10 + 2.0 * (k % 400) / 400,
+                              .friction_N = 0,
+                              .current_A = 1,
+                              .oil_temperature_K = 323,
+                              .pressure_difference_Pa = 50e5,
+                              .sliding = false,
+                              .dithered = false};
+    const FoundEvents events = find_events(valve(), example().valve.stroke_m, state, sample);
+    if (events.breakaway) found.push_back(*events.breakaway);
+  }
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].rested_s, 0.4, 0.01);
+}
+
+TEST(Side, AWindowOfWanderingPressureDecidesNothingAlone) {
+  WindowState window = triangle({2, 0, 0, 0, 0, 0}, 50e5);
+  for (std::size_t k = 0; k < window.count; ++k) {  // the pressure walks up and down by a tenth in two seconds
+    const double off_Pa = (window.events[k].time_s < 9 || window.events[k].time_s > 27 ? 8e5 : -8e5);
+    window.events[k].net_force_N +=
+        off_Pa * explain(valve(), example().valve.stroke_m, window.events[k], 50e5).per_pressure_N_Pa;
+  }
+  const auto result = fit_window(valve(), example().valve.stroke_m, window);
+  ASSERT_TRUE(result);
+  ASSERT_FALSE(result->shape_tells);
+  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  SideState state;
+  const Limits limits = limits_for(1);
+  state.window = window;
+  finish(reference, limits, state);
+  EXPECT_FALSE(raised(state));
+  state.window = window;
+  finish(reference, limits, state);
+  EXPECT_FALSE(raised(state));
+  state.window = window;
+  finish(reference, limits, state);
+  EXPECT_TRUE(raised(state));
+}
+
+TEST(Side, ThreeWindowsThatMakeAFaultTenTimesLikelierRaiseIt) {
+  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  constexpr Limits never{1e9, 1e9};  // charts of single windows decide nothing
+  SideState state;
+  for (int window = 1; window <= 3; ++window) {
+    EXPECT_FALSE(raised(state));
+    state.window = triangle({0, 0, 0, 0, 1.5, 0}, 50e5);
+    finish(reference, never, state);
+  }
+  ASSERT_TRUE(raised(state));
+  EXPECT_TRUE(decided(state, isolation_of(reference, state)));
+  SideState healthy;
+  for (int window = 1; window <= 6; ++window) {
+    healthy.window = triangle({}, 50e5);
+    finish(reference, never, healthy);
+  }
+  EXPECT_FALSE(raised(healthy));
+}
+
+TEST(Side, ASilentCoilEndsTheWindowOfASpoolThatFrictionHoldsOpen) {
+  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  SideState state;
+  state.window = triangle({}, 50e5);
+  const double ended_s = state.window.events[state.window.count - 1].time_s;
+  const double held_m = 0.9 * valve().closed_below_m;
+  for (int k = 1; k <= 500; ++k) {
+    const FinderSample motion{.time_s = ended_s + 1e-3 * k,
+                              .time_step_s = 1e-3,
+                              .position_m = held_m,
+                              .net_force_N = 0,
+                              .friction_N = 0,
+                              .current_A = 0,
+                              .oil_temperature_K = 323,
+                              .pressure_difference_Pa = 50e5,
+                              .sliding = false,
+                              .dithered = false};
+    take(reference, limits_for(1), state, {motion, 0, held_m, true});
+  }
+  EXPECT_EQ(state.windows, 1);
+  EXPECT_EQ(state.window.count, 0U);
 }
 
 }  // namespace
