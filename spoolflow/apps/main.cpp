@@ -41,6 +41,8 @@ void add_commands(CLI::App& program) {
   add_live_command(program);
   add_history_command(program);
   add_account_command(program);
+  add_worker_command(program);
+  add_fleet_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

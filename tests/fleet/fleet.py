@@ -1,0 +1,141 @@
+"""Sites and workers of a fleet on loopback, and what they must have kept."""
+import json
+import os
+import re
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "live"))
+from served import Live  # noqa: E402
+from servers import until  # noqa: E402
+
+
+class Worker:
+    def __init__(self, command, folder, name):
+        self.name, self.log = name, os.path.join(folder, f"{name}.log")
+        with open(os.path.join(folder, "fleet.toml"), encoding="utf-8") as file:
+            text = file.read()
+        self.file = os.path.join(folder, f"{name}.toml")
+        with open(self.file, "w", encoding="utf-8") as file:
+            file.write(re.sub(r'name = ".*"', f'name = "{name}"', text))
+        self.command = command
+        self.start()
+
+    def start(self):
+        with open(self.log, "a", encoding="utf-8") as log:
+            self.process = subprocess.Popen([self.command, "worker", self.file], stderr=log)
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def signal(self, number):
+        self.process.send_signal(number)
+
+    def end(self):
+        self.process.send_signal(signal.SIGTERM)
+        assert self.process.wait(timeout=60) == 0, self.name
+
+
+def make_recordings(command, folder, seconds):
+    """Two valves of a series: a sound one, and one that is worn."""
+    for name, seed, wear in (("sound", 3, ""), ("worn", 4, "[wear]\nedge_rounding_m = 60e-6\nfriction_factor = 3\n")):
+        scenario = os.path.join(folder, f"{name}.toml")
+        with open(scenario, "w", encoding="utf-8") as file:
+            file.write(f'protocol = "duty_cycle"\nvalve = "size_6"\nseed = {seed}\n{wear}')
+        recording = os.path.join(folder, f"{name}.csv")
+        subprocess.run([command, "simulate", "-q", scenario, "-o", recording], check=True)
+        with open(recording, encoding="utf-8") as file:
+            lines = [line for _, line in zip(range(1 + 1000 * seconds), file)]
+        with open(recording, "w", encoding="utf-8") as file:
+            file.writelines(lines)
+
+
+def write_site(folder, model, valves, block_s):
+    text = f'[store]\nfile = "site.sqlite"\n[fleet]\nsite = "hall"\nblock_s = {block_s}\n'
+    for k in range(valves):
+        text += (f'[[valve]]\nid = "v{k}"\nmodel = "{model}"\n'
+                 f'source = {{ kind = "replay", recording = "{("sound", "worn")[k % 2]}.csv", speed = 0 }}\n')
+    with open(os.path.join(folder, "site.toml"), "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def write_fleet(folder, nats_ports, postgres_ports, replicas):
+    servers = ",".join(f"127.0.0.1:{port}" for port in nats_ports)
+    hosts, ports = ",".join(["127.0.0.1"] * len(postgres_ports)), ",".join(map(str, postgres_ports))
+    with open(os.path.join(folder, "fleet.toml"), "w", encoding="utf-8") as file:
+        file.write(f'sites = ["hall"]\n[nats]\nservers = "nats://{servers}"\nreplicas = {replicas}\n'
+                   f'[postgresql]\nconnection = "host={hosts} port={ports} user=postgres dbname=postgres '
+                   f'target_session_attrs=read-write"\n[worker]\nname = "w"\nlease_s = 3\ncommit_s = 0.3\n'
+                   f'[alarms]\nraised_after_s = 0\ngone_after_s = 0.05\n')
+
+
+def site(command, folder, servers):
+    return Live(command, folder, "site.toml", "--listen", "127.0.0.1:0", "--publish", servers)
+
+
+def record_offline(command, folder, servers, valves, samples):
+    """The site works through its recordings while no server is there: all blocks stay in its store."""
+    with site(command, folder, servers) as live:
+        def done():
+            answer = json.loads(live.ask("/api/v1/valves")[2])["valves"]
+            return len(answer) == valves and all(one["samples"] == samples for one in answer)
+        until(done, 120, "recordings that are worked on")
+
+
+def outbox(folder):
+    """Blocks that wait, and the newest number of each valve."""
+    store = sqlite3.connect(f"file:{folder}/site.sqlite?mode=ro", uri=True, timeout=10)
+    waiting = store.execute("SELECT count(*) FROM outbox").fetchone()[0]
+    newest = dict(store.execute("SELECT valve, number FROM outbox_position"))
+    totals = {row[0]: row[1:] for row in store.execute(
+        "SELECT id, samples, energy_J FROM state JOIN valve ON state.valve = valve.number")}
+    store.close()
+    return waiting, newest, totals
+
+
+QUERIES = (
+    "SELECT 'second', id, session, block, wall_ms, float8send(time_s), samples, float8send(flow_min), "
+    "float8send(flow_mean), float8send(flow_max), float8send(lower_min), float8send(upper_max), float8send(energy_J), "
+    "status FROM second JOIN valve ON valve = number ORDER BY id, session, block",
+    "SELECT 'indicator', id, session, block, wall_ms, name, float8send(value), float8send(uncertainty_95), "
+    "float8send(baseline), state FROM indicator JOIN valve ON valve = number",
+    "SELECT 'event', valve, wall_ms, float8send(time_s), kind, text FROM event ORDER BY valve, id",
+    "SELECT 'model_in_force', id, session, from_block, sha256 FROM model_in_force JOIN valve ON valve = number",
+    "SELECT 'coverage', id, session, block, wall_ms, minute, model FROM coverage JOIN valve ON valve = number",
+    "SELECT 'state', id, next, samples, float8send(energy_J) FROM state JOIN valve ON valve = number",
+    "SELECT 'alarm', valve, id, cause, sign, raised_ms, gone_ms, times, float8send(time_s), text FROM alarm")
+
+
+def kept(postgres):
+    """All rows of the fleet, as fleet_reference prints them; events of each valve in their order."""
+    return [line for query in QUERIES for line in postgres.ask(query)]
+
+
+def compared(lines):
+    """In an order of their own, but for events, whose order within a valve counts."""
+    events = [line for line in lines if line.startswith("event|")]
+    of_valves = sorted(events, key=lambda line: line.split("|")[1])  # stable
+    return sorted(line for line in lines if not line.startswith("event|")) + of_valves
+
+
+def progress(postgres):
+    try:
+        return int(postgres.ask("SELECT coalesce(sum(block), 0) FROM coverage")[0])
+    except RuntimeError:
+        return -1
+
+
+def reach(postgres, blocks, seconds=90):
+    """When so many blocks are committed."""
+    end = time.monotonic() + seconds
+    while True:
+        now = progress(postgres)
+        if now >= blocks:
+            return now
+        if time.monotonic() > end:
+            raise AssertionError(f"{now} of {blocks} blocks after {seconds} s")
+        time.sleep(0.05)
