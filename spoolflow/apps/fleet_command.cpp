@@ -48,7 +48,7 @@ void setup(const fleet::FleetSettings& settings) {
   } else {
     say("NATS: no server can be reached, or none lets this user in; the first worker makes the stream\n");
   }
-  print("{}\n{}", fleet::nats_configuration(settings), fleet::postgresql_configuration());
+  print_text(fleet::nats_configuration(settings) + "\n" + fleet::postgresql_configuration());
 }
 
 void status(const fleet::FleetSettings& settings) {

@@ -15,7 +15,6 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/standard_streams.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"

@@ -6,6 +6,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import threading
 import time
 
 
@@ -150,3 +151,69 @@ class Postgres:
         if done.returncode != 0:
             raise RuntimeError(done.stderr)
         return done.stdout.splitlines()
+
+
+class Gate:
+    """A way to a server that can be closed: what went through it is cut off, and nothing else gets through."""
+
+    def __init__(self, to):
+        self.to, self.open, self.pairs = to, True, []
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.let_in, daemon=True).start()
+
+    def let_in(self):
+        while True:
+            try:
+                inner, _ = self.listener.accept()
+            except OSError:
+                return
+            try:
+                if not self.open:
+                    raise OSError
+                outer = socket.create_connection(("127.0.0.1", self.to), 2)
+            except OSError:
+                inner.close()
+                continue
+            outer.settimeout(None)
+            self.pairs.append((inner, outer))
+            for source, sink in ((inner, outer), (outer, inner)):
+                threading.Thread(target=self.carry, args=(source, sink), daemon=True).start()
+
+    @staticmethod
+    def carry(source, sink):
+        try:
+            while piece := source.recv(65536):
+                sink.sendall(piece)
+        except OSError:
+            pass
+        for one in (source, sink):
+            try:
+                one.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                pass
+
+    def close(self):
+        self.open = False
+        for pair in self.pairs:
+            for one in pair:
+                try:
+                    one.shutdown(socket.SHUT_RDWR)
+                except OSError:
+                    pass
+        self.pairs.clear()
+
+    def stop(self):
+        self.close()
+        self.listener.close()
+
+
+def ask_nats(port, subject):
+    """One request without content in the servers' own words; what came back."""
+    with socket.create_connection(("127.0.0.1", port), 5) as raw:
+        raw.settimeout(5)
+        raw.sendall(b'CONNECT {"verbose":false}\r\nSUB answer 1\r\nPUB ' + subject.encode() + b" answer 0\r\n\r\n")
+        got = b""
+        while b"MSG answer" not in got or not got.endswith(b"}\r\n"):
+            got += raw.recv(65536)
+        return got.split(b"\r\n")[-2].decode()
