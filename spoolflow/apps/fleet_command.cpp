@@ -92,7 +92,7 @@ void worker_command(const FleetArguments& arguments) {
     wait_for_the_end();
     worker.stop();
   }
-  say("ended; what came until now is committed\n");
+  say("ended\n");
 }
 
 }  // namespace

@@ -36,14 +36,22 @@ Worker::Worker(FleetSettings settings, std::string program, std::function<void(c
       program_(std::move(program)),
       owner_(owner_name(settings_.worker.name)),
       tell_(std::move(tell)) {
-  Session session(settings_.connection, owner_);
+  nats_ = std::make_unique<Connection>(access_of(settings_.servers, settings_.login), owner_);
+  try {
+    Session session(settings_.connection, owner_);
+    learn_settings(session);
+  } catch (const ServerAway& error) {  // as later, too: it is waited for
+    tell_(error.what());
+  }
+  keeper_ = std::jthread([this](const std::stop_token& stop) { keep_share(stop); });
+}
+
+void Worker::learn_settings(Session& session) {
   shared_ = read_settings(session);
   if (shared_.partitions != partition_count) {
     throw ServerRefuses(fmt::format("the fleet has {} partitions, this program knows {}; use the program that made it",
                                     shared_.partitions, partition_count));
   }
-  nats_ = std::make_unique<Connection>(access_of(settings_.servers, settings_.login), owner_);
-  keeper_ = std::jthread([this](const std::stop_token& stop) { keep_share(stop); });
 }
 
 Worker::~Worker() {
@@ -69,6 +77,7 @@ void Worker::keep_share(const std::stop_token& stop) {
   do {
     try {
       if (!session) session.emplace(settings_.connection, owner_);
+      if (shared_.partitions == 0) learn_settings(*session);
       spread(*session);
       told.clear();
     } catch (const std::exception& error) {

@@ -17,8 +17,8 @@ namespace spoolflow::fleet {
 
 class Worker {
  public:
-  /// Throws ServerAway, ServerRefuses, LoginError. `program`: name and version. `tell` is called with what is worth a
-  /// line, from any thread.
+  /// Servers that are away are waited for. Throws ServerRefuses, LoginError. `program`: name and version. `tell` is
+  /// called with what is worth a line, from any thread.
   Worker(FleetSettings settings, std::string program, std::function<void(const std::string&)> tell);
   ~Worker();
   Worker(const Worker&) = delete;
@@ -29,6 +29,7 @@ class Worker {
  private:
   struct Task;
   void keep_share(const std::stop_token& stop);
+  void learn_settings(Session& session);
   void spread(Session& session);
   void begin(const Claim& claim);
 
@@ -36,7 +37,7 @@ class Worker {
   std::string program_, owner_;
   std::function<void(const std::string&)> tell_;
   std::unique_ptr<Connection> nats_;
-  SharedSettings shared_;
+  SharedSettings shared_;  ///< no partitions: not known yet
   Models models_;
   std::map<std::int64_t, std::unique_ptr<Task>> tasks_;  ///< by partition
   std::jthread keeper_;                                  ///< last: it uses the others

@@ -42,7 +42,9 @@ class Worker:
 
     def end(self):
         self.process.send_signal(signal.SIGTERM)
-        assert self.process.wait(timeout=60) == 0, self.name
+        status = self.process.wait(timeout=60)
+        with open(self.log, encoding="utf-8") as log:
+            assert status == 0, f"{self.name} ended with {status}: {log.read()[-2000:]}"
 
 
 def make_recordings(command, folder, seconds):

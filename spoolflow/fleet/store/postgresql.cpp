@@ -15,7 +15,7 @@ namespace {
 std::string said(const char* message) {
   std::string out = message == nullptr ? "" : message;
   for (char& c : out) {
-    if (c == '\n') c = ' ';
+    if (c == '\n' || c == '\t') c = ' ';
   }
   while (!out.empty() && out.back() == ' ') out.pop_back();
   return out;
@@ -113,6 +113,8 @@ Session::Session(const std::string& connection, const std::string& name) {
   if (PQstatus(handle_.get()) != CONNECTION_OK) {
     throw ServerAway(fmt::format("PostgreSQL cannot be reached: {}", said(PQerrorMessage(handle_.get()))));
   }
+  PQsetNoticeProcessor(
+      handle_.get(), [](void*, const char*) {}, nullptr);  // what matters comes as an error
   // A worker that is stopped in mid-transaction must not hold its partition's row for longer.
   run_script(
       "SET idle_in_transaction_session_timeout = '4s'; SET lock_timeout = '8s'; SET client_min_messages = warning");
