@@ -141,6 +141,14 @@ def compared(lines):
     return sorted(line for line in lines if not line.startswith("event|")) + of_valves
 
 
+def reckoned(command, reference, folder, model):
+    """What one process makes of the blocks that wait in the site's store."""
+    version = subprocess.run([command, "--version"], text=True, capture_output=True, check=True).stdout.strip()
+    done = subprocess.run([reference, version, "site.sqlite", model, "0", "0.05"], cwd=folder, text=True,
+                          capture_output=True, check=True)
+    return done.stdout.splitlines()
+
+
 def progress(postgres):
     try:
         return int(postgres.ask("SELECT coalesce(sum(block), 0) FROM coverage")[0])
