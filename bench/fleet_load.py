@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """fleet_load.py COMMAND REFERENCE EXAMPLES single|cluster VALVES SECONDS WORKERS: samples a second through a fleet on
 loopback, from the store of a site to committed rows, servers and site included, and the same blocks in one process
-without servers. `cluster`: three NATS servers, three replicas, a synchronous standby. At 1 kHz, blocks of a second."""
+without servers. Then, in real time, how long after a block was closed it is committed. `cluster`: three NATS servers, three replicas, a synchronous standby. At 1 kHz, blocks of a second."""
 import os
 import shutil
 import subprocess
@@ -52,6 +52,32 @@ try:
           f"({fleet_s:.1f} s)")
     print(f"write-ahead log {wal / waiting / 1e3:.1f} kB a block; database {int(rows) / 1e6:.0f} MB; site's store "
           f"{size / samples:.1f} bytes a sample")
+
+    # The same valves in real time, in a store of their own.
+    fleet.stop()
+    fleet = None
+    os.remove(os.path.join(folder, "site.sqlite"))
+    for name in os.listdir(folder):
+        if os.path.isdir(os.path.join(folder, name)):
+            shutil.rmtree(os.path.join(folder, name))
+    write_site(folder, MODEL, VALVES, 1.0, speed=1.0)
+    fleet = Fleet(COMMAND, folder, KIND)
+    fleet.setup()
+    for _ in range(WORKERS):
+        fleet.start_worker()
+    time.sleep(4)
+    seen = {}
+    with site(COMMAND, folder, fleet.servers()):
+        end = time.monotonic() + min(SECONDS, 30)
+        while time.monotonic() < end:
+            for row in fleet.postgres.ask("SELECT valve, block, extract(epoch FROM committed) * 1000 - wall_ms FROM coverage"):
+                valve, block, late_ms = row.split("|")
+                if int(block) > 3:  # the first wait for the model
+                    seen[valve, block] = float(late_ms)
+            time.sleep(0.05)
+    late = sorted(seen.values())
+    print(f"in real time, {len(late)} blocks: committed {late[len(late) // 2]:.0f} ms after they were closed (median), "
+          f"{late[len(late) * 99 // 100]:.0f} ms (99th percentile)")
 finally:
     if fleet:
         fleet.stop()

@@ -8,7 +8,7 @@ namespace spoolflow::fleet {
 namespace {
 
 constexpr unsigned long long largest_model = 64'000'000;
-constexpr int zstd_level = 19;  // it is made seldom
+constexpr int zstd_level = 9;  // it is made seldom, and somebody waits for it
 
 }  // namespace
 

@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 /// Blocks of one valve on their way at a time.
 constexpr std::uint64_t window = 64;
 /// The store is looked at so often; what is not covered within the patience is sent again, later and later.
-constexpr milliseconds look_every{100}, first_patience{3000}, longest_patience{15000};
+constexpr milliseconds look_every{100}, first_patience{3000}, longest_patience{15000}, model_every{500};
 
 }  // namespace
 
@@ -108,20 +108,30 @@ void Publisher::answer(const std::string& ask) {
     }
     return;
   }
-  if (what != "model") return;
+  if (what == "model") send_model(name);
+}
+
+/// All workers hear it: one answer is enough where several ask at once.
+void Publisher::send_model(const std::string& sha256) {
+  SentModel& model = models_[sha256];
+  const Clock::time_point now = Clock::now();
+  if (!model.packed.empty() && now - model.sent < model_every) return;
   for (const live::ValveSettings& valve : engine_.site().valves) {
-    if (valve.model.sha256 != name || valve.model.file.empty()) continue;
+    if (!model.packed.empty()) break;
+    if (valve.model.sha256 != sha256 || valve.model.file.empty()) continue;
     std::ifstream in(valve.model.file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (model::sha256_of_text(text) != name) {
+    if (model::sha256_of_text(text) != sha256) {
       tell_(
           fmt::format("{}: is another model than when the program started; start it again", valve.model.file.string()));
       return;
     }
     const std::vector<std::uint8_t> packed = pack_model(text);
-    nats_.publish(model_subject(engine_.site().fleet.site), name + std::string(packed.begin(), packed.end()));
-    return;
+    model.packed = sha256 + std::string(packed.begin(), packed.end());
   }
+  if (model.packed.empty()) return;
+  model.sent = now;
+  nats_.publish(model_subject(engine_.site().fleet.site), model.packed);
 }
 
 void Publisher::send(live::Database& database) {

@@ -34,6 +34,7 @@ class Publisher {
   void hear(Subscription& coverage, Subscription& asks);
   void take_coverage(const std::string& text);
   void answer(const std::string& ask);
+  void send_model(const std::string& sha256);
   void send(live::Database& database);
   void send(live::Database& database, const std::string& valve, Progress& at);
 
@@ -41,6 +42,12 @@ class Publisher {
   std::function<void(const std::string&)> tell_;
   Connection nats_;
   std::map<std::string, Progress> valves_;
+  /// A model that was asked for, as it travels.
+  struct SentModel {
+    std::string packed{};
+    Clock::time_point sent{};
+  };
+  std::map<std::string, SentModel> models_;  ///< by hash
   bool was_connected_ = false;
   std::jthread thread_;
 };

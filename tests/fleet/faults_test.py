@@ -15,7 +15,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
-from fleet import (blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
+from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
                    write_site)
 from servers import until  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
@@ -87,11 +87,13 @@ class Faults(unittest.TestCase):
         chance.shuffle(faults)
         with site(COMMAND, self.folder, fleet.servers()) as live:
             tell(f"the site sends; its page is at http://127.0.0.1:{live.port}/")
+            watch = Watch(fleet)
             for k, fault in enumerate(faults):
                 reach(fleet, waiting * (k + chance.random()) / (len(faults) + 2))
                 tell(fault.__name__.replace("_", " "))
                 fault(chance)
             reach(fleet, waiting)
+            tell(f"no valve stood longer than {watch.end():.1f} s")
             until(lambda: outbox(self.folder)[0] == 0, 30, "a site that has heard of all")
         status = subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
                                 capture_output=True, check=True).stdout

@@ -6,6 +6,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "live"))
@@ -66,11 +67,11 @@ def make_recordings(command, folder, seconds):
             file.writelines(lines)
 
 
-def write_site(folder, model, valves, block_s):
+def write_site(folder, model, valves, block_s, speed=0):
     text = f'[store]\nfile = "site.sqlite"\n[fleet]\nsite = "hall"\nblock_s = {block_s}\n'
     for k in range(valves):
         text += (f'[[valve]]\nid = "v{k}"\nmodel = "{model}"\n'
-                 f'source = {{ kind = "replay", recording = "{("sound", "worn")[k % 2]}.csv", speed = 0 }}\n')
+                 f'source = {{ kind = "replay", recording = "{("sound", "worn")[k % 2]}.csv", speed = {speed} }}\n')
     with open(os.path.join(folder, "site.toml"), "w", encoding="utf-8") as file:
         file.write(text)
 
@@ -139,6 +140,36 @@ def compared(lines):
     events = [line for line in lines if line.startswith("event|")]
     of_valves = sorted(events, key=lambda line: line.split("|")[1])  # stable
     return sorted(line for line in lines if not line.startswith("event|")) + of_valves
+
+
+class Watch:
+    """For how long the blocks of a valve stood at most while others of it waited."""
+
+    def __init__(self, fleet):
+        self.fleet, self.longest, self.moved, self.ended = fleet, 0.0, {}, False
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+
+    def run(self):
+        while not self.ended:
+            time.sleep(0.1)
+            try:
+                rows = self.fleet.postgres.ask("SELECT id, block FROM coverage JOIN valve ON valve = number")
+            except RuntimeError:
+                continue
+            now = time.monotonic()
+            for row in rows:
+                valve, block = row.split("|")
+                before, since = self.moved.get(valve, (block, now))
+                if before != block:
+                    self.longest = max(self.longest, now - since)
+                    since = now
+                self.moved[valve] = (block, since)
+
+    def end(self):
+        self.ended = True
+        self.thread.join()
+        return self.longest
 
 
 def reckoned(command, reference, folder, model):
