@@ -88,6 +88,11 @@ FleetSettings read_fleet(const std::filesystem::path& file) {
 }
 
 NatsAccess access_of(const std::vector<std::string>& servers, const live::NatsLogin& login) {
+  for (const std::filesystem::path& file : {login.credentials, login.authority}) {
+    if (!file.empty() && !std::ifstream(file)) {
+      throw LoginError(fmt::format("{}: cannot be read; check the name and the permissions", file.string()));
+    }
+  }
   NatsAccess out{servers, login.credentials.string(), login.user, {}, login.authority.string()};
   if (login.password_file.empty()) return out;
   std::ifstream in(login.password_file);

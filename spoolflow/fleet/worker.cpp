@@ -79,6 +79,7 @@ void Worker::keep_share(const std::stop_token& stop) {
       if (!session) session.emplace(settings_.connection, owner_);
       if (shared_.partitions == 0) learn_settings(*session);
       spread(*session);
+      tell_of_nats();
       told.clear();
     } catch (const std::exception& error) {
       session.reset();
@@ -87,6 +88,14 @@ void Worker::keep_share(const std::stop_token& stop) {
     }
     next = std::max(next + spread_every, std::chrono::steady_clock::now());
   } while (live::wait_until(next, stop));
+}
+
+/// Once, when it has been away for longer than a server takes to let somebody in.
+void Worker::tell_of_nats() {
+  constexpr int patience = 5;
+  away_ = nats_->connected() ? 0 : away_ + 1;
+  if (away_ == patience)
+    tell_("NATS: no server can be reached, or none lets this user in; it is tried again and again");
 }
 
 void Worker::spread(Session& session) {

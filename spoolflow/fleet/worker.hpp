@@ -30,6 +30,7 @@ class Worker {
   struct Task;
   void keep_share(const std::stop_token& stop);
   void learn_settings(Session& session);
+  void tell_of_nats();
   void spread(Session& session);
   void begin(const Claim& claim);
 
@@ -39,6 +40,7 @@ class Worker {
   std::unique_ptr<Connection> nats_;
   SharedSettings shared_;  ///< no partitions: not known yet
   Models models_;
+  int away_ = 0;                                         ///< times that NATS was found away, one after another
   std::map<std::int64_t, std::unique_ptr<Task>> tasks_;  ///< by partition
   std::jthread keeper_;                                  ///< last: it uses the others
 };
