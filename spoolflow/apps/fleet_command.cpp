@@ -28,7 +28,7 @@ struct FleetArguments {
 /// The servers may need a moment to let a new client in.
 bool wait_for(const fleet::Connection& nats) {
   constexpr std::chrono::milliseconds step{50};
-  constexpr int steps = 100;
+  constexpr int steps = 60;
   for (int k = 0; k < steps && !nats.connected(); ++k) std::this_thread::sleep_for(step);
   return nats.connected();
 }

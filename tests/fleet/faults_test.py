@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
 from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
                    write_site)
-from servers import until  # noqa: E402
+from servers import refused_by_nats, until  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
@@ -31,10 +31,12 @@ class Faults(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="spoolflow-fleet-")
         os.chmod(self.folder, 0o755)
-        self.fleet = None
+        self.fleet, self.done = None, False
 
     def tearDown(self):
         if self.fleet:
+            if TELLS and not self.done:
+                self.fleet.tell_logs()
             self.fleet.stop()
         shutil.rmtree(self.folder)
 
@@ -52,6 +54,21 @@ class Faults(unittest.TestCase):
                 self.assertLess(abs(times[k] - float(row["time_s"])), 1e-9)
                 self.assertLess(abs(currents[k] - float(row["current_A"])), 8e-6)
 
+    def look_at_rights(self, port):
+        """A site speaks for itself alone, hears what is told to it alone, and nobody comes in without a name."""
+        for user, line, refused in (("hall", "PUB spoolflow.block.3.hall 0\r\n", False),
+                                    ("hall", "PUB spoolflow.block.3.other 0\r\n", True),
+                                    ("hall", "PUB spoolflow.coverage.hall 0\r\n", True),
+                                    ("hall", "SUB spoolflow.coverage.hall 1", False),
+                                    ("hall", "SUB spoolflow.coverage.other 1", True),
+                                    ("hall", "SUB spoolflow.> 1", True),
+                                    ("hall", "PUB $JS.API.STREAM.DELETE.spoolflow 0\r\n", True),
+                                    ("worker", "PUB $JS.API.STREAM.DELETE.spoolflow 0\r\n", True),
+                                    ("worker", "PUB spoolflow.coverage.hall 0\r\n", False),
+                                    (None, "SUB spoolflow.coverage.hall 1", True),
+                                    ("stranger", "SUB spoolflow.coverage.hall 1", True)):
+            self.assertEqual(refused_by_nats(port, user, line), refused, (user, line))
+
     def test_nothing_is_lost_or_taken_twice(self):
         for seed in SEEDS:
             with self.subTest(seed=seed):
@@ -67,7 +84,7 @@ class Faults(unittest.TestCase):
                 print(f"{time.monotonic() - begin:5.1f} s  {text}", flush=True)
         tell("two recordings are made, and six valves of a site work through them while no server is there")
         make_recordings(COMMAND, self.folder, SECONDS)
-        write_site(self.folder, MODEL, VALVES, BLOCK_S)
+        write_site(self.folder, MODEL, VALVES, BLOCK_S, with_login=KIND == "single")
         record_offline(COMMAND, self.folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS)
         waiting, newest, totals = outbox(self.folder)
         self.assertEqual(waiting, sum(newest.values()))
@@ -79,6 +96,8 @@ class Faults(unittest.TestCase):
         tell(f"{waiting} blocks wait in the site's store; servers and two workers start")
         fleet = self.fleet = Fleet(COMMAND, self.folder, KIND)
         self.assertIn('publish: ["spoolflow.block.*.hall"', fleet.setup().stdout)
+        if fleet.rights:
+            self.look_at_rights(fleet.nats_ports[0])
         for _ in range(2):
             fleet.start_worker()
         faults = [fleet.kill_worker_and_start_it_again, fleet.kill_worker_and_start_another,
@@ -95,10 +114,13 @@ class Faults(unittest.TestCase):
             reach(fleet, waiting)
             tell(f"no valve stood longer than {watch.end():.1f} s")
             until(lambda: outbox(self.folder)[0] == 0, 30, "a site that has heard of all")
-        status = subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
-                                capture_output=True, check=True).stdout
-        self.assertNotIn("(nobody)", status)
-        tell("all is committed:\n" + status)
+        def told():
+            return subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
+                                  capture_output=True)
+        until(lambda: "(nobody)" not in told().stdout, 20, "partitions that have owners")
+        asked = told()
+        self.assertEqual((asked.returncode, asked.stderr), (0, ""))
+        tell("all is committed:\n" + asked.stdout)
         for worker in fleet.workers:
             worker.end()
 
@@ -107,6 +129,7 @@ class Faults(unittest.TestCase):
             row = fleet.postgres.ask(
                 f"SELECT samples, energy_J FROM state JOIN valve ON valve = number WHERE id = 'hall/{valve}'")
             self.assertEqual(row, [f"{samples}|{json.dumps(energy)}"])
+        self.done = True
         tell(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
 
 

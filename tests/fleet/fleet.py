@@ -21,7 +21,8 @@ class Worker:
             text = file.read()
         self.file = os.path.join(folder, f"{name}.toml")
         with open(self.file, "w", encoding="utf-8") as file:
-            file.write(re.sub(r'name = ".*"', f'name = "{name}"', text))
+            # In the database with the rights of a worker alone.
+            file.write(re.sub(r'name = ".*"', f'name = "{name}"', text).replace("user=postgres", "user=worker_1"))
         self.command = command
         self.start()
 
@@ -67,8 +68,17 @@ def make_recordings(command, folder, seconds):
             file.writelines(lines)
 
 
-def write_site(folder, model, valves, block_s, speed=0):
+def login(folder, user):
+    """Of somebody whose password is the name."""
+    with open(os.path.join(folder, f"{user}.password"), "w", encoding="utf-8") as file:
+        file.write(user + "\n")
+    return f'user = "{user}"\npassword_file = "{user}.password"\n'
+
+
+def write_site(folder, model, valves, block_s, speed=0, with_login=False):
     text = f'[store]\nfile = "site.sqlite"\n[fleet]\nsite = "hall"\nblock_s = {block_s}\n'
+    if with_login:
+        text += login(folder, "hall")
     for k in range(valves):
         text += (f'[[valve]]\nid = "v{k}"\nmodel = "{model}"\n'
                  f'source = {{ kind = "replay", recording = "{("sound", "worn")[k % 2]}.csv", speed = {speed} }}\n')
@@ -76,11 +86,12 @@ def write_site(folder, model, valves, block_s, speed=0):
         file.write(text)
 
 
-def write_fleet(folder, nats_ports, postgres_ports, replicas):
+def write_fleet(folder, nats_ports, postgres_ports, replicas, with_login=False):
     servers = ",".join(f"127.0.0.1:{port}" for port in nats_ports)
     hosts, ports = ",".join(["127.0.0.1"] * len(postgres_ports)), ",".join(map(str, postgres_ports))
     with open(os.path.join(folder, "fleet.toml"), "w", encoding="utf-8") as file:
         file.write(f'sites = ["hall"]\n[nats]\nservers = "nats://{servers}"\nreplicas = {replicas}\n'
+                   + (login(folder, "worker") if with_login else "") +
                    f'[postgresql]\nconnection = "host={hosts} port={ports} user=postgres dbname=postgres '
                    f'target_session_attrs=read-write"\n[worker]\nname = "w"\nlease_s = 3\ncommit_s = 0.3\n'
                    f'[alarms]\nraised_after_s = 0\ngone_after_s = 0.05\n')

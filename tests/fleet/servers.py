@@ -37,17 +37,21 @@ def answers(port):
         return False
 
 
-class Nats:
-    """One server, or one of a cluster: `number` counts from 0, `routes` are the cluster ports of all."""
+PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "system")}
 
-    def __init__(self, folder, port, number=0, routes=()):
+
+class Nats:
+    """One server, or one of a cluster: `number` counts from 0, `routes` are the cluster ports of all. `accounts`: who may
+    do what, as --setup prints it; passwords are the users' names."""
+
+    def __init__(self, folder, port, number=0, routes=(), accounts=""):
         self.port, self.process = port, None
         self.folder = os.path.join(folder, f"nats_{number}")
         os.makedirs(self.folder)
         self.configuration = os.path.join(self.folder, "nats.conf")
         with open(self.configuration, "w", encoding="utf-8") as file:
             file.write(f'server_name: "n{number}"\nlisten: "127.0.0.1:{port}"\nmax_payload: 1MB\n'
-                       f'jetstream {{ store_dir: "{self.folder}/store" }}\n')
+                       f'jetstream {{ store_dir: "{self.folder}/store" }}\n{accounts}')
             if routes:
                 all_routes = ", ".join(f'"nats://127.0.0.1:{route}"' for route in routes)
                 file.write(f'cluster {{ name: "fleet", listen: "127.0.0.1:{routes[number]}", routes: [{all_routes}] }}\n')
@@ -55,7 +59,8 @@ class Nats:
 
     def start(self):
         with open(os.path.join(self.folder, "log"), "a", encoding="utf-8") as log:
-            self.process = subprocess.Popen(["nats-server", "-c", self.configuration], stdout=log, stderr=log)
+            self.process = subprocess.Popen(["nats-server", "-c", self.configuration], stdout=log, stderr=log,
+                                            env={**os.environ, **PASSWORDS})
         until(lambda: answers(self.port), 20, "a NATS server that answers")
 
     def kill(self):
@@ -208,12 +213,31 @@ class Gate:
         self.listener.close()
 
 
-def ask_nats(port, subject):
-    """One request without content in the servers' own words; what came back."""
-    with socket.create_connection(("127.0.0.1", port), 5) as raw:
-        raw.settimeout(5)
-        raw.sendall(b'CONNECT {"verbose":false}\r\nSUB answer 1\r\nPUB ' + subject.encode() + b" answer 0\r\n\r\n")
+def tell_nats(port, user, lines):
+    """In the servers' own words; a connection that was told who speaks."""
+    raw = socket.create_connection(("127.0.0.1", port), 5)
+    raw.settimeout(5)
+    login = f', "user": "{user}", "pass": "{user}"' if user else ""
+    raw.sendall(f'CONNECT {{"verbose": false, "pedantic": false{login}}}\r\n{lines}'.encode())
+    return raw
+
+
+def ask_nats(port, subject, user=None):
+    """One request without content; what came back."""
+    with tell_nats(port, user, f"SUB answer 1\r\nPUB {subject} answer 0\r\n\r\n") as raw:
         got = b""
         while b"MSG answer" not in got or not got.endswith(b"}\r\n"):
             got += raw.recv(65536)
         return got.split(b"\r\n")[-2].decode()
+
+
+def refused_by_nats(port, user, line):
+    """Whether the server says that the user may not do so."""
+    with tell_nats(port, user, f"{line}\r\nPING\r\n") as raw:
+        got = b""
+        while b"PONG" not in got and b"-ERR" not in got:
+            piece = raw.recv(65536)
+            if not piece:
+                break
+            got += piece
+        return b"Violation" in got

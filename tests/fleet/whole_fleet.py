@@ -24,10 +24,16 @@ class Fleet:
             until(lambda: self.postgres.ask("SELECT sync_state FROM pg_stat_replication") == ["sync"], 20, "a standby")
         else:
             postgres_ports = postgres_ports[:1]
-        self.nats = [self.started(Nats(folder, port, k, routes if count > 1 else ()))
+        write_fleet(folder, self.nats_ports, postgres_ports, count, with_login=kind == "single")
+        self.rights, self.user = "", None
+        if kind == "single":  # with the accounts that --setup prints, and one more user who may do all
+            printed = self.setup().stdout
+            self.rights = printed[printed.index("accounts {"):printed.index("# postgresql.conf")].replace(
+                "users: [\n", 'users: [\n      { user: "test", password: "test" }\n', 1)
+            self.user = "test"
+        self.nats = [self.started(Nats(folder, port, k, routes if count > 1 else (), self.rights))
                      for k, port in enumerate(self.nats_ports)]
         self.gates = [self.started(Gate(port)) for port in self.nats_ports]
-        write_fleet(folder, self.nats_ports, postgres_ports, count)
         self.workers, self.begun = [], 0
 
     def started(self, one):
@@ -46,12 +52,23 @@ class Fleet:
                                        capture_output=True))
             return done[-1].returncode == 0
         until(made, 30, "a fleet that is set up")
+        if not self.postgres.ask("SELECT 1 FROM pg_roles WHERE rolname = 'worker_1'"):
+            self.postgres.ask("CREATE ROLE worker_1 LOGIN IN ROLE spoolflow_worker")
         return done[-1]
 
     def start_worker(self):
         worker = Worker(self.command, self.folder, f"worker_{self.begun}")
         self.begun += 1
         self.workers.append(self.started(worker))
+
+    def tell_logs(self):
+        """What the workers have to say, and how the fleet looks."""
+        status = subprocess.run([self.command, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
+                                capture_output=True)
+        print(status.returncode, status.stdout, status.stderr, flush=True)
+        for worker in self.workers:
+            with open(worker.log, encoding="utf-8") as log:
+                print(f"{worker.name}:\n{log.read()[-3000:]}", flush=True)
 
     def stop(self):
         for one in reversed(self.running):
@@ -84,7 +101,7 @@ class Fleet:
 
     def delete_the_stream(self, _):
         # A cluster may be without a leader for a while.
-        until(lambda: '"success":true' in ask_nats(self.nats_ports[0], "$JS.API.STREAM.DELETE.spoolflow"), 30,
+        until(lambda: '"success":true' in ask_nats(self.nats_ports[0], "$JS.API.STREAM.DELETE.spoolflow", self.user), 30,
               "a stream that is deleted")
 
     def cut_the_site_off(self, chance):

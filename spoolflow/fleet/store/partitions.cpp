@@ -56,7 +56,7 @@ void leave(Session& session, const std::string& owner) {
 std::vector<PartitionStatus> partition_status(Session& session) {
   const Rows rows = session.run(
       "SELECT partition.number, epoch, count(valve.number), coalesce(sum(block), 0), coalesce(owner, ''), "
-      "greatest(0, extract(epoch FROM least(lease_until, now() + interval '1 day') - now()))::float8, "
+      "(CASE WHEN lease_until > now() THEN extract(epoch FROM lease_until - now()) ELSE 0 END)::float8, "
       "extract(epoch FROM now() - max(committed))::float8 "
       "FROM partition LEFT JOIN valve ON valve.partition = partition.number LEFT JOIN coverage ON coverage.valve = "
       "valve.number GROUP BY partition.number ORDER BY partition.number");

@@ -31,8 +31,9 @@ using Handle = std::unique_ptr<T, Destroy>;
 /// Several connection attempts fit a broken server's absence; JetStream's own answers take at most this long.
 constexpr std::int64_t reconnect_wait_ms = 250, answer_wait_ms = 3000, ping_interval_ms = 2000;
 constexpr int pings_out = 2;
-/// A reader that has been silent for so long is asked whether it is there.
-constexpr std::chrono::seconds silence{2};
+/// A reader that has been silent for so long is asked whether it is there; one that still is, and says nothing for
+/// longer, may have been forgotten by servers that were killed.
+constexpr std::chrono::seconds silence{2}, longest_silence{8};
 
 Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name) {
   natsOptions* made = nullptr;
@@ -198,15 +199,16 @@ std::vector<Message> Puller::fetch(int most, std::chrono::milliseconds patience)
   for (int k = 0; k < list.Count; ++k) out.push_back(message_of(list.Msgs[k]));
   natsMsgList_Destroy(&list);
   if (!out.empty()) {
-    heard_ = now();
+    heard_ = asked_ = now();
     return out;
   }
   if (status != NATS_OK && status != NATS_TIMEOUT) refuse(status, "fetch");
-  if (now() - heard_ < silence) return out;
+  if (now() - asked_ < silence) return out;
+  if (now() - heard_ > longest_silence) refuse(NATS_TIMEOUT, "reader that says nothing");
   jsConsumerInfo* info = nullptr;
   check(natsSubscription_GetConsumerInfo(&info, subscription_.handle_.get(), nullptr, nullptr), "reader");
   const Handle<jsConsumerInfo> there(info);
-  heard_ = now();
+  asked_ = now();
   return out;
 }
 

@@ -107,7 +107,7 @@ class Puller {
 
  private:
   Subscription subscription_;
-  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now(), asked_ = heard_;
 };
 
 }  // namespace spoolflow::fleet
