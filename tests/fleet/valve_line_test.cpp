@@ -148,7 +148,7 @@ TEST(ValveLine, GoesOnAnywhereBitForBit) {
     for (const auto& [id, one] : alarms) kept.alarms.push_back(one);
   }
   EXPECT_EQ(got, expected);
-  EXPECT_EQ(kept.position.state.bytes, end.state.bytes);
+  EXPECT_EQ(kept.position.state.samples, end.state.samples);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(kept.position.state.energy_J),
             std::bit_cast<std::uint64_t>(end.state.energy_J));
 }
