@@ -1,7 +1,7 @@
 #!/bin/sh
 # ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, `live` killed at fifty
-# instants, its parsers fuzzed for SECONDS each (an hour where none are given), and 500 valves at 1 kHz for as long. Prints
-# figures; the exit status tells of clang-tidy, kills and fuzzing.
+# instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, and 500 valves
+# at 1 kHz for as long. Prints figures; the exit status tells of clang-tidy, kills, fleets and fuzzing.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
@@ -12,8 +12,14 @@ echo "== clang-tidy"
 ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
 echo "== 50 kills"
 SPOOLFLOW_KILLS=50 build/release/tests/apps/apps_test --gtest_filter='Kills.*' --gtest_brief=1 || status=1
-for name in live_datagram live_csv live_site live_http; do
+for name in live_datagram live_csv live_site live_http fleet_block; do
   ci/fuzz.sh "$seconds" "$name" || status=1
+done
+echo "== fleets whose parts are killed, 20 seeds"
+ci/build.sh release fleet_reference
+for kind in single cluster; do
+  /usr/bin/python3 tests/fleet/faults_test.py build/release/bin/spoolflow build/release/tests/fleet/fleet_reference examples $kind \
+    $(seq 1 20) || status=1
 done
 echo "== 500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"

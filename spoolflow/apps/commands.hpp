@@ -32,5 +32,7 @@ void add_export_command(CLI::App& program);
 void add_live_command(CLI::App& program);
 void add_history_command(CLI::App& program);
 void add_account_command(CLI::App& program);
+void add_worker_command(CLI::App& program);
+void add_fleet_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -116,4 +116,11 @@ InterruptionPause::~InterruptionPause() {
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
+int wait_for_the_end() {
+  const sigset_t ends = interruptions();
+  int number = 0;
+  sigwait(&ends, &number);
+  return number;
+}
+
 }  // namespace spoolflow::apps

@@ -1,10 +1,8 @@
 /// `spoolflow live`: valves at work, watched until the program is ended; `spoolflow account`: who may see its page.
 #include <cctype>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <pthread.h>
 #include <stdexcept>
 #include <string>
 #include <termios.h>
@@ -19,6 +17,7 @@
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/fleet/publisher.hpp"
 #include "spoolflow/live/engine.hpp"
 #include "spoolflow/live/page/plotjuggler.hpp"
 #include "spoolflow/live/page/secret_hash.hpp"
@@ -32,6 +31,7 @@ struct LiveArguments {
   std::string site;
   std::string listen;
   std::string store;
+  std::string publish;
 };
 
 std::vector<std::filesystem::path> replayed_recordings(const live::SiteSettings& site) {
@@ -40,16 +40,6 @@ std::vector<std::filesystem::path> replayed_recordings(const live::SiteSettings&
     if (const auto* replay = std::get_if<live::ReplaySettings>(&valve.source)) files.push_back(replay->recording);
   }
   return files;
-}
-
-/// The signal that ended the wait. They must be blocked in every thread.
-int wait_for_the_end() {
-  sigset_t ends;
-  sigemptyset(&ends);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, number);
-  int number = 0;
-  sigwait(&ends, &number);
-  return number;
 }
 
 void tell_where(const live::Engine& engine, const live::PageSettings& page) {
@@ -67,10 +57,25 @@ void tell_where(const live::Engine& engine, const live::PageSettings& page) {
       page.listen.text());
 }
 
+/// What the fleet gets is kept until it has it, under a name that it knows.
+void check_publishing(const live::SiteSettings& site) {
+  if (site.fleet.servers.empty()) return;
+  if (site.store.empty()) {
+    throw std::invalid_argument(
+        "--publish needs a store, which keeps what the fleet has not got yet: name a file with --store");
+  }
+  if (site.fleet.site.empty()) {
+    throw std::invalid_argument(
+        "--publish needs the site's name: write site = \"hall_3\" under [fleet] in the site's file (docs/fleet.md)");
+  }
+}
+
 void live_command(const LiveArguments& arguments) {
   live::SiteSettings site = arguments.site.empty() ? live::demo_site() : live::read_site(arguments.site);
   if (!arguments.listen.empty()) site.page.listen = live::read_address(arguments.listen, "--listen");
   if (!arguments.store.empty()) site.store = arguments.store;
+  if (!arguments.publish.empty()) site.fleet.servers = live::read_servers(arguments.publish, "--publish");
+  check_publishing(site);
   live::PageSettings page = site.page;
   live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
@@ -83,6 +88,10 @@ void live_command(const LiveArguments& arguments) {
     if (engine.site().plotjuggler) plotjuggler.emplace(engine, *engine.site().plotjuggler);
     page.listen.port = server.port();
     tell_where(engine, page);
+    std::optional<fleet::Publisher> publisher;
+    if (!engine.site().fleet.servers.empty()) {
+      publisher.emplace(engine, [](const std::string& text) { say("{}\n", text); });
+    }
     wait_for_the_end();
   }
   engine.stop();
@@ -186,6 +195,10 @@ void add_live_command(CLI::App& program) {
       ->type_name("ADDRESS:PORT");
   command->add_option("--store", arguments->store, "file that keeps history and state, made where\nthere is none")
       ->type_name("FILE.sqlite");
+  command
+      ->add_option("--publish", arguments->publish,
+                   "NATS servers of a fleet that gets the samples,\nsuch as nats://a,b,c (docs/fleet.md)")
+      ->type_name("SERVERS");
   command->callback([arguments] { live_command(*arguments); });
 }
 

@@ -15,7 +15,6 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/standard_streams.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
@@ -41,6 +40,8 @@ void add_commands(CLI::App& program) {
   add_live_command(program);
   add_history_command(program);
   add_account_command(program);
+  add_worker_command(program);
+  add_fleet_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

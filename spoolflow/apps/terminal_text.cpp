@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "spoolflow/apps/output_file.hpp"
 
@@ -120,6 +122,18 @@ void say_text(std::string_view text) {
 void flush_standard_output() {
   errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) refuse_standard_output();
+}
+
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest free descriptor is this one. Opened the wrong way round, so that its use is an error.
+    const int held = ::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
+    if (held >= 0 && held != stream) {
+      (void)::dup2(held, stream);
+      ::close(held);
+    }
+  }
 }
 
 }  // namespace spoolflow::apps

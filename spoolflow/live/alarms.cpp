@@ -102,6 +102,31 @@ void Alarms::restore(std::vector<Alarm> alarms) {
   }
 }
 
+void Alarms::restore(std::vector<Alarm> alarms, const std::vector<AlarmWait>& waits) {
+  restore(std::move(alarms));
+  const std::lock_guard lock(mutex_);
+  pending_.clear();
+  for (const AlarmWait& wait : waits) {
+    if (wait.stands) {
+      pending_.push_back({wait.valve, wait.cause, wait.since_ms});
+    } else if (Entry* entry = listed(wait.valve, wait.cause)) {
+      entry->away_since_ms = wait.since_ms;
+    }
+  }
+}
+
+std::vector<AlarmWait> Alarms::waits() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<AlarmWait> out;
+  for (const Pending& one : pending_) out.push_back({one.valve, one.cause, one.since_ms, true});
+  for (const Entry& one : entries_) {
+    if (one.away_since_ms != 0 && one.alarm.gone_ms == 0) {
+      out.push_back({one.alarm.valve, one.alarm.cause, one.away_since_ms, false});
+    }
+  }
+  return out;
+}
+
 /// The one that is not cleared; there is one a valve and cause at most.
 Alarms::Entry* Alarms::listed(const std::string& valve, const std::string& cause) {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {

@@ -36,6 +36,13 @@ struct AlarmDelays {
   double gone_after_s = 10;
 };
 
+/// Since when a cause stands that is no alarm yet, or that of an alarm is away.
+struct AlarmWait {
+  std::string valve, cause;
+  std::int64_t since_ms;
+  bool stands;
+};
+
 /// What became of an alarm.
 struct AlarmChange {
   enum class Kind : std::uint8_t { raised, worse, gone };
@@ -51,6 +58,9 @@ class Alarms {
   explicit Alarms(const AlarmDelays& delays) : delays_(delays) {}
   /// From the store, ascending by id.
   void restore(std::vector<Alarm> alarms);
+  /// With what was waited for, so that it goes on as if it had never stopped.
+  void restore(std::vector<Alarm> alarms, const std::vector<AlarmWait>& waits);
+  [[nodiscard]] std::vector<AlarmWait> waits() const;
 
   /// Takes what is wrong with one valve now, `now_ms` since 1970-01-01 UTC.
   std::vector<AlarmChange> follow(const ValveView& valve, const std::vector<Trouble>& troubles, std::int64_t now_ms);

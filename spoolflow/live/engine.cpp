@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/live/event_text.hpp"
 #include "spoolflow/live/sources/pace.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -59,6 +60,11 @@ Engine::Engine(SiteSettings site, std::string program)
   }
   if (site_.store.empty()) return;
   store_ = std::make_unique<Store>(site_.store);
+  restore();
+  if (!site_.fleet.servers.empty()) begin_to_publish();
+}
+
+void Engine::restore() {
   events_.restore(store_->events(static_cast<int>(Events::most)));
   alarms_.restore(store_->alarms(Alarms::most_cleared));
   for (const KeptState& kept : store_->states()) {
@@ -200,28 +206,15 @@ void Engine::watch_for_events() {
     follow_alarms(place, valve.condition == monitor::Ne107::good ? valve : place.valve->view(), source_now.stalled);
     keep_raw_samples(place, valve, source_now.stalled || place.finished);
     if (valve.condition == place.told_condition) continue;
-    std::string causes;
-    for (const monitor::Cause& cause : valve.causes) {
-      causes += fmt::format("{}{} (odds {:.3g})", causes.empty() ? ": " : ", ", monitor::name(cause.fault), cause.odds);
-    }
-    add("condition", fmt::format("NE 107 {} after {}{}", monitor::name(valve.condition),
-                                 monitor::name(place.told_condition), causes));
+    events_.add(condition_event(valve, place.told_condition, wall_ms()));
     place.told_condition = valve.condition;
   }
 }
 
 void Engine::follow_alarms(Place& place, const ValveView& valve, bool stalled) {
-  const auto what = [](AlarmChange::Kind kind) {
-    return kind == AlarmChange::Kind::raised ? "raised" : kind == AlarmChange::Kind::worse ? "worse" : "gone";
-  };
   for (const AlarmChange& change : alarms_.follow(valve, troubles_of(valve, stalled), wall_ms())) {
     const Alarm& alarm = change.alarm;
-    events_.add(
-        {.wall_ms = wall_ms(),
-         .valve = valve.id,
-         .time_s = valve.time_s,
-         .kind = "alarm",
-         .text = fmt::format("alarm {} {}: {}, NE 107 {}", alarm.id, what(change.kind), alarm.cause, alarm.sign)});
+    events_.add(alarm_event(valve, change, wall_ms()));
     // Where nothing comes there is nothing to look at.
     if (change.kind == AlarmChange::Kind::gone || alarm.cause == no_samples) continue;
     place.alarms.push_back(alarm.id);
@@ -273,10 +266,11 @@ void Engine::keep(bool with_indicators) {
   try {
     store_->commit(wall_ms(), commits, events, alarms);
     events_.kept(events);
+    forget_covered();
   } catch (const StoreError& error) {
     trouble = error.what();
     alarms_.give_back(alarms);
-    for (std::size_t k = 0; k < commits.size(); ++k) valves_[k]->valve->give_back(commits[k].since_last);
+    for (std::size_t k = 0; k < commits.size(); ++k) valves_[k]->valve->give_back(commits[k]);
   }
   const std::lock_guard lock(trouble_mutex_);
   if (!trouble.empty() && trouble != store_trouble_) {
@@ -300,6 +294,13 @@ void Engine::keep_each_second(const std::stop_token& stop) {
     if (second % retention_every != 1) continue;
     try {
       store_->retain(wall_ms(), site_.retention);
+      if (const std::int64_t lost = store_->drop_oldest_blocks(site_.fleet.largest_MB); lost > 0) {
+        events_.add(
+            {.wall_ms = wall_ms(),
+             .kind = "program",
+             .text = fmt::format("{} blocks that the fleet had not got were given up: they were more than {} MB", lost,
+                                 site_.fleet.largest_MB)});
+      }
     } catch (const StoreError&) {  // the next commit meets the same and tells
     }
   }

@@ -5,6 +5,7 @@
 ///     engine.start();                   // from here on samples come in
 ///     engine.view(0); engine.events();  // from any thread
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -53,6 +54,8 @@ class Engine {
   [[nodiscard]] std::vector<Alarm> alarms() const { return alarms_.all(); }
   /// The alarm as it is then; nothing where there is none of this number. It is kept with the next second's commit.
   std::optional<Alarm> acknowledge(std::int64_t alarm, const std::string& by);
+  /// The fleet has the valve's blocks up to that number: they need not be kept any longer.
+  void covered(const std::string& valve, std::uint64_t number);
   [[nodiscard]] UdpCounters udp_counters() const;
   [[nodiscard]] std::uint16_t udp_port() const { return udp_ ? udp_->port() : std::uint16_t{0}; }
   /// Why nothing is kept at present; empty where it is, or where it need not be.
@@ -80,7 +83,10 @@ class Engine {
 
   void start_source(std::size_t k);
   void keep_each_second(const std::stop_token& stop);
+  void restore();
+  void begin_to_publish();
   void keep(bool with_indicators);
+  void forget_covered();
   [[nodiscard]] bool ended(const Place& place) const;
   void watch_for_events();
   void follow_alarms(Place& place, const ValveView& valve, bool stalled);
@@ -94,6 +100,8 @@ class Engine {
   std::unique_ptr<UdpReceiver> udp_;
   Events events_;
   Alarms alarms_;
+  mutable std::mutex covered_mutex_;
+  std::map<std::string, std::uint64_t> covered_;  ///< valves whose blocks can go, up to that number
   mutable std::mutex trouble_mutex_;
   std::string store_trouble_;
   std::jthread keeper_;

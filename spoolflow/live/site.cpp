@@ -122,6 +122,7 @@ class Models {
     if (!model.model) {
       model.model = std::make_shared<const model::Model>(model::read_model(file));
       model.sha256 = model::sha256_of_file(file);
+      model.file = file;
     }
     return model;
   }
@@ -182,6 +183,7 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
     plotjuggler->allow_only({"send_to"});
     site.plotjuggler = read_address(plotjuggler->text("send_to"), plotjuggler->place("send_to"));
   }
+  if (const auto fleet = part("fleet")) site.fleet = read_publish(*fleet);
   if (const auto store = part("store")) {
     store->allow_only({"file", "keep_days", "largest_MB", "raw_before_s", "raw_after_s"});
     site.store = beside(*store, store->text("file")).string();
@@ -233,7 +235,7 @@ std::string_view kind(const SourceSettings& source) {
 SiteSettings read_site(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
   const TomlTable top{document, file, "the file"};
-  top.allow_only({"page", "store", "sources", "alarms", "plotjuggler", "valve"});
+  top.allow_only({"page", "store", "sources", "alarms", "plotjuggler", "fleet", "valve"});
   SiteSettings site;
   read_parts(top, site);
   const toml::array* const valves = document["valve"].as_array();

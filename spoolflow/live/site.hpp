@@ -8,6 +8,7 @@
 
 #include "spoolflow/live/alarms.hpp"
 #include "spoolflow/live/page_settings.hpp"
+#include "spoolflow/live/publish_settings.hpp"
 #include "spoolflow/live/sources/replay_source.hpp"
 #include "spoolflow/live/sources/rig_source.hpp"
 #include "spoolflow/live/sources/socket.hpp"
@@ -38,6 +39,7 @@ struct ValveSettings {
 struct SiteSettings {
   std::vector<ValveSettings> valves{};
   PageSettings page{};
+  PublishSettings fleet{};
   std::optional<Address> udp{};      ///< of all valves whose source is udp
   std::vector<std::string> allow{};  ///< addresses that may send samples; empty: any that can reach a loopback address
   double stalled_after_s = 1.0;      ///< without a sample

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/fleet/blocks/steps.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -99,9 +100,16 @@ void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const se
   to.time_s = sample.time_s;
 }
 
+void ValveAtWork::publish(std::string name, const OutboxPosition& after, double longest_s) {
+  const std::lock_guard lock(mutex_);
+  cutter_.emplace(std::move(name), model_.sha256, after, longest_s);
+}
+
 void ValveAtWork::work(const SampleBlock& block) {
   const std::lock_guard lock(mutex_);
-  for (const estimation::TimedSample& sample : block.samples) {
+  for (const estimation::TimedSample& came : block.samples) {
+    const estimation::TimedSample sample = cutter_ ? fleet::on_grid(came) : came;
+    if (cutter_) cutter_->add(sample);
     if (watch_) ask_doubt(sample.time_s);
     last_ = sensor_.step(sample);
     if (watch_) watch_->take(sample, last_);
@@ -169,6 +177,10 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
   ValveCommit out;
   const std::lock_guard lock(mutex_);
   out.since_last = std::exchange(summary_, {});
+  if (cutter_) {
+    out.blocks = cutter_->take();
+    out.outbox_session = cutter_->position().session;
+  }
   out.state = {id_, after_.session, after_.next, samples_, energy_J_, layout_, {}};
   out.state.bytes.reserve(sizeof(estimation::RunningState) + sizeof(monitor::Doubt) + sizeof(double) +
                           (watch_ ? sizeof(monitor::WatchState) : 0));
@@ -185,8 +197,15 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
   return out;
 }
 
-void ValveAtWork::give_back(const Summary& before) {
+Summary ValveAtWork::take_summary() {
   const std::lock_guard lock(mutex_);
+  return std::exchange(summary_, {});
+}
+
+void ValveAtWork::give_back(const ValveCommit& commit) {
+  const std::lock_guard lock(mutex_);
+  if (cutter_) cutter_->give_back(commit.blocks);
+  const Summary& before = commit.since_last;
   if (before.samples == 0) return;
   if (summary_.samples == 0) {
     summary_ = before;

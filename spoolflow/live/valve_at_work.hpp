@@ -1,5 +1,6 @@
 #pragma once
 /// One valve of a site: its sensor, its monitor, and what is told and kept of them. Safe to be asked from any thread.
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/live/block_cutter.hpp"
 #include "spoolflow/live/plot_trace.hpp"
 #include "spoolflow/live/raw_trace.hpp"
 #include "spoolflow/live/sources/sample_block.hpp"
@@ -19,7 +21,8 @@ namespace spoolflow::live {
 /// A model that valves share, and what tells it from others.
 struct SharedModel {
   std::shared_ptr<const model::Model> model;
-  std::string sha256;  ///< of its file
+  std::string sha256;            ///< of its file
+  std::filesystem::path file{};  ///< empty: embedded
 };
 
 /// What a valve shows at an instant.
@@ -46,6 +49,9 @@ class ValveAtWork {
   /// Goes on from what was kept. Returns false where sensor and monitor begin anew, as model or program were others.
   bool restore(const KeptState& kept);
 
+  /// From now on samples are worked on as the fleet gets them (fleet::on_grid), and blocks of them are kept for it.
+  void publish(std::string name, const OutboxPosition& after, double longest_s);
+
   void work(const SampleBlock& block);
   /// The source is over: the monitor judges what it had gathered.
   void finish();
@@ -68,8 +74,10 @@ class ValveAtWork {
 
   /// What is to be kept now, and of what came since the last time; `with_indicators`: theirs too.
   [[nodiscard]] ValveCommit take_commit(bool with_indicators);
-  /// It could not be kept: what came since then is told together next time.
-  void give_back(const Summary& since_last);
+  /// What came since the last commit or summary alone.
+  [[nodiscard]] Summary take_summary();
+  /// It could not be kept: what came since then is told together next time, its blocks come again.
+  void give_back(const ValveCommit& commit);
 
  private:
   void add_to_summary(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);
@@ -92,6 +100,7 @@ class ValveAtWork {
   Summary summary_;
   PlotTrace trace_;
   RawTrace raw_;
+  std::optional<BlockCutter> cutter_;  ///< where the fleet gets the samples
 };
 
 }  // namespace spoolflow::live

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 23> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
@@ -34,6 +34,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 23> library_
     {"boost/", "Boost"},
     {"zip.h", "libzip"},
     {"sqlite3.h", "SQLite"},
+    {"zstd.h", "zstd"},
+    {"libpq-fe.h", "libpq"},
+    {"nats/nats.h", "NATS"},
     {"arpa/", "POSIX"},
     {"netinet/", "POSIX"},
     {"poll.h", "POSIX"},

@@ -25,6 +25,9 @@ const std::map<std::string, std::string> library_of_target{
     {"FastFloat::fast_float", "fast_float"},
     {"PkgConfig::LIBZIP", "libzip"},
     {"PkgConfig::SQLITE3", "SQLite"},
+    {"PkgConfig::ZSTD", "zstd"},
+    {"PkgConfig::LIBPQ", "libpq"},
+    {"PkgConfig::NATS", "NATS"},
 };
 
 const std::string prefix = "spoolflow_";

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/live/store/alarm_table.hpp"
+#include "spoolflow/live/store/outbox_table.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -85,6 +86,7 @@ void prepare(Database& database) {
     whole.commit();
   }
   make_alarm_tables(database);
+  make_outbox_tables(database);
   // The whole of a large one would take minutes; damage is then told where it is met.
   constexpr std::int64_t most_pages = 50'000;
   if (database.number("PRAGMA page_count") > most_pages) return;

@@ -156,6 +156,7 @@ void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& val
   bool any = false;
   for (const ValveCommit& valve : valves) {
     const std::int64_t number = number_of(valve.state.valve);
+    keep_blocks(*database_, {valve.state.valve, valve.outbox_session}, valve.blocks);
     if (valve.since_last.samples > 0) put_row(number, wall_ms, valve.since_last);
     for (const KeptIndicator& one : valve.indicators) {
       to.indicator.put(number).put(wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
@@ -189,6 +190,12 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
     statements_->read(*database_);  // what is in memory was taken back
     throw;
   }
+}
+
+void Store::cover(const std::vector<OutboxPosition>& covered) {
+  Transaction whole(*database_);
+  for (const OutboxPosition& one : covered) drop_covered(*database_, one.valve, one.covered);
+  whole.commit();
 }
 
 std::int64_t Store::keep_recording(const KeptRecording& recording) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "spoolflow/live/store/alarm_table.hpp"
+#include "spoolflow/live/store/outbox_table.hpp"
 #include "spoolflow/live/store/sqlite.hpp"
 
 namespace spoolflow::live {
@@ -42,6 +43,8 @@ struct ValveCommit {
   KeptState state;
   Summary since_last;                     ///< nothing came where it has no samples
   std::vector<KeptIndicator> indicators;  ///< written where there are any
+  std::vector<OutboxBlock> blocks{};      ///< for the fleet, until it has them
+  std::uint64_t outbox_session = 0;       ///< of these
 };
 
 struct Event {
@@ -84,6 +87,14 @@ class Store {
   /// One transaction. Throws StoreError, and then nothing of it is kept.
   void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
               const std::vector<Alarm>& alarms = {});
+  [[nodiscard]] std::vector<OutboxPosition> positions() { return outbox_positions(*database_); }
+  [[nodiscard]] std::uint64_t session(std::int64_t wall_ms) { return outbox_session(*database_, wall_ms); }
+  /// Each commit waits for the disk from now on: a block whose number was given away must not be forgotten.
+  void keep_on_disk() { database_->run("PRAGMA synchronous=FULL"); }
+  /// The fleet has the blocks of these valves up to their `covered`. Throws StoreError.
+  void cover(const std::vector<OutboxPosition>& covered);
+  /// As live::drop_oldest_blocks(). Throws StoreError.
+  std::int64_t drop_oldest_blocks(double largest_MB) { return live::drop_oldest_blocks(*database_, largest_MB); }
   /// The newest, ascending by id.
   [[nodiscard]] std::vector<Event> events(int most);
   /// As kept_alarms().

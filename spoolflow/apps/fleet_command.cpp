@@ -1,0 +1,127 @@
+/// `spoolflow worker`: takes its share of the fleet's valves; `spoolflow fleet`: makes the fleet's tables and streams,
+/// and tells how it fares.
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/interruption.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/fleet/server_configuration.hpp"
+#include "spoolflow/fleet/worker.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct FleetArguments {
+  std::string fleet;
+  bool setup = false, status = false;
+};
+
+/// The servers may need a moment to let a new client in.
+bool wait_for(const fleet::Connection& nats) {
+  constexpr std::chrono::milliseconds step{50};
+  constexpr int steps = 60;
+  for (int k = 0; k < steps && !nats.connected(); ++k) std::this_thread::sleep_for(step);
+  return nats.connected();
+}
+
+fleet::SharedSettings shared_settings(const fleet::FleetSettings& settings) {
+  return {fleet::partition_count, settings.raised_after_s, settings.gone_after_s};
+}
+
+void setup(const fleet::FleetSettings& settings) {
+  fleet::Session session(settings.connection, "spoolflow fleet");
+  const bool made = fleet::make_schema(session, shared_settings(settings));
+  say("PostgreSQL: the tables {}\n", made ? "are made" : "were there");
+  fleet::Connection nats(fleet::access_of(settings.servers, settings.login), "spoolflow fleet");
+  if (wait_for(nats)) {
+    (void)nats.make_stream(settings.stream);
+    say("NATS: the stream {} is there\n", settings.stream.name);
+  } else {
+    say("NATS: no server can be reached, or none lets this user in; the first worker makes the stream\n");
+  }
+  print_text(fleet::nats_configuration(settings) + "\n" + fleet::postgresql_configuration());
+}
+
+void status(const fleet::FleetSettings& settings) {
+  fleet::Session session(settings.connection, "spoolflow fleet");
+  (void)fleet::read_settings(session);
+  print("{:>9}  {:>6}  {:>7}  {:>10}  {:>8}  {}\n", "partition", "epoch", "valves", "blocks", "behind_s", "owner");
+  for (const fleet::PartitionStatus& one : fleet::partition_status(session)) {
+    const std::string behind = one.valves == 0 ? "-" : fmt::format("{:.1f}", one.behind_s);
+    print("{:>9}  {:>6}  {:>7}  {:>10}  {:>8}  {}\n", one.number, one.epoch, one.valves, one.blocks, behind,
+          one.owner.empty() || one.lease_s <= 0 ? "(nobody)" : one.owner);
+  }
+  fleet::Connection nats(fleet::access_of(settings.servers, settings.login), "spoolflow fleet");
+  if (!wait_for(nats)) {
+    print("NATS: no server can be reached\n");
+    return;
+  }
+  const fleet::StreamPlace stream = nats.stream(settings.stream.name);
+  print("stream {}: {} blocks, {:.1f} MB\n", settings.stream.name, stream.messages,
+        1e-6 * static_cast<double>(stream.bytes));
+}
+
+void fleet_command(const FleetArguments& arguments) {
+  if (arguments.setup == arguments.status) {
+    throw std::invalid_argument("name one of --setup and --status");
+  }
+  const fleet::FleetSettings settings = fleet::read_fleet(arguments.fleet);
+  if (arguments.setup) {
+    setup(settings);
+  } else {
+    status(settings);
+  }
+}
+
+void worker_command(const FleetArguments& arguments) {
+  fleet::FleetSettings settings = fleet::read_fleet(arguments.fleet);
+  const InterruptionPause held_back;  // in this thread, and in all that it starts
+  {
+    fleet::Worker worker(std::move(settings), fmt::format("spoolflow {}", tool_version()),
+                         [](const std::string& text) { say("{}\n", text); });
+    say("worker {}; end with Ctrl-C\n", worker.owner());
+    wait_for_the_end();
+    worker.stop();
+  }
+  say("ended\n");
+}
+
+}  // namespace
+
+void add_worker_command(CLI::App& program) {
+  auto arguments = std::make_shared<FleetArguments>();
+  CLI::App* command = add_command(
+      program, {"worker",
+                "work on valves of a fleet: take partitions, estimate, commit",
+                "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md), and blocks that sites send",
+                "the fleet's tables; messages go to standard error; any number of workers share the valves",
+                {"spoolflow worker fleet.toml"}});
+  command->add_option("fleet", arguments->fleet, "fleet file")->type_name("FLEET.toml")->required();
+  command->callback([arguments] { worker_command(*arguments); });
+}
+
+void add_fleet_command(CLI::App& program) {
+  auto arguments = std::make_shared<FleetArguments>();
+  CLI::App* command = add_command(
+      program, {"fleet",
+                "make a fleet's tables and streams, or tell how it fares",
+                "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md)",
+                "with --setup tables, stream, roles, and both servers' configuration on standard output; with\n"
+                "         --status partitions, their owners, and how far behind they are",
+                {"spoolflow fleet --setup fleet.toml", "spoolflow fleet --status fleet.toml"}});
+  command->add_option("fleet", arguments->fleet, "fleet file")->type_name("FLEET.toml")->required();
+  command->add_flag("--setup", arguments->setup, "make what is missing, print the servers'\nconfiguration");
+  command->add_flag("--status", arguments->status, "tell partitions, owners and lag");
+  command->callback([arguments] { fleet_command(*arguments); });
+}
+
+}  // namespace spoolflow::apps

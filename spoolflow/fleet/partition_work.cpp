@@ -1,0 +1,209 @@
+#include "spoolflow/fleet/partition_work.hpp"
+
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "spoolflow/fleet/subjects.hpp"
+#include "spoolflow/model/model_error.hpp"
+
+namespace spoolflow::fleet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// Blocks of one fetch; of one transaction at most; of one valve that came before their turn.
+constexpr int fetched_blocks = 64;
+constexpr std::size_t committed_blocks = 512, early_blocks = 256;
+constexpr milliseconds patience{100}, retry{300};
+/// A site sends again by itself what is not covered in time; asking is quicker where a single block is missing.
+constexpr seconds ask_every{1}, tell_all_every{5};
+
+}  // namespace
+
+PartitionWork::PartitionWork(WorkerParts parts, const Claim& claim)
+    : parts_(std::move(parts)),
+      claim_(claim),
+      session_(parts_.settings.connection, fmt::format("spoolflow partition {}", claim.partition)),
+      store_(session_, claim),
+      models_(parts_.nats.subscribe(model_subject("*"))) {
+  restore();
+}
+
+void PartitionWork::restore() {
+  stream_ = store_.stream_position();
+  for (const KeptValve& kept : store_.read()) {
+    const std::string& valve = kept.position.state.valve;
+    const auto its_model = model(kept.position.model_sha256);
+    if (!its_model) {
+      throw ServerRefuses(
+          fmt::format("the model {} of {} is missing or damaged; restore a backup", kept.position.model_sha256, valve));
+    }
+    place(valve).line.restore(kept, *its_model);
+    to_tell_.insert(valve);
+  }
+}
+
+PartitionWork::Place& PartitionWork::place(const std::string& valve) {
+  const live::AlarmDelays delays{parts_.shared.raised_after_s, parts_.shared.gone_after_s};
+  return places_.try_emplace(valve, valve, parts_.program, delays).first->second;
+}
+
+/// From memory, else from the store.
+std::optional<live::SharedModel> PartitionWork::model(const std::string& sha256) {
+  if (auto found = parts_.models.find(sha256)) return found;
+  const auto kept = store_.model(sha256);
+  if (!kept) return std::nullopt;
+  return parts_.models.add(sha256, *kept);
+}
+
+/// What sites sent because it was asked for, by whomever.
+void PartitionWork::take_models() {
+  constexpr std::size_t hash_digits = 64;
+  while (const auto message = models_.next(milliseconds(0))) {
+    if (message->bytes.size() <= hash_digits) continue;
+    const std::string sha256 = message->bytes.substr(0, hash_digits);
+    if (parts_.models.find(sha256)) continue;
+    const std::vector<std::uint8_t> packed(message->bytes.begin() + hash_digits, message->bytes.end());
+    try {
+      if (parts_.models.add(sha256, packed)) store_.keep_model(sha256, packed);
+    } catch (
+        const model::ModelError&) {  // of another version of the program: its blocks wait for a worker that knows it
+    }
+  }
+}
+
+/// The stream is made anew where it is gone, and read from the beginning where it is not the one of before.
+void PartitionWork::open_stream() {
+  StreamPlace there;
+  try {
+    there = parts_.nats.stream(parts_.settings.stream.name);
+  } catch (const TransportError&) {
+    there = parts_.nats.make_stream(parts_.settings.stream);
+  }
+  const bool same = there.created_ns == stream_.created_ns && stream_.sequence <= there.last;
+  if (!same) stream_ = {there.created_ns, 0};
+  puller_.emplace(parts_.nats.pull(parts_.settings.stream.name, fmt::format("spoolflow.block.{}.>", claim_.partition),
+                                   stream_.sequence + 1));
+}
+
+/// False where the stream is away.
+bool PartitionWork::fetch() {
+  try {
+    if (!puller_) open_stream();
+    for (const Message& message : puller_->fetch(fetched_blocks, patience)) take(message);
+    return true;
+  } catch (const TransportError&) {
+    puller_.reset();
+    return false;
+  }
+}
+
+void PartitionWork::take(const Message& message) {
+  stream_.sequence = message.sequence;
+  const auto read = read_block({reinterpret_cast<const std::uint8_t*>(message.bytes.data()), message.bytes.size()});
+  const Block* const block = std::get_if<Block>(&read);
+  // A site speaks for its own valves alone, which the server sees to by the subject.
+  if (block == nullptr || message.subject != block_subject(claim_.partition, site_of(block->valve)) ||
+      partition_of(block->valve) != claim_.partition) {
+    return;
+  }
+  Place& at = place(block->valve);
+  switch (at.line.turn(*block)) {
+    case ValveLine::Turn::next:
+      if (!work(at, *block)) {
+        if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, *block);
+        return;
+      }
+      work_on_early(at);
+      return;
+    case ValveLine::Turn::early:
+      if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, *block);
+      return;
+    case ValveLine::Turn::duplicate:
+      to_tell_.insert(block->valve);  // its site seems not to have heard
+  }
+}
+
+/// False where its model is not there yet.
+bool PartitionWork::work(Place& at, const Block& block) {
+  const auto its_model = model(block.model_sha256);
+  if (!its_model) {
+    ask(block.valve, at, "model " + block.model_sha256);
+    return false;
+  }
+  at.line.work(block, *its_model);
+  ++uncommitted_;
+  return true;
+}
+
+void PartitionWork::work_on_early(Place& at) {
+  for (auto next = at.early.begin(); next != at.early.end();) {
+    const ValveLine::Turn turn = at.line.turn(next->second);
+    if (turn == ValveLine::Turn::early) return;
+    if (turn == ValveLine::Turn::next && !work(at, next->second)) return;
+    next = at.early.erase(next);
+  }
+}
+
+void PartitionWork::ask(const std::string& valve, Place& at, const std::string& what) {
+  const Clock::time_point now = Clock::now();
+  if (now - at.asked < ask_every) return;
+  at.asked = now;
+  parts_.nats.publish(ask_subject(site_of(valve)), what);
+}
+
+void PartitionWork::ask_for_missing() {
+  for (auto& [valve, at] : places_) {
+    if (at.early.empty()) continue;
+    work_on_early(at);  // a model may have come
+    if (at.early.empty() || at.line.turn(at.early.begin()->second) != ValveLine::Turn::early) continue;
+    ask(valve, at, fmt::format("blocks {} {}", id_of(valve), at.line.last().number + 1));
+  }
+}
+
+void PartitionWork::commit() {
+  committed_ = Clock::now();
+  std::vector<ValveRows> rows;
+  for (auto& [valve, at] : places_) {
+    auto one = at.line.take_rows();
+    if (!one) continue;
+    to_tell_.insert(valve);
+    rows.push_back(std::move(*one));
+  }
+  uncommitted_ = 0;
+  if (!rows.empty()) store_.commit(rows, stream_);
+  tell_coverage(false);
+}
+
+/// Of what is committed alone: called behind a commit.
+void PartitionWork::tell_coverage(bool all) {
+  std::map<std::string, std::string> lines;  // by site
+  for (const auto& [valve, at] : places_) {
+    const BlockPlace& last = at.line.last();
+    if (last.session == 0 || (!all && !to_tell_.contains(valve))) continue;
+    lines[site_of(valve)] += fmt::format("{} {} {}\n", id_of(valve), last.session, last.number);
+  }
+  to_tell_.clear();
+  for (const auto& [site, text] : lines) parts_.nats.publish(coverage_subject(site), text);
+}
+
+void PartitionWork::run(const std::stop_token& stop) {
+  const auto commit_every = std::chrono::duration<double>(parts_.settings.worker.commit_s);
+  while (!stop.stop_requested()) {
+    if (!fetch()) std::this_thread::sleep_for(retry);
+    take_models();
+    ask_for_missing();
+    const Clock::time_point now = Clock::now();
+    if (uncommitted_ < committed_blocks && now - committed_ < commit_every) continue;
+    commit();
+    if (now - told_ < tell_all_every) continue;
+    told_ = now;
+    tell_coverage(true);
+  }
+  commit();
+}
+
+}  // namespace spoolflow::fleet

@@ -1,0 +1,184 @@
+#include "spoolflow/fleet/store/postgresql.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <libpq-fe.h>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace spoolflow::fleet {
+namespace {
+
+/// On one line, without the prefix of libpq.
+std::string said(const char* message) {
+  std::string out = message == nullptr ? "" : message;
+  for (char& c : out) {
+    if (c == '\n' || c == '\t') c = ' ';
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+}  // namespace
+
+Values& Values::put(std::int64_t value) {
+  return put(std::string_view(fmt::format("{}", value)));
+}
+
+Values& Values::put(double value) {
+  if (std::isnan(value)) return put_null();
+  if (std::isinf(value)) return put(std::string_view(value > 0 ? "Infinity" : "-Infinity"));
+  return put(std::string_view(fmt::format("{}", value)));  // the shortest text that is this number and no other
+}
+
+Values& Values::put(std::string_view text) {
+  texts_.emplace_back(text);
+  binary_.push_back(false);
+  null_.push_back(false);
+  return *this;
+}
+
+Values& Values::put(std::span<const std::uint8_t> bytes) {
+  texts_.emplace_back(bytes.begin(), bytes.end());
+  binary_.push_back(true);
+  null_.push_back(false);
+  return *this;
+}
+
+Values& Values::put_null() {
+  texts_.emplace_back();
+  binary_.push_back(false);
+  null_.push_back(true);
+  return *this;
+}
+
+void Rows::Clear::operator()(pg_result* handle) const {
+  PQclear(handle);
+}
+
+int Rows::size() const {
+  return PQntuples(handle_.get());
+}
+
+bool Rows::is_null(int row, int column) const {
+  return PQgetisnull(handle_.get(), row, column) != 0;
+}
+
+std::int64_t Rows::integer(int row, int column) const {
+  return std::strtoll(PQgetvalue(handle_.get(), row, column), nullptr, 10);
+}
+
+double Rows::real(int row, int column) const {
+  if (is_null(row, column)) return std::numeric_limits<double>::quiet_NaN();
+  return std::strtod(PQgetvalue(handle_.get(), row, column), nullptr);
+}
+
+std::string Rows::text(int row, int column) const {
+  return {PQgetvalue(handle_.get(), row, column), static_cast<std::size_t>(PQgetlength(handle_.get(), row, column))};
+}
+
+std::vector<std::uint8_t> Rows::bytes(int row, int column) const {
+  std::size_t length = 0;
+  const auto* text = reinterpret_cast<const unsigned char*>(PQgetvalue(handle_.get(), row, column));
+  const std::unique_ptr<unsigned char, void (*)(void*)> plain(PQunescapeBytea(text, &length), PQfreemem);
+  if (!plain) throw std::bad_alloc();
+  return {plain.get(), plain.get() + length};
+}
+
+std::int64_t Rows::affected() const {
+  return std::strtoll(PQcmdTuples(handle_.get()), nullptr, 10);
+}
+
+void Session::Finish::operator()(pg_conn* handle) const {
+  PQfinish(handle);
+}
+
+Session::Session(const std::string& connection, const std::string& name) {
+  // What is not said: how long a server that went away is waited for.
+  const std::string all =
+      "connect_timeout=3 keepalives_idle=2 keepalives_interval=1 keepalives_count=3 "
+      "tcp_user_timeout=5000 " +
+      connection + " application_name='" + name + "'";
+  char* wrong = nullptr;
+  PQconninfoOption* const parsed = PQconninfoParse(all.c_str(), &wrong);
+  if (parsed == nullptr) {
+    const std::string why = said(wrong);
+    PQfreemem(wrong);
+    throw ServerRefuses(fmt::format("the connection to PostgreSQL is written wrongly: {}", why));
+  }
+  PQconninfoFree(parsed);
+  handle_.reset(PQconnectdb(all.c_str()));
+  if (PQstatus(handle_.get()) != CONNECTION_OK) {
+    throw ServerAway(fmt::format("PostgreSQL cannot be reached: {}", said(PQerrorMessage(handle_.get()))));
+  }
+  PQsetNoticeProcessor(
+      handle_.get(), [](void*, const char*) {}, nullptr);  // what matters comes as an error
+  // A worker that is stopped in mid-transaction must not hold its partition's row for longer.
+  run_script(
+      "SET idle_in_transaction_session_timeout = '4s'; SET lock_timeout = '8s'; SET client_min_messages = warning");
+}
+
+void Session::check(pg_result* result, const char* sql) {
+  const ExecStatusType status = PQresultStatus(result);
+  if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return;
+  const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
+  const std::string_view code = state == nullptr ? "08000" : state;
+  const std::string why = said(PQresultErrorMessage(result));
+  // Connection, resources, operator intervention, transactions that were rolled back, a server that became a standby,
+  // a session that stood still, a lock that did not come.
+  for (const char* passing : {"08", "53", "57", "40", "25006", "25P03", "55P03", "XX"}) {
+    if (code.starts_with(passing)) throw ServerAway(fmt::format("PostgreSQL: {}", why));
+  }
+  throw ServerRefuses(fmt::format("PostgreSQL: {} ({}, in: {:.60})", why, code, sql));
+}
+
+Rows Session::run(const char* sql, const Values& values) {
+  const auto count = static_cast<int>(values.texts_.size());
+  std::string& name = prepared_[sql];
+  if (name.empty()) {
+    const std::string wanted = fmt::format("s{}", prepared_.size());
+    pg_result* const made = PQprepare(handle_.get(), wanted.c_str(), sql, 0, nullptr);
+    const Rows held(made);
+    check(made, sql);
+    name = wanted;
+  }
+  std::vector<const char*> texts;
+  std::vector<int> lengths, forms;
+  for (std::size_t k = 0; k < values.texts_.size(); ++k) {
+    texts.push_back(values.null_[k] ? nullptr : values.texts_[k].data());
+    lengths.push_back(static_cast<int>(values.texts_[k].size()));
+    forms.push_back(values.binary_[k] ? 1 : 0);
+  }
+  pg_result* const result =
+      PQexecPrepared(handle_.get(), name.c_str(), count, texts.data(), lengths.data(), forms.data(), 0);
+  Rows rows(result);
+  check(result, sql);
+  return rows;
+}
+
+void Session::run_script(const std::string& sql) {
+  pg_result* const result = PQexec(handle_.get(), sql.c_str());
+  const Rows rows(result);
+  check(result, sql.c_str());
+}
+
+FleetTransaction::FleetTransaction(Session& session) : session_(session) {
+  session_.run_script("BEGIN");
+}
+
+FleetTransaction::~FleetTransaction() {
+  if (!open_) return;
+  try {
+    session_.run_script("ROLLBACK");
+  } catch (const std::exception&) {  // the session is over, and the transaction with it
+  }
+}
+
+void FleetTransaction::commit() {
+  open_ = false;
+  session_.run_script("COMMIT");
+}
+
+}  // namespace spoolflow::fleet

@@ -1,0 +1,215 @@
+#include "spoolflow/fleet/transport/nats.hpp"
+
+#include <nats/nats.h>
+
+namespace spoolflow::fleet {
+namespace {
+
+[[noreturn]] void refuse(natsStatus status, const std::string& what) {
+  const char* const last = nats_GetLastError(nullptr);
+  std::string text = "NATS: " + what + ": " + natsStatus_GetText(status);
+  if (last != nullptr && *last != 0) text += std::string(" (") + last + ")";
+  throw TransportError(text);
+}
+
+void check(natsStatus status, const std::string& what) {
+  if (status != NATS_OK) refuse(status, what);
+}
+
+struct Destroy {
+  void operator()(natsOptions* handle) const { natsOptions_Destroy(handle); }
+  void operator()(natsConnection* handle) const { natsConnection_Destroy(handle); }
+  void operator()(jsCtx* handle) const { jsCtx_Destroy(handle); }
+  void operator()(jsStreamInfo* handle) const { jsStreamInfo_Destroy(handle); }
+  void operator()(jsConsumerInfo* handle) const { jsConsumerInfo_Destroy(handle); }
+  void operator()(natsMsg* handle) const { natsMsg_Destroy(handle); }
+  void operator()(jsMsgMetaData* handle) const { jsMsgMetaData_Destroy(handle); }
+};
+template <class T>
+using Handle = std::unique_ptr<T, Destroy>;
+
+/// Several connection attempts fit a broken server's absence; JetStream's own answers take at most this long.
+constexpr std::int64_t reconnect_wait_ms = 250, answer_wait_ms = 3000, ping_interval_ms = 2000;
+constexpr int pings_out = 2;
+/// A reader that has been silent for so long is asked whether it is there; one that still is, and says nothing for
+/// longer, may have been forgotten by servers that were killed.
+constexpr std::chrono::seconds silence{2}, longest_silence{8};
+
+Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name) {
+  natsOptions* made = nullptr;
+  check(natsOptions_Create(&made), "options");
+  Handle<natsOptions> options(made);
+  std::vector<const char*> servers;
+  for (const std::string& server : access.servers) servers.push_back(server.c_str());
+  check(natsOptions_SetServers(made, servers.data(), static_cast<int>(servers.size())), "servers");
+  check(natsOptions_SetName(made, name.c_str()), "name");
+  check(natsOptions_SetMaxReconnect(made, -1), "reconnects");
+  check(natsOptions_SetReconnectWait(made, reconnect_wait_ms), "reconnects");
+  check(natsOptions_SetRetryOnFailedConnect(
+            made, true, [](natsConnection*, void*) {}, nullptr),
+        "reconnects");
+  // Only the servers that were named: others that those tell of may be out of reach from here.
+  check(natsOptions_SetIgnoreDiscoveredServers(made, true), "servers");
+  check(natsOptions_SetPingInterval(made, ping_interval_ms), "pings");
+  check(natsOptions_SetMaxPingsOut(made, pings_out), "pings");
+  const auto login = [](natsStatus status, const std::string& what, const std::string& remedy) {
+    if (status == NATS_OK) return;
+    throw LoginError("NATS: " + what + " (" + natsStatus_GetText(status) + "); " + remedy);
+  };
+  if (!access.credentials.empty()) {
+    login(natsOptions_SetUserCredentialsFromFiles(made, access.credentials.c_str(), nullptr),
+          "the credentials " + access.credentials + " cannot be used", "check the file and its rights");
+  }
+  if (!access.user.empty()) {
+    login(natsOptions_SetUserInfo(made, access.user.c_str(), access.password.c_str()), "the user cannot be used",
+          "check user and password_file");
+  }
+  if (!access.authority.empty()) {
+    login(natsOptions_SetSecure(made, true), "TLS cannot be used", "check libnats");
+    login(natsOptions_LoadCATrustedCertificates(made, access.authority.c_str()),
+          "the certificates " + access.authority + " cannot be read", "name a PEM file as authority");
+  }
+  // What comes before there is an answer is refused by the servers later: the connection goes on trying.
+  return options;
+}
+
+Message message_of(natsMsg* handle) {
+  Message out{natsMsg_GetSubject(handle),
+              std::string(natsMsg_GetData(handle), static_cast<std::size_t>(natsMsg_GetDataLength(handle)))};
+  jsMsgMetaData* made = nullptr;
+  if (natsMsg_GetReply(handle) != nullptr && natsMsg_GetMetaData(&made, handle) == NATS_OK) {
+    const Handle<jsMsgMetaData> data(made);
+    out.sequence = data->Sequence.Stream;
+  }
+  return out;
+}
+
+StreamPlace place_of(const jsStreamInfo& info) {
+  return {info.Created, info.State.FirstSeq, info.State.LastSeq, info.State.Msgs, info.State.Bytes};
+}
+
+}  // namespace
+
+struct Connection::Handles {
+  Handle<natsOptions> options;
+  Handle<natsConnection> connection;
+  Handle<jsCtx> stream;
+};
+
+Connection::Connection(const NatsAccess& access, const std::string& name) : handles_(std::make_unique<Handles>()) {
+  handles_->options = options_of(access, name);
+  natsConnection* connection = nullptr;
+  const natsStatus status = natsConnection_Connect(&connection, handles_->options.get());
+  handles_->connection.reset(connection);
+  if (status != NATS_OK && status != NATS_NOT_YET_CONNECTED) refuse(status, "connect");
+  jsCtx* stream = nullptr;
+  jsOptions options;
+  check(jsOptions_Init(&options), "options");
+  options.Wait = answer_wait_ms;
+  check(natsConnection_JetStream(&stream, connection, &options), "stream");
+  handles_->stream.reset(stream);
+}
+
+Connection::~Connection() = default;
+
+bool Connection::connected() const {
+  return natsConnection_Status(handles_->connection.get()) == NATS_CONN_STATUS_CONNECTED;
+}
+
+bool Connection::publish(const std::string& subject, std::span<const std::uint8_t> bytes) {
+  return connected() && natsConnection_Publish(handles_->connection.get(), subject.c_str(), bytes.data(),
+                                               static_cast<int>(bytes.size())) == NATS_OK;
+}
+
+bool Connection::publish(const std::string& subject, const std::string& text) {
+  return connected() && natsConnection_Publish(handles_->connection.get(), subject.c_str(), text.data(),
+                                               static_cast<int>(text.size())) == NATS_OK;
+}
+
+Subscription Connection::subscribe(const std::string& subject) {
+  natsSubscription* made = nullptr;
+  check(natsConnection_SubscribeSync(&made, handles_->connection.get(), subject.c_str()), "subscribe to " + subject);
+  return Subscription(made);
+}
+
+StreamPlace Connection::make_stream(const StreamSettings& settings) {
+  jsStreamConfig config;
+  check(jsStreamConfig_Init(&config), "stream");
+  const char* subject = "spoolflow.block.>";
+  config.Name = settings.name.c_str();
+  config.Subjects = &subject;
+  config.SubjectsLen = 1;
+  config.Storage = js_FileStorage;
+  config.Discard = js_DiscardOld;
+  config.Replicas = settings.replicas;
+  config.MaxBytes = static_cast<std::int64_t>(1e6 * settings.largest_MB);
+  config.MaxAge = static_cast<std::int64_t>(3.6e12 * settings.hours);
+  config.Duplicates = std::int64_t{1'000'000'000};  // none are looked for
+  config.NoAck = true;
+  jsStreamInfo* info = nullptr;
+  jsErrCode code{};
+  natsStatus status = js_AddStream(&info, handles_->stream.get(), &config, nullptr, &code);
+  if (status != NATS_OK && code != 0) {  // it is there with other settings
+    status = js_UpdateStream(&info, handles_->stream.get(), &config, nullptr, &code);
+  }
+  check(status, "stream " + settings.name);
+  const Handle<jsStreamInfo> made(info);
+  return place_of(*made);
+}
+
+StreamPlace Connection::stream(const std::string& name) {
+  jsStreamInfo* info = nullptr;
+  check(js_GetStreamInfo(&info, handles_->stream.get(), name.c_str(), nullptr, nullptr), "stream " + name);
+  const Handle<jsStreamInfo> found(info);
+  return place_of(*found);
+}
+
+Puller Connection::pull(const std::string& stream, const std::string& subject, std::uint64_t from) {
+  jsSubOptions options;
+  check(jsSubOptions_Init(&options), "reader");
+  options.Stream = stream.c_str();
+  options.Config.DeliverPolicy = from > 1 ? js_DeliverByStartSequence : js_DeliverAll;
+  options.Config.OptStartSeq = from > 1 ? from : 0;
+  options.Config.AckPolicy = js_AckNone;
+  options.Config.InactiveThreshold = std::int64_t{30'000'000'000};
+  options.Config.MemoryStorage = true;
+  options.Config.Replicas = 1;
+  natsSubscription* made = nullptr;
+  check(js_PullSubscribe(&made, handles_->stream.get(), subject.c_str(), nullptr, nullptr, &options, nullptr),
+        "read " + subject);
+  return Puller(made);
+}
+
+void Subscription::Close::operator()(natsSubscription* handle) const {
+  natsSubscription_Destroy(handle);
+}
+
+std::optional<Message> Subscription::next(std::chrono::milliseconds patience) {
+  natsMsg* message = nullptr;
+  if (natsSubscription_NextMsg(&message, handle_.get(), patience.count()) != NATS_OK) return std::nullopt;
+  const Handle<natsMsg> held(message);
+  return message_of(message);
+}
+
+std::vector<Message> Puller::fetch(int most, std::chrono::milliseconds patience) {
+  std::vector<Message> out;
+  natsMsgList list{};
+  const auto now = std::chrono::steady_clock::now;
+  const natsStatus status = natsSubscription_Fetch(&list, subscription_.handle_.get(), most, patience.count(), nullptr);
+  for (int k = 0; k < list.Count; ++k) out.push_back(message_of(list.Msgs[k]));
+  natsMsgList_Destroy(&list);
+  if (!out.empty()) {
+    heard_ = asked_ = now();
+    return out;
+  }
+  if (status != NATS_OK && status != NATS_TIMEOUT) refuse(status, "fetch");
+  if (now() - asked_ < silence) return out;
+  if (now() - heard_ > longest_silence) refuse(NATS_TIMEOUT, "reader that says nothing");
+  jsConsumerInfo* info = nullptr;
+  check(natsSubscription_GetConsumerInfo(&info, subscription_.handle_.get(), nullptr, nullptr), "reader");
+  const Handle<jsConsumerInfo> there(info);
+  asked_ = now();
+  return out;
+}
+
+}  // namespace spoolflow::fleet

@@ -1,0 +1,113 @@
+#pragma once
+/// What the fleet needs of NATS: a connection that comes back by itself, messages without promise, and a stream that is
+/// read in its order from any place. Nothing here is taken as kept: what must not be lost stays with its sender until
+/// the fleet's store has it.
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+struct __natsSubscription;
+
+namespace spoolflow::fleet {
+
+/// What the servers refuse, or that none can be reached at present: worth another try.
+struct TransportError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// What no other try will help: exit status 2 where it is met at the start.
+struct LoginError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+struct NatsAccess {
+  std::vector<std::string> servers;  ///< "nats://HOST:PORT" or "tls://HOST:PORT"
+  std::string credentials{};         ///< file; empty: none
+  std::string user{}, password{};    ///< empty: none
+  std::string authority{};           ///< PEM file of who signed the servers' certificates; empty: no TLS
+};
+
+struct Message {
+  std::string subject;
+  std::string bytes;
+  std::uint64_t sequence = 0;  ///< in its stream; 0 where it came by none
+};
+
+/// The stream that carries blocks: what it holds and for how long is a matter of comfort, not of safety.
+struct StreamSettings {
+  std::string name = "spoolflow";
+  std::int64_t replicas = 1;
+  double largest_MB = 4000;
+  double hours = 24;
+};
+struct StreamPlace {
+  std::int64_t created_ns = 0;  ///< since 1970-01-01 UTC; another stream of the same name has another
+  std::uint64_t first = 0, last = 0;
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;
+};
+
+class Subscription;
+class Puller;
+
+/// Safe to be used from any thread.
+class Connection {
+ public:
+  /// Returns at once and connects when a server can be reached. Throws LoginError where a file of `access` cannot be
+  /// read. `name`: for the servers' own lists.
+  Connection(const NatsAccess& access, const std::string& name);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  [[nodiscard]] bool connected() const;
+  /// False where it could not be handed over; that it was says nothing.
+  bool publish(const std::string& subject, std::span<const std::uint8_t> bytes);
+  bool publish(const std::string& subject, const std::string& text);
+  [[nodiscard]] Subscription subscribe(const std::string& subject);
+
+  /// Makes the stream of all blocks where there is none, and gives it these settings. Throws TransportError.
+  StreamPlace make_stream(const StreamSettings& settings);
+  /// Throws TransportError where it is not there or does not answer.
+  [[nodiscard]] StreamPlace stream(const std::string& name);
+  /// What the stream holds under `subject` from that sequence number on. Throws TransportError.
+  [[nodiscard]] Puller pull(const std::string& stream, const std::string& subject, std::uint64_t from);
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+};
+
+/// Messages of a subject as they come.
+class Subscription {
+ public:
+  explicit Subscription(__natsSubscription* handle) : handle_(handle) {}
+  /// Nothing where none came within that time, or the connection is away.
+  std::optional<Message> next(std::chrono::milliseconds patience);
+
+ private:
+  friend class Puller;
+  struct Close {
+    void operator()(__natsSubscription* handle) const;
+  };
+  std::unique_ptr<__natsSubscription, Close> handle_;
+};
+
+/// Reads a stream by fetching.
+class Puller {
+ public:
+  explicit Puller(__natsSubscription* handle) : subscription_(handle) {}
+  /// Up to `most` messages; empty where none came within that time. Throws TransportError where the reader is gone:
+  /// make another.
+  std::vector<Message> fetch(int most, std::chrono::milliseconds patience);
+
+ private:
+  Subscription subscription_;
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now(), asked_ = heard_;
+};
+
+}  // namespace spoolflow::fleet

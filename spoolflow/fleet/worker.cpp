@@ -1,0 +1,147 @@
+#include "spoolflow/fleet/worker.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <random>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "spoolflow/live/sources/pace.hpp"
+
+namespace spoolflow::fleet {
+namespace {
+
+/// Of one start of one program on one machine.
+std::string owner_name(const std::string& name) {
+  std::string machine(64, '\0');
+  if (name.empty() && ::gethostname(machine.data(), machine.size() - 1) != 0) machine = "worker";
+  return fmt::format("{}-{}-{:08x}", name.empty() ? machine.c_str() : name.c_str(), ::getpid(), std::random_device{}());
+}
+
+constexpr std::chrono::seconds spread_every{1};
+
+}  // namespace
+
+/// One partition's thread. What ends it is told once; the keeper then begins anew, with another epoch.
+struct Worker::Task {
+  Claim claim;
+  std::atomic<bool> ended = false;
+  std::jthread thread{};
+};
+
+Worker::Worker(FleetSettings settings, std::string program, std::function<void(const std::string&)> tell)
+    : settings_(std::move(settings)),
+      program_(std::move(program)),
+      owner_(owner_name(settings_.worker.name)),
+      tell_(std::move(tell)) {
+  nats_ = std::make_unique<Connection>(access_of(settings_.servers, settings_.login), owner_);
+  try {
+    Session session(settings_.connection, owner_);
+    learn_settings(session);
+  } catch (const ServerAway& error) {  // as later, too: it is waited for
+    tell_(error.what());
+  }
+  keeper_ = std::jthread([this](const std::stop_token& stop) { keep_share(stop); });
+}
+
+void Worker::learn_settings(Session& session) {
+  shared_ = read_settings(session);
+  if (shared_.partitions != partition_count) {
+    throw ServerRefuses(fmt::format("the fleet has {} partitions, this program knows {}; use the program that made it",
+                                    shared_.partitions, partition_count));
+  }
+}
+
+Worker::~Worker() {
+  stop();
+}
+
+void Worker::stop() {
+  keeper_ = {};
+  for (const auto& [partition, task] : tasks_) task->thread.request_stop();
+  if (tasks_.empty()) return;
+  tasks_.clear();
+  try {
+    Session session(settings_.connection, owner_);
+    leave(session, owner_);
+  } catch (const std::exception&) {  // the lease ends by itself
+  }
+}
+
+void Worker::keep_share(const std::stop_token& stop) {
+  std::optional<Session> session;
+  std::string told;
+  live::SteadyTime next = std::chrono::steady_clock::now();
+  do {
+    try {
+      if (!session) session.emplace(settings_.connection, owner_);
+      if (shared_.partitions == 0) learn_settings(*session);
+      spread(*session);
+      tell_of_nats();
+      told.clear();
+    } catch (const std::exception& error) {
+      session.reset();
+      if (told != error.what()) tell_(error.what());
+      told = error.what();
+    }
+    next = std::max(next + spread_every, std::chrono::steady_clock::now());
+  } while (live::wait_until(next, stop));
+}
+
+/// Once, when it has been away for longer than a server takes to let somebody in.
+void Worker::tell_of_nats() {
+  constexpr int patience = 5;
+  away_ = nats_->connected() ? 0 : away_ + 1;
+  if (away_ == patience)
+    tell_("NATS: no server can be reached, or none lets this user in; it is tried again and again");
+}
+
+void Worker::spread(Session& session) {
+  const Spread now = renew(session, owner_, settings_.worker.lease_s);
+  std::map<std::int64_t, std::int64_t> mine;  // epochs by partition
+  for (const Claim& one : now.held) mine[one.partition] = one.epoch;
+  for (auto task = tasks_.begin(); task != tasks_.end();) {
+    const auto held = mine.find(task->first);
+    const bool lost = held == mine.end() || held->second != task->second->claim.epoch;
+    if (lost || task->second->ended) {
+      task->second->thread.request_stop();
+      task = tasks_.erase(task);  // waits for its thread, whose next commit fails
+    } else {
+      ++task;
+    }
+  }
+  for (const Claim& one : now.held) {
+    if (tasks_.contains(one.partition)) continue;
+    if (const auto again = claim_again(session, owner_, one.partition)) begin(*again);
+  }
+  const std::int64_t fair = (shared_.partitions + now.workers - 1) / now.workers;
+  const auto count = static_cast<std::int64_t>(tasks_.size());
+  if (count < fair) {
+    for (const Claim& one : claim(session, owner_, settings_.worker.lease_s, fair - count)) begin(one);
+  }
+  for (std::int64_t surplus = count - fair; surplus > 0; --surplus) {
+    const auto last = std::prev(tasks_.end());
+    const Claim given = last->second->claim;
+    last->second->thread.request_stop();
+    tasks_.erase(last);
+    release(session, given);
+  }
+}
+
+void Worker::begin(const Claim& claim) {
+  auto task = std::make_unique<Task>();
+  task->claim = claim;
+  task->thread = std::jthread([this, at = task.get()](const std::stop_token& stop) {
+    try {
+      PartitionWork({settings_, shared_, program_, *nats_, models_}, at->claim).run(stop);
+    } catch (const std::exception& error) {
+      tell_(fmt::format("partition {}: {}", at->claim.partition, error.what()));
+    }
+    at->ended = true;
+  });
+  tasks_[claim.partition] = std::move(task);
+}
+
+}  // namespace spoolflow::fleet

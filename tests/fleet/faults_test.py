@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+"""faults_test.py COMMAND REFERENCE EXAMPLES single|cluster [SEED…] [--tell]: a fleet whose parts are killed, stopped and cut off one
+after another while blocks are on their way; what it has kept must be, bit for bit, what one process without servers
+reckons from the same blocks. `single`: one NATS server and one PostgreSQL server. `cluster`: three NATS servers with
+three replicas, a primary and a synchronous standby that takes over."""
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from block_reader import read_block  # noqa: E402
+from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
+                   write_site)
+from servers import refused_by_nats, until  # noqa: E402
+from whole_fleet import Fleet  # noqa: E402
+
+COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
+KIND, SEEDS = sys.argv[4], [int(seed) for seed in sys.argv[5:] if seed != "--tell"] or [1]
+TELLS = "--tell" in sys.argv
+VALVES, SECONDS, BLOCK_S = 6, 70, 0.1
+MODEL = os.path.join(EXAMPLES, "live", "size_6.json")
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="spoolflow-fleet-")
+        os.chmod(self.folder, 0o755)
+        self.fleet, self.done = None, False
+
+    def tearDown(self):
+        if self.fleet:
+            if TELLS and not self.done:
+                self.fleet.tell_logs()
+            self.fleet.stop()
+        shutil.rmtree(self.folder)
+
+    def look_at_blocks(self, newest):
+        """By Python alone: numbers, times, and values near those of the recording."""
+        blocks = [read_block(one) for one in blocks_of(self.folder, "v0")]
+        self.assertEqual([block["number"] for block in blocks], list(range(1, newest + 1)))
+        times = [time_s for block in blocks for time_s in block["time_s"]]
+        currents = [value for block in blocks for value in block["current_A"]]
+        self.assertEqual(len(times), 1000 * SECONDS)
+        with open(os.path.join(self.folder, "sound.csv"), encoding="utf-8") as file:
+            header = next(file).strip().split(",")
+            for k, line in enumerate(file):
+                row = dict(zip(header, line.split(",")))
+                self.assertLess(abs(times[k] - float(row["time_s"])), 1e-9)
+                self.assertLess(abs(currents[k] - float(row["current_A"])), 8e-6)
+
+    def look_at_rights(self, port):
+        """A site speaks for itself alone, hears what is told to it alone, and nobody comes in without a name."""
+        for user, line, refused in (("hall", "PUB spoolflow.block.3.hall 0\r\n", False),
+                                    ("hall", "PUB spoolflow.block.3.other 0\r\n", True),
+                                    ("hall", "PUB spoolflow.coverage.hall 0\r\n", True),
+                                    ("hall", "SUB spoolflow.coverage.hall 1", False),
+                                    ("hall", "SUB spoolflow.coverage.other 1", True),
+                                    ("hall", "SUB spoolflow.> 1", True),
+                                    ("hall", "PUB $JS.API.STREAM.DELETE.spoolflow 0\r\n", True),
+                                    ("worker", "PUB $JS.API.STREAM.DELETE.spoolflow 0\r\n", True),
+                                    ("worker", "PUB spoolflow.coverage.hall 0\r\n", False),
+                                    (None, "SUB spoolflow.coverage.hall 1", True),
+                                    ("stranger", "SUB spoolflow.coverage.hall 1", True)):
+            self.assertEqual(refused_by_nats(port, user, line), refused, (user, line))
+
+    def test_nothing_is_lost_or_taken_twice(self):
+        for seed in SEEDS:
+            with self.subTest(seed=seed):
+                self.once(random.Random(seed))
+                self.tearDown()
+                self.setUp()
+
+    def once(self, chance):
+        begin = time.monotonic()
+
+        def tell(text):
+            if TELLS:
+                print(f"{time.monotonic() - begin:5.1f} s  {text}", flush=True)
+        tell("two recordings are made, and six valves of a site work through them while no server is there")
+        make_recordings(COMMAND, self.folder, SECONDS)
+        write_site(self.folder, MODEL, VALVES, BLOCK_S, with_login=KIND == "single")
+        record_offline(COMMAND, self.folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS)
+        waiting, newest, totals = outbox(self.folder)
+        self.assertEqual(waiting, sum(newest.values()))
+        self.look_at_blocks(newest["v0"])
+        expected = reckoned(COMMAND, REFERENCE, self.folder, MODEL)
+        for kind in ("second", "indicator", "event", "alarm", "model_in_force"):  # there is something of each to lose
+            self.assertTrue(any(line.startswith(kind + "|") for line in expected), kind)
+
+        tell(f"{waiting} blocks wait in the site's store; servers and two workers start")
+        fleet = self.fleet = Fleet(COMMAND, self.folder, KIND)
+        self.assertIn('publish: ["spoolflow.block.*.hall"', fleet.setup().stdout)
+        if fleet.rights:
+            self.look_at_rights(fleet.nats_ports[0])
+        for _ in range(2):
+            fleet.start_worker()
+        faults = [fleet.kill_worker_and_start_it_again, fleet.kill_worker_and_start_another,
+                  fleet.stop_worker_until_others_have_its_valves, fleet.kill_nats, fleet.delete_the_stream,
+                  fleet.cut_the_site_off, fleet.kill_postgres, fleet.start_another_worker]
+        chance.shuffle(faults)
+        with site(COMMAND, self.folder, fleet.servers()) as live:
+            tell(f"the site sends; its page is at http://127.0.0.1:{live.port}/")
+            watch = Watch(fleet)
+            for k, fault in enumerate(faults):
+                reach(fleet, waiting * (k + chance.random()) / (len(faults) + 2))
+                tell(fault.__name__.replace("_", " "))
+                fault(chance)
+            reach(fleet, waiting)
+            tell(f"no valve stood longer than {watch.end():.1f} s")
+            until(lambda: outbox(self.folder)[0] == 0, 30, "a site that has heard of all")
+        def told():
+            return subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
+                                  capture_output=True)
+        until(lambda: "(nobody)" not in told().stdout, 20, "partitions that have owners")
+        asked = told()
+        self.assertEqual((asked.returncode, asked.stderr), (0, ""))
+        tell("all is committed:\n" + asked.stdout)
+        for worker in fleet.workers:
+            worker.end()
+
+        self.assertEqual(compared(kept(fleet.postgres)), compared(expected))
+        for valve, (samples, energy) in totals.items():  # and those of the site itself
+            row = fleet.postgres.ask(
+                f"SELECT samples, energy_J FROM state JOIN valve ON valve = number WHERE id = 'hall/{valve}'")
+            self.assertEqual(row, [f"{samples}|{json.dumps(energy)}"])
+        self.done = True
+        tell(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])

@@ -1,0 +1,243 @@
+"""NATS and PostgreSQL servers from Debian's packages on loopback, with ports and folders of their own."""
+import glob
+import os
+import pwd
+import shutil
+import signal
+import socket
+import subprocess
+import threading
+import time
+
+
+def free_ports(count):
+    """That were free an instant ago."""
+    sockets = [socket.socket() for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def until(condition, seconds, what):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"not within {seconds} s: {what}")
+        time.sleep(0.05)
+
+
+def answers(port):
+    try:
+        socket.create_connection(("127.0.0.1", port), 1).close()
+        return True
+    except OSError:
+        return False
+
+
+PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "system")}
+
+
+class Nats:
+    """One server, or one of a cluster: `number` counts from 0, `routes` are the cluster ports of all. `accounts`: who may
+    do what, as --setup prints it; passwords are the users' names."""
+
+    def __init__(self, folder, port, number=0, routes=(), accounts=""):
+        self.port, self.process = port, None
+        self.folder = os.path.join(folder, f"nats_{number}")
+        os.makedirs(self.folder)
+        self.configuration = os.path.join(self.folder, "nats.conf")
+        with open(self.configuration, "w", encoding="utf-8") as file:
+            file.write(f'server_name: "n{number}"\nlisten: "127.0.0.1:{port}"\nmax_payload: 1MB\n'
+                       f'jetstream {{ store_dir: "{self.folder}/store" }}\n{accounts}')
+            if routes:
+                all_routes = ", ".join(f'"nats://127.0.0.1:{route}"' for route in routes)
+                file.write(f'cluster {{ name: "fleet", listen: "127.0.0.1:{routes[number]}", routes: [{all_routes}] }}\n')
+        self.start()
+
+    def start(self):
+        with open(os.path.join(self.folder, "log"), "a", encoding="utf-8") as log:
+            self.process = subprocess.Popen(["nats-server", "-c", self.configuration], stdout=log, stderr=log,
+                                            env={**os.environ, **PASSWORDS})
+        until(lambda: answers(self.port), 20, "a NATS server that answers")
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.kill()
+
+
+def as_postgres(arguments):
+    """The server refuses to be root's."""
+    return ["runuser", "-u", "postgres", "--", *arguments] if os.geteuid() == 0 else arguments
+
+
+class Postgres:
+    """A primary, or a standby of `primary`."""
+
+    BIN = sorted(glob.glob("/usr/lib/postgresql/*/bin"))[-1]
+
+    def __init__(self, folder, port, name="primary", primary=None):
+        self.port, self.name, self.process = port, name, None
+        top = os.path.join(folder, name)
+        os.makedirs(top)
+        self.data, self.log = os.path.join(top, "data"), os.path.join(top, "log")
+        if os.geteuid() == 0:
+            shutil.chown(top, "postgres", pwd.getpwnam("postgres").pw_gid)
+        if primary is None:
+            self.tool("initdb", "-A", "trust", "-U", "postgres", "--no-sync", "-D", self.data)
+            self.settings = {"max_connections": 100, "fsync": "on", "wal_level": "replica"}
+        else:
+            self.tool("pg_basebackup", "-h", "127.0.0.1", "-p", str(primary.port), "-U", "postgres", "-D", self.data,
+                      "-R", "-X", "stream", "-c", "fast", "--no-sync",
+                      "-d", f"host=127.0.0.1 port={primary.port} user=postgres application_name={name}")
+            self.settings = {"max_connections": 100}
+        self.start()
+
+    def tool(self, name, *arguments):
+        subprocess.run(as_postgres([os.path.join(self.BIN, name), *arguments]), check=True, capture_output=True,
+                       cwd="/")
+
+    def start(self):
+        options = [f"-c{key}={value}" for key, value in self.settings.items()]
+        with open(self.log + ".out", "a", encoding="utf-8") as log:
+            # exec: the process that is started is the server itself
+            self.process = subprocess.Popen(
+                as_postgres([os.path.join(self.BIN, "postgres"), "-D", self.data, "-p", str(self.port), "-h",
+                             "127.0.0.1", "-k", os.path.dirname(self.data), *options]), stdout=log, stderr=log, cwd="/")
+        until(self.ready, 30, f"a PostgreSQL {self.name} that answers")
+
+    def ready(self):
+        return subprocess.run([os.path.join(self.BIN, "pg_isready"), "-q", "-h", "127.0.0.1", "-p", str(self.port)],
+                              check=False).returncode == 0
+
+    def postmaster(self):
+        with open(os.path.join(self.data, "postmaster.pid"), encoding="utf-8") as file:
+            return int(file.readline())
+
+    def kill(self):
+        """kill -9 of the server; what it leaves behind ends by itself."""
+        os.kill(self.postmaster(), signal.SIGKILL)
+        self.process.wait()
+        until(lambda: not answers(self.port), 20, "a PostgreSQL server that is gone")
+
+    def restart(self):
+        for _ in range(50):  # its last processes may still hold its memory
+            try:
+                os.remove(os.path.join(self.data, "postmaster.pid"))
+            except FileNotFoundError:
+                pass
+            try:
+                self.start()
+                return
+            except AssertionError:
+                time.sleep(0.2)
+
+    def promote(self):
+        self.tool("pg_ctl", "promote", "-D", self.data)
+
+    def stop(self):
+        if self.process.poll() is None:
+            try:
+                os.kill(self.postmaster(), signal.SIGINT)
+                self.process.wait(30)
+            except (OSError, subprocess.TimeoutExpired):
+                self.process.kill()
+
+    def ask(self, sql, database="postgres"):
+        done = subprocess.run([os.path.join(self.BIN, "psql"), "-X", "-h", "127.0.0.1", "-p", str(self.port), "-U",
+                               "postgres", "-d", database, "-At", "-F", "|", "-c", sql], text=True, capture_output=True,
+                              check=False)
+        if done.returncode != 0:
+            raise RuntimeError(done.stderr)
+        return done.stdout.splitlines()
+
+
+class Gate:
+    """A way to a server that can be closed: what went through it is cut off, and nothing else gets through."""
+
+    def __init__(self, to):
+        self.to, self.open, self.pairs = to, True, []
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.let_in, daemon=True).start()
+
+    def let_in(self):
+        while True:
+            try:
+                inner, _ = self.listener.accept()
+            except OSError:
+                return
+            try:
+                if not self.open:
+                    raise OSError
+                outer = socket.create_connection(("127.0.0.1", self.to), 2)
+            except OSError:
+                inner.close()
+                continue
+            outer.settimeout(None)
+            self.pairs.append((inner, outer))
+            for source, sink in ((inner, outer), (outer, inner)):
+                threading.Thread(target=self.carry, args=(source, sink), daemon=True).start()
+
+    @staticmethod
+    def carry(source, sink):
+        try:
+            while piece := source.recv(65536):
+                sink.sendall(piece)
+        except OSError:
+            pass
+        for one in (source, sink):
+            try:
+                one.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                pass
+
+    def close(self):
+        self.open = False
+        for pair in self.pairs:
+            for one in pair:
+                try:
+                    one.shutdown(socket.SHUT_RDWR)
+                except OSError:
+                    pass
+        self.pairs.clear()
+
+    def stop(self):
+        self.close()
+        self.listener.close()
+
+
+def tell_nats(port, user, lines):
+    """In the servers' own words; a connection that was told who speaks."""
+    raw = socket.create_connection(("127.0.0.1", port), 5)
+    raw.settimeout(5)
+    login = f', "user": "{user}", "pass": "{user}"' if user else ""
+    raw.sendall(f'CONNECT {{"verbose": false, "pedantic": false{login}}}\r\n{lines}'.encode())
+    return raw
+
+
+def ask_nats(port, subject, user=None):
+    """One request without content; what came back."""
+    with tell_nats(port, user, f"SUB answer 1\r\nPUB {subject} answer 0\r\n\r\n") as raw:
+        got = b""
+        while b"MSG answer" not in got or not got.endswith(b"}\r\n"):
+            got += raw.recv(65536)
+        return got.split(b"\r\n")[-2].decode()
+
+
+def refused_by_nats(port, user, line):
+    """Whether the server says that the user may not do so."""
+    with tell_nats(port, user, f"{line}\r\nPING\r\n") as raw:
+        got = b""
+        while b"PONG" not in got and b"-ERR" not in got:
+            piece = raw.recv(65536)
+            if not piece:
+                break
+            got += piece
+        return b"Violation" in got
