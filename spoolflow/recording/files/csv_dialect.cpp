@@ -79,6 +79,43 @@ bool is_units_row(const std::vector<std::string_view>& cells) {
   return known;
 }
 
+/// Cells of which most that say anything are numbers.
+bool is_row_of_samples(const std::vector<std::string_view>& cells) {
+  const auto filled = std::ranges::count_if(cells, [](std::string_view cell) { return !cell.empty(); });
+  const auto numbers = std::ranges::count_if(cells, is_number);
+  return cells.size() > 1 && numbers > 0 && 2 * numbers >= filled;
+}
+
+/// How many lines of title stand above the header: the first row of samples has, right above it or above a row of
+/// units, a line of as many cells that are no numbers, and the file's first line is not cut as they are. 0 where
+/// nothing tells so.
+std::size_t title_lines(std::string_view beginning) {
+  constexpr std::size_t most_lines = 100;
+  std::vector<std::string_view> lines;
+  for (std::string_view rest = beginning; !rest.empty() && lines.size() < most_lines;) {
+    if (rest.find('\n') == std::string_view::npos) break;  // possibly cut short
+    lines.push_back(take_line(rest));
+    if (lines.back().starts_with("sep=")) return 0;  // says itself how it is written
+  }
+  for (const char delimiter : {'\t', ';', ','}) {
+    std::vector<std::vector<std::string_view>> rows;
+    for (const std::string_view line : lines) rows.push_back(cells_of(line, delimiter));
+    for (std::size_t first = 1; first < rows.size(); ++first) {
+      if (!is_row_of_samples(rows[first])) continue;
+      std::size_t header = first - 1;
+      if (header > 0 && is_units_row(rows[header]) && rows[header - 1].size() == rows[first].size()) --header;
+      const bool names = rows[header].size() == rows[first].size() && !is_row_of_samples(rows[header]) &&
+                         std::ranges::none_of(rows[header], is_number);
+      if (!names) break;  // of this delimiter
+      const bool is_title = std::ranges::none_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(header),
+                                                 [&](const auto& row) { return row.size() == rows[first].size(); });
+      if (header > 0 && is_title) return header;
+      break;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 CsvCell take_cell(std::string_view& line, char delimiter) {
@@ -121,6 +158,11 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
   CsvDialect dialect;
   std::string_view rest = beginning;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+
+  for (std::size_t titles = title_lines(rest); titles > 0; --titles) {
+    (void)take_line(rest);
+    ++dialect.header_lines;
+  }
 
   std::optional<char> declared;  // "sep=;", which spreadsheets write and obey
   const auto next_line = [&](std::string_view& text) {

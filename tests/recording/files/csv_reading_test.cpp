@@ -85,6 +85,19 @@ TEST(CsvReading, SaysWhereANumberIsNone) {
               HasSubstr("line 3, column 'time_s': the time stamp is missing"));
 }
 
+TEST(CsvReading, FindsTheHeaderBelowLinesOfTitle) {
+  const Recording plain = read("time_s,position_mm\n0,1\n0.001,1.5\n");
+  for (const std::string text : {
+           "Measurement 12, rig 3, morning\n\ntime_s,position_mm\n0,1\n0.001,1.5\n",
+           "Operator: A. Meyer\nDate;12.11.2026;at;10:15;;\n\ntime;position\ns;mm\n0;1\n0,001;1,5\n",
+           "Rig 3\ttime 10:15\t\tx\ntime_s\tposition_mm\n0\t1\n0.001\t1.5\n",
+       }) {
+    const Recording run = read(text);
+    EXPECT_EQ(column(run, Channel::time), column(plain, Channel::time)) << text;
+    EXPECT_EQ(column(run, Channel::position), column(plain, Channel::position)) << text;
+  }
+}
+
 TEST(CsvReading, TakesTheUsualWordsForNoNumberAsMissing) {
   for (const char* word : {"NaN", "nan", "NULL", "null", "-", "--", "n/a", "#N/A", "1.#QNAN"}) {
     const Recording run = read("time_s,position_mm\n0,1\n0.001," + std::string(word) + "\n0.002,3\n");
