@@ -99,6 +99,23 @@ bool has_own_names(const FileContents& contents) {
   });
 }
 
+/// A channel map can be read where it tells all units and no raw signal.
+ChannelMap known_units(ChannelMap map) {
+  std::erase_if(map.sources, [](const auto& entry) {
+    const auto unit = units::unit_named(entry.second.unit);
+    return !unit || unit->dimension != dimension(entry.first);
+  });
+  return map;
+}
+
+bool names_time(const FileContents& contents) {
+  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
+    const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]});
+    if (header && header->channel == Channel::time) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Inspection inspect(const std::filesystem::path& file, const ReadOptions& options,
@@ -107,7 +124,13 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   out.contents = contents_of(file);
   out.proposal = propose_channels(out.contents);
   if (options.channels.sources.empty() && !has_own_names(out.contents)) return out;
-  const auto reader = open_reader(file, options);
+  ReadOptions channels = options;
+  if (options.channels.sources.empty() && !names_time(out.contents)) {  // the other channels have their own names
+    const auto time = out.proposal.sources.find(Channel::time);
+    if (time == out.proposal.sources.end() || time->second.unit.empty()) return out;
+    channels.channels = known_units(out.proposal);
+  }
+  const auto reader = open_reader(file, channels);
   std::array<Follower, channel_count> followers;
   Steps steps;
   SampleBlock block;

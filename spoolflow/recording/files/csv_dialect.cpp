@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/clock_time.hpp"
 #include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/units/unit.hpp"
@@ -60,12 +61,6 @@ char delimiter_of(std::string_view header, std::string_view lines) {
     if (everywhere) return candidate;
   }
   return present;
-}
-
-void refuse_other_encodings(std::string_view beginning, const std::string& file) {
-  if (beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF")) {
-    throw RecordingError(fmt::format("{}: is UTF-16 text; save it as UTF-8 (\"CSV UTF-8\" in a spreadsheet)", file));
-  }
 }
 
 /// A row of units below the header: no numbers, and at least one unit that is known.
@@ -154,7 +149,6 @@ bool header_is_whole(std::string_view beginning) {
 
 CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file) {
   if (beginning.empty()) throw RecordingError(fmt::format("{}: is empty; record it again or name another file", file));
-  refuse_other_encodings(beginning, file);
   CsvDialect dialect;
   std::string_view rest = beginning;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
@@ -211,6 +205,13 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
     dialect = without_units;
   }
   dialect.header_bytes = beginning.size() - rest.size();
+  std::string_view samples = rest;
+  const std::uint64_t header_lines = dialect.header_lines;
+  const std::vector<std::string_view> first = cells_of(next_line(samples), dialect.delimiter);
+  dialect.header_lines = header_lines;
+  for (std::size_t k = 0; k < std::min(first.size(), dialect.columns.size()); ++k) {
+    if (dialect.columns[k].unit.empty() && read_clock_time(first[k])) dialect.columns[k].unit = "s";
+  }
   return dialect;
 }
 

@@ -18,7 +18,7 @@ struct CsvDialect {
 };
 
 /// Reads byte order mark, lines of title, comments (lines that begin with #), "sep=;", header and units row from the
-/// beginning of a file. Throws RecordingError: nothing in it, no header, UTF-16, a binary file.
+/// beginning of a file. Throws RecordingError: nothing in it, no header, a binary file.
 [[nodiscard]] CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file);
 
 /// Whether the header is there as a whole, and one more line that tells units from samples: all that read_csv_dialect()

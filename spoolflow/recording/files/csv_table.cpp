@@ -27,15 +27,19 @@ std::string shortened(std::string_view text) {
 }  // namespace
 
 CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginning, Text text)
-    : input_(std::move(input)), text_(text), buffer_(std::move(beginning)), filled_(buffer_.size()) {
+    : input_(std::move(input)), text_(text), utf16_(Utf16::of({beginning.data(), beginning.size()})) {
+  buffer_ = std::move(beginning);
+  if (utf16_) {
+    const std::string decoded = utf16_->decoded({buffer_.data(), buffer_.size()});
+    buffer_.assign(decoded.begin(), decoded.end());
+  }
+  filled_ = buffer_.size();
   buffer_.resize(std::max(filled_, block_bytes) + scan_padding);
   const auto enough = [this] {
     return filled_ >= block_bytes || (input_->comes_bit_by_bit() && header_is_whole({buffer_.data(), filled_}));
   };
   while (!at_end_ && !enough()) take_bytes();
-  const std::string_view begun(buffer_.data(), filled_);
-  const bool utf16 = begun.starts_with("\xFF\xFE") || begun.starts_with("\xFE\xFF");
-  if (!utf16) refuse_zero_bytes(0);  // else the dialect tells
+  refuse_zero_bytes(0);
   dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name());
   if (!at_end_ && filled_ >= block_bytes && dialect_.header_bytes == filled_) {
     throw RecordingError(fmt::format("{}: its header goes on for more than {} KiB; this is no CSV recording",
@@ -48,12 +52,23 @@ CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginnin
 
 /// Behind those that are there; of a pipe no more than have come.
 void CsvTable::take_bytes() {
-  const std::size_t room = buffer_.size() - scan_padding - filled_;
   const bool by_bits = input_->comes_bit_by_bit();
-  char* const out = buffer_.data() + filled_;
+  std::size_t room = buffer_.size() - scan_padding - filled_;
+  std::vector<char> raw;
+  if (utf16_) {  // two bytes become three at most
+    room /= 2;
+    raw.resize(room);
+  }
+  char* const out = utf16_ ? raw.data() : buffer_.data() + filled_;
   const std::size_t got = by_bits ? input_->read_some(out, room) : input_->read(out, room);
   at_end_ = by_bits ? got == 0 : got < room;
-  filled_ += got;
+  if (!utf16_) {
+    filled_ += got;
+    return;
+  }
+  const std::string decoded = utf16_->decoded({raw.data(), got});
+  std::ranges::copy(decoded, buffer_.begin() + static_cast<std::ptrdiff_t>(filled_));
+  filled_ += decoded.size();
 }
 
 void CsvTable::select(const std::vector<std::size_t>& columns) {
@@ -158,6 +173,10 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   const Digits digits = read_number(cell, point_, value);
   if (digits == Digits::number) return value;
   if (digits == Digits::empty) return missing;
+  if (const std::optional<ClockTime> clock = read_clock_time(cell)) {
+    if (!clock_origin_) clock_origin_ = clock;
+    return clock->since(*clock_origin_);
+  }
   if (text_ != Text::refused) {
     ++text_cells_[slot];
     return missing;

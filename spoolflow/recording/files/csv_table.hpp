@@ -2,10 +2,13 @@
 /// A CSV file as a table of numbers, read in large blocks; columns that were not chosen are stepped over unread. Of a
 /// pipe each row is there as soon as its line is.
 #include <memory>
+#include <optional>
 
+#include "spoolflow/recording/files/clock_time.hpp"
 #include "spoolflow/recording/files/csv_dialect.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
+#include "spoolflow/recording/files/utf16.hpp"
 
 namespace spoolflow::recording {
 
@@ -48,6 +51,8 @@ class CsvTable final : public SampleTable {
 
   std::unique_ptr<InputBytes> input_;
   Text text_;
+  std::optional<ClockTime> clock_origin_;  ///< of the first sample; times of the clock count from it
+  std::optional<Utf16> utf16_;             ///< of a file that is not in UTF-8 or an 8-bit encoding
   CsvDialect dialect_;
   char point_ = '.';
   bool point_known_ = false;
