@@ -111,6 +111,16 @@ std::size_t title_lines(std::string_view beginning) {
   return 0;
 }
 
+/// Columns without a unit whose first sample is a time of the clock.
+void count_clocks_in_seconds(CsvDialect& dialect, std::string_view samples) {
+  std::string_view line;
+  while (!samples.empty() && (is_blank(line) || line.starts_with('#'))) line = take_line(samples);
+  const std::vector<std::string_view> first = cells_of(line, dialect.delimiter);
+  for (std::size_t k = 0; k < std::min(first.size(), dialect.columns.size()); ++k) {
+    if (dialect.columns[k].unit.empty() && read_clock_time(first[k])) dialect.columns[k].unit = "s";
+  }
+}
+
 }  // namespace
 
 CsvCell take_cell(std::string_view& line, char delimiter) {
@@ -205,13 +215,7 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
     dialect = without_units;
   }
   dialect.header_bytes = beginning.size() - rest.size();
-  std::string_view samples = rest;
-  const std::uint64_t header_lines = dialect.header_lines;
-  const std::vector<std::string_view> first = cells_of(next_line(samples), dialect.delimiter);
-  dialect.header_lines = header_lines;
-  for (std::size_t k = 0; k < std::min(first.size(), dialect.columns.size()); ++k) {
-    if (dialect.columns[k].unit.empty() && read_clock_time(first[k])) dialect.columns[k].unit = "s";
-  }
+  count_clocks_in_seconds(dialect, rest);
   return dialect;
 }
 
