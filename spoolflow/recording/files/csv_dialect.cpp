@@ -111,6 +111,17 @@ std::size_t title_lines(std::string_view beginning) {
   return 0;
 }
 
+/// As the header writes them, doubled quotes as one.
+std::vector<FileColumn> columns_named(const std::vector<std::string_view>& names) {
+  std::vector<FileColumn> out;
+  for (const std::string_view name : names) {
+    std::string written(name);
+    for (std::size_t at = 0; (at = written.find("\"\"", at)) != std::string::npos; ++at) written.erase(at, 1);
+    out.push_back({written, written, {}});
+  }
+  return out;
+}
+
 /// Columns without a unit whose first sample is a time of the clock.
 void count_clocks_in_seconds(CsvDialect& dialect, std::string_view samples) {
   std::string_view line;
@@ -199,11 +210,7 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
                     "names the columns, such as time_s,current_A,position_mm",
                     file, dialect.header_lines));
   }
-  for (const std::string_view name : names) {
-    std::string written(name);
-    for (std::size_t at = 0; (at = written.find("\"\"", at)) != std::string::npos; ++at) written.erase(at, 1);
-    dialect.columns.push_back({written, written, {}});
-  }
+  dialect.columns = columns_named(names);
 
   const CsvDialect without_units = dialect;
   std::string_view after = rest;
