@@ -97,9 +97,9 @@ std::string letters_of(std::string_view text) {
 }
 
 NameParts parts_of(std::string name, const std::string& told_unit) {
-  const std::size_t last = name.find_last_of("./");  // the last part of a struct or group path
-  if (last != std::string::npos && last + 1 < name.size() && name.find('[') == std::string::npos)
-    name.erase(0, last + 1);
+  const std::size_t bracket = name.find_first_of("[(");
+  const std::size_t last = name.substr(0, bracket).find_last_of("./");  // the last part of a struct or group path
+  if (last != std::string::npos && last + 1 < std::min(bracket, name.size())) name.erase(0, last + 1);
   NameParts out{"", told_unit};
   const std::size_t open = name.find_first_of("[(");
   if (open != std::string::npos) {
