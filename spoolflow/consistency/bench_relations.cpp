@@ -114,7 +114,7 @@ void add_hydraulic_deviations(std::vector<Deviation>& to, const HydraulicCurves&
 }
 
 void add_magnetic_deviations(std::vector<Deviation>& to, const MagneticCurves& curves, const Recording& map) {
-  add_travel(to, map, curves.stroke_m, true);
+  add_travel(to, map, curves.stroke_m, true, outside_share_of_carriage);
   to.push_back({.of = "magnetic force over current",
                 .shown = curves.mean_N > 0 ? (curves.rises ? "rising" : "falling") : "negative",
                 .over_limit = curves.mean_N > 0 && curves.rises ? 0 : impossible,
@@ -166,7 +166,9 @@ void add_resistance_deviation(std::vector<Deviation>& to, const std::vector<cons
   to.push_back({.of = known_Ohm > 0 ? "coil resistance against the model's, larger over smaller,"
                                     : "coil resistance, largest over smallest of the recordings,",
                 .shown = fmt::format("{:.3g}", highest / lowest),
-                .over_limit = lowest > 0 ? std::log(highest / lowest) / std::log(resistance_factor) : 20.0});
+                .over_limit = lowest > 0 ? std::log(highest / lowest) /
+                                               std::log(known_Ohm > 0 ? run_resistance_factor : resistance_factor)
+                                         : 20.0});
 }
 
 }  // namespace spoolflow::consistency

@@ -1,19 +1,22 @@
 #pragma once
-/// Limits of the relations: two to five times what valves A and W and the rig's valves have.
+/// Limits of the relations, above what valves A and W and the rig's valves have, worn ones among them.
 namespace spoolflow::consistency {
 
-inline constexpr double force_residual_share = 0.06;     ///< of the range of forces
-inline constexpr double flow_residual_share = 0.04;      ///< of the largest flow
-inline constexpr double usual_jet_momentum = 0.35;       ///< nearly cos 69 deg; notches and compensated spools differ
-inline constexpr double jet_momentum_factor = 2.0;       ///< either way
-inline constexpr double set_pressure_factor = 1.4;       ///< either way
-inline constexpr double rated_flow_factor = 2.5;         ///< either way
-inline constexpr double resistance_factor = 1.45;        ///< a coil of copper is so much higher 115 K warmer
-inline constexpr double balance_share = 0.09;            ///< of the range of axial forces
-inline constexpr double run_flow_factor = 1.13;          ///< either way
-inline constexpr double run_flow_residual_share = 0.05;  ///< of the largest flow
-inline constexpr double outside_share = 0.1;             ///< of positions beyond the stroke
-inline constexpr double least_opening = 0.1;             ///< share of the stroke from which forces and flow tell
+inline constexpr double force_residual_share = 0.06;      ///< of the range of forces
+inline constexpr double flow_residual_share = 0.04;       ///< of the largest flow
+inline constexpr double usual_jet_momentum = 0.35;        ///< nearly cos 69 deg; notches and compensated spools differ
+inline constexpr double jet_momentum_factor = 2.5;        ///< either way
+inline constexpr double set_pressure_factor = 1.4;        ///< either way
+inline constexpr double rated_flow_factor = 3;            ///< either way: makers rate at 10 or 70 bar
+inline constexpr double resistance_factor = 1.45;         ///< in one campaign: copper is so much higher 115 K warmer
+inline constexpr double run_resistance_factor = 1.6;      ///< between a campaign and a run, colder or warmer
+inline constexpr double balance_share = 0.06;             ///< of the range of axial forces, and
+inline constexpr double balance_frictions = 1.3;          ///< half widths of the spool's friction
+inline constexpr double run_flow_factor = 1.13;           ///< either way
+inline constexpr double run_flow_residual_share = 0.05;   ///< of the largest flow
+inline constexpr double outside_share = 0.1;              ///< of positions beyond the stroke, and
+inline constexpr double outside_share_of_carriage = 0.6;  ///< where a carriage moves the armature
+inline constexpr double least_opening = 0.1;              ///< share of the stroke from which forces and flow tell
 inline constexpr double least_blocks = 50;
 inline constexpr double impossible = 10;
 

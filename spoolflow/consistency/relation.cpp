@@ -21,7 +21,8 @@ std::string file_of(const Recording& recording) {
   return recording.file.filename().string();
 }
 
-void add_travel(std::vector<Deviation>& to, const Recording& means, double stroke_m, bool strokes) {
+void add_travel(std::vector<Deviation>& to, const Recording& means, double stroke_m, bool strokes,
+                double most_outside) {
   constexpr double beyond = 0.15;
   const std::vector<double>& position_m = means.column(Channel::position);
   double outside = 0, count = 0, lowest = 1e300, highest = -1e300;
@@ -36,7 +37,7 @@ void add_travel(std::vector<Deviation>& to, const Recording& means, double strok
   const bool too_short = strokes && highest - lowest < 0.5 * stroke_m;
   to.push_back({.of = "travel",
                 .shown = fmt::format("{:.3g} to {:.3g} mm", units::mm_from_m(lowest), units::mm_from_m(highest)),
-                .over_limit = too_short ? impossible : outside / count / outside_share,
+                .over_limit = too_short ? impossible : outside / count / most_outside,
                 .file = file_of(means)});
   if (strokes) return;
   constexpr double doubtful = 1.6;  // a valve may well stay closed

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/consistency/limits.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::consistency {
@@ -25,7 +26,8 @@ inline constexpr const char* reference_ratio = "reference flow over that of edge
 /// The recording's file without its folder.
 [[nodiscard]] std::string file_of(const recording::Recording& recording);
 /// Positions lie within the stroke, bench strokes go over half of it at least, an operating run opens the valve.
-void add_travel(std::vector<Deviation>& to, const recording::Recording& means, double stroke_m, bool strokes);
+void add_travel(std::vector<Deviation>& to, const recording::Recording& means, double stroke_m, bool strokes,
+                double most_outside = outside_share);
 
 /// One relation as it stands, and with a slip undone.
 struct Change {

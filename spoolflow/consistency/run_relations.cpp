@@ -17,6 +17,11 @@ namespace {
 using recording::Channel;
 using recording::Recording;
 
+/// What sound runs stay below.
+double least_imbalance_N(const HydraulicCurves& hydraulics) {
+  return balance_share * hydraulics.force_range_N + balance_frictions * hydraulics.friction_N;
+}
+
 /// Without pressure and flow: what the solenoid holds is no less than the springs and no more than springs and the
 /// largest flow force, but for friction.
 void add_force_bounds(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
@@ -38,7 +43,7 @@ void add_force_bounds(std::vector<Deviation>& to, const HydraulicCurves& hydraul
   const double beyond_N = std::sqrt(square / count);
   to.push_back({.of = "force that neither springs, flow nor friction explain",
                 .shown = fmt::format("{:.2g} N RMS", beyond_N),
-                .over_limit = beyond_N / (balance_share * hydraulics.force_range_N),
+                .over_limit = beyond_N / least_imbalance_N(hydraulics),
                 .file = file_of(run),
                 .blocks = count});
 }
@@ -73,7 +78,7 @@ void add_balance(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, 
   for (const Block& block : blocks) square += squared(block.error_N - friction_N * block.direction) / count;
   to.push_back({.of = "balance of forces in operation",
                 .shown = fmt::format("{:.2g} N RMS", std::sqrt(square)),
-                .over_limit = std::sqrt(square) / (balance_share * hydraulics.force_range_N),
+                .over_limit = std::sqrt(square) / least_imbalance_N(hydraulics),
                 .file = file_of(run),
                 .blocks = count});
 }
