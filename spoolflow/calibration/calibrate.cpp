@@ -70,6 +70,8 @@ std::vector<std::string> doubts_about(const ReadCampaign& recordings, const reco
       if (doubt.cannot_be) refused += (refused.empty() ? "" : "; also ") + doubt.text;
     }
   };
+  const bool equal_flows = campaign.load.area_ratio == 1;  // else the joined path is not the working one
+  const Recordings runs = equal_flows ? recordings.through_centre() : Recordings{};
   std::vector<consistency::KnownValve> paths;
   for (const std::string& direction : recordings.directions()) {
     const CampaignRecordings of = recordings.of(direction);
@@ -77,16 +79,15 @@ std::vector<std::string> doubts_about(const ReadCampaign& recordings, const reco
     if (!maps.joined.empty()) {
       const consistency::Benches path = benches_of(of, maps.joined, of.operation, campaign);
       keep(consistency::doubts_about(path));
-      paths.push_back(consistency::known_valve(path));
+      if (!runs.empty()) paths.push_back(consistency::known_valve(path));
       continue;
     }
     for (const Recordings* edge : {&maps.inlet, &maps.outlet}) {
       if (!edge->empty()) keep(consistency::doubts_about(benches_of(of, *edge, {}, campaign)));
     }
   }
-  const bool equal_flows = campaign.load.area_ratio == 1;  // else the joined path is not the working one
-  if (refused.empty() && equal_flows && paths.size() > 1) {
-    for (const recording::Recording* run : recordings.through_centre()) {
+  if (refused.empty() && paths.size() > 1) {
+    for (const recording::Recording* run : runs) {
       consistency::RunMeans means;
       means.take({run->columns, run->size()});
       keep(consistency::doubts_about(paths, means, run->file));

@@ -43,13 +43,19 @@ class Trial {
     for (const Recording* recording : benches.operation) add(Role::operation, recording, 2500);
   }
 
-  /// All relations; of the curves only what `changed` reaches is fitted anew.
-  std::vector<Deviation> deviations(std::optional<Role> changed) {
+  /// Fits what `changed` reaches of the curves anew; all of them where nothing is named.
+  void fit_curves(std::optional<Role> changed) {
     const Recording* map = first(Role::force_map);
     const std::vector<const Recording*> maps = all(Role::axial_map);
     if (!changed || *changed == Role::spring || *changed == Role::axial_map)
       hydraulics_ = fit_hydraulics(first(Role::spring), maps, stroke_m_, density_);
     if (map != nullptr && (!changed || *changed == Role::force_map)) magnetics_ = fit_magnetics(*map, stroke_m_);
+  }
+
+  /// All relations, with the curves as they were fitted last.
+  [[nodiscard]] std::vector<Deviation> deviations() const {
+    const Recording* map = first(Role::force_map);
+    const std::vector<const Recording*> maps = all(Role::axial_map);
     std::vector<Deviation> out;
     add_hydraulic_deviations(out, hydraulics_, first(Role::spring), maps);
     add_rated_flow_deviation(out, hydraulics_, rated_flow_m3_per_s);
@@ -139,7 +145,8 @@ std::optional<Explanation> best_explanation(Trial& trial, const std::vector<Devi
   std::optional<Explanation> best;
   std::vector<Explanation> tried;
   const auto judge = [&](const Group& group, Channel channel, const Slip& slip, std::optional<Role> changed) {
-    std::vector<Deviation> deviations = trial.deviations(changed);
+    trial.fit_curves(changed);
+    std::vector<Deviation> deviations = trial.deviations();
     if (!judges_as_much(deviations, before)) return;
     const double left = badness(deviations);
     tried.push_back({group, channel, &slip, left, {}});
@@ -163,7 +170,7 @@ std::optional<Explanation> best_explanation(Trial& trial, const std::vector<Devi
         judge(group, channel, slip, changed);
         for (std::size_t k = 0; k < group.size(); ++k) trial.pieces[group[k]].means.column(channel) = kept[k];
       }
-      (void)trial.deviations(changed);  // the curves as they were
+      trial.fit_curves(changed);  // as they were
     }
   }
   constexpr double alike = 0.05;
@@ -209,18 +216,11 @@ void add_dead_channels(std::vector<Doubt>& to, const Trial& trial) {
     for (const Channel channel : moved) {
       if (piece.role == Role::dynamic && channel == Channel::position) continue;  // held by the protocol
       if (!maps && (channel == Channel::pressure_difference || channel == Channel::flow)) continue;
-      const std::vector<double>& values = piece.means.column(channel);
-      double lowest = 1e300, highest = -1e300;
-      for (const double value : values) {
-        if (!std::isfinite(value)) continue;
-        lowest = std::min(lowest, value);
-        highest = std::max(highest, value);
-      }
-      constexpr double still = 1e-9;
-      if (lowest > highest || highest - lowest > still * std::max(std::abs(lowest), std::abs(highest))) continue;
+      const std::optional<double> value = standing_value(piece.means.column(channel));
+      if (!value) continue;
       to.push_back({true, fmt::format("{}: {} stands still at {:.3g} (SI) all along: its wire, its column in the "
                                       "channel map or its unit is wrong",
-                                      piece.means.file.filename().string(), recording::name(channel), lowest)});
+                                      piece.means.file.filename().string(), recording::name(channel), *value)});
     }
   }
 }
@@ -229,13 +229,13 @@ void add_dead_channels(std::vector<Doubt>& to, const Trial& trial) {
 
 std::vector<Doubt> doubts_about(const Benches& benches) {
   constexpr int most_slips = 3;
-  constexpr double surely = 1.5;      // over a limit: no valve does that
   constexpr double left_share = 0.7;  // of the badness: what a slip must take away to be told
   std::vector<Doubt> out;
   Trial trial(benches);
   add_dead_channels(out, trial);
   if (!out.empty()) return out;
-  std::vector<Deviation> now = trial.deviations(std::nullopt);
+  trial.fit_curves(std::nullopt);
+  std::vector<Deviation> now = trial.deviations();
   for (int round = 0; round < most_slips; ++round) {
     const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
     if (worst == now.end() || !(worst->over_limit > 1)) break;
@@ -249,7 +249,8 @@ std::vector<Doubt> doubts_about(const Benches& benches) {
     }
     out.push_back({cannot_be, explained(trial, *found, now)});
     undo(trial, found->group, found->channel, *found->slip);
-    now = trial.deviations(std::nullopt);
+    trial.fit_curves(std::nullopt);
+    now = trial.deviations();
   }
   return out;
 }

@@ -18,6 +18,7 @@ inline constexpr double outside_share = 0.1;              ///< of positions beyo
 inline constexpr double outside_share_of_carriage = 0.6;  ///< where a carriage moves the armature
 inline constexpr double least_opening = 0.1;              ///< share of the stroke from which forces and flow tell
 inline constexpr double least_blocks = 50;
+inline constexpr double surely = 1.5;  ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 
 }  // namespace spoolflow::consistency

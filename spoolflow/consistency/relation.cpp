@@ -9,6 +9,16 @@
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::consistency {
+namespace {
+
+/// Null where it is not among them.
+const Deviation* same_relation(const std::vector<Deviation>& deviations, const Deviation& as) {
+  const auto same = std::ranges::find_if(
+      deviations, [&](const Deviation& deviation) { return deviation.of == as.of && deviation.file == as.file; });
+  return same == deviations.end() ? nullptr : &*same;
+}
+
+}  // namespace
 
 using recording::Channel;
 using recording::Recording;
@@ -47,17 +57,33 @@ void add_travel(std::vector<Deviation>& to, const Recording& means, double strok
                 .file = file_of(means)});
 }
 
+double over_limit_of(const std::vector<Deviation>& deviations, const Deviation& as) {
+  const Deviation* const same = same_relation(deviations, as);
+  return same == nullptr ? 0 : same->over_limit;
+}
+
+std::optional<double> standing_value(const std::vector<double>& values) {
+  constexpr double still = 1e-9;
+  double lowest = 1e300, highest = -1e300;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  const bool stands = lowest <= highest && highest - lowest <= still * std::max(std::abs(lowest), std::abs(highest));
+  return stands ? std::optional(lowest) : std::nullopt;
+}
+
 Change telling_change(const std::vector<Deviation>& before, const std::vector<Deviation>& after) {
   Change out{&before.front(), &after.front()};
   double most = -1;
   for (const Deviation& old : before) {
-    const auto same = std::ranges::find_if(
-        after, [&](const Deviation& deviation) { return deviation.of == old.of && deviation.file == old.file; });
-    if (same == after.end()) continue;
+    const Deviation* const same = same_relation(after, old);
+    if (same == nullptr) continue;
     const double gain = std::min(old.over_limit, 1e3) - std::min(same->over_limit, 1e3);
     if (gain > most) {
       most = gain;
-      out = {&old, &*same};
+      out = {&old, same};
     }
   }
   return out;
@@ -69,9 +95,8 @@ std::string told(const Change& change) {
 
 bool judges_as_much(const std::vector<Deviation>& after, const std::vector<Deviation>& before) {
   return std::ranges::all_of(before, [&](const Deviation& old) {
-    const auto same = std::ranges::find_if(
-        after, [&](const Deviation& deviation) { return deviation.of == old.of && deviation.file == old.file; });
-    return same != after.end() && 2 * same->blocks >= old.blocks;
+    const Deviation* const same = same_relation(after, old);
+    return same != nullptr && 2 * same->blocks >= old.blocks;
   });
 }
 

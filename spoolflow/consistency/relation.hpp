@@ -1,5 +1,6 @@
 #pragma once
 /// What forces, flow and coil must satisfy, whatever the valve: each as a deviation beside what sound recordings reach.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ inline constexpr const char* reference_ratio = "reference flow over that of edge
 /// Positions lie within the stroke, bench strokes go over half of it at least, an operating run opens the valve.
 void add_travel(std::vector<Deviation>& to, const recording::Recording& means, double stroke_m, bool strokes,
                 double most_outside = outside_share);
+
+/// Of the same relation of the same file; 0 where it is not among them.
+[[nodiscard]] double over_limit_of(const std::vector<Deviation>& deviations, const Deviation& as);
+
+/// The value of a channel whose samples are all the same; nothing of one that moves or has no samples.
+[[nodiscard]] std::optional<double> standing_value(const std::vector<double>& values);
 
 /// One relation as it stands, and with a slip undone.
 struct Change {

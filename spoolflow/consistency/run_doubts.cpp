@@ -173,7 +173,7 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
     std::swap(trial.run.column(one), trial.run.column(other));
   }
   if (best && wholly(*best)) return best;
-  std::optional<RunExplanation> scaled;  // by no number that a slip has: told where it explains all
+  // A reference that is off by no number that a slip has.
   for (const Deviation& deviation : before) {
     if (!deviation.of.starts_with(reference_ratio) || !(deviation.ratio > 0)) continue;
     const std::vector<double> kept = trial.run.column(Channel::flow);
@@ -183,22 +183,14 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
                             deviation.ratio));
     trial.run.column(Channel::flow) = kept;
   }
-  return scaled && wholly(*scaled) ? scaled : best;
+  return best;
 }
 
 std::string dead_channel(const Recording& run) {
   for (const Channel channel : {Channel::position, Channel::current}) {
-    const std::vector<double>& values = run.column(channel);
-    double lowest = 1e300, highest = -1e300;
-    for (const double value : values) {
-      if (!std::isfinite(value)) continue;
-      lowest = std::min(lowest, value);
-      highest = std::max(highest, value);
-    }
-    constexpr double still = 1e-9;
-    if (lowest <= highest && highest - lowest <= still * std::max(std::abs(lowest), std::abs(highest)))
+    if (const std::optional<double> value = standing_value(run.column(channel)))
       return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
-                         recording::name(channel), lowest);
+                         recording::name(channel), *value);
   }
   return {};
 }
@@ -233,7 +225,6 @@ KnownValve known_valve(const Benches& benches) {
 
 std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunMeans& run,
                                 const std::filesystem::path& file) {
-  constexpr double surely = 1.5;
   const std::string name = file == "-" ? "standard input" : file.filename().string();
   std::vector<Doubt> out;
   if (run.gaps().count > 0) {
@@ -253,12 +244,9 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
   const bool cannot_be = worst->over_limit > surely;
   const std::optional<RunExplanation> found = best_explanation(trial, now);
   constexpr double left_share = 0.35;
-  const auto left = [&](const Deviation& of) {
-    const auto same = std::ranges::find(found->deviations, of.of, &Deviation::of);
-    return same == found->deviations.end() ? 0.0 : same->over_limit;
-  };
   const bool all = found && wholly(*found);
-  const bool explains = all || (found && found->badness < left_share * badness(now) && left(*worst) <= 1);
+  const bool explains =
+      all || (found && found->badness < left_share * badness(now) && over_limit_of(found->deviations, *worst) <= 1);
   if (worst->of.starts_with(largest_opening) && !all) return out;
   out.push_back(
       {cannot_be, explains ? fmt::format("{}: {}, {}", name, found->text, told(telling_change(now, found->deviations)))

@@ -12,6 +12,8 @@
 namespace spoolflow::apps {
 namespace {
 
+const std::array<std::string, 5> own_names{"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"};
+
 /// How a stranger writes time, current, voltage, position and oil temperature.
 struct Foreign {
   std::string title;                             ///< lines above the header
@@ -114,7 +116,7 @@ std::vector<Foreign> strangers() {
        {1, 1, 1, 1000 / 25.4, 1}},
       {"", {"time_us", "current_mA", "voltage_mV", "position_um", "oil_temperature_C"}, {1e6, 1e3, 1e3, 1e3, 1}},
       {"", {"seconds", "i", "u", "lvdt", "temp"}, {1, 1, 1, 1, 1}, ',', '.', "", {"s", "A", "V", "mm", "C"}},
-      {"Measurement 12, rig 3\nmorning\n", {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"}},
+      {"Measurement 12, rig 3\nmorning\n", own_names},
       {"Prüfstand 3\nDatum;22.11.2026\n\n",
        {"Zeit [s]", "Strom [A]", "Spannung [V]", "Weg [mm]", "Temperatur [C]"},
        {1, 1, 1, 1, 1},
@@ -127,53 +129,22 @@ std::vector<Foreign> strangers() {
        '.',
        "iso"},
       {"", {"Zeit", "Strom [A]", "Spannung [V]", "Weg [mm]", "Temperatur [C]"}, {1, 1, 1, 1, 1}, ';', ',', "german"},
-      {"", {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"}, {1, 1, 1, 1, 1}, '\t'},
-      {"",
-       {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"},
-       {1, 1, 1, 1, 1},
-       ',',
-       '.',
-       "",
-       {},
-       true},
-      {"",
-       {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"},
-       {1, 1, 1, 1, 1},
-       ',',
-       '.',
-       "",
-       {},
-       false,
-       "NaN"},
-      {"",
-       {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"},
-       {1, 1, 1, 1, 1},
-       ',',
-       '.',
-       "",
-       {},
-       false,
-       "NULL"},
-      {"",
-       {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"},
-       {1, 1, 1, 1, 1},
-       ';',
-       ',',
-       "",
-       {},
-       false,
-       "-"},
+      {"", own_names, {1, 1, 1, 1, 1}, '\t'},
+      {"", own_names, {1, 1, 1, 1, 1}, ',', '.', "", {}, true},
+      {"", own_names, {1, 1, 1, 1, 1}, ',', '.', "", {}, false, "NaN"},
+      {"", own_names, {1, 1, 1, 1, 1}, ',', '.', "", {}, false, "NULL"},
+      {"", own_names, {1, 1, 1, 1, 1}, ';', ',', "", {}, false, "-"},
       {"", {"log.time [s]", "log.I_coil [A]", "log.U_coil [V]", "log.spool [mm]", "log.T_oil [C]"}},
       {"", {"t_s", "i_act [A]", "u_act [V]", "x_ist [mm]", "t_oil [C]"}},
-      {"sep=;\n", {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"}, {1, 1, 1, 1, 1}, ';', ','},
-      {"# logger 7\n", {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"}}};
+      {"sep=;\n", own_names, {1, 1, 1, 1, 1}, ';', ','},
+      {"# logger 7\n", own_names}};
 }
 
 TEST_F(ForeignFiles, GoEndToEndWithWhatInspectProposesAndNoMoreThanItAsks) {
   int tried = 0;
   for (const Foreign& file : strangers()) {
     SCOPED_TRACE(file.title + file.names[0] + file.delimiter + file.names[1] + file.delimiter + file.names[3]);
-    Foreign own{"", {"time_s", "current_A", "voltage_V", "position_mm", "oil_temperature_C"}};
+    Foreign own{"", own_names};
     own.missing = file.missing;
     write("own.csv", text_of(own));
     write("foreign.csv", text_of(file));

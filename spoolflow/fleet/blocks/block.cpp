@@ -8,6 +8,7 @@
 #include "spoolflow/fleet/blocks/columns.hpp"
 #include "spoolflow/fleet/blocks/steps.hpp"
 #include "spoolflow/numerics/crc32.hpp"
+#include "spoolflow/numerics/little_endian.hpp"
 
 namespace spoolflow::fleet {
 namespace {
@@ -19,20 +20,8 @@ constexpr std::uint16_t known_channels = (1U << block_channels.size()) - 1;
 /// Quick, and the differences are small numbers already.
 constexpr int zstd_level = 3;
 
-template <class N>
-N number(std::span<const std::uint8_t> bytes, std::size_t at) {
-  N value = 0;
-  for (std::size_t k = sizeof(N); k-- > 0;) value = static_cast<N>((value << 4U) << 4U) | static_cast<N>(bytes[at + k]);
-  return value;
-}
-
-template <class N>
-void put(std::vector<std::uint8_t>& bytes, N value) {
-  for (std::size_t k = 0; k < sizeof(N); ++k) {
-    bytes.push_back(static_cast<std::uint8_t>(value & 0xFFU));
-    value = static_cast<N>((value >> 4U) >> 4U);
-  }
-}
+using numerics::little_endian;
+using numerics::put_little_endian;
 
 constexpr std::string_view digits = "0123456789abcdef";
 
@@ -64,16 +53,16 @@ std::vector<std::uint8_t> write_block(const Block& block) {
   std::vector<std::uint8_t> out(mark.begin(), mark.end());
   out.push_back(version);
   out.push_back(static_cast<std::uint8_t>(block.valve.size()));
-  put(out, layout.channels);
-  put(out, block.session);
-  put(out, block.number);
-  put(out, block.first);
-  put(out, static_cast<std::uint64_t>(block.wall_ms));
-  put(out, static_cast<std::uint64_t>(layout.first_time));
-  put(out, static_cast<std::uint64_t>(layout.period));
-  put(out, static_cast<std::uint32_t>(block.samples.size()));
-  put(out, static_cast<std::uint32_t>(body.size()));
-  put(out, std::uint64_t{0});
+  put_little_endian(out, layout.channels);
+  put_little_endian(out, block.session);
+  put_little_endian(out, block.number);
+  put_little_endian(out, block.first);
+  put_little_endian(out, static_cast<std::uint64_t>(block.wall_ms));
+  put_little_endian(out, static_cast<std::uint64_t>(layout.first_time));
+  put_little_endian(out, static_cast<std::uint64_t>(layout.period));
+  put_little_endian(out, static_cast<std::uint32_t>(block.samples.size()));
+  put_little_endian(out, static_cast<std::uint32_t>(body.size()));
+  put_little_endian(out, std::uint64_t{0});
   put_hash(out, block.model_sha256);
   out.insert(out.end(), block.valve.begin(), block.valve.end());
   const std::size_t before = out.size();
@@ -81,7 +70,7 @@ std::vector<std::uint8_t> write_block(const Block& block) {
     out.resize(before + ZSTD_compressBound(body.size()));
     out.resize(before + ZSTD_compress(out.data() + before, out.size() - before, body.data(), body.size(), zstd_level));
   }
-  put(out, numerics::crc32(out));
+  put_little_endian(out, numerics::crc32(out));
   return out;
 }
 
@@ -96,14 +85,14 @@ namespace {
 
 /// What the header says, as far as it makes sense.
 bool read_header(std::span<const std::uint8_t> bytes, Block& out, ColumnLayout& layout) {
-  layout.channels = number<std::uint16_t>(bytes, 6);
-  out.session = number<std::uint64_t>(bytes, 8);
-  out.number = number<std::uint64_t>(bytes, 16);
-  out.first = number<std::uint64_t>(bytes, 24);
-  out.wall_ms = static_cast<std::int64_t>(number<std::uint64_t>(bytes, 32));
-  layout.first_time = static_cast<std::int64_t>(number<std::uint64_t>(bytes, 40));
-  layout.period = static_cast<std::int64_t>(number<std::uint64_t>(bytes, 48));
-  layout.samples = number<std::uint32_t>(bytes, 56);
+  layout.channels = little_endian<std::uint16_t>(bytes, 6);
+  out.session = little_endian<std::uint64_t>(bytes, 8);
+  out.number = little_endian<std::uint64_t>(bytes, 16);
+  out.first = little_endian<std::uint64_t>(bytes, 24);
+  out.wall_ms = static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes, 32));
+  layout.first_time = static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes, 40));
+  layout.period = static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes, 48));
+  layout.samples = little_endian<std::uint32_t>(bytes, 56);
   out.model_sha256 = hash_text(bytes.subspan(hash_at, hash_bytes));
   const auto id = bytes.subspan(header_bytes, bytes[5]);
   out.valve.assign(id.begin(), id.end());
@@ -114,7 +103,7 @@ bool read_header(std::span<const std::uint8_t> bytes, Block& out, ColumnLayout& 
                      layout.period >= -most_period && layout.period <= most_period;
   return counts && times && !out.valve.empty() && out.valve.size() <= longest_valve_name &&
          (layout.channels & ~known_channels) == 0 && layout.samples <= most_samples &&
-         number<std::uint64_t>(bytes, 64) == 0;
+         little_endian<std::uint64_t>(bytes, 64) == 0;
 }
 
 }  // namespace
@@ -126,12 +115,12 @@ std::variant<Block, NoBlock> read_block(std::span<const std::uint8_t> bytes) {
   const std::size_t body_at = header_bytes + bytes[5];
   const std::size_t end = bytes.size() - checksum_bytes;
   if (body_at > end) return NoBlock::wrong_length;
-  if (numerics::crc32(bytes.first(end)) != number<std::uint32_t>(bytes, end)) return NoBlock::wrong_checksum;
+  if (numerics::crc32(bytes.first(end)) != little_endian<std::uint32_t>(bytes, end)) return NoBlock::wrong_checksum;
 
   Block out;
   ColumnLayout layout;
   if (!read_header(bytes, out, layout)) return NoBlock::no_sense;
-  const std::size_t length = number<std::uint32_t>(bytes, 60);
+  const std::size_t length = little_endian<std::uint32_t>(bytes, 60);
   const auto frame = bytes.subspan(body_at, end - body_at);
   if (length > layout.samples * longest_number * (block_channels.size() + 1)) return NoBlock::no_sense;
   if ((length == 0) != frame.empty()) return NoBlock::no_sense;

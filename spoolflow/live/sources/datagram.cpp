@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "spoolflow/numerics/crc32.hpp"
+#include "spoolflow/numerics/little_endian.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -14,21 +15,8 @@ constexpr std::array<std::uint8_t, 4> mark{'S', 'F', 'L', 'W'};
 constexpr std::uint8_t version = 1;
 constexpr std::uint16_t known_channels = (1U << datagram_channels.size()) - 1;
 
-/// The number of type N at that byte.
-template <class N>
-N number(std::span<const std::uint8_t> bytes, std::size_t at) {
-  N value = 0;
-  for (std::size_t k = sizeof(N); k-- > 0;) value = static_cast<N>((value << 4U) << 4U) | static_cast<N>(bytes[at + k]);
-  return value;
-}
-
-template <class N>
-void put(std::vector<std::uint8_t>& bytes, N value) {
-  for (std::size_t k = 0; k < sizeof(N); ++k) {
-    bytes.push_back(static_cast<std::uint8_t>(value & 0xFFU));
-    value = static_cast<N>((value >> 4U) >> 4U);
-  }
-}
+using numerics::little_endian;
+using numerics::put_little_endian;
 
 double& member(estimation::TimedSample& sample, const DatagramChannel& channel) {
   return channel.member != nullptr ? sample.*channel.member : sample.ports.*channel.port;
@@ -55,20 +43,21 @@ std::variant<Datagram, NoDatagram> read_datagram(std::span<const std::uint8_t> b
   if (bytes.size() < datagram_header_bytes + datagram_checksum_bytes) return NoDatagram::too_short;
   if (!std::equal(mark.begin(), mark.end(), bytes.begin())) return NoDatagram::no_mark;
   if (bytes[4] != version) return NoDatagram::other_version;
-  const auto channels = number<std::uint16_t>(bytes, 6);
+  const auto channels = little_endian<std::uint16_t>(bytes, 6);
   const std::size_t width = static_cast<std::size_t>(std::popcount(channels));
-  const std::size_t count = number<std::uint16_t>(bytes, 12);
+  const std::size_t count = little_endian<std::uint16_t>(bytes, 12);
   const std::size_t body = bytes.size() - datagram_checksum_bytes;
   if (body != datagram_header_bytes + 4 * width * count) return NoDatagram::wrong_length;
-  if (numerics::crc32(bytes.first(body)) != number<std::uint32_t>(bytes, body)) return NoDatagram::wrong_checksum;
+  if (numerics::crc32(bytes.first(body)) != little_endian<std::uint32_t>(bytes, body))
+    return NoDatagram::wrong_checksum;
 
   Datagram out;
   const auto id = bytes.subspan(36, longest_valve_id);
   out.valve.assign(id.begin(), std::find(id.begin(), id.end(), std::uint8_t{0}));
-  out.session = number<std::uint32_t>(bytes, 8);
-  out.sequence = number<std::uint64_t>(bytes, 16);
-  const auto time_ns = static_cast<std::int64_t>(number<std::uint64_t>(bytes, 24));
-  const auto period_ns = number<std::uint32_t>(bytes, 32);
+  out.session = little_endian<std::uint32_t>(bytes, 8);
+  out.sequence = little_endian<std::uint64_t>(bytes, 16);
+  const auto time_ns = static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes, 24));
+  const auto period_ns = little_endian<std::uint32_t>(bytes, 32);
   const bool counts = out.sequence <= ~std::uint64_t{0} - count;
   if (count == 0 || period_ns == 0 || out.valve.empty() || !counts || (channels & ~known_channels) != 0) {
     return NoDatagram::no_sense;
@@ -80,7 +69,7 @@ std::variant<Datagram, NoDatagram> read_datagram(std::span<const std::uint8_t> b
     estimation::TimedSample sample = nothing_measured(time_s);
     for (std::size_t bit = 0; bit < datagram_channels.size(); ++bit) {
       if ((channels >> bit & 1U) == 0) continue;
-      const float value = std::bit_cast<float>(number<std::uint32_t>(bytes, at));
+      const float value = std::bit_cast<float>(little_endian<std::uint32_t>(bytes, at));
       member(sample, datagram_channels[bit]) = std::isfinite(value) ? double{value} : estimation::not_measured;
       at += 4;
     }
@@ -97,22 +86,22 @@ std::vector<std::uint8_t> write_datagram(const DatagramHeader& header,
   std::vector<std::uint8_t> out(mark.begin(), mark.end());
   out.push_back(version);
   out.push_back(0);
-  put(out, header.channels);
-  put(out, header.session);
-  put(out, static_cast<std::uint16_t>(samples.size()));
-  put(out, std::uint16_t{0});
-  put(out, header.sequence);
-  put(out, static_cast<std::uint64_t>(header.time_ns));
-  put(out, header.period_ns);
+  put_little_endian(out, header.channels);
+  put_little_endian(out, header.session);
+  put_little_endian(out, static_cast<std::uint16_t>(samples.size()));
+  put_little_endian(out, std::uint16_t{0});
+  put_little_endian(out, header.sequence);
+  put_little_endian(out, static_cast<std::uint64_t>(header.time_ns));
+  put_little_endian(out, header.period_ns);
   out.insert(out.end(), header.valve.begin(), header.valve.end());
   out.resize(datagram_header_bytes, 0);
   for (estimation::TimedSample sample : samples) {
     for (std::size_t bit = 0; bit < datagram_channels.size(); ++bit) {
       if ((header.channels >> bit & 1U) == 0) continue;
-      put(out, std::bit_cast<std::uint32_t>(static_cast<float>(member(sample, datagram_channels[bit]))));
+      put_little_endian(out, std::bit_cast<std::uint32_t>(static_cast<float>(member(sample, datagram_channels[bit]))));
     }
   }
-  put(out, numerics::crc32(out));
+  put_little_endian(out, numerics::crc32(out));
   return out;
 }
 
