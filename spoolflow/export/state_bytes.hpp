@@ -67,16 +67,6 @@ inline void unpack_state(const StateOwner& owner, const char* bytes, std::size_t
   std::memcpy(state, bytes + sizeof header, state_size);
 }
 
-/// The bytes between the members become zero, where the compiler knows how; others leave them as they are.
-template <class Object>
-void clear_padding([[maybe_unused]] Object& object) {
-#if defined(__has_builtin)
-#if __has_builtin(__builtin_clear_padding)
-  __builtin_clear_padding(&object);
-#endif
-#endif
-}
-
 /// Whether a bool that was copied from bytes is one; any other byte must never be read as a bool.
 inline bool is_bool(const bool& member) {
   unsigned char byte = 0;

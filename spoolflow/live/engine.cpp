@@ -78,7 +78,8 @@ void Engine::restore() {
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,
                  .kind = "program",
-                 .text = "sensor and monitor begin anew: the model or the program is another than before"});
+                 .text = "sensor and monitor begin anew: the model or the program is another than before, or what was "
+                         "kept is damaged"});
   }
 }
 

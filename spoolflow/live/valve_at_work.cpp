@@ -10,14 +10,17 @@
 
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/fleet/blocks/steps.hpp"
+#include "spoolflow/numerics/crc32.hpp"
+#include "spoolflow/numerics/padding.hpp"
 
 namespace spoolflow::live {
 namespace {
 
-/// What is kept of a state, behind what is there already.
+/// What is kept of a state, behind what is there already. Equal states have equal bytes.
 template <class State>
-void put_bytes(std::vector<std::byte>& out, const State& state) {
+void put_bytes(std::vector<std::byte>& out, State state) {
   static_assert(std::is_trivially_copyable_v<State>);
+  numerics::clear_padding(state);
   const auto bytes = std::as_bytes(std::span(&state, 1));
   out.insert(out.end(), bytes.begin(), bytes.end());
 }
@@ -29,6 +32,10 @@ bool take_bytes(std::span<const std::byte>& from, State& state) {
   std::memcpy(&state, from.data(), sizeof state);
   from = from.subspan(sizeof state);
   return true;
+}
+
+std::uint32_t sum_of(std::span<const std::byte> bytes) {
+  return numerics::crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 /// A step in which energy is counted; a longer one is a gap.
@@ -56,6 +63,11 @@ bool ValveAtWork::restore(const KeptState& kept) {
   energy_J_ = kept.energy_J;
   if (kept.layout != layout_) return false;
   std::span<const std::byte> bytes(kept.bytes);
+  std::uint32_t sum = 0;
+  if (bytes.size() < sizeof sum) return false;
+  std::span<const std::byte> end = bytes.last(sizeof sum);
+  bytes = bytes.first(bytes.size() - sizeof sum);
+  if (!take_bytes(end, sum) || sum != sum_of(bytes)) return false;
   estimation::RunningState state;
   if (!take_bytes(bytes, state) || !take_bytes(bytes, doubt_) || !take_bytes(bytes, doubt_second_)) return false;
   sensor_.set_state(state);
@@ -182,14 +194,15 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
     out.outbox_session = cutter_->position().session;
   }
   out.state = {id_, after_.session, after_.next, samples_, energy_J_, layout_, {}};
-  out.state.bytes.reserve(sizeof(estimation::RunningState) + sizeof(monitor::Doubt) + sizeof(double) +
-                          (watch_ ? sizeof(monitor::WatchState) : 0));
-  put_bytes(out.state.bytes, sensor_.state());
-  put_bytes(out.state.bytes, doubt_);
-  put_bytes(out.state.bytes, doubt_second_);
-  if (!watch_) return out;
-  put_bytes(out.state.bytes, watch_->state());
-  if (!with_indicators) return out;
+  std::vector<std::byte>& bytes = out.state.bytes;
+  bytes.reserve(sizeof(estimation::RunningState) + sizeof(monitor::Doubt) + sizeof(double) +
+                (watch_ ? sizeof(monitor::WatchState) : 0) + sizeof(std::uint32_t));
+  put_bytes(bytes, sensor_.state());
+  put_bytes(bytes, doubt_);
+  put_bytes(bytes, doubt_second_);
+  if (watch_) put_bytes(bytes, watch_->state());
+  put_bytes(bytes, sum_of(bytes));
+  if (!watch_ || !with_indicators) return out;
   for (const monitor::Indicator& one : watch_->indicators()) {
     out.indicators.push_back({std::string(one.name), one.value, one.uncertainty_95, one.baseline,
                               std::string(monitor::name(one.state)), std::string(one.unit)});

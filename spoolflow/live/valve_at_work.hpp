@@ -46,7 +46,8 @@ class ValveAtWork {
   ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s = 0);
 
   [[nodiscard]] const std::string& id() const { return id_; }
-  /// Goes on from what was kept. Returns false where sensor and monitor begin anew, as model or program were others.
+  /// Goes on from what was kept. Returns false where sensor and monitor begin anew, as model or program were others, or
+  /// bytes are damaged.
   bool restore(const KeptState& kept);
 
   /// From now on samples are worked on as the fleet gets them (fleet::on_grid), and blocks of them are kept for it.

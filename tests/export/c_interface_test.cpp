@@ -206,6 +206,17 @@ TEST(CInterface, ACopyAndARestoredStateGoOnAsTheOriginal) {
   EXPECT_EQ(flows(other, 0, 500), flows(sensor_of(), 0, 500));
 }
 
+TEST(CInterface, ASensorWhoseStateIsTakenAndGivenBackAllTheTimeAnswersAsIfItWereNot) {
+  const Sensor whole = sensor_of(), handed = sensor_of();
+  std::vector<char> state(spoolflow_state_size(handed.get()));
+  for (int k = 0; k < 6000; k += 7) {
+    const std::vector<double> expected = flows(whole, k, k + 7);
+    ASSERT_EQ(flows(handed, k, k + 7), expected) << "sample " << k;
+    ASSERT_EQ(spoolflow_get_state(handed.get(), state.data(), state.size()), SPOOLFLOW_OK);
+    ASSERT_EQ(spoolflow_set_state(handed.get(), state.data(), state.size(), nullptr, 0), SPOOLFLOW_OK);
+  }
+}
+
 TEST(CInterface, RefusesAStateThatIsDamagedOrOfAnotherEstimator) {
   const Sensor sensor = sensor_of();
   (void)flows(sensor, 0, 100);

@@ -219,8 +219,6 @@ TEST_F(EngineTest, AValveThatIsTakenUpAgainAnswersAsIfItHadNeverStopped) {
   };
   ValveAtWork whole("v", model, "test");
   auto resumed = std::make_unique<ValveAtWork>("v", model, "test");
-  const ValveCommit new_one = whole.take_commit(false);  // bytes between members are the same from here on
-  ASSERT_TRUE(whole.restore(new_one.state) && resumed->restore(new_one.state));
   std::int64_t samples = 0;
   for (std::uint64_t begin = 0; begin < 20'000;) {
     const std::size_t count = 1 + begin * 7919 % 900;
@@ -238,6 +236,20 @@ TEST_F(EngineTest, AValveThatIsTakenUpAgainAnswersAsIfItHadNeverStopped) {
   EXPECT_EQ(got.state.next, expected.state.next);
   EXPECT_EQ(samples, expected.since_last.samples);
   EXPECT_GT(expected.state.energy_J, 0);
+}
+
+TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedBeginsAnewAndCountsOn) {
+  ValveAtWork before("v", model, "test");
+  ValveCommit kept = before.take_commit(false);
+  kept.state.samples = 7;
+  EXPECT_TRUE(ValveAtWork("v", model, "test").restore(kept.state));
+  for (const std::size_t at : {std::size_t{0}, kept.state.bytes.size() / 2, kept.state.bytes.size() - 1}) {
+    KeptState damaged = kept.state;
+    damaged.bytes[at] ^= std::byte{0x80};
+    ValveAtWork again("v", model, "test");
+    EXPECT_FALSE(again.restore(damaged)) << "byte " << at;
+    EXPECT_EQ(again.view(false).samples, 7U);
+  }
 }
 
 TEST_F(EngineTest, AnotherModelBeginsAnewAndCountsOn) {

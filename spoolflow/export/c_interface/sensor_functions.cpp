@@ -16,6 +16,7 @@
 #include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/numerics/padding.hpp"
 
 namespace {
 
@@ -292,7 +293,7 @@ spoolflow_result spoolflow_get_state(const spoolflow_sensor* sensor, void* bytes
   if (sensor == nullptr || bytes == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
   if (size < spoolflow_state_size(sensor)) return SPOOLFLOW_TOO_SMALL;
   RunningState state = sensor->running.state();
-  exports::clear_padding(state);
+  spoolflow::numerics::clear_padding(state);
   exports::pack_state(sensor->owner(), &state, sizeof state, static_cast<char*>(bytes));
   return SPOOLFLOW_OK;
 }

@@ -10,6 +10,7 @@
 #include "spoolflow/export/fmu/sensor_variables.hpp"
 #include "spoolflow/export/running_state_bytes.hpp"
 #include "spoolflow/model/limit_check.hpp"
+#include "spoolflow/numerics/padding.hpp"
 
 namespace spoolflow::exports::fmu {
 namespace {
@@ -92,7 +93,7 @@ class SensorComponent : public Component {
   [[nodiscard]] std::span<char> memory() override {
     return {reinterpret_cast<char*>(&running_.state()), sizeof(estimation::RunningState)};
   }
-  void clear_padding() override { exports::clear_padding(running_.state()); }
+  void clear_padding() override { numerics::clear_padding(running_.state()); }
   [[nodiscard]] bool may_be_memory(std::span<const char> bytes) const override {
     return bytes.size() == sizeof(estimation::RunningState) && may_be_running_state(bytes.data());
   }

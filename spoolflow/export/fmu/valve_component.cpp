@@ -13,6 +13,7 @@
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
 #include "spoolflow/export/state_bytes.hpp"
+#include "spoolflow/numerics/padding.hpp"
 #include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/plant/winding_current.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -115,7 +116,10 @@ class ValveComponent : public Component {
     }
   }
 
-  void clear_padding() override { exports::clear_padding(*memory_); }
+  void clear_padding() override {
+    numerics::clear_padding(memory_->plant);
+    numerics::clear_padding(memory_->electronics);
+  }
   [[nodiscard]] bool may_be_memory(std::span<const char> bytes) const override {
     if (bytes.size() != sizeof(ValveMemory)) return false;
     ValveMemory memory = *memory_;
