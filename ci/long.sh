@@ -1,11 +1,13 @@
 #!/bin/sh
-# ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, `live` killed at fifty
+# ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, RISC-V, `live` killed at fifty
 # instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, and 500 valves
 # at 1 kHz for as long. Prints figures; the exit status tells of clang-tidy, kills, fleets and fuzzing.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
 status=0
+ci/packages.sh
+ci/packages.sh long
 ci/build.sh release apps_test
 ci/build.sh release live_load
 echo "== clang-tidy"

@@ -1,12 +1,14 @@
 #!/bin/sh
-# Installs what packages.txt lists and this machine lacks. `ci/packages.sh run` leaves out the part for tests only.
+# Installs what packages.txt lists and this machine lacks: for building and tests; `ci/packages.sh run` for building alone,
+# `ci/packages.sh long` for the long acceptance runs, too.
 set -eu
 list="$(dirname "$0")/../packages.txt"
-if [ "${1:-}" = run ]; then
-  wanted=$(sed -e '1,/^# Building and running/d' -e '/^#/d' "$list")
-else
-  wanted=$(sed -e '/^#/d' "$list")
-fi
+case "${1:-}" in
+  run) begin='# Building and running' ;;
+  long) begin='# Long acceptance runs only' ;;
+  *) begin='# Tests only' ;;
+esac
+wanted=$(sed -e "1,/^$begin/d" -e '/^#/d' "$list")
 
 if ! command -v dpkg-query >/dev/null; then
   echo "this is not a Debian system: the packages of packages.txt must be there by other means" >&2

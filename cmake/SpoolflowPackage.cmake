@@ -48,6 +48,10 @@ configure_file(cmake/spoolflow.pc.in ${made}/spoolflow.pc @ONLY)
 install(FILES ${made}/spoolflowConfig.cmake ${made}/spoolflowConfigVersion.cmake DESTINATION ${config} COMPONENT development)
 install(FILES ${made}/spoolflow.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
+# Whoever distributes the packages answers for them.
+set(SPOOLFLOW_PACKAGE_MAINTAINER "the spoolflow authors <spoolflow@example.org>" CACHE STRING
+    "name and address that the Debian packages tell as their maintainer's")
+
 # Who may do what with it, and what has changed, of each package.
 set(library libspoolflow${PROJECT_VERSION_MAJOR})
 string(TIMESTAMP SPOOLFLOW_BUILD_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -65,7 +69,7 @@ endforeach()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME spoolflow)
 set(CPACK_PACKAGE_VENDOR "the spoolflow authors")
-set(CPACK_PACKAGE_CONTACT "the spoolflow authors <spoolflow@example.org>")
+set(CPACK_PACKAGE_CONTACT "${SPOOLFLOW_PACKAGE_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL tool runtime development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

@@ -278,7 +278,11 @@ class ConfinedTable final : public VectorTable {
 
 std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
                                            OpenVectors open) {
-  return std::make_unique<ConfinedTable>(file, file_bytes, open);
+  try {
+    return std::make_unique<ConfinedTable>(file, file_bytes, open);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
 }
 
 }  // namespace spoolflow::recording

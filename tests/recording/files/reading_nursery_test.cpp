@@ -136,6 +136,8 @@ TEST(ReadingNursery, OneThatWasEndedIsOneError) {
   ::kill(nursery.id(), SIGKILL);
   EXPECT_THAT(failure_of([] { const ReadingProcess process(order(wait_for_the_parent)); }),
               HasSubstr("no process can be started to read the recording"));
+  EXPECT_THAT(failure_of([] { (void)open_sample_table(SPOOLFLOW_EXAMPLES "/valve_a/spring.h5"); }),
+              AllOf(HasSubstr("valve_a/spring.h5: "), HasSubstr("no process can be started")));
 }
 
 TEST(ReadingNursery, HasNothingOpenThatIsOurs) {
