@@ -28,8 +28,12 @@ inline bool may_be_answer(const sensor::Estimate<double>& answer) {
   return answer.flow_lower_m3_per_s <= answer.flow_m3_per_s && answer.flow_m3_per_s <= answer.flow_upper_m3_per_s;
 }
 
+inline bool may_be_coil(const sensor::CoilResistanceState<double>& state) {
+  return is_bool(state.implausible) && is_bool(state.unanswered);
+}
+
 inline bool may_be_observer(const sensor::ObserverState<double>& state) {
-  return is_bool(state.started) && is_bool(state.swing.frees) && is_bool(state.actuator.coil_resistance.implausible) &&
+  return is_bool(state.started) && is_bool(state.swing.frees) && may_be_coil(state.actuator.coil_resistance) &&
          may_be_track(state.position) && may_be_answer(state.last);
 }
 
@@ -39,7 +43,7 @@ inline bool may_be_running_state(const void* bytes) {
   std::memcpy(&state, bytes, sizeof state);
   return may_be_answer(state.condensed.last) && may_be_answer(state.whole_condensed.last) &&
          may_be_observer(state.observer) && may_be_observer(state.whole_valve.open) &&
-         is_bool(state.whole_valve.idle.actuator.coil_resistance.implausible) && is_bool(state.whole_valve.opens_a) &&
+         may_be_coil(state.whole_valve.idle.actuator.coil_resistance) && is_bool(state.whole_valve.opens_a) &&
          is_bool(state.times.started) && is_bool(state.times.answered);
 }
 

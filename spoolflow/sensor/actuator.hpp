@@ -66,10 +66,13 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 /// it.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                  const Sample<T>& sample, Mask<T> has_time) {
+                                                  const Sample<T>& sample, T largest_current_A, Mask<T> has_time) {
   average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
-  in_valves(has_time && is_number(sample.voltage_V), state,
-            [&] { follow_resistance(actuator.coil_resistance, state.coil_resistance, sample.time_step_s); });
+  in_valves(has_time && is_number(sample.voltage_V), state, [&] {
+    const CoilResistance<T>& coil = actuator.coil_resistance;
+    follow_resistance(coil, state.coil_resistance, sample.time_step_s);
+    judge_answer(coil, state.coil_resistance, T(unanswered_voltage_share) * largest_current_A * coil.resistance_Ohm);
+  });
 }
 
 /// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It begins anew at

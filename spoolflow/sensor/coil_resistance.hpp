@@ -13,6 +13,9 @@ inline constexpr double least_voltage_variance_V2s = 1e-12;
 /// Resistance over the calibrated one that copper can have, at -60 and at 220 degC where it was calibrated at 40.
 inline constexpr double coldest_resistance_ratio = 0.6;
 inline constexpr double warmest_resistance_ratio = 1.7;
+/// A voltage of more than this share of what holds the largest current, that no current answers: the line or the
+/// current's instrument is broken.
+inline constexpr double unanswered_voltage_share = 0.1;
 /// How well the resistance must be known, as a share of it, before it is called implausible.
 inline constexpr double known_resistance_share = 0.1;
 
@@ -45,6 +48,7 @@ struct CoilResistanceState {
   T variance_Ohm2{};
   CoilEquation<T> mean{};
   Mask<T> implausible{};  ///< known well, and not what copper can have
+  Mask<T> unanswered{};   ///< there is voltage, and no current to go with it: the current is none to believe
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
@@ -84,6 +88,15 @@ constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceSt
                         (state.resistance_Ohm < T(coldest_resistance_ratio) * coil.resistance_Ohm ||
                          state.resistance_Ohm > T(warmest_resistance_ratio) * coil.resistance_Ohm);
   });
+}
+
+/// Whether the mean voltage is more than any coil's resistance makes of the mean current, and `quiet_V` (>= 0) beside.
+template <class T>
+constexpr void judge_answer(const CoilResistance<T>& coil, CoilResistanceState<T>& state, T quiet_V) {
+  const CoilEquation<T>& mean = state.mean;
+  const T answered_V = T(warmest_resistance_ratio) * coil.resistance_Ohm * magnitude(mean.current_A) + quiet_V +
+                       T(flux_rate_error_share) * magnitude(mean.flux_rate_V);
+  state.unanswered = coil.resistance_Ohm > T(0) && magnitude(mean.voltage_V - mean.flux_rate_V) > answered_V;
 }
 
 }  // namespace spoolflow::sensor

@@ -72,8 +72,7 @@ constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
 /// What the sample and its answer must be taken with.
 template <class T>
 [[gnu::always_inline]] constexpr auto status(const ObserverParameters<T>& valve, const ObserverState<T>& state,
-                                             const Sample<T>& sample, const PositionPoint<T>& position,
-                                             const ForceBalance<T>& balance) {
+                                             const Sample<T>& sample, const ForceBalance<T>& balance) {
   typename ScalarTypes<T>::StatusWord out{};
   mark(out, balance.closed, Status::closed);
   mark(out, !balance.sliding, Status::spool_at_rest);
@@ -82,7 +81,6 @@ template <class T>
   mark(out, !balance.edge.inside && !balance.closed, Status::outside_flow_force_map);
   mark(out, !balance.edge.temperature_inside, Status::outside_temperature);
   mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
-  mark(out, position.fault, Status::position_fault);
   mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
   mark(out, state.oil_fault_s > T(0), Status::temperature_fault);
   return out;
@@ -105,12 +103,51 @@ template <class T>
   out.friction_force_N = balance.friction_N;
 }
 
-/// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
-/// solenoid holds against this one's; `has_time` for what may as well be done in another sample.
+/// While the position signal may be wrong, or the current is, forces tell nothing: the flow where the spool is believed
+/// to be, at the pressure difference last believed, and in the band what that may have become. It holds what flows at
+/// the other place where the spool may be, too; beyond the centre as much as through the direction's own edge.
 template <class T>
-[[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                              const Sample<T>& sample, const PositionPoint<T>& position,
-                                              const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
+[[gnu::noinline]] constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
+                                                 const Sample<T>& sample, const PositionPoint<T>& position,
+                                                 T opposing_N, Mask<T> begins) {
+  const ActuatorEstimate<T> actuator =
+      step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
+           begins);
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, Mask<T>(true));
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
+  const T believed_Pa = state.pressure.pressure_difference_Pa;
+  const EdgePoint<T> edge = valve.edge.at(state.oil_temperature_K, believed_Pa, position.position_m);
+  const PressureBand<T> band = unobserved_pressure_band(valve.band, state, edge, highest_Pa);
+  Estimate<T>& out = state.last;
+  out.pressure_difference_Pa = band.expected_Pa;
+  out.flow_m3_per_s = edge.conductance * sqrt(band.expected_Pa);
+  const T there = valve.edge.at(state.oil_temperature_K, believed_Pa, magnitude(position.elsewhere_m)).conductance;
+  const T elsewhere = select(position.fault, select(position.elsewhere_m < T(0), -there, there), edge.conductance);
+  const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
+  const T least = sqrt(select(coil.unanswered, T(0), band.least_Pa));
+  const T most = sqrt(select(coil.unanswered, highest_Pa, band.most_Pa));
+  band_of_flow(valve.band, smaller(edge.conductance * least, elsewhere * select(elsewhere < T(0), most, least)),
+               larger(edge.conductance, elsewhere) * most, out);
+  out.magnetic_force_N = actuator.magnetic_force_N - opposing_N;
+  out.spring_force_N = valve.spring.at(position.position_m).value;
+  out.flow_force_N = edge.flow_force_N;
+  out.friction_force_N = T(0);
+  out.status = when(position.position_m < valve.closed_below_m, Status::closed);
+  mark(out.status, !actuator.inside_map, Status::outside_force_map);
+  mark(out.status, !edge.temperature_inside, Status::outside_temperature);
+  mark(out.status, sample.current_A > valve.largest_current_A, Status::current_saturated);
+  mark(out.status, position.fault, Status::position_fault);
+  mark(out.status, coil.implausible || coil.unanswered, Status::coil_fault);
+  mark(out.status, state.oil_fault_s > T(0), Status::temperature_fault);
+}
+
+/// Forces of this sample are to be believed: the place of the spool is known, and the current answers the voltage.
+template <class T>
+[[gnu::always_inline]] constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                     const Sample<T>& sample, const PositionPoint<T>& position,
+                                                     const Dither<T>& dither, T opposing_N, Mask<T> begins,
+                                                     Mask<T> has_time) {
   const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -124,9 +161,29 @@ template <class T>
             [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
   has_time = has_time && !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
-  follow_coil(valve.actuator, state.actuator, sample, has_time);
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
   answer(valve, state, balance, position.velocity_m_per_s);
-  state.last.status = status(valve, state, sample, position, balance);
+  state.last.status = status(valve, state, sample, balance);
+}
+
+/// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
+/// solenoid holds against this one's; `has_time` for what may as well be done in another sample.
+template <class T>
+[[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                              const Sample<T>& sample, const PositionPoint<T>& position,
+                                              const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
+  const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
+  if constexpr (one_valve<T>) {
+    if (doubtful) [[unlikely]] {
+      answer_in_doubt(state, valve, sample, position, opposing_N, begins);
+      return;
+    }
+    observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time);
+  } else {
+    in_valves(!doubtful, state,
+              [&] { observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time); });
+    in_valves(doubtful, state, [&] { answer_in_doubt(state, valve, sample, position, opposing_N, begins); });
+  }
 }
 
 /// A model of one direction knows nothing of the other, where as much may flow as through its own edge.

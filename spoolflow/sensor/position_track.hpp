@@ -41,8 +41,10 @@ inline constexpr double quiet_current_share = 0.005;
 inline constexpr double quiet_voltage_share = 0.03;
 /// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
 inline constexpr double quiet_jump_m = 60e-6;
-/// A jump that lasts longer than this [s] is believed.
+/// A jump that lasts longer than this [s] is believed, ...
 inline constexpr double longest_position_fault_s = 0.25;
+/// ... but doubted until this [s]: where the signal jumps back meanwhile, it was the jump that was wrong.
+inline constexpr double longest_position_doubt_s = 2.5;
 /// A period of dither that is longer [s] is none any more: the block ends.
 inline constexpr double longest_tremble_block_s = 0.015;
 /// A block is taken for no shorter [s]: velocities divide by it.
@@ -114,7 +116,8 @@ struct PositionState {
   T current_A{};  ///< of the coil, in the last sample
   T voltage_V{};
   T offset_m{};               ///< what an acquisition fault adds to the signal
-  T fault_s{};                ///< how long the fault has lasted
+  T elsewhere_m{};            ///< where the spool is, from there, if the jump is the other way about than believed
+  T fault_s{};                ///< how long ago the fault began; 0: there is none
   T unsettled_s{};            ///< time until a slip counts as over
   T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
   T velocity_m_per_s{};       ///< smoothed
@@ -130,11 +133,12 @@ template <class T>
 struct PositionPoint {
   T position_m;  ///< free of drift and faults
   MotionOf<T> motion;
-  Mask<T> fault;
+  Mask<T> fault;         ///< a jump of the signal is taken out of it, or doubted
   T travel_m;            ///< sign of the velocity of what `motion` tells
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};
-  Mask<T> busy{};  ///< this sample closed a block of several: what can wait for the next does
+  T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
+  Mask<T> busy{};   ///< this sample closed a block of several: what can wait for the next does
 };
 
 namespace detail {
@@ -255,16 +259,37 @@ constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T
   return select(quiet, smaller(hardest_m, T(quiet_jump_m)), hardest_m);
 }
 
-/// A change of the signal's step beyond its noise: what is not credible goes into the offset.
+/// A change of the signal's step beyond its noise: what is not credible goes into the offset, or is the way back from a
+/// jump that was believed.
 template <class T>
-constexpr void judge_jump(PositionState<T>& state, Mask<T> unusual, T change_m, T credible_m) {
+constexpr void judge_jump(PositionState<T>& state, Mask<T> unusual, T change_m, T credible_m, T time_step_s) {
   // A spool may stop in no time, at an end stop or by friction.
   const T innovation_m = change_m - limited(change_m, smaller(state.step_m, T(0)), larger(state.step_m, T(0)));
   const Mask<T> jumps = unusual && magnitude(innovation_m) > credible_m;
-  const Mask<T> first = state.offset_m == T(0);
+  const Mask<T> believed = state.offset_m == T(0);
+  const Mask<T> returns =
+      jumps && believed && state.fault_s > T(0) && magnitude(innovation_m - state.elsewhere_m) < credible_m;
   const T offset_m = state.offset_m + innovation_m;
-  state.offset_m = select(jumps, select(magnitude(offset_m) < credible_m, T(0), offset_m), state.offset_m);
-  state.fault_s = select(jumps && first, T(0), state.fault_s);
+  const T left_m = select(magnitude(offset_m) < credible_m || returns, T(0), offset_m);
+  state.offset_m = select(jumps, left_m, state.offset_m);
+  state.elsewhere_m = select(jumps, left_m, state.elsewhere_m);
+  state.fault_s =
+      select(jumps, select(left_m == T(0), T(0), select(believed, time_step_s, state.fault_s)), state.fault_s);
+}
+
+/// One more sample of a fault: a jump that lasts is believed, then doubted, then forgotten. Returns the position.
+template <class T>
+constexpr T outlast_fault(PositionState<T>& state, Mask<T> faulty, T position_m, T time_step_s) {
+  const Mask<T> believes =
+      faulty && state.offset_m != T(0) && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s;
+  state.elsewhere_m = select(believes, -state.offset_m, state.elsewhere_m);
+  state.offset_m = select(believes, T(0), state.offset_m);
+  const T believed_m = position_m - state.offset_m;
+  // The spool did not move: the next step starts from here.
+  state.last_m = select(believes, position_m, state.last_m);
+  const Mask<T> over = state.fault_s > T(longest_position_doubt_s);
+  state.fault_s = select(faulty, select(over, T(0), state.fault_s + time_step_s), state.fault_s);
+  return believed_m;
 }
 
 /// The position without acquisition faults: a change beyond what is credible is taken out of the signal until the
@@ -276,18 +301,11 @@ template <class T>
   const T change_m = position_m - state.offset_m - state.last_m;
   const Mask<T> unusual = magnitude(change_m - state.step_m) > noise_m;
   if (any(unusual)) {
-    judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil));
+    judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
   }
   T believed_m = position_m - state.offset_m;
-  const Mask<T> faulty = state.offset_m != T(0);
-  if (any(faulty)) {
-    state.fault_s = select(faulty, state.fault_s + sample.time_step_s, state.fault_s);
-    const Mask<T> believes = faulty && state.fault_s > T(longest_position_fault_s) + T(0.5) * sample.time_step_s;
-    state.offset_m = select(believes, T(0), state.offset_m);
-    believed_m = select(believes, position_m, believed_m);
-    // The spool did not move: the next step starts from here.
-    state.last_m = select(believes, position_m, state.last_m);
-  }
+  const Mask<T> faulty = state.fault_s != T(0);
+  if (any(faulty)) believed_m = outlast_fault(state, faulty, position_m, sample.time_step_s);
   state.current_A = sample.current_A;
   state.voltage_V = sample.voltage_V;
   state.step_m = believed_m - state.last_m;
@@ -308,6 +326,7 @@ template <class T>
 constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
+  state.fault_s = T(0);
   state.velocity_due = Mask<T>(false);
   state.samples = state.blocks = Index<T>(0);
   state.motion = MotionOf<T>(Motion::rest);
@@ -338,9 +357,16 @@ template <class T>
         detail::tell_motion(sensor, state);
       });
   const Mask<T> busy = state.velocity_due && state.per_block_samples < T(1);
-  const Mask<T> fault = state.offset_m != T(0);
+  const Mask<T> fault = state.fault_s != T(0);
   const T velocity_m_per_s = state.velocity_m_per_s;
-  return {position_m, state.motion, fault, state.travel_m, velocity_m_per_s, state.acceleration_m_per_s2, busy};
+  return {position_m,
+          state.motion,
+          fault,
+          state.travel_m,
+          velocity_m_per_s,
+          state.acceleration_m_per_s2,
+          position_m + state.elsewhere_m,
+          busy};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

@@ -18,6 +18,7 @@ using spoolflow::sensor::CoilResistance;
 using spoolflow::sensor::CoilResistanceState;
 using spoolflow::sensor::follow_coil;
 using spoolflow::sensor::follow_resistance;
+using spoolflow::sensor::judge_answer;
 using spoolflow::sensor::Sample;
 
 constexpr CoilResistance<double> coil{
@@ -89,15 +90,39 @@ TEST(CoilResistance, WithoutCurrentOrVoltageNothingIsSaid) {
   EXPECT_EQ(state.mean.voltage_V, voltage_V);
 }
 
+/// Whether no current answers the voltage, `after_s` after the current's instrument broke; 0.4 V are quiet.
+bool unanswered(double after_s) {
+  CoilResistanceState<double> state = followed(10);
+  for (int n = 0; n < std::lround(after_s / sampled_every_s); ++n) average(state, {0, 8, 0}, sampled_every_s);
+  judge_answer(coil, state, 0.4);
+  return state.unanswered;
+}
+
+TEST(CoilResistance, AVoltageThatNoCurrentAnswersIsAFaultWithinFiveHundredthsOfASecond) {
+  EXPECT_FALSE(unanswered(0));
+  EXPECT_TRUE(unanswered(0.05));
+  EXPECT_TRUE(unanswered(1));
+}
+
+TEST(CoilResistance, AVoltageThatAFluxAnswersIsNoFault) {
+  CoilResistanceState<double> state;
+  average(state, {0, 24, 18}, 1.0);  // in one step all of the mean; a third of the flux rate may be wrong
+  judge_answer(coil, state, 0.4);
+  EXPECT_FALSE(state.unanswered);
+  average(state, {0, 24, 6}, 1.0);
+  judge_answer(coil, state, 0.4);
+  EXPECT_TRUE(state.unanswered);
+}
+
 TEST(CoilResistance, OfACoilWithoutVoltageIsLeftAlone) {
   ActuatorParameters<double> actuator{};
   actuator.coil_resistance = coil;
   ActuatorState<double> state{};
   Sample<double> sample{sampled_every_s, 0.8, std::numeric_limits<double>::quiet_NaN(), 1e-3, 320.0};
-  follow_coil(actuator, state, sample, true);
+  follow_coil(actuator, state, sample, 2.0, true);
   EXPECT_EQ(state.coil_resistance.variance_Ohm2, 0);
   sample.voltage_V = 8;
-  follow_coil(actuator, state, sample, true);
+  follow_coil(actuator, state, sample, 2.0, true);
   EXPECT_GT(state.coil_resistance.variance_Ohm2, 0);
 }
 

@@ -132,19 +132,35 @@ TEST_P(PositionTrack, BelievesASpoolThatStopsInNoTime) {
       [](double time_s) { return 5 + 1000 * time_s; });
 }
 
-TEST_P(PositionTrack, BelievesAJumpThatLasts) {
+TEST_P(PositionTrack, BelievesAJumpThatLastsAndDoubtsItForAWhile) {
   if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
   follow(
-      1, [](double) { return 1e-3; },
+      4, [](double) { return 1e-3; },
       [&](double time_s, const PositionPoint<double>& point) {
-        if (time_s < 0.4 || time_s > 0.4 + longest_position_fault_s + 2 * step_s()) {
+        if (time_s < 0.4 || time_s > 0.4 + longest_position_doubt_s + 3 * step_s()) {
           EXPECT_FALSE(point.fault) << time_s;
+        }
+        if (point.fault) {
+          EXPECT_NEAR(point.elsewhere_m, time_s < 0.4 + longest_position_fault_s ? 1.4e-3 : 1e-3, 6e-6) << time_s;
         }
         if (time_s > 0.7) {
           EXPECT_NEAR(point.position_m, 1.4e-3, 6e-6);
         }
       },
       [](double time_s) { return time_s >= 0.4 ? 0.4e-3 : 0; });
+}
+
+TEST_P(PositionTrack, BelievesTheWayBackFromAJumpThatItBelieved) {
+  if (step_s() > 2e-3) GTEST_SKIP() << "90 m/s2 allow 2.3 mm in 5 ms: no jump is beyond it";
+  follow(
+      2, [](double) { return 1e-3; },
+      [&](double time_s, const PositionPoint<double>& point) {
+        if (time_s > 1.2 + step_s()) {
+          EXPECT_NEAR(point.position_m, 1e-3, 6e-6) << time_s;
+          EXPECT_FALSE(point.fault) << time_s;
+        }
+      },
+      [](double time_s) { return time_s >= 0.4 && time_s < 1.2 ? 0.4e-3 : 0; });
 }
 
 TEST(PositionTrack, TakesTheDriftOfItsZeroOff) {

@@ -17,6 +17,7 @@ constexpr PositionPoint<T> mirrored(Mask<T> seen_from_a, PositionPoint<T> point)
   point.travel_m = select(seen_from_a, -point.travel_m, point.travel_m);
   point.velocity_m_per_s = select(seen_from_a, -point.velocity_m_per_s, point.velocity_m_per_s);
   point.acceleration_m_per_s2 = select(seen_from_a, -point.acceleration_m_per_s2, point.acceleration_m_per_s2);
+  point.elsewhere_m = select(seen_from_a, -point.elsewhere_m, point.elsewhere_m);
   return point;
 }
 
