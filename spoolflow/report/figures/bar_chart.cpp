@@ -121,7 +121,7 @@ BarChart in_units(BarChart chart, const ReaderUnits& units) {
 std::string svg_of(const BarChart& described, double width_px, const ReaderUnits& units) {
   const BarChart chart = in_units(described, units);
   const Frame frame = frame_of(chart, width_px);
-  std::string out = fmt::format(R"(<svg viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", width_px,
+  std::string out = fmt::format(R"(<svg class="bars" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", width_px,
                                 frame.bottom + axis_px, html_text(chart.description));
   draw_axis(out, chart, frame, width_px);
   double y = top_px;

@@ -1,6 +1,7 @@
 /** A figure over hours or days: its line, the band about it, what it is compared with, and when it was raised. */
 import uPlot from 'uplot';
 import { colour, paleColour } from '../colours';
+import { tickTexts } from '../plot_options';
 import { clock } from './api';
 import { element } from './element';
 
@@ -106,7 +107,7 @@ export class HistoryPlot {
       padding: [8, 12, 0, 0],
       legend: { show: false },
       scales: { x: { time: true }, y: { range: (_plot, lowest, highest) => HistoryPlot.heightOf(lowest, highest) } },
-      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 28 }],
+      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 28, values: (_plot, splits, _axis, _space, step) => tickTexts(splits, step) }],
       cursor: { y: false, drag: { x: true, y: false }, sync: { key: this.group } },
       series: [
         {},
