@@ -41,6 +41,7 @@ async function opened(name, { width = 1280, javaScriptEnabled = true, colorSchem
   });
   await page.setViewportSize({ width, height: 900 });
   await page.emulateMedia({ media: 'screen', colorScheme });
+  await page.mouse.move(0, 0);  // where a plot that is scrolled to does not come to lie under it
   await page.goto(`file://${join(folder, name)}.html`);
   if (javaScriptEnabled) await page.evaluate(() => localStorage.clear());
   return { page, complaints };

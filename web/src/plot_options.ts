@@ -86,7 +86,7 @@ export function cursorOf(view: View, heights = false): uPlot.Cursor {
   };
 }
 
-/** A cursor that stays: a line with its letter. */
+/** A cursor that stays: a line, and its letter where there is one. */
 function drawMark(plot: uPlot, time: number, letter: string): void {
   const { ctx, bbox } = plot;
   const x = plot.valToPos(time, 'x', true);
@@ -103,13 +103,20 @@ function drawMark(plot: uPlot, time: number, letter: string): void {
   ctx.fillStyle = colour('ink');
   const atRight = x > bbox.left + bbox.width - 14 * devicePixelRatio;
   ctx.textAlign = atRight ? 'right' : 'left';
-  ctx.fillText(letter, x + (atRight ? -3 : 3) * devicePixelRatio, bbox.top + 11 * devicePixelRatio);
+  ctx.setLineDash([]);
+  ctx.lineJoin = 'round';
+  ctx.lineWidth = 3 * devicePixelRatio;
+  ctx.strokeStyle = colour('paper');
+  const left = x + (atRight ? -3 : 3) * devicePixelRatio;
+  const top = bbox.top + 11 * devicePixelRatio;
+  ctx.strokeText(letter, left, top);
+  ctx.fillText(letter, left, top);
   ctx.restore();
 }
 
-export function drawMarks(plot: uPlot, view: View): void {
-  if (view.marks.a !== null) drawMark(plot, view.marks.a, 'A');
-  if (view.marks.b !== null) drawMark(plot, view.marks.b, 'B');
+export function drawMarks(plot: uPlot, view: View, letters = true): void {
+  if (view.marks.a !== null) drawMark(plot, view.marks.a, letters ? 'A' : '');
+  if (view.marks.b !== null) drawMark(plot, view.marks.b, letters ? 'B' : '');
 }
 
 /** Clicks put the cursors that stay. `snapped`: the time of the sample there. */

@@ -25,7 +25,7 @@ export class StatusChart {
       axes: [xAxis(true), { size: yAxisWidth, grid: { show: false }, ticks: { show: false }, values: () => [] }],
       series: [{}, {}],
       cursor: cursorOf(view),
-      hooks: { ...hooksOf(view), draw: [() => this.drawRows(), (plot) => drawMarks(plot, view)] },
+      hooks: { ...hooksOf(view), draw: [() => this.drawRows(), (plot) => drawMarks(plot, view, false)] },
     }, [[view.first, view.last], [null, null]], place);
     bindClicks(this.plot, view, (time) => run.nearest(time));
   }

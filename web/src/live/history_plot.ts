@@ -107,7 +107,7 @@ export class HistoryPlot {
       padding: [8, 12, 0, 0],
       legend: { show: false },
       scales: { x: { time: true }, y: { range: (_plot, lowest, highest) => HistoryPlot.heightOf(lowest, highest) } },
-      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 28, values: (_plot, splits, _axis, _space, step) => tickTexts(splits, step) }],
+      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 18, values: (_plot, splits, _axis, _space, step) => tickTexts(splits, step) }],
       cursor: { y: false, drag: { x: true, y: false }, sync: { key: this.group } },
       series: [
         {},
