@@ -197,6 +197,13 @@ test('a valve’s plot moves 20 to 50 times a second, goes stale with the progra
   console.log(`${rate.toFixed(1)} frames a second`);
   if (socket !== null) assert.ok(rate > 10 && rate < 50, `${rate} frames a second`);
   await page.waitForFunction(() => document.querySelectorAll('figure.history').length >= 2, undefined, { timeout: 60000 });
+  const first = page.locator('figure.history').first();
+  await first.press('+');
+  const shown = Number(await first.getAttribute('data-shown'));
+  await first.press('+');
+  assert.ok(Math.abs(Number(await first.getAttribute('data-shown')) - shown / 2) < 0.2);
+  await first.press('0');
+  assert.ok(Math.abs(Number(await first.getAttribute('data-shown')) - 2 * shown) < 0.2);
   await page.waitForTimeout(1000);
   await picture(page, 'valve');
 
