@@ -15,8 +15,8 @@ std::string lines_of(const ReaderQuantity& quantity) {
   std::string out = fmt::format("  {}: [\n", quantity.name);
   for (std::size_t k = 0; k < quantity.count(); ++k) {
     const spoolflow::units::ReaderUnit& unit = quantity.units[k];
-    out += fmt::format("    {{ name: '{}', factor: {}, decimals: {} }},\n",
-                       unit.full_name.empty() ? unit.shown : unit.full_name, unit.factor, unit.decimals);
+    out += fmt::format("    {{ name: '{}', factor: {}, offset: {}, decimals: {} }},\n",
+                       unit.full_name.empty() ? unit.shown : unit.full_name, unit.factor, unit.offset, unit.decimals);
   }
   return out + "  ],\n";
 }
@@ -34,8 +34,8 @@ int main() {
   const std::string page = fmt::format(
       "// Written by web/write_units.cpp from the table in spoolflow/units/reader_unit.cpp: change it there, then run\n"
       "// ninja -C build/release web_units\n"
-      "/** A unit in which plots draw and read out: shown value = factor * value of the data. */\n"
-      "export interface Unit {{\n  name: string;\n  factor: number;\n  decimals: number;\n}}\n\n"
+      "/** A unit in which plots draw and read out: shown value = factor * value of the data + offset. */\n"
+      "export interface Unit {{\n  name: string;\n  factor: number;\n  offset: number;\n  decimals: number;\n}}\n\n"
       "export type Quantity = {};\n\n"
       "/** Data come in the first unit of each quantity. */\n"
       "export const units: Record<Quantity, Unit[]> = {{\n{}}};\n",

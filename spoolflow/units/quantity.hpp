@@ -4,7 +4,17 @@
 
 namespace spoolflow::units {
 
-enum class Kind : std::uint8_t { flow, pressure, length, force, temperature, temperature_difference, current, time };
+enum class Kind : std::uint8_t {
+  flow,
+  pressure,
+  length,
+  force,
+  temperature,
+  temperature_difference,
+  current,
+  time,
+  voltage
+};
 
 struct Quantity {
   Kind kind;
@@ -34,6 +44,9 @@ constexpr Quantity current(double current_A) {
 }
 constexpr Quantity time(double time_s) {
   return {Kind::time, time_s};
+}
+constexpr Quantity voltage(double voltage_V) {
+  return {Kind::voltage, voltage_V};
 }
 
 }  // namespace spoolflow::units

@@ -42,15 +42,18 @@ constexpr std::array<ReaderQuantity, kind_count> quantities{{
     {Kind::temperature,
      "temperature",
      {},  // K is that of differences
-     false,
-     {{{.asked = "C", .shown = "\u00b0C"}, {.asked = "F", .shown = "\u00b0F", .factor = 1.8, .offset = 32}, {}}}},
+     true,
+     {{{.asked = "C", .shown = "\u00b0C", .decimals = 1},
+       {.asked = "F", .shown = "\u00b0F", .factor = 1.8, .offset = 32, .decimals = 1},
+       {}}}},
     {Kind::temperature_difference,
      "temperature",  // as temperatures are asked for
      "K",
      false,
      {{{.shown = "K"}, {.shown = "\u00b0F", .factor = 1.8}, {}}}},
-    {Kind::current, "current", "A", false, {{{.shown = "A"}, {}, {}}}},
+    {Kind::current, "current", "A", true, {{{.shown = "A", .decimals = 3}, {}, {}}}},
     {Kind::time, "time", "s", false, {{{.shown = "s"}, {}, {}}}},
+    {Kind::voltage, "voltage", "V", true, {{{.shown = "V", .decimals = 2}, {}, {}}}},
 }};
 
 }  // namespace
@@ -77,6 +80,7 @@ double usual(Quantity quantity) {
     case Kind::temperature_difference:
     case Kind::current:
     case Kind::time:
+    case Kind::voltage:
       break;
   }
   return quantity.value_SI;

@@ -39,7 +39,7 @@ struct ReaderQuantity {
 /// In the order of Kind.
 [[nodiscard]] std::span<const ReaderQuantity> reader_quantities();
 [[nodiscard]] const ReaderQuantity& reader_quantity(Kind kind);
-inline constexpr std::size_t kind_count = 8;
+inline constexpr std::size_t kind_count = 9;
 
 /// The value in the usual unit of its kind: 60 of a pressure of 6e6 Pa.
 [[nodiscard]] double usual(Quantity quantity);

@@ -1,7 +1,6 @@
 #include "spoolflow/validation/run_samples.hpp"
 
 #include "spoolflow/numerics/meter_lag.hpp"
-#include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::validation {
@@ -29,11 +28,15 @@ void append(std::vector<Number>& to, const recording::SampleBlock& block, Channe
   for (const double value : block.column(channel)) to.push_back(static_cast<Number>(value));
 }
 
-/// Of the only or the active coil; of a whole valve coil b's counts > 0 and coil a's < 0.
-void append_current(std::vector<float>& to, const recording::SampleBlock& block) {
-  const std::vector<double>& a = block.column(Channel::current_a);
-  const std::vector<double>& b = block.column(Channel::current_b);
-  if (!recording::has_both_coils(block)) return append(to, block, Channel::current);
+/// What a coil has, of the only or the active one; of a whole valve coil b's counts > 0 and coil a's < 0.
+struct OfCoils {
+  Channel one, a, b;
+};
+
+void append_of_coils(std::vector<float>& to, const recording::SampleBlock& block, const OfCoils& channel) {
+  const std::vector<double>& a = block.column(channel.a);
+  const std::vector<double>& b = block.column(channel.b);
+  if (a.empty() || b.empty()) return append(to, block, channel.one);
   for (std::size_t k = 0; k < block.rows; ++k) to.push_back(static_cast<float>(b[k] - a[k]));
 }
 
@@ -76,7 +79,8 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
     append(run.time_s, block, Channel::time);
     append(run.position_m, block, Channel::position);
     append(run.position_set, block, Channel::position_set);
-    append_current(run.current_A, block);
+    append_of_coils(run.current_A, block, {Channel::current, Channel::current_a, Channel::current_b});
+    append_of_coils(run.voltage_V, block, {Channel::voltage, Channel::voltage_a, Channel::voltage_b});
     append(run.oil_temperature_K, block, Channel::oil_temperature);
     append(run.reference_m3_per_s, block, reference);
     append_pressure_difference(run.pressure_difference_Pa, block);

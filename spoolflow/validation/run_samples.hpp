@@ -25,7 +25,7 @@ struct Answers {
 struct RunSamples {
   std::vector<double> time_s;
   std::vector<double> position_m, position_set;  ///< position_set as a share of the stroke
-  std::vector<float> current_A, oil_temperature_K;
+  std::vector<float> current_A, voltage_V, oil_temperature_K;
   std::vector<float> reference_m3_per_s, pressure_difference_Pa;  ///< instruments; no sensor reads them
   std::vector<Answers> answers;                                   ///< in the order of the estimators
   recording::ReadNotes notes;

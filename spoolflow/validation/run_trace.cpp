@@ -113,8 +113,11 @@ std::size_t values_a_sample(const RunSamples& run) {
   constexpr std::size_t of_leading = 9;          // band, forces and their stack, status
   constexpr std::size_t of_every_estimator = 2;  // flow, pressure difference
   const std::size_t reference = run.reference_m3_per_s.empty() ? 0 : 1;
-  const std::size_t pressure = run.pressure_difference_Pa.empty() ? 0 : 1;
-  return of_every_run + of_leading + reference + pressure + run.answers.size() * (of_every_estimator + reference);
+  std::size_t others = 0;
+  for (const auto* column : {&run.pressure_difference_Pa, &run.current_A, &run.voltage_V, &run.oil_temperature_K}) {
+    others += column->empty() ? 0 : 1;
+  }
+  return of_every_run + of_leading + reference + others + run.answers.size() * (of_every_estimator + reference);
 }
 
 }  // namespace
@@ -130,6 +133,9 @@ RunTrace run_trace(const RunSamples& run, std::size_t values) {
   out.reference_m3_per_s = tracer.column(run.reference_m3_per_s);
   out.position_m = tracer.column(run.position_m);
   out.pressure_difference_Pa = tracer.column(run.pressure_difference_Pa);
+  out.current_A = tracer.column(run.current_A);
+  out.voltage_V = tracer.column(run.voltage_V);
+  out.oil_temperature_K = tracer.column(run.oil_temperature_K);
   for (const Answers& answers : run.answers) {
     out.estimators.push_back(traced(tracer, run, answers, &answers == &run.answers.back()));
   }

@@ -32,7 +32,8 @@ struct RunTrace {
   /// Of each stretch's first sample. Where nothing was recorded for long, an entry with NaN in all channels stands
   /// between two stretches.
   std::vector<double> time_s;
-  TracedChannel reference_m3_per_s, position_m, pressure_difference_Pa;  ///< empty where not recorded
+  /// Empty where not recorded.
+  TracedChannel reference_m3_per_s, position_m, pressure_difference_Pa, current_A, voltage_V, oil_temperature_K;
   std::vector<TracedEstimator> estimators;
 };
 

@@ -49,11 +49,6 @@ TEST(ReaderUnit, IsAskedForByANameOfItsOwn) {
   std::map<std::string_view, int> asked;
   for (const ReaderQuantity& quantity : reader_quantities()) {
     for (const ReaderUnit& unit : quantity.units) ++asked[unit.asked];
-    for (const ReaderUnit& unit : quantity.units) {
-      if (quantity.plotted) {
-        EXPECT_EQ(unit.offset, 0) << "the page's script knows factors alone";
-      }
-    }
   }
   asked.erase("");
   for (const auto& [name, times] : asked) EXPECT_EQ(times, 1) << name;

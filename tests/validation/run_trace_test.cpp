@@ -67,6 +67,18 @@ TEST(RunTrace, KeepsAPeakOfOneSampleInAMillionWithinItsRoom) {
   EXPECT_GT(numbers, 250'000U);
 }
 
+TEST(RunTrace, HasWhatTheCoilAndTheOilHadWhereItWasRecorded) {
+  RunSamples run = sine(3);
+  EXPECT_TRUE(run_trace(run, 1000).voltage_V.lowest.empty());
+  run.current_A = {1, 2, 3};
+  run.voltage_V = {12, 24, 12};
+  run.oil_temperature_K = {323, 323, 324};
+  const RunTrace trace = run_trace(run, 1000);
+  EXPECT_EQ(trace.current_A.lowest, (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(trace.voltage_V.lowest, (std::vector<float>{12, 24, 12}));
+  EXPECT_EQ(trace.oil_temperature_K.lowest[2], 324);
+}
+
 TEST(RunTrace, TellsAllThatWasSaidInAStretch) {
   const RunTrace trace = run_trace(sine(10'000, 7'000), 10'000);
   const auto place_of = [](sensor::Status bit) {

@@ -1,6 +1,6 @@
 // Reports in a real browser.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, statSync } from 'node:fs';
+import { mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
@@ -41,6 +41,7 @@ async function opened(name, { width = 1280, javaScriptEnabled = true, colorSchem
   });
   await page.setViewportSize({ width, height: 900 });
   await page.emulateMedia({ media: 'screen', colorScheme });
+  await page.mouse.move(0, 0);  // where a plot that is scrolled to does not come to lie under it
   await page.goto(`file://${join(folder, name)}.html`);
   if (javaScriptEnabled) await page.evaluate(() => localStorage.clear());
   return { page, complaints };
@@ -361,4 +362,171 @@ test('a million samples weigh less than 15 MiB, and a peak of one sample is ther
     return (performance.now() - begin) / 10;
   });
   console.log(`million samples: ${(bytes / 2 ** 20).toFixed(1)} MiB, ${spent.toFixed(0)} ms of script to open, ${zooming.toFixed(0)} ms a zoom`);
+});
+
+/** Marks of axes whose number does not lie where their text says: neighbours must be evenly apart where their texts are. */
+const unevenMarks = (page) => page.evaluate(() => {
+  const uneven = [];
+  const numberOf = (text) => Number(text.replace('\u2212', '-'));
+  for (const drawing of document.querySelectorAll('figure svg[role=img]')) {
+    for (const [anchor, place] of [['middle', 'x'], ['end', 'y']]) {
+      const axes = new Map();  // by panel: marks between two titles, and on one line
+      for (const mark of drawing.querySelectorAll(`text.tick[text-anchor=${anchor}]`)) {
+        const key = place === 'x' ? mark.getAttribute('y') : [...drawing.querySelectorAll('text.title')]
+          .filter((title) => Number(title.getAttribute('y')) < Number(mark.getAttribute('y'))).length;
+        if (!axes.has(key)) axes.set(key, []);
+        axes.get(key).push([numberOf(mark.textContent), Number(mark.getAttribute(place))]);
+      }
+      for (const marks of axes.values()) {
+        const [first, last] = [marks[0], marks[marks.length - 1]];
+        if (marks.length < 3 || drawing.getAttribute('aria-label').startsWith('Frequency response')) continue;
+        for (const [value, at] of marks) {
+          const expected = first[1] + (last[1] - first[1]) * (value - first[0]) / (last[0] - first[0]);
+          if (Math.abs(expected - at) > 0.3) uneven.push(`${drawing.getAttribute('aria-label')}: ${value} at ${at}, not ${expected}`);
+        }
+      }
+    }
+  }
+  return uneven;
+});
+
+test('every number beside an axis stands on its grid line', async () => {
+  for (const name of ['usual', 'analysis', 'american', 'imperial', 'named']) {
+    const { page } = await opened(name, { javaScriptEnabled: false });
+    assert.ok((await page.locator('text.tick').count()) > 50);
+    assert.deepEqual(await unevenMarks(page), [], name);
+  }
+});
+
+test('dragging up or down zooms the values of one plot, its buttons do too, and a double click shows all', async () => {
+  const { page } = await opened('usual');
+  const figure = await plots(page);
+  const whole = await range(figure);
+  const plot = figure.locator('.u-over').first();
+  const drawing = (k) => figure.locator('canvas').nth(k).evaluate((canvas) => canvas.toDataURL());
+  await plot.scrollIntoViewIfNeeded();
+  const [first, second] = [await drawing(0), await drawing(1)];
+  const box = await plot.boundingBox();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width + 5, box.y + 160, { steps: 4 });
+  await page.mouse.up();
+  await page.mouse.move(0, 0);
+  assert.deepEqual(await range(figure), whole);
+  assert.notEqual(await drawing(0), first);
+  assert.equal(await drawing(1), second);
+  await page.mouse.dblclick(box.x + 0.5 * box.width, box.y + 100);
+  await page.mouse.move(0, 0);
+  await page.waitForTimeout(30);
+  assert.equal(await drawing(0), first);
+  await page.getByRole('button', { name: 'Zoom into the values of: Flow rate' }).first().press('Enter');
+  await page.waitForTimeout(30);
+  assert.notEqual(await drawing(0), first);
+  await figure.locator('.plots').press('0');
+  await page.waitForTimeout(30);
+  assert.equal(await drawing(0), first);
+});
+
+test('two cursors tell the time between them and the difference of every trace', async () => {
+  const { page } = await opened('usual');
+  const figure = await plots(page);
+  const recorded = rowsOf('usual.csv');
+  const plot = figure.locator('.u-over').first();
+  await plot.scrollIntoViewIfNeeded();
+  for (const time_s of [2, 7]) {
+    await pointAt(page, figure, time_s);
+    await page.mouse.down();
+    await page.mouse.up();
+    await page.waitForTimeout(20);
+  }
+  await page.mouse.move(0, 0);
+  const said = await figure.locator('.clock').textContent();
+  const [from, to] = said.match(/t = ([0-9.]+) s, Δt = ([0-9.]+) s/).slice(1).map(Number);
+  assert.ok(Math.abs(from - 7) < 0.02 && Math.abs(to - 5) < 0.04, `${from}, ${to}`);
+  const told = await figure.locator('output[data-difference=measured]').first().textContent();
+  const k = Math.round(from * 1000);
+  const expected = recorded[k].flow_reference_L_min - recorded[k - Math.round(to * 1000)].flow_reference_L_min;
+  assert.ok(Math.abs(Number(told.replace('Δ ', '').replace('−', '-')) - expected) < 0.02, `${told}, ${expected}`);
+  await figure.locator('.plots').focus();
+  await page.keyboard.press('c');
+  assert.equal(await figure.locator('.clock').textContent(), '');
+  for (const key of ['Home', 'a', 'End', 'b']) await page.keyboard.press(key);
+  assert.match(await figure.locator('.clock').textContent(), /Δt = 19\.9990 s/);
+  await page.waitForFunction(() => document.querySelector('.unseen').textContent.includes('difference'));
+});
+
+test('plots are saved as a picture, and the traces that are on as data of the time that is shown', async () => {
+  const { page } = await opened('usual');
+  const figure = await plots(page);
+  await figure.locator('.plots').focus();
+  for (const key of ['Home', '+', '+', '+', 'PageDown']) await page.keyboard.press(key);
+  const [from, to] = await range(figure);
+  await figure.getByRole('button', { name: /condensed/ }).first().click();
+  const savedBy = async (name) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name }).first().click()]);
+    return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+  };
+  const data = await savedBy('Save the visible data (CSV)');
+  assert.equal(data.name, 'usual_data.csv');
+  const [head, ...lines] = data.bytes.toString('utf8').trim().split('\n');
+  assert.match(head, /^time \[s\],Flow rate: 95 % band lower \[L\/min\],/);
+  assert.match(head, /Coil current: measured \[A\],Oil temperature: measured \[°C\],status$/);
+  assert.doesNotMatch(head, /Flow rate: condensed/);
+  assert.ok(Math.abs(Number(lines[0].split(',')[0]) - from) < 0.002 && Math.abs(Number(lines.at(-1).split(',')[0]) - to) < 0.002);
+  assert.ok(Math.abs(lines.length - 1000 * (to - from)) <= 1, 'a line a sample');
+  const picture = await savedBy('Save the plots as a picture (PNG)');
+  assert.equal(picture.name, 'usual_plots.png');
+  assert.deepEqual([...picture.bytes.subarray(1, 4)], [...'PNG'].map((letter) => letter.charCodeAt(0)));
+  assert.ok(picture.bytes.length > 20_000);
+  if (pictures) writeFileSync(join(pictures, picture.name), picture.bytes);
+});
+
+test('any channel stands over any other, and current, voltage and oil temperature are among them', async () => {
+  const { page } = await opened('named');
+  const figure = await plots(page);
+  const titles = await figure.locator('.readout b').allTextContents();
+  for (const title of ['Coil current [A]', 'Coil voltage [V]', 'Oil temperature [°C]']) assert.ok(titles.includes(title), titles.join());
+  await figure.locator('.xy summary').press('Enter');
+  const drawing = figure.locator('.xy canvas');
+  await drawing.waitFor();
+  const before = await drawing.evaluate((canvas) => canvas.toDataURL());
+  await figure.locator('select[name=x]').selectOption('Coil current: measured');
+  await figure.locator('select[name=y]').selectOption('Forces on the spool: magnetic');
+  await page.waitForTimeout(50);
+  assert.notEqual(await drawing.evaluate((canvas) => canvas.toDataURL()), before);
+  assert.equal(await figure.locator('.xy [role=img]').getAttribute('aria-label'), 'Forces on the spool: magnetic [N] over Coil current: measured [A]');
+  await page.selectOption('select[name=temperature]', '°F');
+  await figure.locator('.plots').press('Home');
+  const shown = (await readOut(figure)).values.find(({ title }) => title === 'Oil temperature [°F]');
+  assert.equal(shown.series.measured, '122.0');
+  await picture(page, 'xy');
+});
+
+test('the page says what its choosers of units do not change', async () => {
+  const { page } = await opened('usual');
+  assert.match(await page.locator('.unit-controls').textContent(), /^Plots over time: .*Other figures, tables and print keep the units/);
+});
+
+test('on paper the figures of a pair are of one size, and no text of an axis is smaller than 7 pt', async () => {
+  for (const name of ['usual', 'analysis']) {
+    const { page } = await opened(name);
+    await page.setViewportSize({ width: 695, height: 900 });  // A4 less its margins: 184 mm
+    await page.emulateMedia({ media: 'print' });
+    const printed = await page.evaluate(() => {
+      const visible = (each) => each.getBoundingClientRect().height > 0;
+      const small = [...document.querySelectorAll('figure svg[role=img]')].filter(visible).flatMap((drawing) => {
+        const scale = drawing.getBoundingClientRect().width / drawing.viewBox.baseVal.width;
+        return [...drawing.querySelectorAll('.tick, .label')]
+          .map((text) => 0.75 * scale * parseFloat(getComputedStyle(text).fontSize)).filter((size_pt) => size_pt < 6.99)
+          .map((size_pt) => `${drawing.getAttribute('aria-label')}: ${size_pt.toFixed(1)} pt`);
+      });
+      const widths = [...document.querySelectorAll('.pair')].map((pair) => [...pair.querySelectorAll('figure')]
+        .map((figure) => Math.round(figure.getBoundingClientRect().width)));
+      return { small: [...new Set(small)], uneven: widths.filter((each) => new Set(each).size > 1), pairs: widths.length };
+    });
+    assert.ok(printed.pairs > 1);
+    assert.deepEqual(printed.small, [], name);
+    assert.deepEqual(printed.uneven, [], name);
+    await page.emulateMedia({ media: 'screen' });
+  }
 });

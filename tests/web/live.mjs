@@ -136,7 +136,7 @@ test('the overview shows every valve with flow, band, sign and what is worst', a
     /^\d+\.\d\d L\/min$/.test(each.textContent)).length >= 3, undefined, { timeout: 20000 });
   assert.deepEqual(await page.locator('.card .name').allTextContents(), ['press_1', 'press_2', 'clamp_torn_cable', 'feed_udp']);
   for (const text of await page.locator('.card .band').allTextContents()) assert.match(text, /^(−?\d+\.\d\d|–) to (\d+\.\d\d|–)$/);
-  assert.match(await page.locator('#totals').textContent(), /^4 valves, \d not good; .* L\/min, .* kW hydraulic$/);
+  assert.match(await page.locator('#totals').textContent(), /^4 valves, \d not good(, \d without samples)?; .* L\/min, .* kW hydraulic$/);
   const line = () => page.locator('.card .spark path').first().getAttribute('d');
   const before = await line();
   await page.waitForFunction((was) => document.querySelector('.card .spark path').getAttribute('d') !== was, before);
@@ -152,11 +152,19 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   await page.waitForSelector('.alarm:has-text("feed_udp"):has-text("no samples")', { timeout: 30000 });
   const torn = page.locator('.alarm:has-text("clamp_torn_cable"):has-text("function check")').first();
   await torn.waitFor({ timeout: 30000 });
+  // What stands on the card of the valve without samples is told as old, in its figures as in words.
+  const quiet = page.locator('.card:has-text("feed_udp")');
+  assert.match(await quiet.locator('.flow').textContent(), /^last /);
+  assert.match(await quiet.locator('.worst').textContent(), /^no samples for \d+ s/);
+  assert.match(await page.locator('#totals').textContent(), /, 1 without samples;/);
+  assert.equal(await page.locator('#news[role=status]').count(), 1);
   await picture(page, 'overview_with_alarms');
   const count = Number(await page.locator('#alarm-count').textContent());
   assert.ok(count >= 2);
-  await torn.getByRole('button', { name: /^Acknowledge alarm \d+: function check of clamp_torn_cable$/ }).click();
+  await torn.getByRole('button', { name: /^Acknowledge alarm \d+: function check of clamp_torn_cable$/ }).press('Enter');
   await page.waitForFunction((was) => Number(document.querySelector('#alarm-count').textContent) === was - 1, count);
+  // Who acknowledges by keyboard stays among the alarms.
+  await page.waitForFunction(() => document.activeElement.closest('.alarms') !== null);
   await page.goto(`${served.url}/#/alarms`);
   await page.waitForSelector('.alarm[data-state=raised_acknowledged]:has-text("acknowledged by local")');
   await page.waitForSelector('.alarm:has-text("raw samples around it")', { timeout: 30000 });
@@ -189,6 +197,13 @@ test('a valve’s plot moves 20 to 50 times a second, goes stale with the progra
   console.log(`${rate.toFixed(1)} frames a second`);
   if (socket !== null) assert.ok(rate > 10 && rate < 50, `${rate} frames a second`);
   await page.waitForFunction(() => document.querySelectorAll('figure.history').length >= 2, undefined, { timeout: 60000 });
+  const first = page.locator('figure.history').first();
+  await first.press('+');
+  const shown = Number(await first.getAttribute('data-shown'));
+  await first.press('+');
+  assert.ok(Math.abs(Number(await first.getAttribute('data-shown')) - shown / 2) < 0.2);
+  await first.press('0');
+  assert.ok(Math.abs(Number(await first.getAttribute('data-shown')) - 2 * shown) < 0.2);
   await page.waitForTimeout(1000);
   await picture(page, 'valve');
 
@@ -196,6 +211,7 @@ test('a valve’s plot moves 20 to 50 times a second, goes stale with the progra
   await page.waitForSelector('#stale:not([hidden])', { timeout: 20000 });
   assert.match(await page.locator('#stale').textContent(), /has not answered for \d+ s: what is shown is old/);
   await page.waitForSelector('canvas.plot.old');
+  await page.waitForFunction(() => /^The last sample came ([2-9]|\d\d+) s ago\.$/m.test(document.querySelector('main').innerText));
   await picture(page, 'valve_stale');
   served = await start('site.toml', '--listen', `127.0.0.1:${served.port}`);
   await page.waitForSelector('#stale', { state: 'hidden', timeout: 20000 });
@@ -219,6 +235,13 @@ test('narrow and dark, nothing goes beyond the page', async () => {
       await page.context().close();
     }
   }
+});
+
+test('a recording that has ended leaves old figures, and its card says so', async () => {
+  const { page } = await opened();
+  const ended = page.locator('.card:has-text("clamp_torn_cable"):has-text("no samples for")');
+  await ended.waitFor({ timeout: 30000 });
+  assert.match(await ended.locator('.flow').textContent(), /^last /);
 });
 
 test('the keyboard goes from card to card, into a valve and back', async () => {

@@ -11,8 +11,9 @@ function run(...args) {
   execFileSync(command, [...args, '-q'], { cwd: folder, stdio: ['ignore', 'ignore', 'inherit'] });
 }
 
-function write(name, rows, { reference = true } = {}) {
+function write(name, rows, { reference = true, voltage = false } = {}) {
   const head = ['time_s', 'current_A', 'position_mm', 'oil_temperature_C', 'pressure_difference_bar'];
+  if (voltage) head.push('voltage_V');
   if (reference) head.push('flow_reference_L_min');
   const lines = [head.join(',')];
   for (const k of rows) {
@@ -45,7 +46,7 @@ if (!existsSync(made) || statSync(made).mtimeMs < newest) {
   run('analyse', model, '--scenario', 'few.toml', '--recording', 'gaps.csv', '--report', 'american.html',
     '--units', 'gal/min,psi,in,F,lbf');
   run('validate', model, 'single.csv', '--report', 'imperial.html', '--units', 'gal/min,psi,in,F,lbf');
-  write('ramp at 60 bar', range(0, 2000));
+  write('ramp at 60 bar', range(0, 2000), { voltage: true });
   run('validate', model, 'ramp at 60 bar.csv', '--report', 'named.html', '--units', 'psi');
   for (const name of ['unmeasured', 'single', 'million']) {
     run('validate', model, `${name}.csv`, '--report', `${name}.html`);

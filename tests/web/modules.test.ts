@@ -7,7 +7,10 @@ import { choices, ReadersUnits } from './src/readers_units';
 import { SampleTimes } from './src/sample_times';
 import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './src/thinning';
 import { units as table } from './src/units';
+import { differenceText } from './src/readout';
+import { runOf, type Series } from './src/run_data';
 import { View } from './src/view';
+import { visibleCsv } from './src/visible_data';
 
 function packed(codes: number[], scale = 1): PackedNumbers {
   return { offset: 0, scale, values: Buffer.from(new Int16Array(codes).buffer).toString('base64') };
@@ -94,6 +97,39 @@ test('a run of one sample has a picture', () => {
   assert.ok(view.from < view.to);
 });
 
+function runOfTwo(): ReturnType<typeof runOf> {
+  const series = { name: 'measured', tone: 'ink', shape: 'line' as const, width: 1, low: packed([20, missing, 40, 50]) };
+  return runOf({ run: 'two', samplesPerStretch: 1, fullScale: 80, time: { start: 0, count: 4, step: 0.5 },
+                 panels: [{ title: 'Oil, of tank', quantity: 'temperature', height: 90, fromZero: false, series: [series] }] });
+}
+
+test('visible data are written in the range and the unit that are shown, unknown values empty', () => {
+  const run = runOfTwo();
+  const shown = run.panels.map((panel) => ({ panel, unit: table.temperature[1], series: panel.series }));
+  assert.equal(visibleCsv(run, shown, 0.4, 1.2), 'time [s],"Oil, of tank: measured [°F]"\n0.5,\n1,104\n');
+  assert.equal(visibleCsv(run, [], 1.5, 9), 'time [s]\n1.5\n');
+});
+
+test('differences of temperatures have no offset', () => {
+  const [series] = runOfTwo().panels[0].series;
+  assert.equal(differenceText(series, 0, 2, table.temperature[1]), '+36.0');
+  assert.equal(differenceText(series, 2, 0, table.temperature[0]), '\u221220.0');
+  assert.equal(differenceText({ ...series, shape: 'band' } as Series, 0, 2, table.temperature[0]), '');
+});
+
+test('the first click puts cursor A, the second B, the third begins anew, half of a double click nothing', () => {
+  const view = new View(0, 10, 1);
+  view.clickAt(2);
+  view.clickAt(5);
+  assert.deepEqual(view.marks, { a: 2, b: 5 });
+  view.clickAt(7);
+  assert.deepEqual(view.marks, { a: 7, b: null });
+  view.undoClick();
+  assert.deepEqual(view.marks, { a: 2, b: 5 });
+  view.clearMarks();
+  assert.deepEqual(view.marks, { a: null, b: null });
+});
+
 test('numbers have a true minus sign, no negative zero, and a dash where nothing is known', () => {
   assert.equal(numberText(-1.26, 1), '−1.3');
   assert.equal(numberText(-0.001, 2), '0.00');
@@ -111,7 +147,8 @@ test('errors are told in percent of full scale or in the unit of the flow', () =
 
 test('every unit of the table can be chosen, and a page made in it begins in it', () => {
   for (const [quantity, units] of Object.entries(table)) {
-    assert.deepEqual(choices.find((choice) => choice.quantity === quantity)?.names, units.map((unit) => unit.name));
+    const names = choices.find((choice) => choice.quantity === quantity)?.names;
+    assert.deepEqual(names, units.length > 1 ? units.map((unit) => unit.name) : undefined);
     units.forEach((unit, k) => {
       const made = new ReadersUnits({ [`${quantity}Unit`]: String(k) });
       assert.equal(made.unitOf(quantity as keyof typeof table, 80), unit);

@@ -14,7 +14,8 @@ export function channels(k) {
     time_s: time_s.toFixed(3),
     current_A: (0.25 + 1.5 * share + 0.1 * Math.sin(40 * time_s)).toFixed(4),
     position_mm: (2.2 * share).toFixed(4),
-    oil_temperature_C: '50',
+    voltage_V: (24 * (0.1 + 0.5 * share)).toFixed(2),
+    oil_temperature_C: (50 + 2 * Math.sin(time_s / 100)).toFixed(3),
     pressure_difference_bar: bar.toFixed(3),
     flow_reference_L_min: flow.toFixed(3),
   };

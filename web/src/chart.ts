@@ -1,9 +1,10 @@
 /** One pair of axes over time: lines, bands and stacked layers. */
 import uPlot from 'uplot';
 import { colour, paleColour } from './colours';
-import { cursorOf, hooksOf, rightMargin, showCursor, xAxis, xAxisHeightOf, yAxis } from './plot_options';
+import { bindClicks, cursorOf, drawMarks, hooksOf, rightMargin, showCursor, xAxis, xAxisHeightOf, yAxis } from './plot_options';
 import type { Panel, Run, Series } from './run_data';
 import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './thinning';
+import { inUnit } from './readers_units';
 import type { Unit } from './units';
 import type { View } from './view';
 
@@ -13,6 +14,8 @@ const mostBuckets = 2000;
 export class Chart {
   readonly plot: uPlot;
   private readonly hidden = new Set<Series>();
+  /** The values between which the reader looks, in the data's unit; null: all. */
+  private height: [number, number] | null = null;
   /** For each series where its columns stand in the plot's data. */
   private readonly columns = new Map<Series, number>();
 
@@ -39,11 +42,17 @@ export class Chart {
         x: { time: false, auto: false, range: () => [view.from, view.to] },
         y: { range: (_plot, lowest, highest) => this.heightOf(lowest, highest) },
       },
-      axes: [xAxis(last), yAxis()],
+      axes: [xAxis(last), yAxis(panel.height)],
       series: columns,
-      cursor: cursorOf(view),
-      hooks: { ...hooksOf(view), drawAxes: [() => this.fillAreas()] },
+      cursor: cursorOf(view, true),
+      hooks: {
+        ...hooksOf(view, (low, high) => this.zoomHeight(low, high)),
+        drawAxes: [() => this.fillAreas()],
+        draw: [(plot) => drawMarks(plot, view)],
+      },
     }, this.data(width), place);
+    bindClicks(this.plot, view, (time) => run.nearest(time));
+    view.onReset(() => { this.height = null; });
   }
 
   /** New range, unit or width. */
@@ -60,6 +69,37 @@ export class Chart {
     showCursor(this.plot, this.view);
   }
 
+  isShown(series: Series): boolean {
+    return !this.hidden.has(series);
+  }
+
+  get empty(): boolean {
+    return this.hidden.size === this.panel.series.length;
+  }
+
+  /** Smallest and largest value of the picture, in the reader's unit. */
+  get values(): [number, number] {
+    return [this.plot.scales.y.min ?? 0, this.plot.scales.y.max ?? 1];
+  }
+
+  /** In the reader's unit. */
+  zoomHeight(lowest: number, highest: number): void {
+    const fromUnit = (value: number): number => (value - this.unit.offset) / this.unit.factor;
+    this.height = [fromUnit(lowest), fromUnit(highest)];
+    this.plot.setData(this.plot.data, false);
+    this.plot.setScale('x', { min: this.view.from, max: this.view.to });
+  }
+
+  /** `factor` below 1 zooms in. The value of the first trace at the cursor stays where it is, else the middle. */
+  zoomHeightBy(factor: number): void {
+    const [lowest, highest] = this.values;
+    const leading = this.panel.series.find((series) => series.shape === 'line' && this.isShown(series));
+    const time = this.view.cursor ?? this.view.marks.a;
+    const value = leading && time !== null ? inUnit(leading.lowest.at(this.run.indexAt(time)), this.unit) : NaN;
+    const about = value > lowest && value < highest ? value : 0.5 * (lowest + highest);
+    this.zoomHeight(about - (about - lowest) * factor, about + (highest - about) * factor);
+  }
+
   toggle(series: Series, shown: boolean): void {
     if (shown) this.hidden.delete(series);
     else this.hidden.add(series);
@@ -74,16 +114,17 @@ export class Chart {
     const out: (number | null)[][] = [drawnTimes(this.run.times, range)];
     for (const series of this.panel.series) {
       if (series.shape === 'band') {
-        out.push(drawnEdge(series.lowest, range, this.unit.factor, false),
-                 drawnEdge(series.highest, range, this.unit.factor, true));
+        out.push(drawnEdge(series.lowest, range, this.unit.factor, false, this.unit.offset),
+                 drawnEdge(series.highest, range, this.unit.factor, true, this.unit.offset));
       } else {
-        out.push(drawnLine(series.drawn, range, this.unit.factor));
+        out.push(drawnLine(series.drawn, range, this.unit.factor, this.unit.offset));
       }
     }
     return out as uPlot.AlignedData;
   }
 
   private heightOf(lowest: number | null, highest: number | null): [number, number] {
+    if (this.height !== null) return [inUnit(this.height[0], this.unit), inUnit(this.height[1], this.unit)];
     if (lowest === null || highest === null) return [0, 1];
     if (this.panel.fromZero) lowest = Math.min(0, lowest);
     if (lowest === highest) return [lowest - 0.5, highest + 0.5];

@@ -26,7 +26,11 @@ function addControls(): void {
   if (figures.length > 0) {
     const plots = document.createElement('span');
     plots.className = 'unit-controls';
-    plots.append('Plots: ', ...choices.map(unitControl));
+    plots.append('Plots over time: ', ...choices.map(unitControl));
+    const others = document.createElement('span');
+    others.className = 'hint';
+    others.textContent = 'Other figures, tables and print keep the units that the page was made in (--units).';
+    plots.append(others);
     controls.append(plots);
   }
   document.querySelector('header')?.append(controls);

@@ -1,4 +1,5 @@
-/** A run as the page carries it. Flow and error in L/min, pressure in bar, position in mm, force in N, time in s. */
+/** A run as the page carries it. Flow and error in L/min, pressure in bar, position in mm, force in N, current in A, voltage in V,
+ *  temperature in degC, time in s. */
 import { channelOf, bytesOf, type Channel, type PackedChannel } from './packed_numbers';
 import { SampleTimes, type PackedTimes } from './sample_times';
 import type { Shown } from './readers_units';
@@ -67,15 +68,22 @@ export interface Run {
   times: SampleTimes;
   panels: Panel[];
   status: Status | null;
+  /** The stretch at a time, and the time of that stretch. */
+  indexAt(time: number): number;
+  nearest(time: number): number;
 }
 
 export function runOf(packed: PackedRun): Run {
   const status = packed.status;
+  const times = new SampleTimes(packed.time);
+  const indexAt = (time: number): number => times.indexAt(time, packed.samplesPerStretch === 1);
   return {
     name: packed.run,
     samplesPerStretch: packed.samplesPerStretch,
     fullScale: packed.fullScale,
-    times: new SampleTimes(packed.time),
+    times,
+    indexAt,
+    nearest: (time) => times.at(indexAt(time)),
     panels: packed.panels.map((panel) => ({
       ...panel,
       series: panel.series.map((series) => {

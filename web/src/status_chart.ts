@@ -1,7 +1,7 @@
 /** What the sensor said of itself over time: one bar a status name; pale where only part of a stretch has it. */
 import uPlot from 'uplot';
 import { colour, paleColour } from './colours';
-import { cursorOf, hooksOf, rightMargin, showCursor, xAxis, xAxisHeightOf, yAxisWidth } from './plot_options';
+import { bindClicks, cursorOf, drawMarks, hooksOf, rightMargin, showCursor, xAxis, xAxisHeightOf, yAxisWidth } from './plot_options';
 import type { Run, Status } from './run_data';
 import { bucketBegin, drawnRange } from './thinning';
 import type { View } from './view';
@@ -25,8 +25,9 @@ export class StatusChart {
       axes: [xAxis(true), { size: yAxisWidth, grid: { show: false }, ticks: { show: false }, values: () => [] }],
       series: [{}, {}],
       cursor: cursorOf(view),
-      hooks: { ...hooksOf(view), draw: [() => this.drawRows()] },
+      hooks: { ...hooksOf(view), draw: [() => this.drawRows(), (plot) => drawMarks(plot, view, false)] },
     }, [[view.first, view.last], [null, null]], place);
+    bindClicks(this.plot, view, (time) => run.nearest(time));
   }
 
   refresh(width: number): void {

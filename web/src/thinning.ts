@@ -55,36 +55,36 @@ function largest(column: Column, begin: number, end: number): number {
   return code;
 }
 
-function drawn(value: number, factor: number): number | null {
-  return Number.isNaN(value) ? null : value * factor;
+function drawn(value: number, factor: number, offset: number): number | null {
+  return Number.isNaN(value) ? null : value * factor + offset;
 }
 
-/** Two values a bucket, the smallest and the largest; null breaks the line. `factor`: into the reader's unit. */
-export function drawnLine(channel: Channel, range: DrawnRange, factor: number): (number | null)[] {
+/** Two values a bucket, the smallest and the largest; null breaks the line. `factor` and `offset`: into the reader's unit. */
+export function drawnLine(channel: Channel, range: DrawnRange, factor: number, offset = 0): (number | null)[] {
   const out: (number | null)[] = [];
   if (range.everySample) {
-    for (let k = range.from; k < range.to; ++k) out.push(drawn(channel.lowest.at(k), factor));
+    for (let k = range.from; k < range.to; ++k) out.push(drawn(channel.lowest.at(k), factor, offset));
     return out;
   }
   for (let b = 0; b < range.buckets; ++b) {
     const begin = bucketBegin(range, b);
     const end = bucketBegin(range, b + 1);
-    out.push(drawn(channel.lowest.valueOf(smallest(channel.lowest, begin, end)), factor),
-             drawn(channel.highest.valueOf(largest(channel.highest, begin, end)), factor));
+    out.push(drawn(channel.lowest.valueOf(smallest(channel.lowest, begin, end)), factor, offset),
+             drawn(channel.highest.valueOf(largest(channel.highest, begin, end)), factor, offset));
   }
   return out;
 }
 
 /** An edge of a band: of each bucket the value that is farther out, twice. */
-export function drawnEdge(column: Column, range: DrawnRange, factor: number, upper: boolean): (number | null)[] {
+export function drawnEdge(column: Column, range: DrawnRange, factor: number, upper: boolean, offset = 0): (number | null)[] {
   const out: (number | null)[] = [];
   if (range.everySample) {
-    for (let k = range.from; k < range.to; ++k) out.push(drawn(column.at(k), factor));
+    for (let k = range.from; k < range.to; ++k) out.push(drawn(column.at(k), factor, offset));
     return out;
   }
   for (let b = 0; b < range.buckets; ++b) {
     const farthest = upper ? largest : smallest;
-    const value = drawn(column.valueOf(farthest(column, bucketBegin(range, b), bucketBegin(range, b + 1))), factor);
+    const value = drawn(column.valueOf(farthest(column, bucketBegin(range, b), bucketBegin(range, b + 1))), factor, offset);
     out.push(value, value);
   }
   return out;

@@ -1,13 +1,25 @@
-/** What of a run all of its plots show, and where their common cursor stands. */
+/** Times that stay marked, so that what lies between them can be read. */
+export interface Marks {
+  a: number | null;
+  b: number | null;
+}
+
+const noMarks: Marks = { a: null, b: null };
+
+/** What of a run all of its plots show, where their common cursor stands, and the two that the reader put down. */
 export class View {
   readonly first: number;
   readonly last: number;
   from: number;
   to: number;
   cursor: number | null = null;
+  marks: Marks = noMarks;
+  private beforeClick: Marks = noMarks;
   private readonly finest: number;
   private readonly rangeListeners: (() => void)[] = [];
   private readonly cursorListeners: (() => void)[] = [];
+  private readonly markListeners: (() => void)[] = [];
+  private readonly resetListeners: (() => void)[] = [];
 
   /** `step`: the time between neighbours; zooming in ends at some of them. */
   constructor(first: number, last: number, step: number) {
@@ -29,6 +41,37 @@ export class View {
 
   onCursor(listener: () => void): void {
     this.cursorListeners.push(listener);
+  }
+
+  onMarks(listener: () => void): void {
+    this.markListeners.push(listener);
+  }
+
+  /** Before the whole run is shown again. */
+  onReset(listener: () => void): void {
+    this.resetListeners.push(listener);
+  }
+
+  putMarks(marks: Partial<Marks>): void {
+    this.marks = { ...this.marks, ...marks };
+    for (const listener of this.markListeners) listener();
+  }
+
+  clearMarks(): void {
+    this.putMarks(noMarks);
+  }
+
+  /** The first click puts a, the second b, the third begins anew. */
+  clickAt(time: number): void {
+    this.beforeClick = this.marks;
+    if (this.marks.a === null) this.putMarks({ a: time });
+    else if (this.marks.b === null) this.putMarks({ b: time });
+    else this.putMarks({ a: time, b: null });
+  }
+
+  /** Where the click turns out to be half of a double click. */
+  undoClick(): void {
+    this.putMarks(this.beforeClick);
   }
 
   zoomTo(from: number, to: number): void {
@@ -53,6 +96,7 @@ export class View {
   }
 
   reset(): void {
+    for (const listener of this.resetListeners) listener();
     this.zoomTo(this.first, this.last);
   }
 

@@ -40,7 +40,7 @@ Frame frame_of(const BarChart& chart, double width_px) {
     highest = std::max({highest, reach(bar.solid), bar.pale ? reach(*bar.pale) : highest});
   }
   if (!(highest > chart.lowest)) highest = chart.lowest + 1;
-  const double letter_px = 7;
+  const double letter_px = 8;  // as large as texts are in print
   return {std::min(0.62 * width_px, 14 + letter_px * static_cast<double>(longest_name)),
           width_px - 14 - letter_px * static_cast<double>(longest_text),
           top_px + row_px * static_cast<double>(chart.bars.size()), chart.lowest, chart.highest.value_or(highest)};
@@ -121,8 +121,8 @@ BarChart in_units(BarChart chart, const ReaderUnits& units) {
 std::string svg_of(const BarChart& described, double width_px, const ReaderUnits& units) {
   const BarChart chart = in_units(described, units);
   const Frame frame = frame_of(chart, width_px);
-  std::string out = fmt::format(R"(<svg viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)", width_px,
-                                frame.bottom + axis_px, html_text(chart.description));
+  std::string out = fmt::format(R"(<svg class="bars" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="{}">)",
+                                width_px, frame.bottom + axis_px, html_text(chart.description));
   draw_axis(out, chart, frame, width_px);
   double y = top_px;
   for (const Bar& bar : chart.bars) {

@@ -20,14 +20,15 @@ using validation::TracedEstimator;
 constexpr double flow_factor = units::litre_per_minute_per_m3_per_s;
 constexpr double pressure_factor = 1 / units::pascal_per_bar;
 
-Json numbers(const std::vector<float>& values, double factor) {
+/// In the usual unit: factor * SI + offset.
+Json numbers(const std::vector<float>& values, double factor, double offset = 0) {
   PackedNumbers column = packed(values, factor);
-  return {{"offset", column.offset}, {"scale", column.scale}, {"values", std::move(column.base64)}};
+  return {{"offset", column.offset + offset}, {"scale", column.scale}, {"values", std::move(column.base64)}};
 }
 
-Json channel(const TracedChannel& data, double factor) {
-  Json out{{"low", numbers(data.lowest, factor)}};
-  if (!data.highest.empty()) out["high"] = numbers(data.highest, factor);
+Json channel(const TracedChannel& data, double factor, double offset = 0) {
+  Json out{{"low", numbers(data.lowest, factor, offset)}};
+  if (!data.highest.empty()) out["high"] = numbers(data.highest, factor, offset);
   return out;
 }
 
@@ -91,6 +92,10 @@ class TraceJson {
         panel({"Position", chooser_name(units::Kind::length), 90, true},
               Json::array({line(trace_.position_m, units::millimetre_per_metre, {"measured", "ink", "line", 1.2})})));
     out.push_back(panel({"Forces on the spool", chooser_name(units::Kind::force), 190, true}, forces()));
+    add_measured(out, {"Coil current", chooser_name(units::Kind::current), 90, false}, trace_.current_A, 0);
+    add_measured(out, {"Coil voltage", chooser_name(units::Kind::voltage), 90, false}, trace_.voltage_V, 0);
+    add_measured(out, {"Oil temperature", chooser_name(units::Kind::temperature), 70, false}, trace_.oil_temperature_K,
+                 -units::kelvin_at_0_degC);
     return out;
   }
 
@@ -109,6 +114,12 @@ class TraceJson {
   }
 
  private:
+  /// A channel of the recording that has a panel to itself, where it was recorded.
+  static void add_measured(Json& panels, const PanelLook& look, const TracedChannel& data, double offset) {
+    if (data.lowest.empty()) return;
+    panels.push_back(panel(look, Json::array({series(channel(data, 1, offset), {"measured", "ink", "line", 1.2})})));
+  }
+
   [[nodiscard]] const TracedEstimator& leading() const { return trace_.estimators.back(); }
 
   /// `data_of(estimator)`: a packed channel.

@@ -59,6 +59,7 @@ class Entry {
   }
 
   private async acknowledge(id: number): Promise<void> {
+    const focused = document.activeElement === this.button;
     this.button.disabled = true;
     try {
       this.show(await acknowledge(id));
@@ -68,6 +69,15 @@ class Entry {
       setText(this.trouble, error instanceof Error ? error.message : String(error));
     }
     this.button.disabled = false;
+    if (focused) this.keepFocus();
+  }
+
+  /** The button is gone: the next alarm's takes the focus, else the list. */
+  private keepFocus(): void {
+    if (!this.button.hidden) return this.button.focus();
+    const list = this.place.parentElement;
+    const next = [...(list?.querySelectorAll<HTMLElement>('.acknowledge') ?? [])].find((each) => !each.hidden);
+    (next ?? list)?.focus();
   }
 
   private indicators(alarm: Alarm): HTMLElement {
@@ -93,6 +103,7 @@ export class AlarmList {
   /** `says`: that there are none, where there are none. */
   constructor(private readonly wanted: (alarm: Alarm) => boolean, private readonly most = 100, private readonly says = false) {
     this.place.setAttribute('aria-label', 'alarms');
+    this.place.tabIndex = -1;
   }
 
   show(alarms: readonly Alarm[]): void {

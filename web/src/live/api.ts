@@ -158,6 +158,19 @@ export function figure(value: number | null, digits: number): string {
   return value === null ? '–' : value.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace(/^-/, '−');
 }
 
+/** Whether what is told of a valve is old: no samples come, or its recording has ended. */
+export function isOld({ source }: Valve): boolean {
+  const longest_s = 5;
+  return source.stalled || (source.age_s ?? 0) > longest_s;
+}
+
+/** "12 s", "5 min", "3 h", "2 days". */
+export function duration(seconds: number): string {
+  if (seconds < 120) return `${seconds.toFixed(0)} s`;
+  if (seconds < 7200) return `${(seconds / 60).toFixed(0)} min`;
+  return seconds < 172800 ? `${(seconds / 3600).toFixed(0)} h` : `${(seconds / 86400).toFixed(0)} days`;
+}
+
 /** Four digits that matter, for figures of any size. */
 export function short(value: number | null): string {
   if (value === null) return '–';

@@ -1,6 +1,7 @@
 /** A figure over hours or days: its line, the band about it, what it is compared with, and when it was raised. */
 import uPlot from 'uplot';
 import { colour, paleColour } from '../colours';
+import { tickTexts } from '../plot_options';
 import { clock } from './api';
 import { element } from './element';
 
@@ -57,6 +58,9 @@ export class HistoryPlot {
 
   constructor(private readonly group: string) {
     this.place = element('figure', 'history', this.title, this.room);
+    this.place.tabIndex = 0;
+    this.place.setAttribute('role', 'group');
+    this.place.addEventListener('keydown', (event) => this.zoomByKey(event));
   }
 
   /** The range is kept where the reader has zoomed into the same span. */
@@ -83,6 +87,29 @@ export class HistoryPlot {
     return whole ? null : { min, max };
   }
 
+  /** Plus and minus zoom, the arrows move the picture, 0 shows the whole span. */
+  private zoomByKey(event: KeyboardEvent): void {
+    const min = this.plot?.scales['x']?.min, max = this.plot?.scales['x']?.max;
+    if (this.plot === null || this.range === null || min == null || max == null) return;
+    const [from, to] = this.range, width = max - min, middle = 0.5 * (min + max);
+    const shifted = (by: number): [number, number] => {
+      const begin = Math.min(Math.max(min + by * width, from), to - width);
+      return [begin, begin + width];
+    };
+    const zoomed = (factor: number): [number, number] =>
+      [Math.max(from, middle - 0.5 * factor * width), Math.min(to, middle + 0.5 * factor * width)];
+    const acts: Record<string, () => [number, number]> = {
+      '+': () => zoomed(0.5), '=': () => zoomed(0.5), '-': () => zoomed(2), '0': () => [from, to],
+      ArrowLeft: () => shifted(-0.25), ArrowRight: () => shifted(0.25),
+    };
+    const act = acts[event.key];
+    if (act === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const [begin, end] = act();
+    this.plot.setScale('x', { min: begin, max: end });
+    this.place.dataset['shown'] = (end - begin).toFixed(1);
+  }
+
   resize(): void {
     const width = this.room.clientWidth;
     if (this.plot !== null && width > 0 && width !== this.plot.width) this.plot.setSize({ width, height: tall });
@@ -106,7 +133,7 @@ export class HistoryPlot {
       padding: [8, 12, 0, 0],
       legend: { show: false },
       scales: { x: { time: true }, y: { range: (_plot, lowest, highest) => HistoryPlot.heightOf(lowest, highest) } },
-      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 28 }],
+      axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 18, values: (_plot, splits, _axis, _space, step) => tickTexts(splits, step) }],
       cursor: { y: false, drag: { x: true, y: false }, sync: { key: this.group } },
       series: [
         {},

@@ -106,7 +106,7 @@ export class HistoryView {
     for (const one of indicators) {
       if (one.value.some((value) => value !== null)) curves.push([one.name, curveOf(one), 60]);
     }
-    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red: raised. Drag to zoom, double click to come back.'
+    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red: raised. Drag to zoom, double click to come back; by keyboard plus, minus, arrows and 0.'
       : 'Nothing is kept of this time. Indicators are kept once a minute where the program has a store.');
     for (const [name, plot] of this.plots) {
       if (curves.some(([own]) => own === name)) continue;

@@ -1,5 +1,5 @@
 /** The page of `spoolflow live`: asks the program once a second, and follows one valve as its samples come. */
-import { figure, readAll, readSession, Refusal, type Told } from './api';
+import { figure, readAll, readSession, Refusal, words, type Told } from './api';
 import { element, setText } from './element';
 import { Overview } from './overview';
 import { AlarmsView, SiteView } from './site_view';
@@ -15,6 +15,7 @@ interface View {
 const view = document.getElementById('view')!;
 const totals = document.getElementById('totals')!;
 const stale = document.getElementById('stale')!;
+const news = document.getElementById('news')!;
 const links = [...document.querySelectorAll<HTMLAnchorElement>('nav a')];
 const alarmCount = document.getElementById('alarm-count')!;
 
@@ -64,7 +65,7 @@ function askToLogIn(): void {
 function showTotals(told: Told): void {
   const { site, valves } = told;
   const bad = valves.filter((valve) => valve.ne107 !== 'good').length;
-  setText(totals, `${site.valves} valves, ${bad} not good; ${figure(site.flow_L_min, 1)} L/min, ` +
+  setText(totals, `${site.valves} valves, ${bad} not good${site.stalled === 0 ? '' : `, ${site.stalled} without samples`}; ${figure(site.flow_L_min, 1)} L/min, ` +
     `${figure(site.hydraulic_power_W === null ? null : site.hydraulic_power_W / 1e3, 2)} kW hydraulic` +
     (site.store_trouble === '' ? '' : `; nothing is kept: ${site.store_trouble}`));
   const open = told.alarms.filter((alarm) => alarm.acknowledged === null).length;
@@ -72,10 +73,18 @@ function showTotals(told: Told): void {
   alarmCount.hidden = open === 0;
 }
 
+/** Screen readers are told of alarms that are new since the page was opened. */
+function announce(told: Told): void {
+  const open = told.alarms.filter((alarm) => alarm.state === 'raised_unacknowledged');
+  const fresh = open.filter((alarm) => last !== null && !last.alarms.some((known) => known.id === alarm.id && known.times === alarm.times));
+  if (fresh.length > 0) setText(news, `New alarm: ${fresh.map((alarm) => `${words(alarm.cause)} of ${alarm.valve}`).join('; ')}`);
+}
+
 async function ask(): Promise<void> {
   try {
     const told = await readAll();
     answered = performance.now();
+    announce(told);
     last = told;
     showTotals(told);
     shown.show(told);

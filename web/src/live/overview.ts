@@ -1,6 +1,6 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
 import { AlarmList } from './alarm_list';
-import { figure, inUnit, scaled, severity, short, signs, words, type Indicator, type Told, type Valve } from './api';
+import { duration, figure, inUnit, isOld, scaled, severity, short, signs, words, type Indicator, type Told, type Valve } from './api';
 import { element, setText } from './element';
 import { EventList } from './event_list';
 
@@ -31,7 +31,8 @@ class Card {
   private readonly band = element('span', 'band');
   private readonly worst = element('span', 'worst');
   private readonly line: SVGPathElement;
-  private readonly flows: number[] = [];
+  /** Once a second; null where no samples came. */
+  private readonly flows: (number | null)[] = [];
 
   constructor(id: string) {
     this.link.href = `#/valve/${encodeURIComponent(id)}`;
@@ -48,20 +49,25 @@ class Card {
   show(valve: Valve): void {
     setText(this.sign, signs[valve.ne107]);
     this.sign.dataset['sign'] = valve.ne107;
-    this.link.dataset['stalled'] = String(valve.source.stalled);
-    setText(this.flow, `${figure(valve.flow_L_min, 2)} L/min`);
+    this.link.dataset['stalled'] = String(isOld(valve));
+    setText(this.flow, `${isOld(valve) && valve.flow_L_min !== null ? 'last ' : ''}${figure(valve.flow_L_min, 2)} L/min`);
     setText(this.band, `${figure(valve.flow_lower_L_min, 2)} to ${figure(valve.flow_upper_L_min, 2)}`);
     setText(this.worst, this.said(valve));
     this.worst.dataset['raised'] = String(valve.indicators.some((one) => one.state === 'raised'));
-    this.flows.push(valve.flow_L_min ?? 0);
+    this.flows.push(isOld(valve) ? null : valve.flow_L_min);
     if (this.flows.length > history) this.flows.shift();
-    const lowest = Math.min(0, ...this.flows), highest = Math.max(0.02 * valve.rated_flow_L_min, ...this.flows);
-    this.line.setAttribute('d', this.flows.map((flow, k) => `${k === 0 ? 'M' : 'L'}${k + history - this.flows.length} ` +
+    const known = this.flows.filter((flow) => flow !== null);
+    const lowest = Math.min(0, ...known), highest = Math.max(0.02 * valve.rated_flow_L_min, ...known);
+    this.line.setAttribute('d', this.flows.map((flow, k) => flow === null ? '' :
+      `${(this.flows[k - 1] ?? null) === null ? 'M' : 'L'}${k + history - this.flows.length} ` +
       `${(23 - 22 * (flow - lowest) / (highest - lowest)).toFixed(1)}`).join(''));
   }
 
   private said(valve: Valve): string {
-    if (valve.source.stalled) return `no samples${valve.source.trouble === '' ? '' : `: ${valve.source.trouble}`}`;
+    if (isOld(valve)) {
+      const { age_s, trouble } = valve.source;
+      return `no samples${age_s === null ? '' : ` for ${duration(age_s)}`}${trouble === '' ? '' : `: ${trouble}`}`;
+    }
     const worst = worstOf(valve);
     if (worst === undefined) return valve.status.length > 0 ? valve.status.map(words).join(', ') : 'nothing judged yet';
     const { factor, unit } = inUnit(worst);

@@ -1,6 +1,6 @@
 /** One valve: its plot as it comes, what its monitor says, days of it, and how its source fares. */
 import { AlarmList } from './alarm_list';
-import { clock, figure, inUnit, readRecordings, scaled, short, signs, words, type Told, type Valve } from './api';
+import { clock, duration, figure, inUnit, readRecordings, scaled, short, signs, words, type Told, type Valve } from './api';
 import { element, row, setText } from './element';
 import { EventList } from './event_list';
 import { HistoryView } from './history_view';
@@ -18,6 +18,7 @@ export class ValveView {
   private readonly status = element('p', 'status');
   private readonly causes = element('p', 'causes');
   private readonly stale = element('p', 'stale', 'No new samples: what is shown is old.');
+  private readonly age = element('p', 'soft');
   private readonly alarms: AlarmList;
   private readonly indicators = element('tbody', '');
   private readonly days: HistoryView;
@@ -26,22 +27,28 @@ export class ValveView {
   private readonly recordings = element('ul', 'events');
   private frame = 0;
   private asked = -Infinity;
+  /** When the program had the last sample [ms of performance.now()]. */
+  private lastSample: number | null = null;
   private readonly watch: number;
 
   constructor(private readonly id: string) {
     this.alarms = new AlarmList((alarm) => alarm.valve === id && alarm.state !== 'cleared');
     this.days = new HistoryView(id);
     const head = element('thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'unit', 'state'));
-    this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.alarms.place, this.stale,
+    this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.alarms.place, this.stale, this.age,
                       this.plot.canvas, element('h3', '', 'Indicators'),
                       element('div', 'wide', element('table', '', head, this.indicators)), this.days.place,
                       element('h3', '', 'Source'), this.source, element('h3', '', 'Raw samples around alarms'), this.recordings,
                       element('h3', '', 'Events'), this.events.place);
     this.stale.hidden = true;
+    this.stale.setAttribute('role', 'status');
+    this.age.hidden = true;
     this.stream = new Stream(id, () => this.redraw());
     this.watch = window.setInterval(() => {
       this.stale.hidden = performance.now() - this.stream.arrived < staleAfter_ms;
-      this.plot.canvas.classList.toggle('old', !this.stale.hidden);
+      for (const each of [this.plot.canvas, this.figures, this.status, this.sign]) each.classList.toggle('old', !this.stale.hidden);
+      this.age.hidden = this.stale.hidden || this.lastSample === null;
+      if (!this.age.hidden) setText(this.age, `The last sample came ${duration((performance.now() - this.lastSample!) / 1000)} ago.`);
     }, 250);
   }
 
@@ -80,6 +87,7 @@ export class ValveView {
       return line;
     }));
     const of = valve.source;
+    this.lastSample = of.age_s === null ? null : performance.now() - 1000 * of.age_s;
     setText(this.source, `${of.kind}${of.port === undefined ? '' : `, port ${of.port}`}: ${of.received} samples received, ` +
       `${of.dropped} dropped, ${of.lost} lost, ${of.repeated} repeated, ${of.unreadable} unreadable lines, ` +
       `${of.connections} connections${of.trouble === '' ? '' : `; ${of.trouble}`}`);
