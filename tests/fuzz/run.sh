@@ -16,7 +16,7 @@ mkdir -p "$findings" "$corpus" "$scratch/inputs"
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=0
 export TMPDIR=$scratch/inputs
 status=0
-"$build/tests/fuzz/${name}_fuzz" "-max_total_time=$seconds" -timeout=60 -rss_limit_mb=4096 -max_len=65536 -print_final_stats=1 \
+"$build/tests/fuzz/${name}_fuzz" "-max_total_time=$seconds" -timeout=240 -rss_limit_mb=4096 -max_len=65536 -print_final_stats=1 \
   "-artifact_prefix=$findings/" "$corpus" "$seeds" >"$scratch/log" 2>&1 || status=$?
 grep -E '^#[0-9]+[[:space:]]+DONE|^stat::number_of_executed_units' "$scratch/log" || true
 [ $status -eq 0 ] || tail -60 "$scratch/log"
