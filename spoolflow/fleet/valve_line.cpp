@@ -1,5 +1,6 @@
 #include "spoolflow/fleet/valve_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -126,6 +127,22 @@ void ValveLine::look(const Block& block) {
   if (view.condition == told_condition_) return;
   rows_.events.push_back(live::condition_event(view, told_condition_, block.wall_ms));
   told_condition_ = view.condition;
+}
+
+BlockPlace ValveLine::acknowledge(const Acknowledgement& seen) {
+  const auto before = alarms_.all();
+  const bool waits = std::any_of(before.begin(), before.end(), [&](const live::Alarm& alarm) {
+    return alarm.id == seen.alarm && alarm.acknowledged_ms == 0;
+  });
+  if (waits && work_) {
+    const auto alarm = alarms_.acknowledge(seen.alarm, seen.by, seen.wall_ms);
+    rows_.events.push_back({.wall_ms = seen.wall_ms,
+                            .valve = valve_,
+                            .kind = "alarm",
+                            .text = fmt::format("alarm {} acknowledged by {}: {}", seen.alarm, seen.by, alarm->cause)});
+    changed_ = true;
+  }
+  return position_.block;
 }
 
 std::optional<ValveRows> ValveLine::take_rows() {

@@ -33,6 +33,8 @@ class ValveLine {
 
   /// Works on the block whose turn has come, with the model that it names.
   void work(const Block& block, const live::SharedModel& model);
+  /// Behind the last block, whose place it returns. An alarm that is not there, or was acknowledged, stays as it is.
+  BlockPlace acknowledge(const Acknowledgement& seen);
   /// What is to be kept since the last time; nothing where nothing came.
   [[nodiscard]] std::optional<ValveRows> take_rows();
 

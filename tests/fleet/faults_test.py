@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
@@ -68,6 +69,36 @@ class Faults(unittest.TestCase):
                                     (None, "SUB spoolflow.coverage.hall 1", True),
                                     ("stranger", "SUB spoolflow.coverage.hall 1", True)):
             self.assertEqual(refused_by_nats(port, user, line), refused, (user, line))
+
+    def acknowledge_on_the_page(self, fleet):
+        """What somebody has seen on the fleet's page reaches the worker that has the valve."""
+        fleet.postgres.ask("CREATE ROLE page LOGIN IN ROLE spoolflow_page")
+        with open(os.path.join(self.folder, "fleet.toml"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(self.folder, "page.toml"), "w", encoding="utf-8") as file:
+            file.write(text.replace("user=postgres", "user=page") + '[page]\nlisten = "127.0.0.1:0"\n')
+        page = subprocess.Popen([COMMAND, "fleet", "page.toml"], cwd=self.folder, text=True, stderr=subprocess.PIPE)
+        try:
+            address = page.stderr.readline().split("page at ")[1].split("/ ;")[0]
+
+            def ask(path, data=None):
+                with urllib.request.urlopen(address + path, data, 20) as answer:
+                    return json.loads(answer.read())
+            valves = ask("/api/v1/valves")["valves"]
+            self.assertEqual([one["id"] for one in valves], [f"hall/v{k}" for k in range(VALVES)])
+            self.assertEqual({one["series"] for one in valves}, {"NG6 4/3 proportional, virtual"})
+            self.assertTrue(any(one["unit"] for series in ask("/api/v1/series")["series"] for one in series["indicators"]))
+            alarm = ask("/api/v1/alarms")["alarms"][0]
+            self.assertIsNone(alarm["acknowledged"])
+            fleet.start_worker()
+            self.assertEqual(ask(f"/api/v1/alarms/{alarm['key']}/acknowledge", b"{}")["acknowledged_by"], "local")
+            taken = (f"SELECT acknowledged_by FROM alarm JOIN acknowledgement USING (valve) WHERE valve = '{alarm['valve']}' "
+                     f"AND id = {alarm['id']} AND taken_block > 0")
+            until(lambda: fleet.postgres.ask(taken) == ["local"], 30, "an acknowledgement that the worker has taken")
+        finally:
+            page.terminate()
+            self.assertEqual(page.wait(30), 0)
+            page.stderr.close()
 
     def test_nothing_is_lost_or_taken_twice(self):
         for seed in SEEDS:
@@ -129,6 +160,8 @@ class Faults(unittest.TestCase):
             row = fleet.postgres.ask(
                 f"SELECT samples, energy_J FROM state JOIN valve ON valve = number WHERE id = 'hall/{valve}'")
             self.assertEqual(row, [f"{samples}|{json.dumps(energy)}"])
+        if KIND == "single":
+            self.acknowledge_on_the_page(fleet)
         self.done = True
         tell(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
 

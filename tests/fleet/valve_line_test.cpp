@@ -153,5 +153,33 @@ TEST(ValveLine, GoesOnAnywhereBitForBit) {
             std::bit_cast<std::uint64_t>(end.state.energy_J));
 }
 
+TEST(ValveLine, AnAcknowledgementTakesEffectBehindABlockAndGoesOnWithAnotherWorker) {
+  ValveLine line("hall/v", "test", delays);
+  KeptValve kept;
+  const Acknowledgement seen{.valve = "hall/v", .alarm = 1, .wall_ms = 17, .by = "anna"};
+  line.acknowledge(seen);  // there is none yet
+  for (std::uint64_t number = 1; number <= 6; ++number) {
+    line.work(second(number, false), size_6());
+    const ValveRows rows = *line.take_rows();
+    kept.position = rows.position;
+    if (!rows.alarms.empty()) kept.alarms = rows.alarms;
+  }
+  ASSERT_EQ(kept.alarms.size(), 1U);
+  EXPECT_EQ(kept.alarms[0].acknowledged_ms, 0);
+
+  ValveLine other("hall/v", "test", delays);
+  other.restore(kept, size_6());
+  EXPECT_EQ(other.acknowledge(seen).number, 6U);
+  const auto rows = other.take_rows();
+  ASSERT_TRUE(rows);
+  ASSERT_EQ(rows->alarms.size(), 1U);
+  EXPECT_EQ(rows->alarms[0].acknowledged_by, "anna");
+  EXPECT_EQ(rows->alarms[0].acknowledged_ms, 17);
+  EXPECT_THAT(rows->events.at(0).text, HasSubstr("acknowledged by anna"));
+  EXPECT_EQ(rows->position.block.number, 6U);
+  other.acknowledge({.valve = "hall/v", .alarm = 1, .wall_ms = 18, .by = "eve"});
+  EXPECT_FALSE(other.take_rows());  // the first one counts
+}
+
 }  // namespace
 }  // namespace spoolflow::fleet
