@@ -18,7 +18,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
 from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
                    write_site)
-from servers import refused_by_nats, until  # noqa: E402
+from servers import make_certificates, refused_by_nats, until  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
@@ -70,6 +70,40 @@ class Faults(unittest.TestCase):
                                     ("stranger", "SUB spoolflow.coverage.hall 1", True)):
             self.assertEqual(refused_by_nats(port, user, line), refused, (user, line))
 
+    def look_at_logins(self, fleet):
+        """What no other try helps is refused at once, with one line and exit status 2; the right ones come in by TLS."""
+        with open(os.path.join(self.folder, "fleet.toml"), encoding="utf-8") as file:
+            text = file.read()
+        stranger = os.path.join(self.folder, "stranger.pem")
+        with open(os.path.join(self.folder, "wrong.password"), "w", encoding="utf-8") as file:
+            file.write("wrong\n")
+        root = os.path.join(self.folder, "authority.pem")
+
+        def refused(what, *changes, command="worker"):
+            changed = text
+            for before, after in changes:
+                self.assertIn(before, changed)
+                changed = changed.replace(before, after)
+            with open(os.path.join(self.folder, "wrong.toml"), "w", encoding="utf-8") as file:
+                file.write(changed)
+            done = subprocess.run([COMMAND, *command.split(), "wrong.toml"], cwd=self.folder, text=True, capture_output=True,
+                                  timeout=20)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(what, done.stderr)
+        for command in ("worker", "fleet --status", "fleet"):
+            refused("PostgreSQL refuses the login", ("user=postgres", "user=nobody_here"), command=command)
+        refused("password authentication failed", ("user=postgres", "user=secret password=wrong"))
+        refused("no password supplied", ("user=postgres", "user=secret"))
+        refused('database "none"', ("dbname=postgres", "dbname=none"))
+        refused("rejects connection", ("user=postgres", "user=worker_1"), ("sslmode=verify-full", "sslmode=disable"))
+        refused("certificate", (f"sslrootcert={root}", f"sslrootcert={stranger}"))
+        refused("Authorization Violation", ("worker.password", "wrong.password"))
+        refused("refuses this user or its TLS", ('authority = "authority.pem"', 'authority = "stranger.pem"'))
+        fleet.postgres.ask("UPDATE setting SET value = '99' WHERE name = 'version'")
+        refused("of version 99", command="worker")
+        fleet.postgres.ask("UPDATE setting SET value = '2' WHERE name = 'version'")
+        self.assertEqual(fleet.postgres.ask("SELECT count(*) FROM worker"), ["0"])
+
     def acknowledge_on_the_page(self, fleet):
         """What somebody has seen on the fleet's page reaches the worker that has the valve."""
         fleet.postgres.ask("CREATE ROLE page LOGIN IN ROLE spoolflow_page")
@@ -115,6 +149,8 @@ class Faults(unittest.TestCase):
                 print(f"{time.monotonic() - begin:5.1f} s  {text}", flush=True)
         tell("two recordings are made, and six valves of a site work through them while no server is there")
         make_recordings(COMMAND, self.folder, SECONDS)
+        if KIND == "single":
+            make_certificates(self.folder)
         write_site(self.folder, MODEL, VALVES, BLOCK_S, with_login=KIND == "single")
         record_offline(COMMAND, self.folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS)
         waiting, newest, totals = outbox(self.folder)
@@ -129,6 +165,7 @@ class Faults(unittest.TestCase):
         self.assertIn('publish: ["spoolflow.block.*.hall"', fleet.setup().stdout)
         if fleet.rights:
             self.look_at_rights(fleet.nats_ports[0])
+            self.look_at_logins(fleet)
         for _ in range(2):
             fleet.start_worker()
         faults = [fleet.kill_worker_and_start_it_again, fleet.kill_worker_and_start_another,

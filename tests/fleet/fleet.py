@@ -78,7 +78,7 @@ def login(folder, user):
 def write_site(folder, model, valves, block_s, speed=0, with_login=False):
     text = f'[store]\nfile = "site.sqlite"\n[fleet]\nsite = "hall"\nblock_s = {block_s}\n'
     if with_login:
-        text += login(folder, "hall")
+        text += login(folder, "hall") + 'authority = "authority.pem"\n'
     for k in range(valves):
         text += (f'[[valve]]\nid = "v{k}"\nmodel = "{model}"\n'
                  f'source = {{ kind = "replay", recording = "{("sound", "worn")[k % 2]}.csv", speed = {speed} }}\n')
@@ -91,8 +91,9 @@ def write_fleet(folder, nats_ports, postgres_ports, replicas, with_login=False):
     hosts, ports = ",".join(["127.0.0.1"] * len(postgres_ports)), ",".join(map(str, postgres_ports))
     with open(os.path.join(folder, "fleet.toml"), "w", encoding="utf-8") as file:
         file.write(f'sites = ["hall"]\n[nats]\nservers = "nats://{servers}"\nreplicas = {replicas}\n'
-                   + (login(folder, "worker") if with_login else "") +
+                   + (login(folder, "worker") + 'authority = "authority.pem"\n' if with_login else "") +
                    f'[postgresql]\nconnection = "host={hosts} port={ports} user=postgres dbname=postgres '
+                   + (f"sslmode=verify-full sslrootcert={folder}/authority.pem " if with_login else "") +
                    f'target_session_attrs=read-write"\n[worker]\nname = "w"\nlease_s = 3\ncommit_s = 0.3\n'
                    f'[alarms]\nraised_after_s = 0\ngone_after_s = 0.05\n')
 
