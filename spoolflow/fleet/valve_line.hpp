@@ -42,6 +42,7 @@ class ValveLine {
   void begin(const live::SharedModel& model);
   void tell(std::string text, const Block& block);
   void look(const Block& block);
+  void take_report(const SiteReport& report);
 
   std::string valve_, program_;
   live::AlarmDelays delays_;

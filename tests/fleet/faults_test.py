@@ -16,8 +16,8 @@ import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
-from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
-                   write_site)
+from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline,  # noqa: E402
+                   reports_of_the_fleet, reports_of_the_site, site, write_reporting_site, write_site)
 from servers import make_certificates, refused_by_nats, until  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 
@@ -134,6 +134,25 @@ class Faults(unittest.TestCase):
             self.assertEqual(page.wait(30), 0)
             page.stderr.close()
 
+    def send_reports(self, fleet, chance):
+        """A site that sends what it made of its samples: the fleet has the rows of its store, whatever is killed."""
+        inner = write_reporting_site(self.folder, MODEL)
+        with site(COMMAND, inner, fleet.servers().replace("nats://", "tls://")) as live:
+            for fault in (fleet.kill_worker_and_start_it_again, fleet.delete_the_stream, fleet.kill_nats, fleet.kill_postgres):
+                time.sleep(1.5)
+                fault(chance)
+
+            def over():
+                valves = json.loads(live.ask("/api/v1/valves")[2])["valves"]
+                return all(one["samples"] == 1000 * SECONDS for one in valves) and outbox(inner)[0] == 0
+            until(over, 60, "a site whose reports are committed")
+            time.sleep(2)
+            until(lambda: reports_of_the_fleet(fleet.postgres) == reports_of_the_site(inner), 30,
+                  "rows of the fleet that are those of the site")
+        lines = reports_of_the_site(inner)
+        for kind in ("second", "indicator", "event", "alarm", "state"):
+            self.assertTrue(any(line.startswith(kind + "|") for line in lines), kind)
+
     def test_nothing_is_lost_or_taken_twice(self):
         for seed in SEEDS:
             with self.subTest(seed=seed):
@@ -199,6 +218,7 @@ class Faults(unittest.TestCase):
             self.assertEqual(row, [f"{samples}|{json.dumps(energy)}"])
         if KIND == "single":
             self.acknowledge_on_the_page(fleet)
+            self.send_reports(fleet, chance)
         self.done = True
         tell(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
 

@@ -56,7 +56,7 @@ def tls_of_nats(folder):
     return f'tls {{ cert_file: "{folder}/server.pem", key_file: "{folder}/server.key" }}\n'
 
 
-PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "system")}
+PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "yard", "system")}
 
 
 class Nats:

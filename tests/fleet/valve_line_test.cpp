@@ -181,5 +181,36 @@ TEST(ValveLine, AnAcknowledgementTakesEffectBehindABlockAndGoesOnWithAnotherWork
   EXPECT_FALSE(other.take_rows());  // the first one counts
 }
 
+TEST(ValveLine, KeepsWhatASiteReportsAndWorksOnSamplesAgainWhenTheyCome) {
+  const auto reported = [](std::uint64_t number) {
+    Block block{.valve = "hall/v", .model_sha256 = "a", .session = 7, .number = number, .first = number};
+    block.report = SiteReport{.summary = {.samples = 1000, .flow_mean_m3_per_s = 2e-4}, .samples = 1000 * number};
+    block.report->energy_J = 5;
+    block.report->alarms.push_back({.id = 4, .cause = "friction", .sign = "M", .raised_ms = 1});
+    return block;
+  };
+  ValveLine line("hall/v", "test", delays);
+  line.work(reported(1), size_6());
+  const ValveRows first = *line.take_rows();
+  EXPECT_EQ(first.models.size(), 1U);
+  EXPECT_EQ(first.seconds.at(0).summary.flow_mean_m3_per_s, 2e-4);
+  EXPECT_EQ(first.alarms.at(0).valve, "hall/v");
+  EXPECT_GT(first.alarms.at(0).id, std::int64_t{1} << 40U);
+  EXPECT_TRUE(first.position.state.bytes.empty());
+
+  ValveLine other("hall/v", "test", delays);
+  other.restore({first.position, first.alarms}, size_6());
+  EXPECT_EQ(other.turn(reported(1)), Turn::duplicate);
+  EXPECT_EQ(other.turn(reported(3)), Turn::early);
+  other.work(reported(2), size_6());
+  other.work(second(3), size_6());
+  const ValveRows rows = *other.take_rows();
+  EXPECT_TRUE(rows.models.empty());
+  EXPECT_EQ(rows.seconds.size(), 2U);
+  EXPECT_EQ(rows.position.state.samples, 3000U);
+  EXPECT_GE(rows.position.state.energy_J, 5);
+  EXPECT_FALSE(rows.position.state.bytes.empty());
+}
+
 }  // namespace
 }  // namespace spoolflow::fleet

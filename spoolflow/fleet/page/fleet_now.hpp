@@ -18,8 +18,8 @@ inline constexpr double silent_after_s = 30;
 
 struct ShownValve {
   ValveNow now;
-  std::string site, series;   ///< series: the name that its model gives the valve
-  std::string sign = "good";  ///< NE 107: the worst of its alarms that are not gone
+  std::string site{}, series{};  ///< series: the name that its model gives the valve
+  std::string sign = "good";     ///< NE 107: the worst of its alarms that are not gone
   int alarms = 0, unacknowledged = 0;
   [[nodiscard]] bool silent() const { return now.age_s > silent_after_s; }
 };

@@ -164,7 +164,8 @@ void PartitionStore::put_rows(std::int64_t number, const ValveRows& valve) {
     values.put(std::string_view(one.indicator.name)).put(one.indicator.value).put(one.indicator.uncertainty_95);
     values.put(one.indicator.baseline).put(std::string_view(one.indicator.state));
     values.put(std::string_view(one.indicator.unit));
-    session_.run("INSERT INTO indicator VALUES($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)", values);
+    session_.run("INSERT INTO indicator VALUES($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) ON CONFLICT DO NOTHING",
+                 values);
   }
   for (const live::Event& one : valve.events) {
     session_.run("INSERT INTO event(wall_ms, valve, time_s, kind, text) VALUES($1, $2, $3, $4, $5)",
