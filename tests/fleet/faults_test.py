@@ -196,7 +196,10 @@ class Faults(unittest.TestCase):
             watch = Watch(fleet)
             for k, fault in enumerate(faults):
                 reach(fleet, waiting * (k + chance.random()) / (len(faults) + 2))
+                if k > 0:
+                    tell(f"  since then no valve stood longer than {watch.lap():.1f} s")
                 tell(fault.__name__.replace("_", " "))
+                watch.lap()
                 fault(chance)
             reach(fleet, waiting)
             tell(f"no valve stood longer than {watch.end():.1f} s")

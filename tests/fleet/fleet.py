@@ -209,7 +209,7 @@ class Watch:
     """For how long the blocks of a valve stood at most while others of it waited."""
 
     def __init__(self, fleet):
-        self.fleet, self.longest, self.moved, self.ended = fleet, 0.0, {}, False
+        self.fleet, self.longest, self.since_lap, self.moved, self.ended = fleet, 0.0, 0.0, {}, False
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
 
@@ -225,9 +225,14 @@ class Watch:
                 valve, block = row.split("|")
                 before, since = self.moved.get(valve, (block, now))
                 if before != block:
-                    self.longest = max(self.longest, now - since)
+                    self.longest, self.since_lap = (max(one, now - since) for one in (self.longest, self.since_lap))
                     since = now
                 self.moved[valve] = (block, since)
+
+    def lap(self):
+        """The longest since it was asked the last time, that ended since."""
+        longest, self.since_lap = self.since_lap, 0.0
+        return longest
 
     def end(self):
         self.ended = True
