@@ -11,6 +11,7 @@ import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "fleet"))
 from fleet import make_recordings, outbox, reach, reckoned, record_offline, site, write_site  # noqa: E402
+from servers import make_certificates  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
@@ -27,7 +28,9 @@ os.chmod(folder, 0o755)
 fleet = None
 try:
     make_recordings(COMMAND, folder, SECONDS)
-    write_site(folder, MODEL, VALVES, 1.0)
+    if KIND == "single":
+        make_certificates(folder)
+    write_site(folder, MODEL, VALVES, 1.0, with_login=KIND == "single")
     record_offline(COMMAND, folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS)
     waiting = outbox(folder)[0]
     samples = 1000 * SECONDS * VALVES
@@ -60,7 +63,7 @@ try:
     for name in os.listdir(folder):
         if os.path.isdir(os.path.join(folder, name)):
             shutil.rmtree(os.path.join(folder, name))
-    write_site(folder, MODEL, VALVES, 1.0, speed=1.0)
+    write_site(folder, MODEL, VALVES, 1.0, speed=1.0, with_login=KIND == "single")
     fleet = Fleet(COMMAND, folder, KIND)
     fleet.setup()
     for _ in range(WORKERS):

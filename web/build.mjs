@@ -1,5 +1,5 @@
 // node build.mjs FOLDER: makes page.js and page.css of the report pages, and live.html, live.js and live.css of the page of
-// `spoolflow live`, which the program carries inside.
+// `spoolflow live`, and fleet.html, fleet.js and fleet.css of that of `spoolflow fleet`, which the program carries inside.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -49,6 +49,9 @@ const minified = async (css) => (await esbuild.transform(css, { loader: 'css', m
 
 writeFileSync(join(folder, 'page.js'), page);
 writeFileSync(join(folder, 'page.css'), await minified(sheet));
-writeFileSync(join(folder, 'live.js'), await bundled('src/live/live.ts', uplot));
-writeFileSync(join(folder, 'live.css'), await minified([...colours, read('node_modules', 'uplot', 'dist', 'uPlot.min.css'), read('src', 'live', 'live.css')].join('\n')));
-writeFileSync(join(folder, 'live.html'), read('src', 'live', 'live.html'));
+const live = [...colours, read('node_modules', 'uplot', 'dist', 'uPlot.min.css'), read('src', 'live', 'live.css')];
+for (const [name, styles] of [['live', live], ['fleet', [...live, read('src', 'fleet', 'fleet.css')]]]) {
+  writeFileSync(join(folder, `${name}.js`), await bundled(`src/${name}/${name}.ts`, uplot));
+  writeFileSync(join(folder, `${name}.css`), await minified(styles.join('\n')));
+  writeFileSync(join(folder, `${name}.html`), read('src', name, `${name}.html`));
+}

@@ -1,5 +1,5 @@
-/// `spoolflow worker`: takes its share of the fleet's valves; `spoolflow fleet`: makes the fleet's tables and streams,
-/// and tells how it fares.
+/// `spoolflow worker`: takes its share of the fleet's valves; `spoolflow fleet`: shows the whole fleet on a page,
+/// makes its tables and streams, and tells how it fares.
 #include <chrono>
 #include <memory>
 #include <stdexcept>
@@ -14,14 +14,17 @@
 #include "spoolflow/apps/interruption.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/fleet/page/fleet_page.hpp"
 #include "spoolflow/fleet/server_configuration.hpp"
 #include "spoolflow/fleet/worker.hpp"
+#include "spoolflow/live/door/server.hpp"
 
 namespace spoolflow::apps {
 namespace {
 
 struct FleetArguments {
   std::string fleet;
+  std::string listen;
   bool setup = false, status = false;
 };
 
@@ -70,15 +73,32 @@ void status(const fleet::FleetSettings& settings) {
         1e-6 * static_cast<double>(stream.bytes));
 }
 
-void fleet_command(const FleetArguments& arguments) {
-  if (arguments.setup == arguments.status) {
-    throw std::invalid_argument("name one of --setup and --status");
+void serve(fleet::FleetSettings settings, const std::string& listen) {
+  if (!listen.empty()) settings.page.listen = live::read_address(listen, "--listen");
+  live::PageSettings page = settings.page;
+  live::check_reach(page);
+  const InterruptionPause held_back;  // in this thread, and in all that it starts
+  fleet::FleetPage fleet(settings);
+  {
+    const live::PageServer server(fleet.content(), page);
+    page.listen.port = server.port();
+    say("page at {}://{}/ ; end with Ctrl-C\n", page.has_tls() ? "https" : "http", page.listen.text());
+    wait_for_the_end();
   }
-  const fleet::FleetSettings settings = fleet::read_fleet(arguments.fleet);
+  say("ended\n");
+}
+
+void fleet_command(const FleetArguments& arguments) {
+  if (arguments.setup && arguments.status) throw std::invalid_argument("name one of --setup and --status");
+  if ((arguments.setup || arguments.status) && !arguments.listen.empty())
+    throw std::invalid_argument("--listen is for the page, which --setup and --status do not open");
+  fleet::FleetSettings settings = fleet::read_fleet(arguments.fleet);
   if (arguments.setup) {
     setup(settings);
-  } else {
+  } else if (arguments.status) {
     status(settings);
+  } else {
+    serve(std::move(settings), arguments.listen);
   }
 }
 
@@ -112,13 +132,19 @@ void add_worker_command(CLI::App& program) {
 void add_fleet_command(CLI::App& program) {
   auto arguments = std::make_shared<FleetArguments>();
   CLI::App* command = add_command(
-      program, {"fleet",
-                "make a fleet's tables and streams, or tell how it fares",
-                "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md)",
-                "with --setup tables, stream, roles, and both servers' configuration on standard output; with\n"
-                "         --status partitions, their owners, and how far behind they are",
-                {"spoolflow fleet --setup fleet.toml", "spoolflow fleet --status fleet.toml"}});
+      program,
+      {"fleet",
+       "show a whole fleet on a page; make its tables and\nstreams; tell how it fares",
+       "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md)",
+       "a page at http://127.0.0.1:8080 with an interface for other programs, until it is ended; with --setup\n"
+       "         tables, stream, roles, and both servers' configuration on standard output; with --status\n"
+       "         partitions, their owners, and how far behind they are",
+       {"spoolflow fleet fleet.toml", "spoolflow fleet --setup fleet.toml", "spoolflow fleet --status fleet.toml"}});
   command->add_option("fleet", arguments->fleet, "fleet file")->type_name("FLEET.toml")->required();
+  command
+      ->add_option("--listen", arguments->listen,
+                   "where the page is, instead of 127.0.0.1:8080 or\nwhat the file says; port 0: any that is free")
+      ->type_name("ADDRESS:PORT");
   command->add_flag("--setup", arguments->setup, "make what is missing, print the servers'\nconfiguration");
   command->add_flag("--status", arguments->status, "tell partitions, owners and lag");
   command->callback([arguments] { fleet_command(*arguments); });

@@ -18,10 +18,11 @@
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/fleet/publisher.hpp"
+#include "spoolflow/live/door/secret_hash.hpp"
+#include "spoolflow/live/door/server.hpp"
 #include "spoolflow/live/engine.hpp"
+#include "spoolflow/live/page/answer.hpp"
 #include "spoolflow/live/page/plotjuggler.hpp"
-#include "spoolflow/live/page/secret_hash.hpp"
-#include "spoolflow/live/page/server.hpp"
 #include "spoolflow/recording/files/open_table.hpp"
 
 namespace spoolflow::apps {
@@ -83,7 +84,7 @@ void live_command(const LiveArguments& arguments) {
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
   engine.start();
   {
-    const live::PageServer server(engine, page);
+    const live::PageServer server(site_page(engine), page);
     std::optional<live::PlotJuggler> plotjuggler;
     if (engine.site().plotjuggler) plotjuggler.emplace(engine, *engine.site().plotjuggler);
     page.listen.port = server.port();

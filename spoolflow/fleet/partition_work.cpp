@@ -166,6 +166,8 @@ void PartitionWork::ask_for_missing() {
 
 void PartitionWork::commit() {
   committed_ = Clock::now();
+  std::vector<Acknowledgement> seen = store_.acknowledgements();
+  for (Acknowledgement& one : seen) one.taken = place(one.valve).line.acknowledge(one);
   std::vector<ValveRows> rows;
   for (auto& [valve, at] : places_) {
     auto one = at.line.take_rows();
@@ -174,7 +176,7 @@ void PartitionWork::commit() {
     rows.push_back(std::move(*one));
   }
   uncommitted_ = 0;
-  if (!rows.empty()) store_.commit(rows, stream_);
+  if (!rows.empty() || !seen.empty()) store_.commit(rows, seen, stream_);
   tell_coverage(false);
 }
 

@@ -67,9 +67,11 @@ synchronous_standby_names = 'ANY 1 (fleet_standby)'
 # pg_hba.conf: nobody without TLS and password
 hostssl fleet        +spoolflow_worker  all  scram-sha-256
 hostssl fleet        +spoolflow_reader  all  scram-sha-256
+hostssl fleet        +spoolflow_page    all  scram-sha-256
 hostssl replication  replicator         all  scram-sha-256
 # once, as the database's owner; a role for each worker and each reader:
 #   CREATE ROLE worker_1 LOGIN PASSWORD '...' IN ROLE spoolflow_worker;
+#   CREATE ROLE page LOGIN PASSWORD '...' IN ROLE spoolflow_page;
 #   CREATE ROLE dashboard LOGIN PASSWORD '...' IN ROLE spoolflow_reader;
 )";
 }

@@ -62,7 +62,7 @@ void read_sites(const TomlTable& top, FleetSettings& out) {
 FleetSettings read_fleet(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
   const TomlTable top{document, file, "the file"};
-  top.allow_only({"sites", "nats", "postgresql", "worker", "alarms"});
+  top.allow_only({"sites", "nats", "postgresql", "worker", "alarms", "page"});
   const auto part = [&](const char* key, bool needed) -> std::optional<TomlTable> {
     const toml::node* node = top.table.get(key);
     if (node == nullptr && !needed) return std::nullopt;
@@ -79,6 +79,7 @@ FleetSettings read_fleet(const std::filesystem::path& file) {
   postgresql->allow_only({"connection"});
   out.connection = postgresql->text("connection");
   if (const auto worker = part("worker", false)) read_worker(*worker, out.worker);
+  if (const auto page = part("page", false)) out.page = live::read_page(*page);
   if (const auto alarms = part("alarms", false)) {
     alarms->allow_only({"raised_after_s", "gone_after_s"});
     out.raised_after_s = within(*alarms, "raised_after_s", out.raised_after_s, 0, 1e6);

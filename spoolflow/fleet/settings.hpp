@@ -6,6 +6,7 @@
 
 #include "spoolflow/fleet/store/schema.hpp"
 #include "spoolflow/fleet/transport/nats.hpp"
+#include "spoolflow/live/page_settings.hpp"
 #include "spoolflow/live/publish_settings.hpp"
 
 namespace spoolflow::fleet {
@@ -23,6 +24,7 @@ struct FleetSettings {
   std::string connection{};  ///< to PostgreSQL, as libpq reads it
   WorkerSettings worker{};
   double raised_after_s = 2, gone_after_s = 10;  ///< of alarms; --setup keeps them for all workers
+  live::PageSettings page{};                     ///< of spoolflow fleet
   std::vector<std::string> sites{};              ///< for whose senders --setup prints what they may do
 };
 

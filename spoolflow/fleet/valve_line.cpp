@@ -1,5 +1,6 @@
 #include "spoolflow/fleet/valve_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -10,6 +11,11 @@
 
 namespace spoolflow::fleet {
 namespace {
+
+/// Layout of a state that a site has: nothing is kept of sensor and monitor here.
+constexpr std::string_view of_the_site = "of the site";
+/// Beyond the ids that the fleet gives itself, should a site once have sent samples of the valve.
+constexpr std::int64_t first_id_of_site = std::int64_t{1} << 40U;
 
 /// One wait a line: "+" while the cause stands, "-" while it is away, since when, the cause.
 std::string waits_text(const std::vector<live::AlarmWait>& waits) {
@@ -41,6 +47,10 @@ ValveLine::ValveLine(std::string valve, std::string program, const live::AlarmDe
 
 void ValveLine::restore(const KeptValve& kept, live::SharedModel model) {
   position_ = kept.position;
+  if (position_.state.layout == of_the_site) {
+    alarms_.restore(kept.alarms, {});
+    return;
+  }
   work_ = std::make_unique<live::ValveAtWork>(valve_, std::move(model), program_);
   if (!work_->restore(position_.state)) {
     // A program of another version: told with the next block.
@@ -68,6 +78,8 @@ void ValveLine::tell(std::string text, const Block& block) {
 /// With the model that is in force from now on.
 void ValveLine::begin(const live::SharedModel& model) {
   live::KeptState before{.valve = valve_};
+  before.samples = position_.state.samples;
+  before.energy_J = position_.state.energy_J;
   if (work_) before = work_->take_commit(false).state;
   work_ = std::make_unique<live::ValveAtWork>(valve_, model, program_);
   (void)work_->restore(before);  // counts go on, the rest is of another model
@@ -83,14 +95,23 @@ void ValveLine::work(const Block& block, const live::SharedModel& model) {
   if (block.number > expected) {
     tell(fmt::format("blocks {} to {} are lost: the site could not keep them", expected, block.number - 1), block);
   }
-  if (model.sha256 != position_.model_sha256) {
+  if (block.report) {
+    if (model.sha256 != position_.model_sha256) rows_.models.push_back({now, model.sha256});
+    position_.model_sha256 = model.sha256;
+    position_.block = now;
+    position_.wall_ms = block.wall_ms;
+    take_report(*block.report);
+    changed_ = true;
+    return;
+  }
+  if (model.sha256 != position_.model_sha256 || !work_) {
     if (work_)
       tell(fmt::format("the model {} is in force from block {} on; sensor and monitor begin anew", model.sha256,
                        block.number),
            block);
     begin(model);
+    if (model.sha256 != position_.model_sha256) rows_.models.push_back({now, model.sha256});
     position_.model_sha256 = model.sha256;
-    rows_.models.push_back({now, model.sha256});
   }
   position_.block = now;
   position_.wall_ms = block.wall_ms;
@@ -99,6 +120,30 @@ void ValveLine::work(const Block& block, const live::SharedModel& model) {
   work_->work({block.samples, {block.session, block.number + 1}, block.wall_ms * ns_per_ms + 1});
   if (!block.samples.empty()) look(block);
   changed_ = true;
+}
+
+/// As the site keeps it.
+void ValveLine::take_report(const SiteReport& report) {
+  const BlockPlace now = position_.block;
+  work_.reset();
+  position_.state = {.valve = valve_,
+                     .session = now.session,
+                     .next = now.number + 1,
+                     .samples = report.samples,
+                     .energy_J = report.energy_J,
+                     .layout = std::string(of_the_site)};
+  if (report.summary.samples > 0) rows_.seconds.push_back({now, position_.wall_ms, report.summary});
+  for (const live::KeptIndicator& one : report.indicators) rows_.indicators.push_back({now, position_.wall_ms, one});
+  for (live::Event one : report.events) {
+    one.valve = valve_;
+    rows_.events.push_back(std::move(one));
+  }
+  for (live::Alarm one : report.alarms) {
+    one.valve = valve_;
+    one.id += first_id_of_site;
+    one.recording = 0;  // it stays at the site
+    rows_.alarms.push_back(std::move(one));
+  }
 }
 
 /// What the engine of a site does each second, here with each block.
@@ -128,13 +173,29 @@ void ValveLine::look(const Block& block) {
   told_condition_ = view.condition;
 }
 
+BlockPlace ValveLine::acknowledge(const Acknowledgement& seen) {
+  const auto before = alarms_.all();
+  const bool waits = std::any_of(before.begin(), before.end(), [&](const live::Alarm& alarm) {
+    return alarm.id == seen.alarm && alarm.acknowledged_ms == 0;
+  });
+  if (waits) {
+    const auto alarm = alarms_.acknowledge(seen.alarm, seen.by, seen.wall_ms);
+    rows_.events.push_back({.wall_ms = seen.wall_ms,
+                            .valve = valve_,
+                            .kind = "alarm",
+                            .text = fmt::format("alarm {} acknowledged by {}: {}", seen.alarm, seen.by, alarm->cause)});
+    changed_ = true;
+  }
+  return position_.block;
+}
+
 std::optional<ValveRows> ValveLine::take_rows() {
   if (!changed_) return std::nullopt;
   changed_ = false;
-  position_.state = work_->take_commit(false).state;
+  if (work_) position_.state = work_->take_commit(false).state;
   position_.alarm_waits = waits_text(alarms_.waits());
   rows_.position = position_;
-  rows_.alarms = alarms_.take_changed();
+  for (live::Alarm& one : alarms_.take_changed()) rows_.alarms.push_back(std::move(one));
   return std::exchange(rows_, {});
 }
 

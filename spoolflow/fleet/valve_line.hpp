@@ -33,6 +33,8 @@ class ValveLine {
 
   /// Works on the block whose turn has come, with the model that it names.
   void work(const Block& block, const live::SharedModel& model);
+  /// Behind the last block, whose place it returns. An alarm that is not there, or was acknowledged, stays as it is.
+  BlockPlace acknowledge(const Acknowledgement& seen);
   /// What is to be kept since the last time; nothing where nothing came.
   [[nodiscard]] std::optional<ValveRows> take_rows();
 
@@ -40,6 +42,7 @@ class ValveLine {
   void begin(const live::SharedModel& model);
   void tell(std::string text, const Block& block);
   void look(const Block& block);
+  void take_report(const SiteReport& report);
 
   std::string valve_, program_;
   live::AlarmDelays delays_;

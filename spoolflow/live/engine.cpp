@@ -263,15 +263,23 @@ void Engine::keep(bool with_indicators) {
   for (const auto& place : valves_) commits.push_back(place->valve->take_commit(with_indicators));
   std::vector<Event> events = events_.unkept();
   const std::vector<Alarm> alarms = alarms_.take_changed();
+  const std::int64_t now_ms = wall_ms();
+  report(now_ms, commits, events, alarms);
   std::string trouble;
   try {
-    store_->commit(wall_ms(), commits, events, alarms);
+    store_->commit(now_ms, commits, events, alarms);
     events_.kept(events);
+    for (std::size_t k = 0; k < commits.size(); ++k) {
+      if (valves_[k]->reported) valves_[k]->reported->number += commits[k].blocks.size();
+    }
     forget_covered();
   } catch (const StoreError& error) {
     trouble = error.what();
     alarms_.give_back(alarms);
-    for (std::size_t k = 0; k < commits.size(); ++k) valves_[k]->valve->give_back(commits[k]);
+    for (std::size_t k = 0; k < commits.size(); ++k) {
+      if (valves_[k]->reported) commits[k].blocks.clear();  // it is made anew, with what comes until then
+      valves_[k]->valve->give_back(commits[k]);
+    }
   }
   const std::lock_guard lock(trouble_mutex_);
   if (!trouble.empty() && trouble != store_trouble_) {

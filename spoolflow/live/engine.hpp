@@ -78,7 +78,8 @@ class Engine {
     std::string told_trouble;
     std::optional<double> alarm_s{};  ///< by the source's clock; its raw samples are still to be kept
     std::string alarm{};
-    std::vector<std::int64_t> alarms{};  ///< that were raised since then
+    std::vector<std::int64_t> alarms{};        ///< that were raised since then
+    std::optional<OutboxPosition> reported{};  ///< the newest report to the fleet, where it gets no samples
   };
 
   void start_source(std::size_t k);
@@ -86,6 +87,8 @@ class Engine {
   void restore();
   void begin_to_publish();
   void keep(bool with_indicators);
+  void report(std::int64_t now_ms, std::vector<ValveCommit>& commits, const std::vector<Event>& events,
+              const std::vector<Alarm>& alarms) const;
   void forget_covered();
   [[nodiscard]] bool ended(const Place& place) const;
   void watch_for_events();

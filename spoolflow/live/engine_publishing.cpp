@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/fleet/blocks/block.hpp"
 #include "spoolflow/live/engine.hpp"
 
 namespace spoolflow::live {
@@ -17,7 +18,40 @@ void Engine::begin_to_publish() {
     const auto same =
         std::find_if(before.begin(), before.end(), [&](const auto& one) { return one.valve == at.valve; });
     if (same != before.end()) at = *same;
+    if (site_.fleet.summaries_only) {
+      place->reported = at;
+      continue;
+    }
     place->valve->publish(fmt::format("{}/{}", site_.fleet.site, at.valve), at, site_.fleet.block_s);
+  }
+}
+
+/// Adds to each commit what the fleet gets of it, where it gets no samples: in the same transaction.
+void Engine::report(std::int64_t now_ms, std::vector<ValveCommit>& commits, const std::vector<Event>& events,
+                    const std::vector<Alarm>& alarms) const {
+  for (std::size_t k = 0; k < commits.size(); ++k) {
+    const Place& place = *valves_[k];
+    if (!place.reported) continue;
+    ValveCommit& commit = commits[k];
+    const std::string& id = place.valve->id();
+    fleet::SiteReport report{commit.since_last, commit.state.samples, commit.state.energy_J, commit.indicators};
+    for (const Event& one : events) {
+      if (one.valve == id) report.events.push_back(one);
+    }
+    for (const Alarm& one : alarms) {
+      if (one.valve == id) report.alarms.push_back(one);
+    }
+    if (report.summary.samples == 0 && report.events.empty() && report.alarms.empty()) continue;
+    const OutboxPosition& at = *place.reported;
+    fleet::Block block{.valve = fmt::format("{}/{}", site_.fleet.site, id),
+                       .model_sha256 = site_.valves[k].model.sha256,
+                       .session = at.session,
+                       .number = at.number + 1,
+                       .first = at.number + 1,
+                       .wall_ms = now_ms};
+    block.report = std::move(report);
+    commit.outbox_session = at.session;
+    commit.blocks = {{block.number, fleet::write_block(block)}};
   }
 }
 

@@ -65,10 +65,16 @@ void check_site_name(const std::string& name, const std::string& where) {
 }
 
 PublishSettings read_publish(const recording::TomlTable& fleet) {
-  fleet.allow_only({"site", "servers", "credentials", "user", "password_file", "authority", "block_s", "largest_MB"});
+  fleet.allow_only(
+      {"site", "servers", "credentials", "user", "password_file", "authority", "block_s", "largest_MB", "sends"});
   PublishSettings out{.site = fleet.text("site"), .login = read_nats_login(fleet)};
   check_site_name(out.site, fleet.place("site"));
   if (const auto servers = fleet.optional_text("servers")) out.servers = read_servers(*servers, fleet.place("servers"));
+  const std::string sends = fleet.optional_text("sends").value_or("samples");
+  if (sends != "samples" && sends != "summaries") {
+    throw SiteError(fmt::format("{}: sends is \"samples\" or \"summaries\", not \"{}\"", fleet.place("sends"), sends));
+  }
+  out.summaries_only = sends == "summaries";
   out.block_s = fleet.optional_positive("block_s").value_or(out.block_s);
   if (out.block_s < 0.1 || out.block_s > 1) {
     throw SiteError(fmt::format("{}: block_s is {}; allowed: 0.1 to 1 s", fleet.place("block_s"), out.block_s));

@@ -27,8 +27,9 @@ struct PublishSettings {
   std::string site{};                  ///< up to 32 letters, digits, '_' and '-'
   std::vector<std::string> servers{};  ///< "nats://HOST:PORT" or "tls://HOST:PORT"; empty: nothing is published
   NatsLogin login{};
-  double block_s = 1.0;       ///< of samples in a block, 0.1 to 1
-  double largest_MB = 10000;  ///< of blocks that wait; the oldest beyond are given up
+  bool summaries_only = false;  ///< what the site makes of its samples each second, instead of these
+  double block_s = 1.0;         ///< of samples in a block, 0.1 to 1
+  double largest_MB = 10000;    ///< of blocks that wait; the oldest beyond are given up
 };
 /// Throws SiteError or RecordingError with file, line and remedy.
 [[nodiscard]] PublishSettings read_publish(const recording::TomlTable& fleet);

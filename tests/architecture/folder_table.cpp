@@ -104,8 +104,9 @@ std::string row_of(const FolderTable& table, const std::string& folder) {
 
 bool allows(const FolderRule& rule, const std::string& other) {
   const std::vector<std::string> names = with_those_above(other);
-  return rule.all_folders ||
-         std::any_of(names.begin(), names.end(), [&](const std::string& name) { return rule.folders.contains(name); });
+  return rule.all_folders || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+           return rule.folders.contains(name) && (name == other || name != rule.house);
+         });
 }
 
 FolderTable read_folder_table(const std::filesystem::path& architecture_page) {
@@ -121,7 +122,10 @@ FolderTable read_folder_table(const std::filesystem::path& architecture_page) {
     if (!inside || line.starts_with("|---")) continue;
     if (!line.starts_with('|')) break;
     if (cells.size() != 7) throw std::runtime_error("a row of the folder table has not five columns: " + line);
-    table.emplace(cells[1], read_rule(cells[3], cells[4], cells[5]));
+    FolderRule rule = read_rule(cells[3], cells[4], cells[5]);
+    rule.house = cells[1].substr(0, cells[1].find('/'));
+    if (rule.house == cells[1]) rule.house.clear();
+    table.emplace(cells[1], std::move(rule));
   }
   if (table.empty()) throw std::runtime_error("no folder table in " + architecture_page.string());
   check(table);

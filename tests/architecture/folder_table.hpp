@@ -9,6 +9,7 @@
 namespace spoolflow::architecture {
 
 struct FolderRule {
+  std::string house{};              ///< that the row is a room of, whose name means it alone here; empty: none
   std::set<std::string> folders;    ///< of spoolflow/, beside itself: "rig/plant", or "rig" for all its rooms
   std::set<std::string> libraries;  ///< names as in the table: "fmt", "CLI11", "POSIX"
   std::set<std::string> never;      ///< forbidden words of the last column

@@ -124,6 +124,51 @@ TEST(Block, TakesAFewBytesASample) {
   EXPECT_LT(write_block(block).size(), 8'000U);  // 32 kB as datagrams' numbers are 16 kB
 }
 
+Block reporting() {
+  Block block{.valve = "hall/v", .model_sha256 = std::string(64, 'b'), .session = 5, .number = 9, .first = 8};
+  block.wall_ms = 1'700'000'000'000;
+  SiteReport report{
+      .summary = {1000, 7.5, 1e-5, 2e-5, 3e-5, none, 4e-5, 90, 1U << 31U}, .samples = 7500, .energy_J = 0.1};
+  report.indicators.push_back({"friction_ratio", 1.5, 0.1, none, "raised", "1"});
+  report.events.push_back({.wall_ms = 12, .time_s = 7, .kind = "source", .text = "Ventil f\xC3\xBCr Presse"});
+  report.alarms.push_back({.id = 3, .cause = "friction", .sign = "M", .raised_ms = 11, .gone_ms = 13, .text = "seen"});
+  report.alarms.back().indicators = report.indicators;
+  block.report = std::move(report);
+  return block;
+}
+
+TEST(Block, AReportComesBackAsItWasWritten) {
+  const std::vector<std::uint8_t> bytes = write_block(reporting());
+  const auto read = read_block(bytes);
+  const Block* const block = std::get_if<Block>(&read);
+  ASSERT_TRUE(block != nullptr && block->report);
+  EXPECT_EQ(block->first, 8U);
+  EXPECT_EQ(block->report->summary.status, 1U << 31U);
+  EXPECT_TRUE(std::isnan(block->report->summary.lower_min_m3_per_s));
+  EXPECT_EQ(block->report->energy_J, 0.1);
+  EXPECT_EQ(block->report->events.at(0).text, "Ventil f\xC3\xBCr Presse");
+  EXPECT_EQ(block->report->alarms.at(0).indicators.at(0).name, "friction_ratio");
+  EXPECT_EQ(write_block(*block), bytes);
+}
+
+TEST(Block, AReportThatADatabaseCouldNotKeepIsRefused) {
+  for (const char* text : {"\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF8\x80\x80\x80\x80", "\xF4\x90\x80\x80"}) {
+    Block block = reporting();
+    block.report->events[0].text = text;
+    EXPECT_TRUE(std::holds_alternative<NoBlock>(read_block(write_block(block)))) << text;
+  }
+  for (const std::int64_t id : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1} << 40U}) {
+    Block block = reporting();
+    block.report->alarms[0].id = id;
+    EXPECT_TRUE(std::holds_alternative<NoBlock>(read_block(write_block(block)))) << id;
+  }
+  std::vector<std::uint8_t> body = write_report(*reporting().report);
+  for (std::size_t length = 0; length < body.size(); ++length) {
+    SiteReport cut;
+    EXPECT_FALSE(read_report(std::span(body).first(length), cut)) << length;
+  }
+}
+
 TEST(Partition, IsThatOfTheNameAlone) {
   EXPECT_EQ(partition_of("hall_3/press_1"), partition_of(std::string("hall_3/") + "press_1"));
   std::vector<int> valves(partition_count);

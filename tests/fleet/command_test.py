@@ -36,7 +36,9 @@ class Commands(unittest.TestCase):
         self.assertIn("workers", self.said(2, "worker", "f.toml", f=NATS + AWAY + "[workers]\n"))
         self.assertIn("written wrongly", self.said(2, "worker", "f.toml", f=NATS + '[postgresql]\nconnection = "hos=a"\n'))
         self.assertIn("no.creds", self.said(2, "worker", "f.toml", f=NATS + 'credentials = "no.creds"\n' + AWAY))
-        self.assertIn("--setup and --status", self.said(2, "fleet", "f.toml", f=NATS + AWAY))
+        self.assertIn("--setup and --status", self.said(2, "fleet", "--setup", "--status", "f.toml", f=NATS + AWAY))
+        self.assertIn("needs TLS", self.said(2, "fleet", "f.toml", "--listen", "0.0.0.0:0", f=NATS + AWAY))
+        self.assertIn("cannot be reached", self.said(1, "fleet", "f.toml", f=NATS + AWAY))
         self.assertIn("cannot be reached", self.said(1, "fleet", "--status", "f.toml", f=NATS + AWAY))
 
     def test_publishing_needs_a_store_a_name_and_servers(self):

@@ -12,12 +12,13 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
-from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site,  # noqa: E402
-                   write_site)
-from servers import refused_by_nats, until  # noqa: E402
+from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline,  # noqa: E402
+                   reports_of_the_fleet, reports_of_the_site, site, write_reporting_site, write_site)
+from servers import make_certificates, refused_by_nats, until  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
@@ -69,6 +70,89 @@ class Faults(unittest.TestCase):
                                     ("stranger", "SUB spoolflow.coverage.hall 1", True)):
             self.assertEqual(refused_by_nats(port, user, line), refused, (user, line))
 
+    def look_at_logins(self, fleet):
+        """What no other try helps is refused at once, with one line and exit status 2; the right ones come in by TLS."""
+        with open(os.path.join(self.folder, "fleet.toml"), encoding="utf-8") as file:
+            text = file.read()
+        stranger = os.path.join(self.folder, "stranger.pem")
+        with open(os.path.join(self.folder, "wrong.password"), "w", encoding="utf-8") as file:
+            file.write("wrong\n")
+        root = os.path.join(self.folder, "authority.pem")
+
+        def refused(what, *changes, command="worker"):
+            changed = text
+            for before, after in changes:
+                self.assertIn(before, changed)
+                changed = changed.replace(before, after)
+            with open(os.path.join(self.folder, "wrong.toml"), "w", encoding="utf-8") as file:
+                file.write(changed)
+            done = subprocess.run([COMMAND, *command.split(), "wrong.toml"], cwd=self.folder, text=True, capture_output=True,
+                                  timeout=20)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            self.assertIn(what, done.stderr)
+        for command in ("worker", "fleet --status", "fleet"):
+            refused("PostgreSQL refuses the login", ("user=postgres", "user=nobody_here"), command=command)
+        refused("password authentication failed", ("user=postgres", "user=secret password=wrong"))
+        refused("no password supplied", ("user=postgres", "user=secret"))
+        refused('database "none"', ("dbname=postgres", "dbname=none"))
+        refused("rejects connection", ("user=postgres", "user=worker_1"), ("sslmode=verify-full", "sslmode=disable"))
+        refused("certificate", (f"sslrootcert={root}", f"sslrootcert={stranger}"))
+        refused("Authorization Violation", ("worker.password", "wrong.password"))
+        refused("refuses this user or its TLS", ('authority = "authority.pem"', 'authority = "stranger.pem"'))
+        fleet.postgres.ask("UPDATE setting SET value = '99' WHERE name = 'version'")
+        refused("of version 99", command="worker")
+        fleet.postgres.ask("UPDATE setting SET value = '2' WHERE name = 'version'")
+        self.assertEqual(fleet.postgres.ask("SELECT count(*) FROM worker"), ["0"])
+
+    def acknowledge_on_the_page(self, fleet):
+        """What somebody has seen on the fleet's page reaches the worker that has the valve."""
+        fleet.postgres.ask("CREATE ROLE page LOGIN IN ROLE spoolflow_page")
+        with open(os.path.join(self.folder, "fleet.toml"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(self.folder, "page.toml"), "w", encoding="utf-8") as file:
+            file.write(text.replace("user=postgres", "user=page") + '[page]\nlisten = "127.0.0.1:0"\n')
+        page = subprocess.Popen([COMMAND, "fleet", "page.toml"], cwd=self.folder, text=True, stderr=subprocess.PIPE)
+        try:
+            address = page.stderr.readline().split("page at ")[1].split("/ ;")[0]
+
+            def ask(path, data=None):
+                with urllib.request.urlopen(address + path, data, 20) as answer:
+                    return json.loads(answer.read())
+            valves = ask("/api/v1/valves")["valves"]
+            self.assertEqual([one["id"] for one in valves], [f"hall/v{k}" for k in range(VALVES)])
+            self.assertEqual({one["series"] for one in valves}, {"NG6 4/3 proportional, virtual"})
+            self.assertTrue(any(one["unit"] for series in ask("/api/v1/series")["series"] for one in series["indicators"]))
+            alarm = ask("/api/v1/alarms")["alarms"][0]
+            self.assertIsNone(alarm["acknowledged"])
+            fleet.start_worker()
+            self.assertEqual(ask(f"/api/v1/alarms/{alarm['key']}/acknowledge", b"{}")["acknowledged_by"], "local")
+            taken = (f"SELECT acknowledged_by FROM alarm JOIN acknowledgement USING (valve) WHERE valve = '{alarm['valve']}' "
+                     f"AND id = {alarm['id']} AND taken_block > 0")
+            until(lambda: fleet.postgres.ask(taken) == ["local"], 30, "an acknowledgement that the worker has taken")
+        finally:
+            page.terminate()
+            self.assertEqual(page.wait(30), 0)
+            page.stderr.close()
+
+    def send_reports(self, fleet, chance):
+        """A site that sends what it made of its samples: the fleet has the rows of its store, whatever is killed."""
+        inner = write_reporting_site(self.folder, MODEL)
+        with site(COMMAND, inner, fleet.servers().replace("nats://", "tls://")) as live:
+            for fault in (fleet.kill_worker_and_start_it_again, fleet.delete_the_stream, fleet.kill_nats, fleet.kill_postgres):
+                time.sleep(1.5)
+                fault(chance)
+
+            def over():
+                valves = json.loads(live.ask("/api/v1/valves")[2])["valves"]
+                return all(one["samples"] == 1000 * SECONDS for one in valves) and outbox(inner)[0] == 0
+            until(over, 60, "a site whose reports are committed")
+            time.sleep(2)
+            until(lambda: reports_of_the_fleet(fleet.postgres) == reports_of_the_site(inner), 30,
+                  "rows of the fleet that are those of the site")
+        lines = reports_of_the_site(inner)
+        for kind in ("second", "indicator", "event", "alarm", "state"):
+            self.assertTrue(any(line.startswith(kind + "|") for line in lines), kind)
+
     def test_nothing_is_lost_or_taken_twice(self):
         for seed in SEEDS:
             with self.subTest(seed=seed):
@@ -84,6 +168,8 @@ class Faults(unittest.TestCase):
                 print(f"{time.monotonic() - begin:5.1f} s  {text}", flush=True)
         tell("two recordings are made, and six valves of a site work through them while no server is there")
         make_recordings(COMMAND, self.folder, SECONDS)
+        if KIND == "single":
+            make_certificates(self.folder)
         write_site(self.folder, MODEL, VALVES, BLOCK_S, with_login=KIND == "single")
         record_offline(COMMAND, self.folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS)
         waiting, newest, totals = outbox(self.folder)
@@ -98,6 +184,7 @@ class Faults(unittest.TestCase):
         self.assertIn('publish: ["spoolflow.block.*.hall"', fleet.setup().stdout)
         if fleet.rights:
             self.look_at_rights(fleet.nats_ports[0])
+            self.look_at_logins(fleet)
         for _ in range(2):
             fleet.start_worker()
         faults = [fleet.kill_worker_and_start_it_again, fleet.kill_worker_and_start_another,
@@ -109,7 +196,10 @@ class Faults(unittest.TestCase):
             watch = Watch(fleet)
             for k, fault in enumerate(faults):
                 reach(fleet, waiting * (k + chance.random()) / (len(faults) + 2))
+                if k > 0:
+                    tell(f"  since then no valve stood longer than {watch.lap():.1f} s")
                 tell(fault.__name__.replace("_", " "))
+                watch.lap()
                 fault(chance)
             reach(fleet, waiting)
             tell(f"no valve stood longer than {watch.end():.1f} s")
@@ -129,6 +219,9 @@ class Faults(unittest.TestCase):
             row = fleet.postgres.ask(
                 f"SELECT samples, energy_J FROM state JOIN valve ON valve = number WHERE id = 'hall/{valve}'")
             self.assertEqual(row, [f"{samples}|{json.dumps(energy)}"])
+        if KIND == "single":
+            self.acknowledge_on_the_page(fleet)
+            self.send_reports(fleet, chance)
         self.done = True
         tell(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
 

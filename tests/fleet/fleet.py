@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import sqlite3
+import struct
 import subprocess
 import sys
 import threading
@@ -78,7 +79,7 @@ def login(folder, user):
 def write_site(folder, model, valves, block_s, speed=0, with_login=False):
     text = f'[store]\nfile = "site.sqlite"\n[fleet]\nsite = "hall"\nblock_s = {block_s}\n'
     if with_login:
-        text += login(folder, "hall")
+        text += login(folder, "hall") + 'authority = "authority.pem"\n'
     for k in range(valves):
         text += (f'[[valve]]\nid = "v{k}"\nmodel = "{model}"\n'
                  f'source = {{ kind = "replay", recording = "{("sound", "worn")[k % 2]}.csv", speed = {speed} }}\n')
@@ -86,13 +87,64 @@ def write_site(folder, model, valves, block_s, speed=0, with_login=False):
         file.write(text)
 
 
+def write_reporting_site(folder, model):
+    """A site that estimates by itself and sends what it made of its samples; in a folder of its own."""
+    inner = os.path.join(folder, "yard")
+    os.makedirs(inner)
+    text = (f'[store]\nfile = "site.sqlite"\n[alarms]\nraised_after_s = 0\ngone_after_s = 0\n'
+            f'[fleet]\nsite = "yard"\nsends = "summaries"\n{login(inner, "yard")}authority = "../authority.pem"\n')
+    for k in range(2):
+        text += (f'[[valve]]\nid = "v{k}"\nmodel = "{model}"\n'
+                 f'source = {{ kind = "replay", recording = "../{("sound", "worn")[k % 2]}.csv", speed = 10 }}\n')
+    with open(os.path.join(inner, "site.toml"), "w", encoding="utf-8") as file:
+        file.write(text)
+    return inner
+
+
+def reports_of_the_site(folder):
+    """What its own store has, as reports_of_the_fleet() tells it."""
+    def bits(value):
+        return "" if value is None else "\\x" + struct.pack(">d", value).hex()
+    store = sqlite3.connect(f"file:{folder}/site.sqlite?mode=ro", uri=True, timeout=10)
+    lines = []
+    for row in store.execute("SELECT id, wall_ms, samples, time_s, flow_min, flow_mean, flow_max, lower_min, upper_max, "
+                             "energy_J, status FROM second JOIN valve ON valve = number"):
+        lines.append("|".join(["second", "yard/" + row[0], str(row[1]), str(row[2]), *map(bits, row[3:10]), str(row[10])]))
+    for row in store.execute("SELECT id, wall_ms, name, state, value, uncertainty_95, baseline FROM indicator JOIN valve ON "
+                             "valve = number"):
+        lines.append("|".join(["indicator", "yard/" + row[0], str(row[1]), row[2], row[3], *map(bits, row[4:])]))
+    for row in store.execute("SELECT valve, wall_ms, kind, text FROM event WHERE valve != ''"):
+        lines.append("|".join(["event", "yard/" + row[0], str(row[1]), row[2], row[3]]))
+    for row in store.execute("SELECT valve, id, cause, sign, raised_ms, gone_ms, times, text FROM alarm"):
+        lines.append("|".join(["alarm", "yard/" + row[0], *map(str, row[1:])]))
+    for row in store.execute("SELECT id, samples, energy_J FROM state JOIN valve ON valve = number"):
+        lines.append("|".join(["state", "yard/" + row[0], str(row[1]), bits(row[2])]))
+    store.close()
+    return sorted(lines)
+
+
+def reports_of_the_fleet(postgres):
+    return sorted(line for sql in (
+        "SELECT 'second', id, wall_ms, samples, float8send(time_s), float8send(flow_min), float8send(flow_mean), "
+        "float8send(flow_max), float8send(lower_min), float8send(upper_max), float8send(energy_J), status FROM second "
+        "JOIN valve ON valve = number WHERE id LIKE 'yard/%'",
+        "SELECT 'indicator', id, wall_ms, name, state, float8send(value), float8send(uncertainty_95), float8send(baseline) "
+        "FROM indicator JOIN valve ON valve = number WHERE id LIKE 'yard/%'",
+        "SELECT 'event', valve, wall_ms, kind, text FROM event WHERE valve LIKE 'yard/%'",
+        "SELECT 'alarm', valve, id - (1::bigint << 40), cause, sign, raised_ms, gone_ms, times, text FROM alarm WHERE valve "
+        "LIKE 'yard/%'",
+        "SELECT 'state', id, samples, float8send(energy_J) FROM state JOIN valve ON valve = number WHERE id LIKE 'yard/%'"
+    ) for line in postgres.ask(sql))
+
+
 def write_fleet(folder, nats_ports, postgres_ports, replicas, with_login=False):
     servers = ",".join(f"127.0.0.1:{port}" for port in nats_ports)
     hosts, ports = ",".join(["127.0.0.1"] * len(postgres_ports)), ",".join(map(str, postgres_ports))
     with open(os.path.join(folder, "fleet.toml"), "w", encoding="utf-8") as file:
-        file.write(f'sites = ["hall"]\n[nats]\nservers = "nats://{servers}"\nreplicas = {replicas}\n'
-                   + (login(folder, "worker") if with_login else "") +
+        file.write(f'sites = ["hall", "yard"]\n[nats]\nservers = "nats://{servers}"\nreplicas = {replicas}\n'
+                   + (login(folder, "worker") + 'authority = "authority.pem"\n' if with_login else "") +
                    f'[postgresql]\nconnection = "host={hosts} port={ports} user=postgres dbname=postgres '
+                   + (f"sslmode=verify-full sslrootcert={folder}/authority.pem " if with_login else "") +
                    f'target_session_attrs=read-write"\n[worker]\nname = "w"\nlease_s = 3\ncommit_s = 0.3\n'
                    f'[alarms]\nraised_after_s = 0\ngone_after_s = 0.05\n')
 
@@ -157,7 +209,7 @@ class Watch:
     """For how long the blocks of a valve stood at most while others of it waited."""
 
     def __init__(self, fleet):
-        self.fleet, self.longest, self.moved, self.ended = fleet, 0.0, {}, False
+        self.fleet, self.longest, self.since_lap, self.moved, self.ended = fleet, 0.0, 0.0, {}, False
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
 
@@ -173,9 +225,14 @@ class Watch:
                 valve, block = row.split("|")
                 before, since = self.moved.get(valve, (block, now))
                 if before != block:
-                    self.longest = max(self.longest, now - since)
+                    self.longest, self.since_lap = (max(one, now - since) for one in (self.longest, self.since_lap))
                     since = now
                 self.moved[valve] = (block, since)
+
+    def lap(self):
+        """The longest since it was asked the last time, that ended since."""
+        longest, self.since_lap = self.since_lap, 0.0
+        return longest
 
     def end(self):
         self.ended = True

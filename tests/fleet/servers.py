@@ -5,6 +5,7 @@ import pwd
 import shutil
 import signal
 import socket
+import ssl
 import subprocess
 import threading
 import time
@@ -37,7 +38,25 @@ def answers(port):
         return False
 
 
-PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "system")}
+def make_certificates(folder):
+    """An authority of our own, a server's certificate by it for 127.0.0.1, and an authority that signed nothing."""
+    def openssl(*arguments):
+        subprocess.run(["openssl", *arguments], cwd=folder, check=True, capture_output=True)
+    new = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
+    for name in ("authority", "stranger"):
+        openssl("req", "-x509", *new, "-keyout", f"{name}.key", "-out", f"{name}.pem", "-days", "2", "-subj", f"/CN={name}")
+    openssl("req", *new, "-keyout", "server.key", "-out", "server.csr", "-subj", "/CN=127.0.0.1")
+    with open(os.path.join(folder, "names"), "w", encoding="utf-8") as file:
+        file.write("subjectAltName = IP:127.0.0.1\n")
+    openssl("x509", "-req", "-in", "server.csr", "-CA", "authority.pem", "-CAkey", "authority.key", "-CAcreateserial",
+            "-days", "2", "-extfile", "names", "-out", "server.pem")
+
+
+def tls_of_nats(folder):
+    return f'tls {{ cert_file: "{folder}/server.pem", key_file: "{folder}/server.key" }}\n'
+
+
+PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "yard", "system")}
 
 
 class Nats:
@@ -82,7 +101,7 @@ class Postgres:
 
     BIN = sorted(glob.glob("/usr/lib/postgresql/*/bin"))[-1]
 
-    def __init__(self, folder, port, name="primary", primary=None):
+    def __init__(self, folder, port, name="primary", primary=None, with_tls=False):
         self.port, self.name, self.process = port, name, None
         top = os.path.join(folder, name)
         os.makedirs(top)
@@ -92,12 +111,30 @@ class Postgres:
         if primary is None:
             self.tool("initdb", "-A", "trust", "-U", "postgres", "--no-sync", "-D", self.data)
             self.settings = {"max_connections": 100, "fsync": "on", "wal_level": "replica"}
+            if with_tls:
+                self.let_in_by_tls(folder)
         else:
             self.tool("pg_basebackup", "-h", "127.0.0.1", "-p", str(primary.port), "-U", "postgres", "-D", self.data,
                       "-R", "-X", "stream", "-c", "fast", "--no-sync",
                       "-d", f"host=127.0.0.1 port={primary.port} user=postgres application_name={name}")
             self.settings = {"max_connections": 100}
         self.start()
+
+    def let_in_by_tls(self, folder):
+        """Others than the owner by TLS alone, and one of them with a password."""
+        for name in ("server.pem", "server.key"):
+            to = os.path.join(self.data, name)
+            shutil.copy(os.path.join(folder, name), to)
+            os.chmod(to, 0o600)
+            if os.geteuid() == 0:
+                shutil.chown(to, "postgres", pwd.getpwnam("postgres").pw_gid)
+        self.settings.update(ssl="on", ssl_cert_file="server.pem", ssl_key_file="server.key")
+        rules = os.path.join(self.data, "pg_hba.conf")
+        with open(rules, encoding="utf-8") as file:
+            others = file.read()
+        with open(rules, "w", encoding="utf-8") as file:
+            file.write("hostssl all secret all scram-sha-256\nhost all postgres all trust\nhostssl all all all trust\n"
+                       "host all all all reject\n" + others)
 
     def tool(self, name, *arguments):
         subprocess.run(as_postgres([os.path.join(self.BIN, name), *arguments]), check=True, capture_output=True,
@@ -217,6 +254,14 @@ def tell_nats(port, user, lines):
     """In the servers' own words; a connection that was told who speaks."""
     raw = socket.create_connection(("127.0.0.1", port), 5)
     raw.settimeout(5)
+    told = b""
+    while not told.endswith(b"\r\n"):
+        told += raw.recv(1)
+    if b'"tls_required":true' in told:
+        context = ssl.create_default_context()
+        context.check_hostname = False
+        context.verify_mode = ssl.CERT_NONE
+        raw = context.wrap_socket(raw)
     login = f', "user": "{user}", "pass": "{user}"' if user else ""
     raw.sendall(f'CONNECT {{"verbose": false, "pedantic": false{login}}}\r\n{lines}'.encode())
     return raw

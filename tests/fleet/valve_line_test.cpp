@@ -153,5 +153,64 @@ TEST(ValveLine, GoesOnAnywhereBitForBit) {
             std::bit_cast<std::uint64_t>(end.state.energy_J));
 }
 
+TEST(ValveLine, AnAcknowledgementTakesEffectBehindABlockAndGoesOnWithAnotherWorker) {
+  ValveLine line("hall/v", "test", delays);
+  KeptValve kept;
+  const Acknowledgement seen{.valve = "hall/v", .alarm = 1, .wall_ms = 17, .by = "anna"};
+  line.acknowledge(seen);  // there is none yet
+  for (std::uint64_t number = 1; number <= 6; ++number) {
+    line.work(second(number, false), size_6());
+    const ValveRows rows = *line.take_rows();
+    kept.position = rows.position;
+    if (!rows.alarms.empty()) kept.alarms = rows.alarms;
+  }
+  ASSERT_EQ(kept.alarms.size(), 1U);
+  EXPECT_EQ(kept.alarms[0].acknowledged_ms, 0);
+
+  ValveLine other("hall/v", "test", delays);
+  other.restore(kept, size_6());
+  EXPECT_EQ(other.acknowledge(seen).number, 6U);
+  const auto rows = other.take_rows();
+  ASSERT_TRUE(rows);
+  ASSERT_EQ(rows->alarms.size(), 1U);
+  EXPECT_EQ(rows->alarms[0].acknowledged_by, "anna");
+  EXPECT_EQ(rows->alarms[0].acknowledged_ms, 17);
+  EXPECT_THAT(rows->events.at(0).text, HasSubstr("acknowledged by anna"));
+  EXPECT_EQ(rows->position.block.number, 6U);
+  other.acknowledge({.valve = "hall/v", .alarm = 1, .wall_ms = 18, .by = "eve"});
+  EXPECT_FALSE(other.take_rows());  // the first one counts
+}
+
+TEST(ValveLine, KeepsWhatASiteReportsAndWorksOnSamplesAgainWhenTheyCome) {
+  const auto reported = [](std::uint64_t number) {
+    Block block{.valve = "hall/v", .model_sha256 = "a", .session = 7, .number = number, .first = number};
+    block.report = SiteReport{.summary = {.samples = 1000, .flow_mean_m3_per_s = 2e-4}, .samples = 1000 * number};
+    block.report->energy_J = 5;
+    block.report->alarms.push_back({.id = 4, .cause = "friction", .sign = "M", .raised_ms = 1});
+    return block;
+  };
+  ValveLine line("hall/v", "test", delays);
+  line.work(reported(1), size_6());
+  const ValveRows first = *line.take_rows();
+  EXPECT_EQ(first.models.size(), 1U);
+  EXPECT_EQ(first.seconds.at(0).summary.flow_mean_m3_per_s, 2e-4);
+  EXPECT_EQ(first.alarms.at(0).valve, "hall/v");
+  EXPECT_GT(first.alarms.at(0).id, std::int64_t{1} << 40U);
+  EXPECT_TRUE(first.position.state.bytes.empty());
+
+  ValveLine other("hall/v", "test", delays);
+  other.restore({first.position, first.alarms}, size_6());
+  EXPECT_EQ(other.turn(reported(1)), Turn::duplicate);
+  EXPECT_EQ(other.turn(reported(3)), Turn::early);
+  other.work(reported(2), size_6());
+  other.work(second(3), size_6());
+  const ValveRows rows = *other.take_rows();
+  EXPECT_TRUE(rows.models.empty());
+  EXPECT_EQ(rows.seconds.size(), 2U);
+  EXPECT_EQ(rows.position.state.samples, 3000U);
+  EXPECT_GE(rows.position.state.energy_J, 5);
+  EXPECT_FALSE(rows.position.state.bytes.empty());
+}
+
 }  // namespace
 }  // namespace spoolflow::fleet

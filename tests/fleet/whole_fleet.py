@@ -1,10 +1,11 @@
 """A fleet on loopback: servers, workers, and what may happen to each of them."""
+import os
 import signal
 import subprocess
 import time
 
 from fleet import Worker, write_fleet
-from servers import Gate, Nats, Postgres, ask_nats, free_ports, until
+from servers import Gate, Nats, Postgres, ask_nats, free_ports, make_certificates, tls_of_nats, until
 
 
 class Fleet:
@@ -15,7 +16,10 @@ class Fleet:
         count = 3 if kind == "cluster" else 1
         ports = free_ports(2 * count + 2)
         self.nats_ports, routes, postgres_ports = ports[:count], ports[count:2 * count], ports[2 * count:]
-        self.postgres = self.started(Postgres(folder, postgres_ports[0]))
+        with_tls = kind == "single"
+        if with_tls and not os.path.exists(os.path.join(folder, "authority.pem")):
+            make_certificates(folder)
+        self.postgres = self.started(Postgres(folder, postgres_ports[0], with_tls=with_tls))
         self.standby = None
         if kind == "cluster":
             self.standby = self.started(Postgres(folder, postgres_ports[1], "standby", self.postgres))
@@ -31,6 +35,7 @@ class Fleet:
             self.rights = printed[printed.index("accounts {"):printed.index("# postgresql.conf")].replace(
                 "users: [\n", 'users: [\n      { user: "test", password: "test" }\n', 1)
             self.user = "test"
+            self.rights += tls_of_nats(folder)
         self.nats = [self.started(Nats(folder, port, k, routes if count > 1 else (), self.rights))
                      for k, port in enumerate(self.nats_ports)]
         self.gates = [self.started(Gate(port)) for port in self.nats_ports]
@@ -54,6 +59,7 @@ class Fleet:
         until(made, 30, "a fleet that is set up")
         if not self.postgres.ask("SELECT 1 FROM pg_roles WHERE rolname = 'worker_1'"):
             self.postgres.ask("CREATE ROLE worker_1 LOGIN IN ROLE spoolflow_worker")
+            self.postgres.ask("CREATE ROLE secret LOGIN PASSWORD 'secret' IN ROLE spoolflow_worker")
         return done[-1]
 
     def start_worker(self):

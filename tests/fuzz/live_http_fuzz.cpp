@@ -7,7 +7,8 @@
 #include <string>
 #include <sys/socket.h>
 
-#include "spoolflow/live/page/server.hpp"
+#include "spoolflow/live/door/server.hpp"
+#include "spoolflow/live/page/answer.hpp"
 #include "tests/fuzz/live_valve.hpp"
 
 namespace {
@@ -24,7 +25,7 @@ struct Server {
     out.udp = live::Address{"127.0.0.1", 0};
     return out;
   }
-  Server() : engine(site(), "fuzz"), page(engine, {.listen = {"127.0.0.1", 0}}) { engine.start(); }
+  Server() : engine(site(), "fuzz"), page(site_page(engine), {.listen = {"127.0.0.1", 0}}) { engine.start(); }
 };
 
 /// Sends it, ends its side and waits until the server has ended, too; returns how much came.

@@ -1,4 +1,4 @@
-#include "spoolflow/live/page/access.hpp"
+#include "spoolflow/live/door/access.hpp"
 
 #include <thread>
 
@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/live/demo_model.hpp"
-#include "spoolflow/live/page/door.hpp"
+#include "spoolflow/live/door/door.hpp"
+#include "spoolflow/live/page/answer.hpp"
 #include "tests/live/temporary_folder.hpp"
 
 namespace spoolflow::live {
@@ -123,7 +124,7 @@ TEST_F(DoorTest, WithoutAccountsOnlyTheNamesOfThisMachineComeIn) {
   }
   PageSettings page;
   page.names = {"valves.example"};
-  Door door(engine, page);
+  Door door(site_page(engine), page);
   PageRequest request = get("/api/v1/valves");
   EXPECT_EQ(door.admit(request, now).answer.status, 200U);
   request.host = "evil.example";
@@ -133,7 +134,7 @@ TEST_F(DoorTest, WithoutAccountsOnlyTheNamesOfThisMachineComeIn) {
 }
 
 TEST_F(DoorTest, StrangersGetThePageAndNothingElse) {
-  Door door(engine, with_accounts());
+  Door door(site_page(engine), with_accounts());
   for (const char* open : {"/", "/live.js", "/live.css"}) EXPECT_EQ(door.admit(get(open), now).answer.status, 200U);
   for (const char* closed : {"/api/v1/valves", "/api/v1/alarms", "/api/v1/events", "/api/v1/site", "/metrics",
                              "/api/v1/recordings/1.csv", "/api/v1/openapi.json", "/nothing"}) {
@@ -150,7 +151,7 @@ TEST_F(DoorTest, StrangersGetThePageAndNothingElse) {
 }
 
 TEST_F(DoorTest, ASessionIsOnlyWorthOnItsOwnPage) {
-  Door door(engine, with_accounts());
+  Door door(site_page(engine), with_accounts());
   PageRequest login = post("/api/v1/login", "http://127.0.0.1:8080");
   login.body = R"({"name": "anna", "password": "correct horse"})";
   const PageAnswer in = door.admit(login, now).answer;
@@ -187,7 +188,7 @@ TEST_F(DoorTest, AcknowledgingNeedsItsRole) {
   engine.start();
   for (int k = 0; k < 600 && engine.alarms().empty(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ASSERT_FALSE(engine.alarms().empty());  // no samples come
-  Door door(engine, with_accounts());
+  Door door(site_page(engine), with_accounts());
   PageRequest by = post("/api/v1/alarms/1/acknowledge", "");
   by.authorization = "Bearer eve.correct horse";
   EXPECT_EQ(door.admit(by, now).answer.status, 403U);
@@ -201,13 +202,14 @@ TEST_F(DoorTest, AcknowledgingNeedsItsRole) {
 
   PageSettings readers;
   readers.without_account = Role::read;
-  EXPECT_EQ(Door(engine, readers).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 403U);
-  EXPECT_EQ(Door(engine, {}).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 200U);
-  EXPECT_EQ(Door(engine, {}).admit(post("/api/v1/alarms/1/acknowledge", "http://evil.example"), now).answer.status,
-            403U);
+  EXPECT_EQ(Door(site_page(engine), readers).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 403U);
+  EXPECT_EQ(Door(site_page(engine), {}).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 200U);
+  EXPECT_EQ(
+      Door(site_page(engine), {}).admit(post("/api/v1/alarms/1/acknowledge", "http://evil.example"), now).answer.status,
+      403U);
   for (const char* none : {"/api/v1/alarms/x/acknowledge", "/api/v1/alarms//acknowledge", "/api/v1/valves",
                            "/api/v1/alarms/1/acknowledge/"}) {
-    EXPECT_EQ(Door(engine, {}).admit(post(none, ""), now).answer.status, 405U) << none;
+    EXPECT_EQ(Door(site_page(engine), {}).admit(post(none, ""), now).answer.status, 405U) << none;
   }
 }
 

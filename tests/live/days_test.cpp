@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/live/demo_model.hpp"
+#include "spoolflow/live/door/target.hpp"
 #include "spoolflow/live/engine.hpp"
 #include "spoolflow/live/page/answer.hpp"
 #include "spoolflow/live/page/plotjuggler.hpp"
-#include "spoolflow/live/page/target.hpp"
 #include "spoolflow/live/store/long_history.hpp"
 #include "spoolflow/live/store/store.hpp"
 #include "tests/live/temporary_folder.hpp"

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "spoolflow/live/demo_model.hpp"
+#include "spoolflow/live/door/server.hpp"
 #include "spoolflow/live/engine.hpp"
 #include "spoolflow/live/page/answer.hpp"
 #include "spoolflow/live/page/plot_frame.hpp"
-#include "spoolflow/live/page/server.hpp"
 #include "tests/live/temporary_folder.hpp"
 
 namespace spoolflow::live {
@@ -87,13 +87,14 @@ TEST_F(PageTest, NothingButWhatIsKnownIsAnswered) {
   for (const char* target : {"/../etc/passwd", "/live.html", "//", "/api/v1/valves/../events", "/%2e%2e/x", ""}) {
     EXPECT_EQ(answer_to(engine, "GET", target).status, 404U) << target;
   }
-  EXPECT_EQ(streamed_valve(engine, "/api/v1/valves/b/stream"), 1U);
-  EXPECT_FALSE(streamed_valve(engine, "/api/v1/valves/c/stream"));
-  EXPECT_FALSE(streamed_valve(engine, "/api/v1/valves/stream"));
+  const PageContent page = site_page(engine);
+  EXPECT_TRUE(page.stream("/api/v1/valves/b/stream"));
+  EXPECT_FALSE(page.stream("/api/v1/valves/c/stream"));
+  EXPECT_FALSE(page.stream("/api/v1/valves/stream"));
 }
 
 TEST_F(PageTest, IsServedWithAStrictPolicy) {
-  const PageServer server(engine, at("127.0.0.1", 0));
+  const PageServer server(site_page(engine), at("127.0.0.1", 0));
   const std::string page = get(server.port(), "/");
   EXPECT_THAT(page, StartsWith("HTTP/1.1 200 OK"));
   EXPECT_THAT(page, HasSubstr("Content-Security-Policy: default-src 'none'; script-src 'self'"));
@@ -109,7 +110,7 @@ TEST_F(PageTest, IsServedWithAStrictPolicy) {
 }
 
 TEST_F(PageTest, RubbishEndsItsOwnConnectionAlone) {
-  const PageServer server(engine, at("127.0.0.1", 0));
+  const PageServer server(site_page(engine), at("127.0.0.1", 0));
   (void)asked(server.port(), std::string("\x16\x03\x01\0\0\r\n\r\n", 9));
   (void)asked(server.port(), "GET /" + std::string(20000, 'x') + " HTTP/1.1\r\n\r\n");
   EXPECT_THAT(asked(server.port(),
@@ -121,9 +122,10 @@ TEST_F(PageTest, RubbishEndsItsOwnConnectionAlone) {
 }
 
 TEST_F(PageTest, OtherMachinesAreNotLetIn) {
-  EXPECT_THAT(refusal([&] { const PageServer server(engine, at("0.0.0.0", 0)); }), HasSubstr("needs TLS and a token"));
-  const PageServer server(engine, at("127.0.0.1", 0));
-  EXPECT_THAT(refusal([&] { const PageServer second(engine, at("127.0.0.1", server.port())); }),
+  EXPECT_THAT(refusal([&] { const PageServer server(site_page(engine), at("0.0.0.0", 0)); }),
+              HasSubstr("needs TLS and a token"));
+  const PageServer server(site_page(engine), at("127.0.0.1", 0));
+  EXPECT_THAT(refusal([&] { const PageServer second(site_page(engine), at("127.0.0.1", server.port())); }),
               HasSubstr("end the program that listens there or choose another port"));
 }
 

@@ -14,7 +14,8 @@ namespace spoolflow::fleet {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> mark{'S', 'F', 'B', 'L'};
-constexpr std::uint8_t version = 1;
+constexpr std::uint8_t of_samples = 1, of_a_report = 2;  // versions
+constexpr std::size_t largest_report = 1 << 22;          // bytes before it was compressed
 constexpr std::size_t header_bytes = 104, checksum_bytes = 4, hash_bytes = 32, hash_at = 72;
 constexpr std::uint16_t known_channels = (1U << block_channels.size()) - 1;
 /// Quick, and the differences are small numbers already.
@@ -49,9 +50,10 @@ std::string hash_text(std::span<const std::uint8_t> bytes) {
 
 std::vector<std::uint8_t> write_block(const Block& block) {
   const ColumnLayout layout = layout_of(block.samples);
-  const std::vector<std::uint8_t> body = write_columns(layout, block.samples);
+  const std::vector<std::uint8_t> body =
+      block.report ? write_report(*block.report) : write_columns(layout, block.samples);
   std::vector<std::uint8_t> out(mark.begin(), mark.end());
-  out.push_back(version);
+  out.push_back(block.report ? of_a_report : of_samples);
   out.push_back(static_cast<std::uint8_t>(block.valve.size()));
   put_little_endian(out, layout.channels);
   put_little_endian(out, block.session);
@@ -76,7 +78,7 @@ std::vector<std::uint8_t> write_block(const Block& block) {
 
 std::string_view name(NoBlock reason) {
   constexpr std::array<std::string_view, 5> names{"of another length than a block has", "not begun by SFBL",
-                                                  "of another version than 1", "damaged: its checksum is another",
+                                                  "of another version than 1 and 2", "damaged: its checksum is another",
                                                   "without sense: its header and its body contradict each other"};
   return names[static_cast<std::size_t>(reason)];
 }
@@ -111,7 +113,7 @@ bool read_header(std::span<const std::uint8_t> bytes, Block& out, ColumnLayout& 
 std::variant<Block, NoBlock> read_block(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < header_bytes + checksum_bytes || bytes.size() > largest_block) return NoBlock::wrong_length;
   if (!std::equal(mark.begin(), mark.end(), bytes.begin())) return NoBlock::no_mark;
-  if (bytes[4] != version) return NoBlock::other_version;
+  if (bytes[4] != of_samples && bytes[4] != of_a_report) return NoBlock::other_version;
   const std::size_t body_at = header_bytes + bytes[5];
   const std::size_t end = bytes.size() - checksum_bytes;
   if (body_at > end) return NoBlock::wrong_length;
@@ -122,13 +124,20 @@ std::variant<Block, NoBlock> read_block(std::span<const std::uint8_t> bytes) {
   if (!read_header(bytes, out, layout)) return NoBlock::no_sense;
   const std::size_t length = little_endian<std::uint32_t>(bytes, 60);
   const auto frame = bytes.subspan(body_at, end - body_at);
-  if (length > layout.samples * longest_number * (block_channels.size() + 1)) return NoBlock::no_sense;
+  const bool reports = bytes[4] == of_a_report;
+  if (reports && (layout.samples != 0 || layout.channels != 0)) return NoBlock::no_sense;
+  const std::size_t most = reports ? largest_report : layout.samples * longest_number * (block_channels.size() + 1);
+  if (length > most) return NoBlock::no_sense;
   if ((length == 0) != frame.empty()) return NoBlock::no_sense;
   std::vector<std::uint8_t> body(length);
   if (length > 0) {
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != length) return NoBlock::no_sense;
     const std::size_t written = ZSTD_decompress(body.data(), length, frame.data(), frame.size());
     if (ZSTD_isError(written) != 0 || written != length) return NoBlock::no_sense;
+  }
+  if (reports) {
+    if (!read_report(body, out.report.emplace())) return NoBlock::no_sense;
+    return out;
   }
   if (!read_columns(layout, body, out.samples)) return NoBlock::no_sense;
   return out;

@@ -2,6 +2,7 @@
 /// Consecutive samples of one valve, a tenth of a second to a second of them, as they travel from a site to the fleet.
 /// Laid out in docs/formats/block.md.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/fleet/blocks/site_report.hpp"
 
 namespace spoolflow::fleet {
 
@@ -24,6 +26,7 @@ struct Block {
   std::uint64_t first = 1;     ///< below `number` where the site has lost the blocks from this one on; else the same
   std::int64_t wall_ms = 0;    ///< of the site's clock when the block was closed, since 1970-01-01 UTC
   std::vector<estimation::TimedSample> samples{};  ///< on their grids (on_grid)
+  std::optional<SiteReport> report{};              ///< instead of samples, of a site that estimates by itself
 };
 
 /// Samples must be on their grids, at most most_samples; names as long as stated. The same block gives the same bytes.

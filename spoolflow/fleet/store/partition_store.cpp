@@ -105,7 +105,20 @@ PartitionStore::OlderState& PartitionStore::known(const std::string& valve) {
   return state;
 }
 
-void PartitionStore::commit(const std::vector<ValveRows>& valves, const StreamPosition& stream) {
+std::vector<Acknowledgement> PartitionStore::acknowledgements() {
+  const Rows rows = session_.run(
+      "SELECT acknowledgement.valve, alarm, wall_ms, name FROM acknowledgement JOIN valve ON id = "
+      "acknowledgement.valve "
+      "WHERE taken_block IS NULL AND partition = $1 ORDER BY acknowledgement.valve, alarm",
+      Values().put(claim_.partition));
+  std::vector<Acknowledgement> out;
+  for (int row = 0; row < rows.size(); ++row)
+    out.push_back({rows.text(row, 0), rows.integer(row, 1), rows.integer(row, 2), rows.text(row, 3)});
+  return out;
+}
+
+void PartitionStore::commit(const std::vector<ValveRows>& valves, const std::vector<Acknowledgement>& taken,
+                            const StreamPosition& stream) {
   FleetTransaction whole(session_);
   // First of all, and with it the row is this transaction's: nobody takes the partition before it has ended.
   const Rows mine =
@@ -119,6 +132,14 @@ void PartitionStore::commit(const std::vector<ValveRows>& valves, const StreamPo
     put_rows(older.number, valve);
     put_state(older, valve.position.state);
     put_position(older.number, valve.position);
+  }
+  for (const Acknowledgement& one : taken) {
+    session_.run("UPDATE acknowledgement SET taken_session = $3, taken_block = $4 WHERE valve = $1 AND alarm = $2",
+                 Values()
+                     .put(std::string_view(one.valve))
+                     .put(one.alarm)
+                     .put(sql(one.taken.session))
+                     .put(sql(one.taken.number)));
   }
   whole.commit();
 }
@@ -142,7 +163,9 @@ void PartitionStore::put_rows(std::int64_t number, const ValveRows& valve) {
     values.put(number).put(sql(one.block.session)).put(sql(one.block.number)).put(one.wall_ms);
     values.put(std::string_view(one.indicator.name)).put(one.indicator.value).put(one.indicator.uncertainty_95);
     values.put(one.indicator.baseline).put(std::string_view(one.indicator.state));
-    session_.run("INSERT INTO indicator VALUES($1, $2, $3, $4, $5, $6, $7, $8, $9)", values);
+    values.put(std::string_view(one.indicator.unit));
+    session_.run("INSERT INTO indicator VALUES($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) ON CONFLICT DO NOTHING",
+                 values);
   }
   for (const live::Event& one : valve.events) {
     session_.run("INSERT INTO event(wall_ms, valve, time_s, kind, text) VALUES($1, $2, $3, $4, $5)",

@@ -24,7 +24,10 @@ class PartitionStore {
   [[nodiscard]] StreamPosition stream_position();
   /// One transaction: all of it, or nothing. Throws Fenced, ServerAway or ServerRefuses; begin anew behind any of them,
   /// as it is not known what is kept.
-  void commit(const std::vector<ValveRows>& valves, const StreamPosition& stream);
+  void commit(const std::vector<ValveRows>& valves, const std::vector<Acknowledgement>& taken,
+              const StreamPosition& stream);
+  /// Those of the partition's alarms that no commit has taken.
+  [[nodiscard]] std::vector<Acknowledgement> acknowledgements();
 
   /// The model file of that hash, as it came; nothing where the fleet has none.
   [[nodiscard]] std::optional<std::vector<std::uint8_t>> model(const std::string& sha256);

@@ -1,10 +1,12 @@
 #include "spoolflow/fleet/store/postgresql.hpp"
 
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <libpq-fe.h>
 #include <limits>
+#include <poll.h>
 
 #include <fmt/format.h>
 
@@ -19,6 +21,37 @@ std::string said(const char* message) {
   }
   while (!out.empty() && out.back() == ' ') out.pop_back();
   return out;
+}
+
+/// What another try with another connection does not help, on the side of this program.
+bool is_own_refusal(std::string_view why) {
+  for (const char* text : {"certificate", "server does not support SSL", "no password supplied"}) {
+    if (why.find(text) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+/// Whether a server refuses login or database, told by the codes that libpq writes into its message where it was asked
+/// to before it connects: 28… who one is, 3D000 no such database, 42501 no right to connect.
+bool servers_refuse(const std::string& connection) {
+  struct Finish {
+    void operator()(pg_conn* handle) const { PQfinish(handle); }
+  };
+  const std::unique_ptr<pg_conn, Finish> handle(PQconnectStart(connection.c_str()));
+  if (!handle) return false;
+  (void)PQsetErrorVerbosity(handle.get(), PQERRORS_VERBOSE);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+  PostgresPollingStatusType status = PGRES_POLLING_WRITING;
+  while (status != PGRES_POLLING_OK && status != PGRES_POLLING_FAILED && std::chrono::steady_clock::now() < end) {
+    constexpr int step_ms = 100;
+    pollfd socket{PQsocket(handle.get()), static_cast<short>(status == PGRES_POLLING_READING ? POLLIN : POLLOUT), 0};
+    if (::poll(&socket, 1, step_ms) > 0) status = PQconnectPoll(handle.get());
+  }
+  const std::string_view why = PQerrorMessage(handle.get());
+  for (const char* code : {" 28", " 3D000:", " 42501:"}) {
+    if (why.find(std::string("FATAL: ") + code) != std::string_view::npos) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -111,7 +144,10 @@ Session::Session(const std::string& connection, const std::string& name) {
   PQconninfoFree(parsed);
   handle_.reset(PQconnectdb(all.c_str()));
   if (PQstatus(handle_.get()) != CONNECTION_OK) {
-    throw ServerAway(fmt::format("PostgreSQL cannot be reached: {}", said(PQerrorMessage(handle_.get()))));
+    const std::string why = said(PQerrorMessage(handle_.get()));
+    if (is_own_refusal(why) || servers_refuse(all))
+      throw ServerRefuses(fmt::format("PostgreSQL refuses the login: {}; check [postgresql] connection", why));
+    throw ServerAway(fmt::format("PostgreSQL cannot be reached: {}", why));
   }
   PQsetNoticeProcessor(
       handle_.get(), [](void*, const char*) {}, nullptr);  // what matters comes as an error

@@ -50,6 +50,15 @@ struct ValveRows {
   std::vector<ModelChange> models{};
 };
 
+/// Somebody has seen an alarm. It takes effect behind the block at which a worker takes it.
+struct Acknowledgement {
+  std::string valve;
+  std::int64_t alarm = 0;
+  std::int64_t wall_ms = 0;  ///< of the page's clock
+  std::string by{};          ///< the account
+  BlockPlace taken{};        ///< behind that block
+};
+
 struct KeptValve {
   ValvePosition position;
   std::vector<live::Alarm> alarms{};  ///< not cleared, and the one with the largest id

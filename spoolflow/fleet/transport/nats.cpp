@@ -73,6 +73,35 @@ Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name
   return options;
 }
 
+/// What another try does not help: who we are, and whether both sides speak TLS and trust each other.
+bool is_refusal(natsStatus status) {
+  return status == NATS_CONNECTION_AUTH_FAILED || status == NATS_NOT_PERMITTED || status == NATS_SSL_ERROR ||
+         status == NATS_SECURE_CONNECTION_WANTED || status == NATS_SECURE_CONNECTION_REQUIRED;
+}
+
+/// Asks one server after the other until one lets us in; the connection itself would go on trying in silence.
+/// Throws LoginError where one refuses us; servers that are away are passed over.
+void check_login(const NatsAccess& access, const std::string& name) {
+  constexpr std::int64_t answer_within_ms = 1000;
+  for (const std::string& server : access.servers) {
+    NatsAccess one = access;
+    one.servers = {server};
+    const Handle<natsOptions> options = options_of(one, name);
+    check(natsOptions_SetRetryOnFailedConnect(options.get(), false, nullptr, nullptr), "options");
+    check(natsOptions_SetAllowReconnect(options.get(), false), "options");
+    check(natsOptions_SetTimeout(options.get(), answer_within_ms), "options");
+    natsConnection* made = nullptr;
+    const natsStatus status = natsConnection_Connect(&made, options.get());
+    const Handle<natsConnection> connection(made);
+    if (status == NATS_OK) return;
+    if (!is_refusal(status)) continue;
+    const char* const last = nats_GetLastError(nullptr);
+    throw LoginError("NATS: " + server + " refuses this user or its TLS: " + natsStatus_GetText(status) +
+                     (last != nullptr && *last != 0 ? std::string(" (") + last + ")" : "") +
+                     "; check user, password_file or credentials, and authority");
+  }
+}
+
 Message message_of(natsMsg* handle) {
   Message out{natsMsg_GetSubject(handle),
               std::string(natsMsg_GetData(handle), static_cast<std::size_t>(natsMsg_GetDataLength(handle)))};
@@ -97,6 +126,7 @@ struct Connection::Handles {
 };
 
 Connection::Connection(const NatsAccess& access, const std::string& name) : handles_(std::make_unique<Handles>()) {
+  check_login(access, name);
   handles_->options = options_of(access, name);
   natsConnection* connection = nullptr;
   const natsStatus status = natsConnection_Connect(&connection, handles_->options.get());

@@ -57,8 +57,8 @@ class Puller;
 /// Safe to be used from any thread.
 class Connection {
  public:
-  /// Returns at once and connects when a server can be reached. Throws LoginError where a file of `access` cannot be
-  /// read. `name`: for the servers' own lists.
+  /// Connects when a server can be reached; each is asked for a second at most. Throws LoginError where a file of
+  /// `access` cannot be read, or a server refuses user, password or TLS. `name`: for the servers' own lists.
   Connection(const NatsAccess& access, const std::string& name);
   ~Connection();
   Connection(const Connection&) = delete;

@@ -3,9 +3,12 @@
 #include <charconv>
 #include <utility>
 
+#include "spoolflow/live/door/target.hpp"
+#include "spoolflow/live/page/alarm_text.hpp"
 #include "spoolflow/live/page/api_text.hpp"
+#include "spoolflow/live/page/history_text.hpp"
 #include "spoolflow/live/page/page_files.hpp"
-#include "spoolflow/live/page/target.hpp"
+#include "spoolflow/live/page/plot_frame.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -46,6 +49,25 @@ std::optional<std::size_t> place_of(const Engine& engine, std::string_view id) {
   return std::nullopt;
 }
 
+std::string indicator_days(const Engine& engine, std::size_t valve, const Span& span) {
+  const ValveView view = engine.view(valve);
+  IndicatorHistories kept;
+  if (!engine.site().store.empty()) kept = read_indicators(engine.site().store, view.id, span);
+  std::vector<IndicatorDays> out;
+  for (const monitor::Indicator& one : view.indicators) {  // in the monitor's order
+    std::vector<IndicatorPoint>& points = kept[std::string(one.name)];
+    if (one.state == monitor::IndicatorState::counts || points.empty()) continue;
+    out.push_back({std::string(one.name), std::string(one.unit), std::move(points)});
+  }
+  return indicator_days_json(view.id, span, out);
+}
+
+std::string flow_days(const Engine& engine, std::size_t valve, const Span& span) {
+  const std::string& id = engine.valve(valve).id();
+  return flow_days_json(
+      id, span, engine.site().store.empty() ? std::vector<FlowPoint>() : read_flow(engine.site().store, id, span));
+}
+
 /// /api/v1/valves/ID/indicators and /api/v1/valves/ID/history; nothing where it is neither.
 std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, std::string_view target) {
   const auto indicators = valve_asked(path, "indicators");
@@ -53,20 +75,9 @@ std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, s
   if (!asked) return std::nullopt;
   const auto valve = place_of(engine, *asked);
   if (!valve) return PageAnswer{404, plain, "there is no valve of this name\n"};
-  constexpr std::int64_t day_ms = 86'400'000;
-  const auto instant = [&](std::string_view key, std::int64_t otherwise) {
-    const auto text = query_value(target, key);
-    return text ? instant_ms(*text) : std::optional(otherwise);
-  };
-  const auto to_ms = instant("to", wall_ms());
-  const auto from_ms = instant("from", to_ms.value_or(0) - day_ms);
-  if (!to_ms || !from_ms || *from_ms >= *to_ms) {
-    return PageAnswer{400, plain,
-                      "from and to are instants such as 2026-11-22T10:30:00Z or seconds since 1970, from before to\n"};
-  }
-  const Span span{*from_ms, *to_ms};
-  return PageAnswer{
-      200, json, indicators ? indicator_history_json(engine, *valve, span) : flow_history_json(engine, *valve, span)};
+  const auto span = span_asked(target);
+  if (!span) return no_span();
+  return PageAnswer{200, json, indicators ? indicator_days(engine, *valve, *span) : flow_days(engine, *valve, *span)};
 }
 
 }  // namespace
@@ -101,13 +112,40 @@ PageAnswer found(const Engine& engine, std::string_view path) {
 
 }  // namespace
 
-std::optional<std::size_t> streamed_valve(const Engine& engine, std::string_view target) {
-  const auto asked = valve_asked(target, "stream");
-  return asked ? place_of(engine, *asked) : std::nullopt;
+namespace {
+
+/// With each message what came since the one before.
+NextFrame plot_of(const ValveAtWork& valve) {
+  return [&valve, next = std::uint64_t{0}]() mutable {
+    const ValveAtWork::TracePart part = valve.trace_from(next);
+    next = part.first + part.points.size();
+    if (next > 0) --next;  // the last point may still grow
+    return plot_frame(part, steady_ns());
+  };
 }
 
-bool is_page_file(std::string_view path) {
-  return path == "/" || path == "/live.js" || path == "/live.css";
+std::optional<PageAnswer> acknowledge(Engine& engine, std::string_view alarm, const std::string& by) {
+  std::int64_t id = 0;
+  const auto [end, error] = std::from_chars(alarm.data(), alarm.data() + alarm.size(), id);
+  if (error != std::errc() || end != alarm.data() + alarm.size()) return std::nullopt;
+  const auto found = engine.acknowledge(id, by);
+  if (!found) return PageAnswer{404, plain, "there is no alarm of this number\n"};
+  return PageAnswer{200, json, written(json_of(*found))};
+}
+
+}  // namespace
+
+PageContent site_page(Engine& engine) {
+  return {.name = "spoolflow live",
+          .answer = [&](std::string_view method, std::string_view target) { return answer_to(engine, method, target); },
+          .is_file = [](std::string_view path) { return path == "/" || path == "/live.js" || path == "/live.css"; },
+          .acknowledge = [&](std::string_view alarm, const std::string& by) { return acknowledge(engine, alarm, by); },
+          .stream =
+              [&](std::string_view path) {
+                const auto asked = valve_asked(path, "stream");
+                const auto valve = asked ? place_of(engine, *asked) : std::nullopt;
+                return valve ? plot_of(engine.valve(*valve)) : NextFrame();
+              }};
 }
 
 }  // namespace spoolflow::live

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "spoolflow/live/page/json_text.hpp"
+#include "spoolflow/live/door/json_text.hpp"
 #include "spoolflow/sensor/status.hpp"
 #include "spoolflow/units/conversion.hpp"
 

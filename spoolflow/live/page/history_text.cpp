@@ -1,6 +1,8 @@
-/// Days of a valve as JSON: a column each figure, so that they are short and ready to plot.
-#include "spoolflow/live/page/api_text.hpp"
-#include "spoolflow/live/page/json_text.hpp"
+#include "spoolflow/live/page/history_text.hpp"
+
+#include "spoolflow/live/door/json_text.hpp"
+#include "spoolflow/live/door/target.hpp"
+#include "spoolflow/live/engine.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::live {
@@ -21,16 +23,29 @@ Json column(const Points& points, Value&& value) {
 
 }  // namespace
 
-std::string indicator_history_json(const Engine& engine, std::size_t valve, const Span& span) {
+std::optional<Span> span_asked(std::string_view target) {
+  constexpr std::int64_t day_ms = 86'400'000;
+  const auto instant = [&](std::string_view key, std::int64_t otherwise) {
+    const auto text = query_value(target, key);
+    return text ? instant_ms(*text) : std::optional(otherwise);
+  };
+  const auto to_ms = instant("to", wall_ms());
+  const auto from_ms = instant("from", to_ms.value_or(0) - day_ms);
+  if (!to_ms || !from_ms || *from_ms >= *to_ms) return std::nullopt;
+  return Span{*from_ms, *to_ms};
+}
+
+PageAnswer no_span() {
+  return {400, media::plain,
+          "from and to are instants such as 2026-11-22T10:30:00Z or seconds since 1970, from before to\n"};
+}
+
+std::string indicator_days_json(const std::string& valve, const Span& span,
+                                const std::vector<IndicatorDays>& indicators) {
   Json out = Json::array();
-  const ValveView view = engine.view(valve);
-  IndicatorHistories kept;
-  if (!engine.site().store.empty()) kept = read_indicators(engine.site().store, view.id, span);
-  for (const monitor::Indicator& one : view.indicators) {  // in the monitor's order
-    if (one.state == monitor::IndicatorState::counts) continue;
-    const std::vector<IndicatorPoint>& points = kept[std::string(one.name)];
-    if (points.empty()) continue;
+  for (const IndicatorDays& one : indicators) {
     using Point = IndicatorPoint;
+    const std::vector<IndicatorPoint>& points = one.points;
     out.push_back({{"name", one.name},
                    {"unit", one.unit},
                    {"time_ms", column(points, [](const Point& p) { return Json(p.wall_ms); })},
@@ -42,16 +57,13 @@ std::string indicator_history_json(const Engine& engine, std::size_t valve, cons
                    {"raised", column(points, [](const Point& p) { return Json(p.raised); })}});
   }
   return written(
-      Json{{"valve", view.id}, {"from", utc(span.from_ms)}, {"to", utc(span.to_ms)}, {"indicators", std::move(out)}});
+      Json{{"valve", valve}, {"from", utc(span.from_ms)}, {"to", utc(span.to_ms)}, {"indicators", std::move(out)}});
 }
 
-std::string flow_history_json(const Engine& engine, std::size_t valve, const Span& span) {
-  const std::string& id = engine.valve(valve).id();
-  std::vector<FlowPoint> points;
-  if (!engine.site().store.empty()) points = read_flow(engine.site().store, id, span);
+std::string flow_days_json(const std::string& valve, const Span& span, const std::vector<FlowPoint>& points) {
   using Point = FlowPoint;
   const auto flow = [](double m3_per_s) { return six_digits(m3_per_s * units::litre_per_minute_per_m3_per_s); };
-  return written(Json{{"valve", id},
+  return written(Json{{"valve", valve},
                       {"from", utc(span.from_ms)},
                       {"to", utc(span.to_ms)},
                       {"time_ms", column(points, [](const Point& p) { return Json(p.wall_ms); })},

@@ -1,5 +1,5 @@
 /** Alarms with what was seen when they were raised, raw samples, and a button for those who may acknowledge. */
-import { acknowledge, clock, inUnit, scaled, severity, short, signs, words, type Alarm } from './api';
+import { acknowledge, clock, inUnit, keyOf, scaled, severity, short, signs, words, type Alarm } from './api';
 import { element, row, setText } from './element';
 import { visitor } from './visitor';
 
@@ -29,7 +29,7 @@ class Entry {
     valve.href = `#/valve/${encodeURIComponent(alarm.valve)}`;
     this.button.type = 'button';
     this.button.setAttribute('aria-label', `Acknowledge alarm ${alarm.id}: ${words(alarm.cause)} of ${alarm.valve}`);
-    this.button.addEventListener('click', () => void this.acknowledge(alarm.id));
+    this.button.addEventListener('click', () => void this.acknowledge(keyOf(alarm)));
     const head = element('p', 'what', this.sign, ' ', valve, ' ', element('b', '', words(alarm.cause)), ' ', this.state);
     this.place.append(head, this.button, this.when);
     if (alarm.indicators.length > 0) this.place.append(this.indicators(alarm));
@@ -58,11 +58,11 @@ class Entry {
     this.links.append(link);
   }
 
-  private async acknowledge(id: number): Promise<void> {
+  private async acknowledge(key: string): Promise<void> {
     const focused = document.activeElement === this.button;
     this.button.disabled = true;
     try {
-      this.show(await acknowledge(id));
+      this.show(await acknowledge(key));
       this.trouble.hidden = true;
     } catch (error) {
       this.trouble.hidden = false;
@@ -96,7 +96,7 @@ class Entry {
 
 export class AlarmList {
   readonly place = element('ul', 'alarms');
-  private readonly entries = new Map<number, Entry>();
+  private readonly entries = new Map<string, Entry>();
   private readonly nothing = element('li', 'soft', 'none');
   private readonly more = element('li', 'soft');
 
@@ -108,15 +108,16 @@ export class AlarmList {
 
   show(alarms: readonly Alarm[]): void {
     const all = alarms.filter(this.wanted)
-      .sort((a, b) => urgency[a.state] - urgency[b.state] || severity[b.ne107] - severity[a.ne107] || b.id - a.id);
+      .sort((a, b) => urgency[a.state] - urgency[b.state] || severity[b.ne107] - severity[a.ne107] ||
+        b.raised.localeCompare(a.raised) || b.id - a.id);
     const shown = all.slice(0, this.most);
-    const known = new Set(shown.map((alarm) => alarm.id));
+    const known = new Set(shown.map(keyOf));
     for (const id of [...this.entries.keys()]) if (!known.has(id)) this.entries.delete(id);
     const places: HTMLElement[] = shown.map((alarm) => {
-      let entry = this.entries.get(alarm.id);
+      let entry = this.entries.get(keyOf(alarm));
       if (entry === undefined) {
         entry = new Entry(alarm);
-        this.entries.set(alarm.id, entry);
+        this.entries.set(keyOf(alarm), entry);
       }
       entry.show(alarm);
       return entry.place;

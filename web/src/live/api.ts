@@ -39,7 +39,10 @@ export interface SiteEvent {
 }
 
 export interface Alarm {
+  /** Ascending in each list of alarms: of a site, or of one valve of a fleet. */
   id: number;
+  /** How a fleet calls it: "SITE/ID/NUMBER". */
+  key?: string;
   valve: string;
   cause: string;
   ne107: Sign;
@@ -119,7 +122,7 @@ async function answered<T>(path: string, options: RequestInit): Promise<T> {
   if (!answer.ok) throw new Refusal(answer.status, (await answer.text()).trim());
   return await answer.json() as T;
 }
-const read = <T>(path: string): Promise<T> => answered<T>(path, {});
+export const read = <T>(path: string): Promise<T> => answered<T>(path, {});
 const post = <T>(path: string, body: unknown = {}): Promise<T> =>
   answered<T>(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
 
@@ -134,7 +137,8 @@ export const readRecordings = async (): Promise<Recording[]> =>
 export const readSession = (): Promise<Session> => read<Session>('/api/v1/session');
 export const logIn = (name: string, password: string): Promise<Session> => post<Session>('/api/v1/login', { name, password });
 export const logOut = (): Promise<Session> => post<Session>('/api/v1/logout');
-export const acknowledge = (id: number): Promise<Alarm> => post<Alarm>(`/api/v1/alarms/${id}/acknowledge`);
+export const keyOf = (alarm: Alarm): string => alarm.key ?? String(alarm.id);
+export const acknowledge = (key: string): Promise<Alarm> => post<Alarm>(`/api/v1/alarms/${key}/acknowledge`);
 
 function since(id: string, what: string, seconds: number): string {
   const now = Date.now() / 1000;

@@ -3,16 +3,17 @@
 #include <cstdint>
 #include <memory>
 
-#include "spoolflow/live/engine.hpp"
+#include "spoolflow/live/door/page_content.hpp"
+#include "spoolflow/live/page_settings.hpp"
 
 namespace spoolflow::live {
 
 class PageServer {
  public:
-  /// Serves from threads of its own until it is destroyed. The engine must outlive it and have started. Throws
+  /// Serves from threads of its own until it is destroyed. What the content refers to must outlive it. Throws
   /// SiteError where the address is in use, where certificate or key cannot be used, and where other machines would
   /// reach a page without TLS and accounts.
-  PageServer(Engine& engine, const PageSettings& settings);
+  PageServer(PageContent content, const PageSettings& settings);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;

@@ -1,5 +1,5 @@
 /// The only file that sees Boost.Beast, which takes long to compile.
-#include "spoolflow/live/page/server.hpp"
+#include "spoolflow/live/door/server.hpp"
 
 #include <filesystem>
 #include <thread>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <openssl/err.h>
 
-#include "spoolflow/live/page/connection.hpp"
+#include "spoolflow/live/door/connection.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -68,7 +68,8 @@ struct PageServer::Parts {
   tcp::acceptor acceptor{context};
   std::jthread thread{};
 
-  Parts(Engine& engine, const PageSettings& settings) : tls(tls_context(settings)), desk(engine, settings) {}
+  Parts(PageContent&& content, const PageSettings& settings)
+      : tls(tls_context(settings)), desk(std::move(content), settings) {}
 
   void accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
@@ -91,9 +92,9 @@ struct PageServer::Parts {
   }
 };
 
-PageServer::PageServer(Engine& engine, const PageSettings& settings) {
+PageServer::PageServer(PageContent content, const PageSettings& settings) {
   check_reach(settings);
-  parts_ = std::make_unique<Parts>(engine, settings);
+  parts_ = std::make_unique<Parts>(std::move(content), settings);
   BoundSocket bound = bind_socket(settings.listen, Transport::tcp);
   const bool is_6 = settings.listen.host.find(':') != std::string::npos;
   parts_->acceptor.assign(is_6 ? tcp::v6() : tcp::v4(), bound.descriptor.release());

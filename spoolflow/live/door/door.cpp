@@ -1,12 +1,10 @@
-#include "spoolflow/live/page/door.hpp"
+#include "spoolflow/live/door/door.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
-#include "spoolflow/live/page/answer.hpp"
-#include "spoolflow/live/page/api_text.hpp"
+#include "spoolflow/live/door/login_text.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -55,15 +53,12 @@ std::string_view path_of(const PageRequest& request) {
   return target.substr(0, target.find('?'));
 }
 
-/// The number of /api/v1/alarms/NUMBER/acknowledge.
-std::optional<std::int64_t> alarm_asked(std::string_view path) {
+/// What stands between /api/v1/alarms/ and /acknowledge.
+std::optional<std::string_view> alarm_asked(std::string_view path) {
   constexpr std::string_view before = "/api/v1/alarms/", behind = "/acknowledge";
   if (!path.starts_with(before) || !path.ends_with(behind)) return std::nullopt;
   if (path.size() <= before.size() + behind.size()) return std::nullopt;
-  path = path.substr(before.size(), path.size() - before.size() - behind.size());
-  std::int64_t id = 0;
-  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), id);
-  return error == std::errc() && end == path.data() + path.size() ? std::optional(id) : std::nullopt;
+  return path.substr(before.size(), path.size() - before.size() - behind.size());
 }
 
 PageAnswer told(unsigned status, std::string text) {
@@ -73,6 +68,12 @@ PageAnswer told(unsigned status, std::string text) {
 PageAnswer too_many() {
   PageAnswer out = told(429, "too many wrong passwords or tokens; wait a minute");
   out.headers.emplace_back("Retry-After", "60");
+  return out;
+}
+
+PageAnswer only_get() {
+  PageAnswer out = told(405, "only GET is answered here");
+  out.headers.emplace_back("Allow", "GET, HEAD");
   return out;
 }
 
@@ -122,22 +123,19 @@ PageAnswer Door::logout(const PageRequest& request) {
   return out;
 }
 
-PageAnswer Door::acknowledge(const PageRequest& request, const Visitor& visitor, std::int64_t alarm) {
+PageAnswer Door::acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm) {
   // A browser names the page that posts. Where a cookie speaks for the sender it must be there; else it may be missing.
   if (!is_own_page(request) && (visitor.by_cookie || !request.origin.empty())) {
     return told(403, "acknowledge on the page of this server, or with a token");
   }
   if (visitor.role < Role::acknowledge) return told(403, "this needs the role \"acknowledge\"");
-  const auto found = engine_.acknowledge(alarm, visitor.name);
-  if (!found) return told(404, "there is no alarm of this number");
-  return {200, media::json, alarm_json(*found)};
+  if (auto answer = content_.acknowledge(alarm, visitor.name)) return std::move(*answer);
+  return only_get();
 }
 
 PageAnswer Door::posted(const PageRequest& request, const Visitor& visitor) {
-  if (const auto alarm = alarm_asked(path_of(request))) return acknowledge(request, visitor, *alarm);
-  PageAnswer out = told(405, "only GET is answered here");
-  out.headers.emplace_back("Allow", "GET, HEAD");
-  return out;
+  const auto alarm = alarm_asked(path_of(request));
+  return alarm ? acknowledge(request, visitor, *alarm) : only_get();
 }
 
 Admission Door::admit(const PageRequest& request, Access::Time now) {
@@ -148,7 +146,9 @@ Admission Door::admit(const PageRequest& request, Access::Time now) {
   const bool posts = request.method == "POST";
   if (posts && path == login_path && access_.has_accounts()) return {login(request, now)};
   if (posts && path == logout_path) return {logout(request)};
-  if (!posts && !request.upgrade && is_page_file(path)) return {answer_to(engine_, request.method, request.target)};
+  if (!posts && !request.upgrade && content_.is_file(path)) {
+    return {content_.answer(request.method, request.target)};
+  }
   const auto [visitor, often] =
       access_.who(cookie_value(request.cookie, cookie_name(request.encrypted)), bearer_of(request), request.peer, now);
   if (often) return {too_many()};
@@ -157,17 +157,17 @@ Admission Door::admit(const PageRequest& request, Access::Time now) {
   }
   if (visitor.role == Role::none) {
     PageAnswer out = told(401, "log in on the page, or send a token: Authorization: Bearer NAME.TOKEN");
-    out.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"spoolflow live\"");
+    out.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"" + content_.name + "\"");
     return {out};
   }
   if (request.upgrade) {
-    const auto valve = streamed_valve(engine_, path);
     const bool own = is_own_page(request) || (request.origin.empty() && !visitor.by_cookie);
-    if (!valve || !own) return {told(403, "no stream is there for this page")};
-    return {{}, valve};
+    NextFrame stream = content_.stream && own ? content_.stream(path) : NextFrame();
+    if (!stream) return {told(403, "no stream is there for this page")};
+    return {{}, std::move(stream)};
   }
   if (posts) return {posted(request, visitor)};
-  return {answer_to(engine_, request.method, request.target)};
+  return {content_.answer(request.method, request.target)};
 }
 
 }  // namespace spoolflow::live

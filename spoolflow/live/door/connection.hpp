@@ -20,9 +20,8 @@
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 
-#include "spoolflow/live/page/door.hpp"
-#include "spoolflow/live/page/plot_frame.hpp"
-#include "spoolflow/live/page/seats.hpp"
+#include "spoolflow/live/door/door.hpp"
+#include "spoolflow/live/door/seats.hpp"
 
 namespace spoolflow::live {
 
@@ -48,11 +47,10 @@ inline constexpr const char* security_policy =
 /// Requests are answered one by one in a thread beside the one that sends plots: neither the store's answers nor the
 /// hash of a password hold those up.
 struct Desk {
-  Engine& engine;
   Door door;
   asio::thread_pool thread{1};
 
-  Desk(Engine& of, const PageSettings& settings) : engine(of), door(of, settings) {}
+  Desk(PageContent&& content, const PageSettings& settings) : door(std::move(content), settings) {}
   [[nodiscard]] Admission admit(const PageRequest& request) {
     try {
       return door.admit(request, std::chrono::steady_clock::now());
@@ -67,8 +65,8 @@ struct Desk {
 template <class Stream>
 class PlotStream : public std::enable_shared_from_this<PlotStream<Stream>> {
  public:
-  PlotStream(Stream&& stream, Seats::Seat&& seat, const ValveAtWork& valve)
-      : socket_(std::move(stream)), seat_(std::move(seat)), timer_(socket_.get_executor()), valve_(valve) {}
+  PlotStream(Stream&& stream, Seats::Seat&& seat, NextFrame&& next)
+      : socket_(std::move(stream)), seat_(std::move(seat)), timer_(socket_.get_executor()), next_(std::move(next)) {}
 
   void accept(const http::request<http::string_body>& request) {
     beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own patience
@@ -96,10 +94,7 @@ class PlotStream : public std::enable_shared_from_this<PlotStream<Stream>> {
   }
   void send() {
     if (ended_) return;
-    const ValveAtWork::TracePart part = valve_.trace_from(next_);
-    next_ = part.first + part.points.size();
-    if (next_ > 0) --next_;  // the last point may still grow
-    frame_ = plot_frame(part, steady_ns());
+    frame_ = next_();
     socket_.binary(true);
     socket_.async_write(asio::buffer(frame_), [self = this->shared_from_this()](beast::error_code error, std::size_t) {
       if (error || self->ended_) return;
@@ -113,10 +108,9 @@ class PlotStream : public std::enable_shared_from_this<PlotStream<Stream>> {
   websocket::stream<Stream> socket_;
   Seats::Seat seat_;
   asio::steady_timer timer_;
-  const ValveAtWork& valve_;
+  NextFrame next_;
   beast::flat_buffer heard_;
   std::vector<std::uint8_t> frame_;
-  std::uint64_t next_ = 0;
   bool ended_ = false;
 };
 
@@ -186,7 +180,7 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
       reply(request, std::move(admission.answer));
       return;
     }
-    std::make_shared<PlotStream<Stream>>(std::move(stream_), std::move(seat_), desk_.engine.valve(*admission.stream))
+    std::make_shared<PlotStream<Stream>>(std::move(stream_), std::move(seat_), std::move(admission.stream))
         ->accept(request);
   }
 

@@ -1,4 +1,4 @@
-#include "spoolflow/live/page/target.hpp"
+#include "spoolflow/live/door/target.hpp"
 
 #include <charconv>
 #include <chrono>
@@ -15,6 +15,8 @@ std::optional<char> escaped(std::string_view digits) {
   return static_cast<char>(value);
 }
 
+}  // namespace
+
 std::string unescaped(std::string_view text) {
   std::string out;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -24,8 +26,6 @@ std::string unescaped(std::string_view text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::optional<std::string_view> valve_asked(std::string_view path, std::string_view what) {
   constexpr std::string_view before = "/api/v1/valves/";

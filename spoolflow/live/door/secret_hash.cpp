@@ -1,4 +1,4 @@
-#include "spoolflow/live/page/secret_hash.hpp"
+#include "spoolflow/live/door/secret_hash.hpp"
 
 #include <charconv>
 #include <optional>

@@ -1,26 +1,25 @@
 #pragma once
 /// Where a request comes in: by which name it calls the server, who sent it, what they may do; and its answer.
-#include <cstddef>
-#include <optional>
 #include <string>
+#include <string_view>
 
-#include "spoolflow/live/engine.hpp"
-#include "spoolflow/live/page/access.hpp"
-#include "spoolflow/live/page/request.hpp"
+#include "spoolflow/live/door/access.hpp"
+#include "spoolflow/live/door/page_content.hpp"
 
 namespace spoolflow::live {
 
-/// A WebSocket that is to be opened has `stream`, the valve's place; everything else its answer.
+/// A WebSocket that is to be opened has `stream`; everything else its answer.
 struct Admission {
   PageAnswer answer;
-  std::optional<std::size_t> stream{};
+  NextFrame stream{};
 };
 
 /// To be used by one thread.
 class Door {
  public:
   /// Throws SiteError where an account cannot be used.
-  Door(Engine& engine, const PageSettings& settings) : engine_(engine), settings_(settings), access_(settings) {}
+  Door(PageContent content, const PageSettings& settings)
+      : content_(std::move(content)), settings_(settings), access_(settings) {}
 
   [[nodiscard]] Admission admit(const PageRequest& request, Access::Time now);
 
@@ -29,10 +28,10 @@ class Door {
   [[nodiscard]] bool is_own_page(const PageRequest& request) const;
   [[nodiscard]] PageAnswer login(const PageRequest& request, Access::Time now);
   [[nodiscard]] PageAnswer logout(const PageRequest& request);
-  [[nodiscard]] PageAnswer acknowledge(const PageRequest& request, const Visitor& visitor, std::int64_t alarm);
+  [[nodiscard]] PageAnswer acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm);
   [[nodiscard]] PageAnswer posted(const PageRequest& request, const Visitor& visitor);
 
-  Engine& engine_;
+  PageContent content_;
   PageSettings settings_;
   Access access_;
 };

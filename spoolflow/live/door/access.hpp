@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "spoolflow/live/page/secret_hash.hpp"
+#include "spoolflow/live/door/secret_hash.hpp"
 #include "spoolflow/live/page_settings.hpp"
 
 namespace spoolflow::live {

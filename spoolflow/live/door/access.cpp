@@ -1,4 +1,4 @@
-#include "spoolflow/live/page/access.hpp"
+#include "spoolflow/live/door/access.hpp"
 
 #include <algorithm>
 

@@ -10,6 +10,9 @@ namespace spoolflow::live {
 /// The ID of /api/v1/valves/ID/`what`, and nothing for any other path.
 [[nodiscard]] std::optional<std::string_view> valve_asked(std::string_view path, std::string_view what);
 
+/// With %XX read as the byte that it stands for.
+[[nodiscard]] std::string unescaped(std::string_view text);
+
 /// The value of `key` in what follows the question mark, with %XX read; nothing where it is not there.
 [[nodiscard]] std::optional<std::string> query_value(std::string_view target, std::string_view key);
 
