@@ -25,6 +25,12 @@ std::vector<estimation::Estimator> chosen(const std::string& name, const model::
   return estimation::all_estimators(model);
 }
 
+void print_row(const std::string& run, estimation::Estimator estimator, const validation::GroupFigures& all,
+               double percent) {
+  print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run, estimation::name(estimator),
+        all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
+}
+
 void print_figures(const model::Model& model, const validation::Validation& validation) {
   const double percent = 100 / model.valve.rated_flow_m3_per_s;
   const report::Verdict said = report::verdict(model, validation);
@@ -42,10 +48,15 @@ void print_figures(const model::Model& model, const validation::Validation& vali
         print("{:<24} {:<10} no reference flow\n", run.name, estimation::name(result.estimator));
         continue;
       }
-      const validation::GroupFigures& all = result.metrics->all;
-      print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, estimation::name(result.estimator),
-            all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
+      print_row(run.name, result.estimator, result.metrics->all, percent);
     }
+  }
+  if (validation.runs.size() < 2) return;
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    if (pooled.metrics) print_row("all runs", pooled.estimator, pooled.metrics->all, percent);
+  }
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    if (pooled.by_sample) print_row("all samples", pooled.estimator, pooled.by_sample->all, percent);
   }
 }
 

@@ -49,8 +49,8 @@ void add_doubts(RunResult& result, const std::vector<RunResult>& before, const s
   const auto same = std::ranges::find_if(
       before, [&](const RunResult& run) { return !result.sha256.empty() && run.sha256 == result.sha256; });
   if (same != before.end()) {
-    result.doubts.push_back(
-        fmt::format("{}: the same run as {}, byte for byte; it counts twice", result.file, same->file));
+    const auto [first, second] = std::minmax(result.file, same->file);
+    result.doubts.push_back(fmt::format("{}: the same run as {}, byte for byte; it counts twice", second, first));
   }
 }
 
@@ -106,7 +106,8 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     pooled.estimator = options.estimators[e];
     pooled.profiles = std::move(pools[e].profiles);
     if (pools[e].samples.size() == 0) continue;
-    pooled.metrics = pools[e].samples.metrics();
+    pooled.metrics = pools[e].samples.metrics(Weigh::runs);
+    pooled.by_sample = pools[e].samples.metrics(Weigh::samples);
     pooled.direction = std::move(pools[e].direction);
     pooled.sign = pools[e].sign;
   }
