@@ -8,6 +8,7 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/proposal.hpp"
@@ -151,6 +152,7 @@ void print_json(const recording::Inspection& found) {
 }
 
 void inspect(const InspectArguments& arguments) {
+  refuse_other_kinds("inspect", {{arguments.file, FileKind::recording}});
   recording::ReadOptions options;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
   if (arguments.stroke_mm > 0) options.stroke_m = units::m_from_mm(arguments.stroke_mm);

@@ -10,6 +10,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/report/json/metrics_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
@@ -63,6 +64,9 @@ void print_figures(const model::Model& model, const validation::Validation& vali
 }  // namespace
 
 void validate(const ValidateArguments& arguments) {
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
+  refuse_other_kinds("validate", roles);
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model::read_model(arguments.model);
   validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};
