@@ -11,6 +11,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -107,6 +108,9 @@ std::optional<std::filesystem::path> state_file(const AnalyseArguments& argument
 
 /// The model, or of a whole valve the model of the direction asked for. Throws where the model knows another one only.
 model::Model model_of(const AnalyseArguments& arguments) {
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  if (!arguments.recording.empty()) roles.push_back({arguments.recording, FileKind::recording, "--recording "});
+  refuse_other_kinds("analyse", roles);
   model::Model model = model::read_model(arguments.model);
   if (model.whole()) return model::of_direction(model, arguments.direction.empty() ? "b" : arguments.direction);
   if (!arguments.direction.empty() && arguments.direction != model.valve.direction) {

@@ -10,6 +10,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
@@ -77,6 +78,7 @@ void write_readable(std::ostream& out, const model::Model& model, const std::str
 }  // namespace
 
 void calibrate(const CalibrateArguments& arguments) {
+  refuse_other_kinds("calibrate", {{arguments.campaign, FileKind::settings}});
   const recording::Campaign campaign =
       recording::read_campaign(arguments.campaign, arguments.allow_outside ? recording::OutsideFiles::allowed
                                                                            : recording::OutsideFiles::refused);

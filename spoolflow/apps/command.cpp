@@ -2,10 +2,14 @@
 
 #include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::apps {
@@ -80,6 +84,64 @@ class HelpPage : public CLI::Formatter {
   }
 };
 
+// What a shell completes.
+
+std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::string options_of(const CLI::App& command) {
+  std::string out;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) out += (out.empty() ? "--" : " --") + name;
+    for (const std::string& name : option->get_snames()) out += (out.empty() ? "-" : " -") + name;
+  }
+  return out;
+}
+
+/// Commands first, then options behind a dash, else files; the same for both shells.
+std::string bash_text(const CLI::App& program) {
+  std::string commands = "help", cases;
+  for (const CLI::App* command : commands_of(program)) {
+    commands += " " + command->get_name();
+    cases += fmt::format("    {}) options=\"{}\" ;;\n", command->get_name(), options_of(*command));
+  }
+  return "_spoolflow() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" options=\"" + options_of(program) +
+         "\" commands=\"" + commands + "\"\n  COMPREPLY=()\n  if [ \"$COMP_CWORD\" -gt 1 ]; then\n    " +
+         "case \"${COMP_WORDS[1]}\" in\n"
+         "    help) COMPREPLY=($(compgen -W \"$commands\" -- \"$word\")); return ;;\n"
+         "    completion) commands=\"bash zsh fish\" options=--help ;;\n" +
+         cases +
+         "    esac\n"
+         "    [ \"${COMP_WORDS[1]}\" = completion ] || commands=\"\"\n  fi\n"
+         "  case \"$word\" in\n    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
+         "    *) COMPREPLY=($(compgen -W \"$commands\" -- \"$word\")) ;;\n  esac\n}\n"
+         "complete -o default -F _spoolflow spoolflow\n";
+}
+
+std::string in_quotes(std::string text) {
+  for (std::size_t at = text.find_first_of("'\\"); at != std::string::npos; at = text.find_first_of("'\\", at + 2))
+    text.insert(at, 1, '\\');
+  return "'" + text.substr(0, text.find('\n')) + "'";
+}
+
+std::string fish_text(const CLI::App& program) {
+  std::string out;
+  for (const CLI::App* command : commands_of(program)) {
+    out += fmt::format("complete -c spoolflow -n __fish_use_subcommand -f -a {} -d {}\n", command->get_name(),
+                       in_quotes(command->get_description()));
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_lnames().empty()) continue;
+      out += fmt::format("complete -c spoolflow -n '__fish_seen_subcommand_from {}' -l {}", command->get_name(),
+                         option->get_lnames().front());
+      if (!option->get_snames().empty()) out += " -s " + option->get_snames().front();
+      if (option->get_items_expected_max() > 0) out += " -r";
+      out += fmt::format(" -d {}\n", in_quotes(option->get_description()));
+    }
+  }
+  return out + "complete -c spoolflow -n '__fish_seen_subcommand_from completion' -f -a 'bash zsh fish'\n";
+}
+
 }  // namespace
 
 void shape_help_page(CLI::App& program) {
@@ -111,6 +173,21 @@ void add_units(CLI::App& command, std::vector<std::string>& units) {
       .add_option_function<std::string>("--units", split,
                                         "units of the report, with commas between:\n" + report::choice_of_units())
       ->type_name("UNITS");
+}
+
+void add_completion_command(CLI::App& program) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* command =
+      add_command(program, {"completion",
+                            "print what a shell needs to complete commands and options",
+                            "nothing",
+                            "on standard output: a script for the shell, to be evaluated in it; nothing is installed",
+                            {"spoolflow completion fish | source", "eval \"$(spoolflow completion bash)\""}});
+  command->add_option("shell", *shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command->callback([shell, &program] {
+    if (*shell == "zsh") print_text("autoload -Uz compinit bashcompinit && compinit && bashcompinit\n");
+    print_text(*shell == "fish" ? fish_text(program) : bash_text(program));
+  });
 }
 
 }  // namespace spoolflow::apps

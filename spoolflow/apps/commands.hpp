@@ -34,5 +34,7 @@ void add_history_command(CLI::App& program);
 void add_account_command(CLI::App& program);
 void add_worker_command(CLI::App& program);
 void add_fleet_command(CLI::App& program);
+/// Last: it knows the commands that were added before it.
+void add_completion_command(CLI::App& program);
 
 }  // namespace spoolflow::apps

@@ -14,6 +14,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
@@ -227,6 +228,9 @@ void tell(const std::vector<validation::EstimateSummary>& summaries, const Task&
 }  // namespace
 
 void estimate(const EstimateArguments& arguments) {
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
+  refuse_other_kinds("estimate", roles);
   Task task = task_of(arguments);
   std::optional<OutputFile> summary_file;
   if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);

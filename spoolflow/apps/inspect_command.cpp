@@ -8,6 +8,7 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/proposal.hpp"
@@ -75,20 +76,62 @@ std::vector<std::string> columns_left_out(const recording::ChannelMap& map, cons
   return out;
 }
 
-void print_proposal(const recording::ChannelMap& proposal) {
-  if (proposal.sources.empty()) {
-    print("No column name is known; write a channel map by hand (see docs/formats.md).\n");
-  } else {
-    print_text("Proposed channel map (check it, then give it with --channels MAP.toml):\n\n" +
-               terminal_lines(recording::written(proposal)));
+std::string names_of(const std::vector<recording::Channel>& channels) {
+  std::vector<std::string> names;
+  for (const recording::Channel channel : channels) names.emplace_back(recording::name(channel));
+  return joined(names);
+}
+
+/// Every column with its raw range and what it is taken for, where a name is not the program's own.
+void print_columns(const recording::Inspection& found) {
+  const auto own = [](const recording::InspectedColumn& column) { return column.why == "its own name"; };
+  if (std::ranges::all_of(found.columns, own)) return;
+  print("{:<24} {:<8} {:>12} {:>12}  {}\n", "column", "unit", "lowest", "highest", "taken as");
+  for (const recording::InspectedColumn& column : found.columns) {
+    const std::string_view channel = column.channel ? recording::name(*column.channel) : "";
+    const std::string taken = column.channel
+                                  ? fmt::format("{}{}: {}", channel, column.guessed ? ", a guess" : "", column.why)
+                              : column.why.empty() ? "not used"
+                                                   : "not used; " + column.why;
+    print_text(fmt::format("{:<24} {:<8} {:>12.5g} {:>12.5g}  {}\n", column.name,
+                           column.unit.empty() ? "?" : column.unit, column.lowest, column.highest, taken));
   }
+  print("\n");
+}
+
+void print_missing(const recording::Inspection& found) {
+  if (!found.missing.empty()) print("Needed and not found: {}\n", names_of(found.missing));
+  if (!found.helpful.empty()) {
+    print("Not found, and helpful: {} (voltage and oil temperature narrow the band; validate needs a flow)\n",
+          names_of(found.helpful));
+  }
+  std::vector<std::string> unused;
+  for (const recording::InspectedColumn& column : found.columns) {
+    if (!column.channel) unused.push_back(column.name);
+  }
+  if (!unused.empty()) print_text(fmt::format("Columns that are not used: {}\n", joined(unused)));
+  if (!found.missing.empty() || !found.helpful.empty() || !unused.empty()) print("\n");
+}
+
+void print_proposal(const recording::Inspection& found) {
+  print_columns(found);
+  print_missing(found);
+  if (found.proposal.sources.empty()) {
+    print("No column is known by its name or its numbers; write a channel map by hand (see docs/formats.md).\n");
+    return;
+  }
+  const std::string map = recording::written(found.proposal, found.remarks, found.missing);
+  const bool asks = map.find("\"?\"") != std::string::npos || !found.remarks.empty();
+  print_text(fmt::format("Proposed channel map ({}, then give it with --channels MAP.toml):\n\n{}",
+                         asks ? "fill in each \"?\" and check what is called a guess" : "check it",
+                         terminal_lines(map)));
 }
 
 /// `map`: the one that the file was read with; null: none.
 void print_text(const InspectArguments& arguments, const recording::ChannelMap* map,
                 const recording::Inspection& found) {
-  print("{}: {}, {} columns: {}\n", arguments.file, found.contents.format, found.contents.columns.size(),
-        joined(found.contents.columns));
+  print("{}: {}, {} columns: {}\n", arguments.file == "-" ? "standard input" : arguments.file, found.contents.format,
+        found.contents.columns.size(), joined(found.contents.columns));
   if (!found.channels.empty()) {
     print("{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
           found.end_s - found.begin_s, found.rate_Hz);
@@ -112,7 +155,7 @@ void print_text(const InspectArguments& arguments, const recording::ChannelMap* 
     print("\n");
   }
   if (map == nullptr) {
-    print_proposal(found.proposal);
+    print_proposal(found);
   } else if (const std::vector<std::string> columns = columns_left_out(*map, found); columns.empty()) {
     print("Read with {}, which names every column.\n", arguments.channels);
   } else {
@@ -123,6 +166,29 @@ void print_text(const InspectArguments& arguments, const recording::ChannelMap* 
 /// A number of JSON, which has none for NaN.
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+void print_names_json(const char* key, const std::vector<recording::Channel>& channels) {
+  print(" \"{}\": [", key);
+  for (const recording::Channel channel : channels)
+    print("{}\"{}\"", &channel == channels.data() ? "" : ", ", recording::name(channel));
+  print("],\n");
+}
+
+void print_column_json(const recording::Inspection& found) {
+  print(" \"raw_columns\": [");
+  for (const recording::InspectedColumn& column : found.columns) {
+    print(
+        "{}\n  {{\"column\": {}, \"unit\": {}, \"lowest\": {}, \"highest\": {}, \"channel\": {}, \"guessed\": {}, "
+        "\"why\": {}}}",
+        &column == found.columns.data() ? "" : ",", json_text(column.name), json_text(column.unit),
+        number(column.lowest), number(column.highest),
+        column.channel ? json_text(std::string(recording::name(*column.channel))) : "null", column.guessed,
+        json_text(column.why));
+  }
+  print("\n ],\n");
+  print_names_json("missing", found.missing);
+  print_names_json("helpful", found.helpful);
 }
 
 void print_json(const recording::Inspection& found) {
@@ -147,10 +213,14 @@ void print_json(const recording::Inspection& found) {
         &summary == found.channels.data() ? "" : ",", recording::name(summary.channel), unit.name,
         shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing, number(summary.clipped));
   }
-  print("\n ],\n \"proposed_channel_map\": {}\n}}\n", json_text(recording::written(found.proposal)));
+  print("\n ],\n");
+  print_column_json(found);
+  print(" \"proposed_channel_map\": {}\n}}\n",
+        json_text(recording::written(found.proposal, found.remarks, found.missing)));
 }
 
 void inspect(const InspectArguments& arguments) {
+  refuse_other_kinds("inspect", {{arguments.file, FileKind::recording}});
   recording::ReadOptions options;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
   if (arguments.stroke_mm > 0) options.stroke_m = units::m_from_mm(arguments.stroke_mm);
@@ -171,12 +241,15 @@ void inspect(const InspectArguments& arguments) {
 
 void add_inspect_command(CLI::App& program) {
   auto arguments = std::make_shared<InspectArguments>();
-  CLI::App* command =
-      add_command(program, {"inspect",
-                            "show what a recording holds and propose a channel map",
-                            "a recording: CSV (comma, semicolon or tab; decimal comma), MATLAB v5 or v7.3, HDF5",
-                            "on standard output: channels, units, rate, gaps, clipping, and a channel map to paste",
-                            {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml"}});
+  CLI::App* command = add_command(
+      program,
+      {"inspect",
+       "show what a recording holds and propose a channel map",
+       "a recording: CSV (comma, semicolon or tab; decimal comma; - for CSV from standard input), MATLAB v5 or v7.3, "
+       "HDF5",
+       "on standard output: channels, units, rate, gaps, clipping, what each column could be by its name and its "
+       "numbers, what is missing, and a channel map to paste",
+       {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml"}});
   command->add_option("file", arguments->file, "recording")->required();
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")

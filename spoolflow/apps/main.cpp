@@ -42,6 +42,7 @@ void add_commands(CLI::App& program) {
   add_account_command(program);
   add_worker_command(program);
   add_fleet_command(program);
+  add_completion_command(program);
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

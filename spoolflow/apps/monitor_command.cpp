@@ -12,6 +12,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/estimation/estimator.hpp"
@@ -123,6 +124,9 @@ void print_condition(const monitor::Watch& watch) {
 }  // namespace
 
 void monitor_recordings(const MonitorArguments& arguments) {
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
+  refuse_other_kinds("monitor", roles);
   const model::Model model = model::read_model(arguments.model);
   recording::ChannelMap channels;
   std::vector<std::filesystem::path> inputs{arguments.model};

@@ -1,12 +1,70 @@
 #include "spoolflow/apps/suggestion.hpp"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/nearest_name.hpp"
 
 namespace spoolflow::apps {
+namespace {
+
+std::optional<FileKind> kind_of(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  if (file.ends_with(".toml")) return FileKind::settings;
+  std::array<char, 512> beginning{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(beginning.data(), beginning.size());
+  std::string_view text(beginning.data(), static_cast<std::size_t>(in.gcount()));
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return std::nullopt;
+  if (text[first] == '{') return FileKind::model;
+  const std::string_view line = text.substr(first, text.find('\n', first) - first);
+  const bool maybe_settings =
+      line.starts_with('[') || line.starts_with('#') || line.find('=') != std::string_view::npos;
+  return maybe_settings ? std::nullopt : std::optional(FileKind::recording);
+}
+
+std::string_view name_of(FileKind kind) {
+  constexpr std::array<std::string_view, 3> names{"a model", "TOML", "a recording"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+void refuse_other_kinds(std::string_view command, const std::vector<Input>& inputs) {
+  std::vector<Input> ordered;  // by what each should be, as it is
+  const Input* wrong = nullptr;
+  FileKind found{};
+  for (const Input& input : inputs) {
+    const std::optional<FileKind> kind = kind_of(input.file);
+    ordered.push_back({input.file, kind.value_or(input.wanted), {}});
+    // A model that is no JSON has its own message, which tells where it is damaged.
+    const bool plain = kind && *kind != input.wanted && input.wanted != FileKind::model;
+    if (plain && wrong == nullptr) wrong = &input, found = *kind;
+  }
+  if (wrong == nullptr) return;
+  std::ranges::stable_sort(ordered, {}, &Input::wanted);
+  const bool only_swapped =
+      std::ranges::equal(ordered, inputs, {}, &Input::wanted, &Input::wanted) && inputs.size() > 1;
+  if (only_swapped) {
+    std::string line;
+    for (std::size_t k = 0; k < ordered.size(); ++k) line += fmt::format(" {}{}", inputs[k].option, ordered[k].file);
+    throw std::invalid_argument(fmt::format("{} is {}, and {} comes first: write spoolflow {}{}", wrong->file,
+                                            name_of(found), name_of(ordered.front().wanted), command, line));
+  }
+  throw std::invalid_argument(fmt::format("{}: is {}, where {} should be named; see spoolflow {} --help", wrong->file,
+                                          found == FileKind::model ? "JSON, as models are" : name_of(found),
+                                          name_of(wrong->wanted), command));
+}
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return {};

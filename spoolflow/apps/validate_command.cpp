@@ -10,6 +10,7 @@
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/report/json/metrics_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
@@ -23,6 +24,12 @@ std::vector<estimation::Estimator> chosen(const std::string& name, const model::
   if (name == "condensed") return {estimation::Estimator::condensed};
   if (name == "observer") return {estimation::Estimator::observer};
   return estimation::all_estimators(model);
+}
+
+void print_row(const std::string& run, estimation::Estimator estimator, const validation::GroupFigures& all,
+               double percent) {
+  print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run, estimation::name(estimator),
+        all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
 }
 
 void print_figures(const model::Model& model, const validation::Validation& validation) {
@@ -42,16 +49,24 @@ void print_figures(const model::Model& model, const validation::Validation& vali
         print("{:<24} {:<10} no reference flow\n", run.name, estimation::name(result.estimator));
         continue;
       }
-      const validation::GroupFigures& all = result.metrics->all;
-      print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run.name, estimation::name(result.estimator),
-            all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
+      print_row(run.name, result.estimator, result.metrics->all, percent);
     }
+  }
+  if (validation.runs.size() < 2) return;
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    if (pooled.metrics) print_row("all runs", pooled.estimator, pooled.metrics->all, percent);
+  }
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    if (pooled.by_sample) print_row("all samples", pooled.estimator, pooled.by_sample->all, percent);
   }
 }
 
 }  // namespace
 
 void validate(const ValidateArguments& arguments) {
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
+  refuse_other_kinds("validate", roles);
   const report::ReaderUnits units(arguments.units);
   const model::Model model = model::read_model(arguments.model);
   validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};

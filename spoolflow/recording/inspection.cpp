@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "spoolflow/numerics/median.hpp"
+#include "spoolflow/recording/column_survey.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
 
@@ -116,13 +117,72 @@ bool names_time(const FileContents& contents) {
   return false;
 }
 
+std::string how_known(const FileContents& contents, std::size_t column, Channel channel) {
+  const auto header = channel_header({contents.columns[column], contents.columns[column], contents.units[column]});
+  if (header && header->channel == channel) return "its own name";
+  return "by its name";
+}
+
+/// What every sensor needs.
+void find_missing(Inspection& out) {
+  const auto lacks = [&](Channel channel) { return !out.proposal.sources.contains(channel); };
+  const bool both_coils = !lacks(Channel::current_a) && !lacks(Channel::current_b);
+  for (const Channel channel : {Channel::time, Channel::current, Channel::position}) {
+    if (lacks(channel) && !(channel == Channel::current && both_coils)) out.missing.push_back(channel);
+  }
+  const bool both_voltages = !lacks(Channel::voltage_a) && !lacks(Channel::voltage_b);
+  if (lacks(Channel::voltage) && !both_voltages) out.helpful.push_back(Channel::voltage);
+  if (lacks(Channel::oil_temperature)) out.helpful.push_back(Channel::oil_temperature);
+  if (lacks(Channel::flow) && lacks(Channel::flow_reference)) out.helpful.push_back(Channel::flow_reference);
+}
+
+/// Guesses by data what names do not tell, and says of every column what it is taken for.
+void look_at_columns(Inspection& out, const RepeatedInput& input) {
+  const OpenTable open = open_sample_table(input.open(), CsvTable::Text::counted);
+  std::vector<SurveyedColumn> columns = survey_columns(*open.table);
+  for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
+  std::map<Channel, std::size_t> known;
+  for (const auto& [channel, source] : out.proposal.sources) {
+    const auto found = std::ranges::find(out.contents.columns, source.column);
+    known.emplace(channel, static_cast<std::size_t>(found - out.contents.columns.begin()));
+  }
+  const std::map<Channel, DataGuess> guesses = guess_by_data(columns, known);
+  for (const auto& [channel, guess] : guesses) {
+    const SurveyedColumn& column = columns[guess.column];
+    const auto unit = units::unit_named(column.unit);
+    const bool fits = unit && unit->dimension == dimension(channel);
+    out.proposal.sources.try_emplace(channel, ChannelSource{column.name, fits ? column.unit : "", 1.0, 0.0, {}});
+    out.remarks.emplace(channel, "a guess, check it: " + guess.why);
+    known.emplace(channel, guess.column);
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    InspectedColumn& each = out.columns.emplace_back();
+    each.name = columns[k].name, each.unit = columns[k].unit;
+    each.lowest = columns[k].lowest, each.highest = columns[k].highest;
+    const auto taken = std::ranges::find_if(known, [&](const auto& entry) { return entry.second == k; });
+    if (taken == known.end()) {
+      each.why = character_of(columns[k]);
+      continue;
+    }
+    each.channel = taken->first;
+    const auto guess = guesses.find(taken->first);
+    each.guessed = guess != guesses.end();
+    each.why = each.guessed ? guess->second.why : how_known(out.contents, k, taken->first);
+  }
+}
+
 }  // namespace
 
 Inspection inspect(const std::filesystem::path& file, const ReadOptions& options,
                    const std::function<void(std::optional<double>, std::uint64_t)>& progress) {
+  const RepeatedInput input(file);
   Inspection out;
-  out.contents = contents_of(file);
+  out.contents = contents_of(input.open());
   out.proposal = propose_channels(out.contents);
+  if (options.channels.sources.empty()) {
+    look_at_columns(out, input);
+    find_missing(out);
+  }
   if (options.channels.sources.empty() && !has_own_names(out.contents)) return out;
   ReadOptions channels = options;
   if (options.channels.sources.empty() && !names_time(out.contents)) {  // the other channels have their own names
@@ -130,7 +190,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
     if (time == out.proposal.sources.end() || time->second.unit.empty()) return out;
     channels.channels = known_units(out.proposal);
   }
-  const auto reader = open_reader(file, channels);
+  const auto reader = open_reader(input.open(), channels);
   std::array<Follower, channel_count> followers;
   Steps steps;
   SampleBlock block;

@@ -2,6 +2,8 @@
 /// What a recording holds, before anything is made of it.
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,15 @@ struct Gap {
   double from_s, to_s;
 };
 
+/// A column of the file, and what it is taken for.
+struct InspectedColumn {
+  std::string name, unit;          ///< unit: as the file states it; empty where it does not
+  double lowest, highest;          ///< in that unit; NaN without numbers
+  std::optional<Channel> channel;  ///< nothing: not used
+  std::string why;                 ///< of a channel how that is known, else what the column could be
+  bool guessed = false;            ///< by its numbers alone
+};
+
 struct Inspection {
   FileContents contents;
   std::uint64_t samples = 0;
@@ -30,11 +41,16 @@ struct Inspection {
   std::uint64_t gap_count = 0;
   std::vector<Gap> gaps;  ///< the first ten: time steps of more than three times the median
   std::vector<ChannelSummary> channels;
-  ChannelMap proposal;
+  ChannelMap proposal;                     ///< by names, then by numbers
+  std::map<Channel, std::string> remarks;  ///< of channels of the proposal that are guesses
+  std::vector<InspectedColumn> columns;    ///< in the file's order; none where a channel map was given
+  std::vector<Channel> missing;            ///< that every sensor needs, and the proposal lacks
+  std::vector<Channel> helpful;            ///< likewise, without which the answer is worse or cannot be judged
 };
 
-/// Reads the channels that `options` or the headers name; memory does not grow with the recording. Where no channel can
-/// be told, only contents and proposal are filled. Throws RecordingError as reading does.
+/// "-" is standard input, of which a copy is kept on disk while it is read more than once. Reads the channels that
+/// `options` or the headers name; memory does not grow with the recording. Where no channel can be told, only contents
+/// and proposal are filled. Throws RecordingError as reading does.
 [[nodiscard]] Inspection inspect(const std::filesystem::path& file, const ReadOptions& options,
                                  const std::function<void(std::optional<double>, std::uint64_t)>& progress);
 

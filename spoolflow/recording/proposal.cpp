@@ -79,6 +79,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 22> plain_le
 struct NameParts {
   std::string word;
   std::string unit;
+  bool capital = false;  ///< begins with a capital letter
 };
 
 std::string letters_of(std::string_view text) {
@@ -100,7 +101,7 @@ NameParts parts_of(std::string name, const std::string& told_unit) {
   const std::size_t bracket = name.find_first_of("[(");
   const std::size_t last = name.substr(0, bracket).find_last_of("./");  // the last part of a struct or group path
   if (last != std::string::npos && last + 1 < std::min(bracket, name.size())) name.erase(0, last + 1);
-  NameParts out{"", told_unit};
+  NameParts out{"", told_unit, !name.empty() && std::isupper(static_cast<unsigned char>(name.front())) != 0};
   const std::size_t open = name.find_first_of("[(");
   if (open != std::string::npos) {
     if (out.unit.empty()) out.unit = split_brackets(name).unit;
@@ -145,22 +146,31 @@ bool may_have(Channel channel, const std::string& unit_name) {
 ChannelMap propose_channels(const FileContents& contents) {
   ChannelMap out;
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    if (const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]})) {
+    if (const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]}))
       out.sources.try_emplace(header->channel, ChannelSource{contents.columns[k], header->unit, 1.0, 0.0, {}});
-      continue;
-    }
-    const NameParts parts = parts_of(contents.columns[k], contents.units[k]);
-    for (const Words& entry : vocabulary) {
-      if (!names_it(entry, parts.word)) continue;
-      if (!may_have(entry.channel, parts.unit)) continue;
-      out.sources.try_emplace(entry.channel, ChannelSource{contents.columns[k], parts.unit, 1.0, 0.0, {}});
-      break;
+  }
+  for (const bool with_unit : {true, false}) {
+    for (std::size_t k = 0; k < contents.columns.size(); ++k) {
+      const std::string& column = contents.columns[k];
+      const bool taken =
+          std::ranges::any_of(out.sources, [&](const auto& entry) { return entry.second.column == column; });
+      if (taken || channel_header({column, column, contents.units[k]})) continue;
+      const NameParts parts = parts_of(column, contents.units[k]);
+      if (parts.unit.empty() == with_unit) continue;
+      for (const Words& entry : vocabulary) {
+        if (!names_it(entry, parts.word) || !may_have(entry.channel, parts.unit)) continue;
+        if (parts.word == "t" && parts.unit.empty() && parts.capital != (entry.channel == Channel::oil_temperature))
+          continue;
+        out.sources.try_emplace(entry.channel, ChannelSource{column, parts.unit, 1.0, 0.0, {}});
+        break;
+      }
     }
   }
   return out;
 }
 
-std::string written(const ChannelMap& map) {
+std::string written(const ChannelMap& map, const std::map<Channel, std::string>& remarks,
+                    const std::vector<Channel>& missing) {
   std::string out = "[channels]\n";
   for (const auto& [channel, source] : map.sources) {
     std::string column;
@@ -179,11 +189,20 @@ std::string written(const ChannelMap& map) {
     if (channel != Channel::test) out += fmt::format(", unit = \"{}\"", source.unit.empty() ? "?" : source.unit);
     if (raw_signal) out += ", scale = 1.0, offset = 0.0, to = \"?\"";
     out += " }";
+    std::string remark;
+    if (const auto told = remarks.find(channel); told != remarks.end()) remark = told->second;
     if (source.unit.empty() && channel != Channel::test) {
-      out += fmt::format("  # fill in the unit: {}", listed(unit_names(channel)));
+      remark += fmt::format("{}fill in the unit: {}", remark.empty() ? "" : "; ", listed(unit_names(channel)));
     }
+    std::ranges::replace_if(
+        remark, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+    if (!remark.empty()) out += "  # " + remark;
     if (raw_signal) out += "  # a sensor signal: value = scale * raw + offset, in `to`";
     out += '\n';
+  }
+  for (const Channel channel : missing) {
+    out += fmt::format("# {} = {{ column = \"?\", unit = \"{}\" }}  # needed, and not found in the file\n",
+                       name(channel), unit_names(channel).front());
   }
   return out;
 }

@@ -140,7 +140,11 @@ class ChannelReader final : public Reader {
 }  // namespace
 
 FileContents contents_of(const std::filesystem::path& file) {
-  const OpenTable open = open_sample_table(file);
+  return contents_of(std::make_unique<InputBytes>(file));
+}
+
+FileContents contents_of(std::unique_ptr<InputBytes> input) {
+  const OpenTable open = open_sample_table(std::move(input));
   FileContents out{std::string(name(open.format)), {}, {}};
   for (const FileColumn& column : open.table->columns()) {
     out.columns.push_back(column.name);

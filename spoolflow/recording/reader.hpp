@@ -61,6 +61,7 @@ struct FileContents {
   std::vector<std::string> units;  ///< as a units row or an attribute says; empty where nothing does
 };
 [[nodiscard]] FileContents contents_of(const std::filesystem::path& file);
+[[nodiscard]] FileContents contents_of(std::unique_ptr<InputBytes> input);
 
 /// The whole file at once.
 [[nodiscard]] Recording read_recording(const std::filesystem::path& file, const ReadOptions& options);

@@ -67,6 +67,7 @@ WorstMoment worst_moment(const RunSamples& run, const Phases& phases, const Answ
                   .pressure_difference_Pa = {},
                   .moving = phases.moving[at],
                   .rest = phases.rest[at],
+                  .velocity_m_per_s = phases.velocity_m_per_s[at],
                   .status = {},
                   .reference_m3_per_s = thinned(time_s, part(run.reference_m3_per_s, begin, end), drawn_stretches / 2),
                   .band_m3_per_s = thinned_band(time_s, part(answers.lower_m3_per_s, begin, end),
@@ -193,15 +194,17 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
   if (!run.pressure_difference_Pa.empty()) {
     result.pressure_difference_line_Pa = thinned(run.time_s, run.pressure_difference_Pa, drawn_stretches);
   }
-  const Phases phases = run.position_set.empty() ? phases_of_position(run.time_s, run.position_m, valve.stroke_m)
-                                                 : phases_of_command(run.time_s, run.position_set);
-  result.phases_from_measured_position = phases.from_measured_position;
+  const Phases phases = phases_of_position(run.time_s, run.position_m, valve.stroke_m);
   if (result.has_reference) {
     result.reference_meter = options.reference_lag_s ? numerics::MeterLag{.lag_s = *options.reference_lag_s}
                                                      : meter_lag(run, run.answers.back());
   }
   if (result.has_reference && options.apply_reference_lag) {
     for (Answers& answers : run.answers) apply_lag(run.time_s, answers, result.reference_meter);
+  }
+  if (result.has_reference) {
+    result.reference_scale =
+        reference_scale(run.answers.back().flow_m3_per_s, run.reference_m3_per_s, valve.rated_flow_m3_per_s);
   }
   for (const Answers& answers : run.answers) {
     EstimatorResult& each = result.results.emplace_back();

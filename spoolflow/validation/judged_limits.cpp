@@ -107,15 +107,15 @@ class Judge {
 
  private:
   [[nodiscard]] std::optional<double> fault_share(estimation::Estimator estimator) const {
-    double samples = 0;
-    double faulty = 0;
+    double runs = 0;
+    double share = 0;
     for (const RunResult& run : validation_.runs) {
-      if (run.calibrated_with) continue;
-      samples += static_cast<double>(run.samples);
-      faulty += static_cast<double>(run.samples) * result_of(run, estimator).fault_share;
+      if (run.calibrated_with || run.samples == 0) continue;
+      share += result_of(run, estimator).fault_share;
+      ++runs;
     }
-    if (samples == 0) return std::nullopt;
-    return faulty / samples;
+    if (runs == 0) return std::nullopt;
+    return share / runs;
   }
   [[nodiscard]] JudgedLimit judged(const Limit& limit, const std::string& run, estimation::Estimator estimator,
                                    std::optional<double> value) const {

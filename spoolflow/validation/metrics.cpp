@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace spoolflow::validation {
 namespace {
@@ -34,6 +35,34 @@ ErrorFigures error_figures(std::vector<float> errors) {
   return out;
 }
 
+ErrorFigures error_figures_of_runs(const std::vector<std::vector<float>>& runs) {
+  ErrorFigures out;
+  double counted = 0;
+  std::vector<std::pair<float, float>> weighed;  // magnitude, weight
+  for (const std::vector<float>& errors : runs) {
+    if (errors.empty()) continue;
+    const ErrorFigures each = error_figures(errors);
+    out.samples += each.samples;
+    out.bias += each.bias;
+    out.rms += each.rms * each.rms;
+    out.largest = std::max(out.largest, each.largest);
+    const auto weight = 1 / static_cast<float>(each.samples);
+    for (const float error : errors) weighed.emplace_back(std::abs(error), weight);
+    ++counted;
+  }
+  if (counted == 0) return out;
+  out.bias /= counted;
+  out.rms = std::sqrt(out.rms / counted);
+  std::sort(weighed.begin(), weighed.end());
+  double below = 0;
+  for (const auto& [magnitude, weight] : weighed) {
+    out.p95 = magnitude;
+    below += weight;
+    if (below > 0.95 * counted) break;
+  }
+  return out;
+}
+
 void ComparedSamples::add(const ComparedSample& sample) {
   const double error = sample.estimate_m3_per_s - sample.reference_m3_per_s;
   const bool inside =
@@ -49,6 +78,10 @@ void ComparedSamples::add(const ComparedSample& sample) {
 }
 
 void ComparedSamples::append(const ComparedSamples& others) {
+  if (!bits_.empty()) {
+    ends_.push_back(bits_.size());
+    ends_of_reading_.push_back(share_of_reading_.size());
+  }
   const auto add_all = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   add_all(error_m3_per_s_, others.error_m3_per_s_);
   add_all(width_m3_per_s_, others.width_m3_per_s_);
@@ -56,33 +89,53 @@ void ComparedSamples::append(const ComparedSamples& others) {
   add_all(share_of_reading_, others.share_of_reading_);
 }
 
-GroupFigures ComparedSamples::group(std::uint8_t bit) const {
+GroupFigures ComparedSamples::group(std::uint8_t bit, Weigh weigh) const {
   GroupFigures out;
-  std::vector<float> errors;
+  std::vector<std::vector<float>> runs(1);
   std::size_t inside = 0;
-  double width_m3_per_s = 0;
+  double width_m3_per_s = 0, counted = 0;
+  const auto end_run = [&] {
+    if (runs.back().empty()) return;
+    const auto n = static_cast<double>(runs.back().size());
+    out.band_coverage += static_cast<double>(inside) / n;
+    out.band_mean_width_m3_per_s += width_m3_per_s / n;
+    ++counted;
+    inside = 0, width_m3_per_s = 0;
+    runs.emplace_back();
+  };
+  std::size_t run = 0;
   for (std::size_t k = 0; k < bits_.size(); ++k) {
+    if (weigh == Weigh::runs && run < ends_.size() && k == ends_[run]) end_run(), ++run;
     if ((bits_[k] & bit) == 0) continue;
-    errors.push_back(error_m3_per_s_[k]);
+    runs.back().push_back(error_m3_per_s_[k]);
     width_m3_per_s += width_m3_per_s_[k];
     inside += (bits_[k] & inside_bit) != 0 ? 1 : 0;
   }
-  if (errors.empty()) return out;
-  const auto n = static_cast<double>(errors.size());
-  out.band_coverage = static_cast<double>(inside) / n;
-  out.band_mean_width_m3_per_s = width_m3_per_s / n;
-  out.error = error_figures(std::move(errors));
+  end_run();
+  if (counted == 0) return out;
+  out.band_coverage /= counted;
+  out.band_mean_width_m3_per_s /= counted;
+  out.error = weigh == Weigh::runs ? error_figures_of_runs(runs) : error_figures(std::move(runs.front()));
   return out;
 }
 
-Metrics ComparedSamples::metrics() const {
-  return {group(any_bit),
-          group(moving_bit),
-          group(rest_bit),
-          group(reversal_bit),
-          group(p_to_b_bit),
-          group(p_to_a_bit),
-          error_figures(share_of_reading_)};
+ErrorFigures ComparedSamples::reading(Weigh weigh) const {
+  if (weigh == Weigh::samples) return error_figures(share_of_reading_);
+  std::vector<std::vector<float>> runs;
+  std::size_t begin = 0;
+  const auto add_until = [&](std::size_t end) {
+    runs.emplace_back(share_of_reading_.begin() + static_cast<std::ptrdiff_t>(begin),
+                      share_of_reading_.begin() + static_cast<std::ptrdiff_t>(end));
+    begin = end;
+  };
+  for (const std::size_t end : ends_of_reading_) add_until(end);
+  add_until(share_of_reading_.size());
+  return error_figures_of_runs(runs);
+}
+
+Metrics ComparedSamples::metrics(Weigh weigh) const {
+  return {group(any_bit, weigh),    group(moving_bit, weigh), group(rest_bit, weigh), group(reversal_bit, weigh),
+          group(p_to_b_bit, weigh), group(p_to_a_bit, weigh), reading(weigh)};
 }
 
 }  // namespace spoolflow::validation

@@ -13,14 +13,18 @@ struct Phases {
   std::vector<bool> opening;  ///< of the moving samples: away from the centre; the others close
   std::vector<bool> rest;
   std::vector<bool> reversal;
-  bool from_measured_position = false;  ///< no position_set was recorded
+  std::vector<float> velocity_m_per_s;  ///< of the spool; below 1 % of the stroke a second 0: noise has no direction
 };
 
-/// From the commanded position as a share of the stroke. A turn is where its rate changes sign, or where the motion
-/// starts or stops above half of the stroke.
+/// From the commanded position as a share of the stroke, for rigs whose command is exact; recordings are judged by the
+/// measured position. A turn is where the rate changes sign, or where the motion starts or stops above half of the
+/// stroke. No velocity.
 [[nodiscard]] Phases phases_of_command(std::span<const double> time_s, std::span<const double> position_set);
-/// From the measured position: its rate over half a second around each sample (not causal; a judge may look ahead).
-/// A change of direction with less than half a second of rest in between is a turn as well. Missing positions are held.
+/// From the measured position, whatever was commanded. Fast motion is told from means over 20 ms before and after each
+/// sample (longer than a period of dither, > 10 % of the stroke a second and five standard deviations of the noise),
+/// slow motion from what fast motion leaves, over half a second (not causal; a judge may look ahead). A turn is where
+/// the rate changes sign, with at most half a second of rest in between, or where the motion starts or stops above half
+/// of the stroke. Missing positions are held.
 [[nodiscard]] Phases phases_of_position(std::span<const double> time_s, std::span<const double> position_m,
                                         double stroke_m);
 

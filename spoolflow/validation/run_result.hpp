@@ -13,6 +13,7 @@
 #include "spoolflow/validation/error_profile.hpp"
 #include "spoolflow/validation/frequency_response.hpp"
 #include "spoolflow/validation/metrics.hpp"
+#include "spoolflow/validation/reference_scale.hpp"
 #include "spoolflow/validation/run_trace.hpp"
 #include "spoolflow/validation/status_timeline.hpp"
 #include "spoolflow/validation/step_response.hpp"
@@ -32,6 +33,7 @@ struct WorstMoment {
   double position_m;
   std::optional<double> pressure_difference_Pa;
   bool moving, rest;
+  double velocity_m_per_s;  ///< of the spool; 0 unless it moves
   std::vector<std::string> status;
   Line reference_m3_per_s;
   Ribbon band_m3_per_s;
@@ -85,15 +87,15 @@ struct SolenoidPoint {
 };
 
 struct RunResult {
-  numerics::MeterLag reference_meter;  ///< as given, or as the run shows it beside the leading estimator
-  std::string name;                    ///< file name without its ending
+  numerics::MeterLag reference_meter;             ///< as given, or as the run shows it beside the leading estimator
+  std::optional<ReferenceScale> reference_scale;  ///< beside the leading estimator; told, never applied
+  std::string name;                               ///< file name without its ending
   std::string file;
   std::string sha256;            ///< empty for standard input
   bool calibrated_with = false;  ///< the model names this very file among its inputs
   std::uint64_t samples = 0, duplicate_times = 0, missing_values = 0;
   double duration_s = 0;
   bool has_reference = false;
-  bool phases_from_measured_position = false;
   std::optional<Extent> current_A, position_m, oil_temperature_K, pressure_difference_Pa, reference_m3_per_s;
   Line reference_line_m3_per_s, position_line_m, pressure_difference_line_Pa;
   RunTrace trace;

@@ -43,14 +43,24 @@ RunName name_of(const model::Model& model, const std::filesystem::path& recordin
   return result;
 }
 
+PooledResult pooled_result(Pool pool, estimation::Estimator estimator) {
+  PooledResult out{.estimator = estimator, .metrics = {}, .by_sample = {}, .profiles = std::move(pool.profiles)};
+  if (pool.samples.size() == 0) return out;
+  out.metrics = pool.samples.metrics(Weigh::runs);
+  out.by_sample = pool.samples.metrics(Weigh::samples);
+  out.direction = std::move(pool.direction);
+  out.sign = pool.sign;
+  return out;
+}
+
 /// `before`: the runs that came before it.
 void add_doubts(RunResult& result, const std::vector<RunResult>& before, const std::vector<consistency::Doubt>& found) {
   for (const consistency::Doubt& doubt : found) result.doubts.push_back(doubt.text);
   const auto same = std::ranges::find_if(
       before, [&](const RunResult& run) { return !result.sha256.empty() && run.sha256 == result.sha256; });
   if (same != before.end()) {
-    result.doubts.push_back(
-        fmt::format("{}: the same run as {}, byte for byte; it counts twice", result.file, same->file));
+    const auto [first, second] = std::minmax(result.file, same->file);
+    result.doubts.push_back(fmt::format("{}: the same run as {}, byte for byte; it counts twice", second, first));
   }
 }
 
@@ -102,13 +112,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
   }
   if (!lags_s.empty()) out.reference_lag_s = numerics::median(std::move(lags_s));
   for (std::size_t e = 0; e < pools.size(); ++e) {
-    PooledResult& pooled = out.pooled.emplace_back();
-    pooled.estimator = options.estimators[e];
-    pooled.profiles = std::move(pools[e].profiles);
-    if (pools[e].samples.size() == 0) continue;
-    pooled.metrics = pools[e].samples.metrics();
-    pooled.direction = std::move(pools[e].direction);
-    pooled.sign = pools[e].sign;
+    out.pooled.push_back(pooled_result(std::move(pools[e]), options.estimators[e]));
   }
   if (options.requirements) {
     out.requirements_file = options.requirements->file;

@@ -24,7 +24,8 @@ struct ValidationOptions {
 /// One estimator over all runs with reference flow together.
 struct PooledResult {
   estimation::Estimator estimator;
-  std::optional<Metrics> metrics;
+  std::optional<Metrics> metrics;      ///< each run weighs alike
+  std::optional<Metrics> by_sample;    ///< each sample weighs alike
   std::vector<ErrorProfile> profiles;  ///< one for each of `quantities`
   std::optional<DirectionProfile> direction = {};
   std::optional<SignFigures> sign = {};  ///< of a whole valve

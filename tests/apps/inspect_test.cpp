@@ -1,6 +1,8 @@
 /// What `inspect` says of channel maps.
+#include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +34,59 @@ TEST_F(Inspect, WithAMapTellsWhatItLeavesOutInsteadOfProposingOne) {
   EXPECT_EQ(answer.status, 0) << answer.message;
   EXPECT_THAT(answer.output, HasSubstr("Read with map.toml; columns that it does not name: remark\n"));
   EXPECT_THAT(answer.output, Not(HasSubstr("Proposed channel map")));
+}
+
+/// Names that say nothing: time, position 12 ms after the current, voltage, oil temperature, current, a spare input.
+std::string nameless_run() {
+  std::string out = "n;A1;A2;A3;A4;A5\n";
+  const auto current_A = [](int k) { return 1.2 + 0.5 * std::sin(0.004 * k) + 0.2 * std::sin(0.031 * k); };
+  for (int k = 0; k < 3000; ++k) {
+    out += fmt::format("{:.3f};{:.4f};{:.3f};{:.2f};{:.4f};7\n", 1e-3 * k, 0.9 * current_A(k - 12),
+                       3.4 * current_A(k) + 0.3 * std::cos(0.031 * k), 45 + 0.001 * k, current_A(k));
+  }
+  return out;
+}
+
+TEST_F(Inspect, GuessesFromTheNumbersWhereNamesSayNothing) {
+  write("lab.csv", nameless_run());
+  const std::string output = run("inspect lab.csv").output;
+  EXPECT_THAT(output, HasSubstr("time = { column = \"n\", unit = \"?\" }  # a guess, check it: it rises with every"));
+  EXPECT_THAT(output,
+              HasSubstr("current = { column = \"A4\", unit = \"?\" }  # a guess, check it: it rises 12 samples"));
+  EXPECT_THAT(output, HasSubstr("position = { column = \"A1\""));
+  EXPECT_THAT(output, HasSubstr("voltage = { column = \"A2\""));
+  EXPECT_THAT(output, HasSubstr("oil_temperature = { column = \"A3\""));
+  EXPECT_THAT(output, HasSubstr("Columns that are not used: A5"));
+}
+
+TEST_F(Inspect, OfAPipeSaysWhatItSaysOfTheFile) {
+  write("lab.csv", nameless_run());
+  const std::string of_file = run("inspect lab.csv").output;
+  const Answer piped = run("inspect - -q < /dev/null");
+  EXPECT_EQ(piped.status, 2);
+  std::string of_pipe;
+  {
+    const Answer answer = run("--version > /dev/null; cat lab.csv | '" SPOOLFLOW_COMMAND "' inspect -");
+    EXPECT_EQ(answer.status, 0) << answer.message;
+    of_pipe = answer.output;
+  }
+  EXPECT_EQ(of_pipe.substr(of_pipe.find(':')), of_file.substr(of_file.find(':')));
+}
+
+TEST_F(Inspect, NamesWhatEverySensorNeedsAndTheFileLacks) {
+  write("rig.csv", "t [s];I [A];p9 [bar]\n0;1;60\n0.001;1.1;60\n0.002;1.2;61\n");
+  const std::string output = run("inspect rig.csv").output;
+  EXPECT_THAT(output, HasSubstr("Needed and not found: position\n"));
+  EXPECT_THAT(output,
+              HasSubstr("# position = { column = \"?\", unit = \"mm\" }  # needed, and not found in the file\n"));
+  EXPECT_THAT(output, HasSubstr("Columns that are not used: p9 [bar]\n"));
+}
+
+TEST_F(Inspect, TakesACapitalTForATemperatureAndASmallOneForTime) {
+  write("rig.csv", "log/T;log/t_us;log/I;log/x\n50;0;1;1\n50;1000;1;1\n50;2000;1;1\n");
+  const std::string output = run("inspect rig.csv").output;
+  EXPECT_THAT(output, HasSubstr("time = { column = \"log/t_us\", unit = \"us\" }"));
+  EXPECT_THAT(output, HasSubstr("oil_temperature = { column = \"log/T\""));
 }
 
 }  // namespace

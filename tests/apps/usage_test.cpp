@@ -119,5 +119,31 @@ TEST(Usage, EndsLikeOtherProgramsWhenNobodyReadsOn) {
   EXPECT_THAT(answer.message, IsEmpty());
 }
 
+/// What bash offers for the last of `words`.
+std::string completed(const std::string& words) {
+  const std::string shell = "bash -c 'eval \"$(\"" SPOOLFLOW_COMMAND "\" completion bash)\"; COMP_WORDS=(spoolflow " +
+                            words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _spoolflow; echo \"${COMPREPLY[@]}\"'";
+  return spoolflow("--version > /dev/null; " + shell).output;
+}
+
+TEST(Completion, OffersCommandsThenOptionsAndLeavesFilesToTheShell) {
+  EXPECT_EQ(completed("esti"), "estimate\n");
+  EXPECT_EQ(completed("estimate --ch"), "--channels\n");
+  EXPECT_EQ(completed("validate model.json --fail"), "--fail-unmet\n");
+  EXPECT_EQ(completed("help insp"), "inspect\n");
+  EXPECT_EQ(completed("completion f"), "fish\n");
+  EXPECT_EQ(completed("estimate model"), "\n") << "files are the shell\'s own";
+}
+
+TEST(Completion, OfEveryShellNamesEveryCommandAndOfNoOtherShellIsRefused) {
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const Answer answer = spoolflow(std::string("completion ") + shell);
+    EXPECT_EQ(answer.status, 0);
+    for (const char* command : {"inspect", "calibrate", "estimate", "validate", "fleet"})
+      EXPECT_NE(answer.output.find(command), std::string::npos) << shell << ' ' << command;
+  }
+  EXPECT_EQ(spoolflow("completion tcsh").status, 2);
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

@@ -1,6 +1,8 @@
 #include "spoolflow/validation/phases.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -35,7 +37,6 @@ struct Triangle {
 TEST(Phases, OfACommandAreMotionHoldAndTheSecondsAroundEachTurn) {
   const Triangle triangle;
   const Phases phases = phases_of_command(triangle.time_s, triangle.share);
-  EXPECT_FALSE(phases.from_measured_position);
   EXPECT_TRUE(phases.moving[triangle.at(10)]);
   EXPECT_FALSE(phases.rest[triangle.at(10)]);
   EXPECT_TRUE(phases.rest[triangle.at(22)]);
@@ -71,7 +72,6 @@ TEST(Phases, OfANoisyMeasuredPositionAreThoseOfTheCommandButForTheEdges) {
   for (const double share : triangle.share) position_m.push_back(share * whole_stroke_m + noise_m(generator));
   const Phases commanded = phases_of_command(triangle.time_s, triangle.share);
   const Phases measured = phases_of_position(triangle.time_s, position_m, whole_stroke_m);
-  EXPECT_TRUE(measured.from_measured_position);
   int different = 0;
   for (std::size_t k = 0; k < position_m.size(); ++k) {
     different += measured.moving[k] != commanded.moving[k] || measured.reversal[k] != commanded.reversal[k] ? 1 : 0;
@@ -94,6 +94,40 @@ TEST(Phases, OfASpoolThatOnlyShakesByNoiseAreRest) {
     EXPECT_TRUE(phases.rest[k]) << k;
     EXPECT_FALSE(phases.reversal[k]) << k;
   }
+}
+
+TEST(Phases, OfASpoolThatStepsMoveWhileItMovesAndNotASampleMore) {
+  constexpr double begins_s = 1, ends_s = 1.02, travel_m = 1e-3;  // 50 mm/s
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise_m(0, 1e-6);
+  std::vector<double> time_s, position_m;
+  for (int k = 0; k < 2000; ++k) {
+    time_s.push_back(k * 1e-3);
+    const double gone = std::clamp((time_s.back() - begins_s) / (ends_s - begins_s), 0.0, 1.0);
+    position_m.push_back(0.5e-3 + travel_m * gone + noise_m(generator));
+  }
+  const Phases phases = phases_of_position(time_s, position_m, whole_stroke_m);
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    const bool inside = time_s[k] > begins_s && time_s[k] < ends_s;
+    const bool beside = time_s[k] < begins_s - 0.021 || time_s[k] > ends_s + 0.021;  // half a window
+    if (inside || beside) {
+      EXPECT_EQ(phases.moving[k], inside) << time_s[k];
+    }
+  }
+  EXPECT_NEAR(phases.velocity_m_per_s[1010], 0.05, 0.02) << "a mean over 40 ms";
+  EXPECT_EQ(phases.velocity_m_per_s[500], 0);
+}
+
+TEST(Phases, OfADitheredSpoolAreThoseOfItsMean) {
+  std::vector<double> time_s, position_m;
+  for (int k = 0; k < 4000; ++k) {
+    time_s.push_back(k * 1e-3);
+    const double mean_m = time_s.back() < 2 ? 1e-3 : 1e-3 + 0.1e-3 * (time_s.back() - 2);  // 5 % of the stroke a second
+    position_m.push_back(mean_m + 5e-6 * std::sin(2 * std::numbers::pi * 100 * time_s.back()));
+  }
+  const Phases phases = phases_of_position(time_s, position_m, whole_stroke_m);
+  for (std::size_t k = 20; k < 1700; ++k) EXPECT_TRUE(phases.rest[k]) << k;  // a period and more on either side
+  for (std::size_t k = 2300; k < 3700; ++k) EXPECT_TRUE(phases.moving[k]) << k;
 }
 
 TEST(Phases, SurviveMissingPositionsGapsAndASingleSample) {

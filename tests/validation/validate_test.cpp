@@ -1,6 +1,7 @@
 /// Whole recordings through the sensor: with and without a reference, with gaps, of one sample.
 #include "spoolflow/validation/validate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -54,7 +55,6 @@ TEST_F(Validate, AReferenceThatIsOffByAKnownFlowGivesThatError) {
   EXPECT_EQ(result.samples, 100U);
   EXPECT_NEAR(result.duration_s, 0.99, 1e-9);
   EXPECT_EQ(result.sha256.size(), 64U);
-  EXPECT_TRUE(result.phases_from_measured_position);
   ASSERT_TRUE(result.results.front().metrics);
   EXPECT_NEAR(result.results.front().metrics->all.error.p95, 3 / 60e3, 1e-8);
   EXPECT_NEAR(result.results.front().metrics->all.error.bias, 3 / 60e3, 1e-8);
@@ -121,6 +121,49 @@ TEST_F(Validate, PoolsTheRunsThatHaveAReference) {
   EXPECT_NEAR(validation.pooled.front().metrics->all.error.largest, 2 / 60e3, 1e-8);
 }
 
+TEST_F(Validate, CountsEveryRunAlikeHoweverLongItIs) {
+  const auto text_of = [&](int samples, double less_L_min) {
+    std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n";
+    for (int k = 0; k < samples; ++k) text += number(k * 0.01) + ",1.5,1," + number(flow_L_min - less_L_min) + "\n";
+    return text;
+  };
+  const Validation validation = run({write("long.csv", text_of(980, 1)), write("short.csv", text_of(20, 5))});
+  const PooledResult& pooled = validation.pooled.front();
+  EXPECT_NEAR(pooled.by_sample->all.error.p95 * 60e3, 1, 1e-3) << "the short run's are 2 % of the samples";
+  EXPECT_NEAR(pooled.metrics->all.error.p95 * 60e3, 5, 1e-3) << "and half of the runs";
+  EXPECT_NEAR(pooled.metrics->all.error.bias * 60e3, 3, 1e-3);
+  EXPECT_NEAR(pooled.metrics->all.error.rms * 60e3, std::sqrt(13), 1e-3);
+  EXPECT_EQ(pooled.metrics->all.error.samples, 1000U);
+}
+
+TEST_F(Validate, TellsMotionFromTheSpoolWhateverWasCommanded) {
+  std::string text = "time_s,current_A,position_mm,position_set_percent,flow_reference_L_min\n";
+  for (int k = 0; k < 2000; ++k) {  // the command stands; the spool steps by 1 mm in 20 ms, and the meter errs then
+    const double gone = std::clamp((k - 1000) / 20.0, 0.0, 1.0);
+    text += number(k * 1e-3) + ",1.5," + number(0.8 + gone) + ",41.7," +
+            number(k == 1010 ? -40.0 : 60 * std::sqrt(20.0 / 50)) + "\n";
+  }
+  const WorstMoment worst = *run({write("step.csv", text)}).runs.front().results.front().worst;
+  EXPECT_NEAR(worst.time_s, 1.010, 1e-9);
+  EXPECT_TRUE(worst.moving);
+  EXPECT_GT(worst.velocity_m_per_s, 0.01);
+}
+
+TEST_F(Validate, TellsTheReferencesScaleAndZeroAndAppliesNeither) {
+  std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n";
+  for (int k = 0; k < 4000; ++k) {
+    const double current_A = 1.5 + 0.5 * std::sin(0.01 * k), flow = 60 * std::sqrt((current_A * 20 - 10) / 50);
+    text +=
+        number(k * 0.01) + "," + number(current_A) + ",1," + number(1.1 * flow + 2 + 0.2 * std::sin(0.37 * k)) + "\n";
+  }
+  const RunResult result = run({write("run.csv", text)}).runs.front();
+  ASSERT_TRUE(result.reference_scale);
+  EXPECT_NEAR(result.reference_scale->scale, 1.1, 4 * result.reference_scale->scale_uncertainty + 1e-3);
+  EXPECT_NEAR(result.reference_scale->offset_m3_per_s * 60e3, 2, 0.1);
+  EXPECT_LT(result.reference_scale->scale_uncertainty, 0.01);
+  EXPECT_LT(result.results.front().metrics->all.error.bias * 60e3, -4) << "raw, as compared";
+}
+
 TEST_F(Validate, SkipsSamplesWhoseReferenceIsMissingAndStillEstimatesThem) {
   const std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n0,1.5,1," + number(flow_L_min) +
                            "\n0.01,1.5,1,\n0.02,1.5,1," + number(flow_L_min) + "\n";
@@ -143,7 +186,6 @@ TEST_F(Validate, TellsTheWorstMoment) {
   EXPECT_TRUE(worst.rest);
   EXPECT_NEAR(worst.reference_m3_per_s.time_s.front(), 5.5, 0.011);
   EXPECT_NEAR(worst.reference_m3_per_s.time_s.back(), 8.5, 0.011);
-  EXPECT_FALSE(result.phases_from_measured_position);
 }
 
 TEST_F(Validate, AppliesTheMetersLagToTheEstimateOnRequest) {

@@ -1,6 +1,7 @@
 #include "spoolflow/recording/files/input_bytes.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
 #include <poll.h>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -81,6 +83,43 @@ std::size_t InputBytes::read_some(char* out, std::size_t room) {
     if (errno == EBADF) throw RecordingError(fmt::format("{}: cannot be read: it is closed", name_));
     throw std::runtime_error(fmt::format("{}: reading failed after {} bytes: {}", name_, position_, reason(errno)));
   }
+}
+
+RepeatedInput::RepeatedInput(std::filesystem::path file) : file_(std::move(file)) {
+  if (file_ != "-") return;
+  std::string name = (std::filesystem::temp_directory_path() / "spoolflow-input-XXXXXX").string();
+  copy_ = ::mkostemp(name.data(), O_CLOEXEC);
+  if (copy_ >= 0) ::unlink(name.c_str());
+  InputBytes input("-");
+  std::vector<char> bytes(std::size_t{1} << 16);
+  for (std::size_t got = 1; got > 0;) {
+    got = input.read_some(bytes.data(), bytes.size());
+    for (std::size_t done = 0; done < got;) {
+      const ::ssize_t now = copy_ < 0 ? -1 : ::write(copy_, bytes.data() + done, got - done);
+      if (now >= 0) {
+        done += static_cast<std::size_t>(now);
+      } else if (copy_ < 0 || errno != EINTR) {
+        const int error = errno;
+        if (copy_ >= 0) ::close(copy_);
+        throw std::runtime_error(fmt::format("standard input: no copy of it can be kept in {}: {}; save it as a file",
+                                             std::filesystem::temp_directory_path().string(), reason(error)));
+      }
+    }
+  }
+}
+
+RepeatedInput::~RepeatedInput() {
+  if (copy_ >= 0) ::close(copy_);
+}
+
+std::unique_ptr<InputBytes> RepeatedInput::open() const {
+  if (copy_ < 0) return std::make_unique<InputBytes>(file_);
+  const int again = ::open(fmt::format("/proc/self/fd/{}", copy_).c_str(), O_RDONLY | O_CLOEXEC);
+  if (again < 0) {
+    throw std::runtime_error(
+        fmt::format("standard input: its copy cannot be opened: {}; save it as a file", reason(errno)));
+  }
+  return std::make_unique<InputBytes>(again, "standard input", nullptr);
 }
 
 }  // namespace spoolflow::recording

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -41,6 +42,23 @@ class InputBytes {
   std::function<bool()> given_up_;
   std::optional<std::uint64_t> size_;
   std::uint64_t position_ = 0;
+};
+
+/// A file, or what comes through standard input ("-"), opened as often as needed: of the latter a copy is kept in a
+/// nameless file on disk. Throws std::runtime_error where there is no room for it.
+class RepeatedInput {
+ public:
+  explicit RepeatedInput(std::filesystem::path file);
+  ~RepeatedInput();
+  RepeatedInput(const RepeatedInput&) = delete;
+  RepeatedInput& operator=(const RepeatedInput&) = delete;
+
+  /// From the first byte on.
+  [[nodiscard]] std::unique_ptr<InputBytes> open() const;
+
+ private:
+  std::filesystem::path file_;
+  int copy_ = -1;
 };
 
 }  // namespace spoolflow::recording

@@ -25,6 +25,8 @@ class SampleTable {
   virtual ~SampleTable() = default;
 
   [[nodiscard]] virtual const std::vector<FileColumn>& columns() const = 0;
+  /// Samples of a column where columns may differ in that; nothing where all rows have all columns.
+  [[nodiscard]] virtual std::optional<std::uint64_t> samples_of(std::size_t) const { return std::nullopt; }
   /// What the file holds but is not read, with its remedy, for messages about missing channels; empty: nothing.
   [[nodiscard]] virtual std::string unread() const { return {}; }
   /// Chooses the columns that read() fills, by index, each at most once. Once, before the first read().

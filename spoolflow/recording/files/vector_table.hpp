@@ -21,6 +21,7 @@ class VectorTable : public SampleTable {
   std::size_t read(std::span<double* const> out, std::size_t rows) final;
   [[nodiscard]] std::string place(std::size_t row) const final;
   [[nodiscard]] std::optional<double> progress() const final;
+  [[nodiscard]] std::optional<std::uint64_t> samples_of(std::size_t column) const final { return lengths_[column]; }
   /// Samples of the column.
   [[nodiscard]] std::uint64_t length(std::size_t column) const { return lengths_[column]; }
   /// Copies `count` numbers from `first` on; the format's own slab may be larger. Throws RecordingError.

@@ -102,6 +102,7 @@ Json MetricsJson::estimator(const validation::EstimatorResult& result) const {
                     {"error", flow(result.worst->error_m3_per_s)},
                     {"position_mm", units::mm_from_m(result.worst->position_m)},
                     {"phase", result.worst->moving ? "moving" : (result.worst->rest ? "rest" : "closed")},
+                    {"velocity_mm_s", units::mm_from_m(result.worst->velocity_m_per_s)},
                     {"status", result.worst->status}};
     if (result.worst->pressure_difference_Pa) {
       out["worst"]["pressure_difference_bar"] = units::bar_from_Pa(*result.worst->pressure_difference_Pa);
@@ -179,10 +180,16 @@ Json MetricsJson::run(const validation::RunResult& run) const {
            {"duplicate_times", run.duplicate_times},
            {"has_reference", run.has_reference},
            {"also_calibrated_with", run.calibrated_with},
-           {"phases_from", run.phases_from_measured_position ? "position" : "position_set"},
            {"estimators", Json::array()}};
   for (const validation::EstimatorResult& result : run.results) out["estimators"].push_back(estimator(result));
   if (run.step_response) out["step_response"] = steps(*run.step_response);
+  if (run.reference_scale) {
+    const validation::ReferenceScale& found = *run.reference_scale;
+    out["reference_scale"] = {{"scale", found.scale},
+                              {"scale_uncertainty", found.scale_uncertainty},
+                              {"offset", flow(found.offset_m3_per_s)},
+                              {"offset_uncertainty", flow(found.offset_uncertainty_m3_per_s)}};
+  }
   if (!run.doubts.empty()) out["doubts"] = run.doubts;
   return out;
 }
@@ -190,6 +197,7 @@ Json MetricsJson::run(const validation::RunResult& run) const {
 Json MetricsJson::pooled(const validation::PooledResult& pooled) const {
   Json out{{"estimator", estimation::name(pooled.estimator)}};
   if (pooled.metrics) add_metrics(out, *pooled.metrics);
+  if (pooled.by_sample) add_metrics(out["by_sample"], *pooled.by_sample);
   out["error_over"] = profiles(pooled.profiles);
   if (pooled.direction) add_directions(out, *pooled.direction);
   if (pooled.sign) out["sign"] = sign(*pooled.sign);

@@ -117,6 +117,12 @@ HtmlTable results_table(const validation::Validation& validation, double full_sc
     table.row(result_cells(first ? "<b>all runs</b>" : "", pooled.estimator, *pooled.metrics, percent, longest), first);
     first = false;
   }
+  first = true;
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    if (!pooled.by_sample) continue;
+    table.row(result_cells(first ? "all samples" : "", pooled.estimator, *pooled.by_sample, percent, longest), first);
+    first = false;
+  }
   return table;
 }
 
@@ -145,6 +151,8 @@ HtmlTable all_figures_table(const validation::Validation& validation, double ful
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (!pooled.metrics || validation.runs.size() < 2) continue;
     add_all_figures(table, "<b>all runs</b>", estimator_cell(pooled.estimator), *pooled.metrics, percent);
+    if (!pooled.by_sample) continue;
+    add_all_figures(table, "all samples", estimator_cell(pooled.estimator), *pooled.by_sample, percent);
   }
   return table;
 }

@@ -157,14 +157,19 @@ CaptionedFigure worst_moment_figure(const validation::RunResult& run, double ful
            .x_title = "Time",
            .x_quantity = units::Kind::time,
            .panels = {std::move(panel)}},
-          phrase("The {}'s largest error: {} % FS at {}, {}, {}{}. Status then: {}.", text(leading.estimator),
+          phrase("The {}'s largest error: {} % FS at {}, {}, {}{}. Status then: {}{}.", text(leading.estimator),
                  signed_fixed(100 * worst.error_m3_per_s / full_scale_m3_per_s, 1), fixed(units::time(worst.time_s), 2),
-                 worst.moving ? "in motion" : (worst.rest ? "at rest" : "closed"),
+                 worst.moving
+                     ? fmt::format("the spool moving at {} mm/s", three_digits(1e3 * std::abs(worst.velocity_m_per_s)))
+                     : "the spool at rest",
                  worst.position_m < 0 ? phrase("at {}", fixed(units::length(worst.position_m), 2))
                                       : phrase("{} open", fixed(units::length(worst.position_m), 2)),
                  worst.pressure_difference_Pa ? phrase(", {}", fixed(units::pressure(*worst.pressure_difference_Pa), 0))
                                               : Text(),
-                 status.empty() ? "none" : status),
+                 status.empty() ? "none" : status,
+                 worst.moving && std::ranges::count(worst.status, "spool_at_rest") > 0
+                     ? ", though it moved: the sensor took friction to hold it"
+                     : ""),
           {}};
 }
 

@@ -41,7 +41,7 @@ void show_tiles(HtmlPage& page, const validation::Validation& validation, double
   for (std::size_t e = validation.pooled.size(); e-- > 0;) {
     const validation::PooledResult& pooled = validation.pooled[e];
     tile(page, fixed(pooled.metrics->all.error.p95 * percent, 1) + " % FS",
-         fmt::format("95 % of the {}'s errors below, all runs", sensor_name(pooled.estimator)));
+         fmt::format("95 % of the {}'s errors below, all runs weighing alike", sensor_name(pooled.estimator)));
   }
   tile(page, fixed(leading.metrics->all.error.largest * percent, 0) + " % FS",
        fmt::format("largest error of the {}", sensor_name(leading.estimator)));
@@ -58,16 +58,26 @@ std::string run_facts(const validation::RunResult& run) {
   if (run.missing_values > 0) out += fmt::format("; {} values missing", run.missing_values);
   if (run.duplicate_times > 0) out += fmt::format("; {} repeated time stamps", run.duplicate_times);
   if (!run.has_reference) out += "; no reference flow: estimation only";
-  if (run.phases_from_measured_position) {
-    out += "; the commanded position was not recorded: motion and rest are told from the measured one";
-  }
   if (run.calibrated_with) out += "; also an input of the calibration";
   return out + ".";
 }
 
+/// How the reference's scale and zero stand to the estimate.
+Text reference_text(const validation::RunResult& run) {
+  if (!run.reference_scale) return {};
+  const validation::ReferenceScale& found = *run.reference_scale;
+  return phrase(
+      " The reference reads {} \u00b1 {} times the estimate {} {} \u00b1 {} (95 %); this is told, not applied.",
+      fixed(found.scale, 3), fixed(2 * found.scale_uncertainty, 3), found.offset_m3_per_s < 0 ? "less" : "plus",
+      bare(fixed(units::flow(std::abs(found.offset_m3_per_s)), 2)),
+      fixed(units::flow(2 * found.offset_uncertainty_m3_per_s), 2));
+}
+
 void show_run(HtmlPage& page, const validation::RunResult& run, double full_scale_m3_per_s) {
   page.section("Run " + run.name);
-  page.note(run_facts(run));
+  Text facts = run_facts(run);
+  facts += reference_text(run);
+  page.note(facts);
   if (run.samples == 0) return;
   page.figure(run_figure(run, full_scale_m3_per_s));
   std::vector<CaptionedFigure> details;
@@ -99,8 +109,12 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
       "tenth of full scale.",
       three_digits(units::flow(full_scale_m3_per_s))));
   page.paragraph(
-      "Moving: commanded faster than 1 % of the stroke a second. At rest: not moving, and more than 1 % open. Around "
-      "reversal: within 2 s of a change of direction, or of a start or stop above half of the stroke.");
+      "Moving: the spool itself, by its measured position, goes faster than 1 % of the stroke a second, whatever was "
+      "commanded. At rest: not moving, and more than 1 % open. Around reversal: within 2 s of a change of direction, "
+      "or of a start or stop above half of the stroke.");
+  page.paragraph(
+      "Of several runs together each run weighs alike, however long it is, in the verdict and in what requirements "
+      "ask of all runs; \u201call samples\u201d is the same with each sample weighing alike.");
   page.paragraph(fmt::format("The reference meter lags by {} ms (first order; {}). The estimate was {}.",
                              fixed(1e3 * validation.reference_lag_s, 0), meters(validation),
                              validation.reference_lag_applied

@@ -3,16 +3,39 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
-#include "spoolflow/model/residual_of.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 
 namespace spoolflow::report {
 namespace {
 
 using validation::Quantity;
+
+/// What is said of the figures, the most harmful first.
+enum class Harm {
+  doubt,  ///< the data contradict physics
+  lasting_fault,
+  wrong_sign,
+  narrow_band,    ///< the band promises more than it holds
+  off_reference,  ///< scale or zero of reference and estimate differ
+  where_worst,    ///< in motion, at rest, in some part of the range
+  outside,        ///< of what was calibrated
+  brief_fault,
+  no_test,  ///< runs that the calibration knows
+  wide_band,
+  none,
+};
+
+/// A sentence of the verdict; of the same harm the larger share comes first, then the text decides: the order of the
+/// arguments does not.
+struct Remark {
+  Harm harm;
+  double share;
+  Text text;
+};
 
 /// Figures of one validation in words.
 class Judge {
@@ -28,14 +51,17 @@ class Judge {
   [[nodiscard]] const validation::PooledResult& leading() const { return validation_.pooled.back(); }
   [[nodiscard]] std::string leading_name() const { return std::string(estimation::name(leading().estimator)); }
   [[nodiscard]] const validation::RunResult* run_of_largest_error() const;
-  void add_phases(std::vector<Text>& out) const;
-  void add_sign(std::vector<Text>& out) const;
-  void add_worst_bins(std::vector<Text>& out) const;
-  /// `grave`: faults that last; they come first.
-  void add_status(std::vector<Text>& out, bool grave) const;
-  void add_band(std::vector<Text>& out) const;
-  void add_bands_of_runs(std::vector<Text>& out) const;
-  void add_known_runs(std::vector<Text>& out) const;
+  [[nodiscard]] bool counts(const validation::RunResult& run) const {
+    return !run.calibrated_with || !validation_.held_out;
+  }
+  void add_phases(std::vector<Remark>& out) const;
+  void add_sign(std::vector<Remark>& out) const;
+  void add_worst_bins(std::vector<Remark>& out) const;
+  void add_status(std::vector<Remark>& out) const;
+  void add_references(std::vector<Remark>& out) const;
+  void add_band(std::vector<Remark>& out) const;
+  void add_bands_of_runs(std::vector<Remark>& out) const;
+  void add_known_runs(std::vector<Remark>& out) const;
 
   const validation::Validation& validation_;
   double percent_;
@@ -45,9 +71,11 @@ const validation::RunResult* Judge::run_of_largest_error() const {
   const validation::RunResult* out = nullptr;
   double largest = -1;
   for (const validation::RunResult& run : validation_.runs) {
-    if (run.calibrated_with && validation_.held_out) continue;
+    if (!counts(run)) continue;
     const auto& worst = run.results.back().worst;
-    if (worst && std::abs(worst->error_m3_per_s) > largest) largest = std::abs(worst->error_m3_per_s), out = &run;
+    if (!worst) continue;
+    const double error = std::abs(worst->error_m3_per_s);
+    if (error > largest || (error == largest && run.name < out->name)) largest = error, out = &run;
   }
   return out;
 }
@@ -67,29 +95,37 @@ Text Judge::sentence() const {
     out += fmt::format(", those of the {} sensor within {}", estimation::name(validation_.pooled.front().estimator),
                        percent(validation_.pooled.front().metrics->all.error.p95));
   }
+  const auto counted = std::ranges::count_if(
+      validation_.runs, [&](const validation::RunResult& run) { return counts(run) && run.results.back().metrics; });
+  if (counted > 1 && leading().by_sample) {
+    out += fmt::format("; every run weighs alike in this, were every sample to, it would be {}",
+                       percent(leading().by_sample->all.error.p95));
+  }
   const validation::RunResult* run = run_of_largest_error();
   out += fmt::format(". The largest error is {}{}.", percent(error.largest),
                      validation_.runs.size() > 1 && run != nullptr ? ", in " + run->name : "");
   return out;
 }
 
-void Judge::add_phases(std::vector<Text>& out) const {
+void Judge::add_phases(std::vector<Remark>& out) const {
   const validation::Metrics& metrics = *leading().metrics;
   const validation::ErrorFigures& rest = metrics.rest.error;
   const validation::ErrorFigures& moving = metrics.moving.error;
   if (rest.samples > 0 && moving.samples > 0 && rest.p95 > 1.15 * moving.p95) {
-    out.emplace_back(
-        fmt::format("At rest 95 % of the errors lie within {}, in motion within {}: friction at rest lies "
-                    "anywhere within its limits, and the force does not tell where.",
-                    percent(rest.p95), percent(moving.p95)));
+    out.push_back({Harm::where_worst, rest.p95,
+                   fmt::format("At rest 95 % of the errors lie within {}, in motion within {}: friction at rest lies "
+                               "anywhere within its limits, and the force does not tell where.",
+                               percent(rest.p95), percent(moving.p95))});
   } else if (rest.samples > 0 && moving.samples > 0 && moving.p95 > 1.15 * rest.p95) {
-    out.emplace_back(fmt::format("In motion 95 % of the errors lie within {}, at rest within {}.", percent(moving.p95),
-                                 percent(rest.p95)));
+    out.push_back({Harm::where_worst, moving.p95,
+                   fmt::format("In motion 95 % of the errors lie within {}, at rest within {}.", percent(moving.p95),
+                               percent(rest.p95))});
   }
   const validation::ErrorFigures& reversal = metrics.reversal.error;
   if (reversal.samples > 0 && reversal.p95 > 1.15 * metrics.all.error.p95) {
-    out.emplace_back(fmt::format("Around reversals and stops, where friction changes its sign, 95 % lie within {}.",
-                                 percent(reversal.p95)));
+    out.push_back({Harm::where_worst, reversal.p95,
+                   fmt::format("Around reversals and stops, where friction changes its sign, 95 % lie within {}.",
+                               percent(reversal.p95))});
   }
 }
 
@@ -111,7 +147,7 @@ Text place(Quantity quantity, const validation::ProfileBin& bin, bool whole) {
   return between("oil temperatures", units::Kind::temperature, 1);
 }
 
-void Judge::add_worst_bins(std::vector<Text>& out) const {
+void Judge::add_worst_bins(std::vector<Remark>& out) const {
   double worst = 1.3 * leading().metrics->all.error.p95;
   Text text;
   for (std::size_t q = 0; q < validation::quantities.size(); ++q) {
@@ -124,10 +160,10 @@ void Judge::add_worst_bins(std::vector<Text>& out) const {
                     place(validation::quantities[q], bin, leading().sign.has_value()), percent(bin.p95_m3_per_s));
     }
   }
-  if (!text.empty()) out.push_back(text);
+  if (!text.empty()) out.push_back({Harm::where_worst, worst, text});
 }
 
-void Judge::add_sign(std::vector<Text>& out) const {
+void Judge::add_sign(std::vector<Remark>& out) const {
   if (!leading().sign || leading().sign->samples == 0) return;
   const validation::SignFigures& sign = *leading().sign;
   Text text =
@@ -140,35 +176,59 @@ void Judge::add_sign(std::vector<Text>& out) const {
           : Text(fmt::format("; it is called undetermined in {} %, with flow rates of up to {} of full scale.",
                              fixed(100 * static_cast<double>(sign.undetermined) / static_cast<double>(sign.samples), 2),
                              percent(sign.undetermined_largest_m3_per_s)));
-  out.push_back(text);
+  out.push_back({sign.wrong == 0 ? Harm::none : Harm::wrong_sign, 0, text});
 }
 
-void Judge::add_status(std::vector<Text>& out, bool grave) const {
+void Judge::add_status(std::vector<Remark>& out) const {
   for (const validation::RunResult& run : validation_.runs) {
     for (const validation::StatusRow& status : run.results.back().status) {
-      const bool told = status.fault || (status.name.starts_with("outside") && status.share > 0.05);
-      constexpr double grave_share = 0.05;
-      if (!told || grave != (status.fault && status.share > grave_share)) continue;
-      constexpr double least_share = 5e-5;  // of what two decimals tell
+      if (!status.fault && !(status.name.starts_with("outside") && status.share > 0.05)) continue;
+      constexpr double lasting_share = 0.05, least_share = 5e-5;  // the latter: of what two decimals tell
       const std::string percent =
           status.share < least_share ? "less than 0.01" : fixed(100 * status.share, status.share < 0.01 ? 2 : 0);
-      out.emplace_back(fmt::format("{}: {} for {} % of the time. {}", run.name, status.name, percent, status.meaning));
+      const Harm harm = !status.fault                  ? Harm::outside
+                        : status.share > lasting_share ? Harm::lasting_fault
+                                                       : Harm::brief_fault;
+      out.push_back({harm, status.share,
+                     fmt::format("{}: {} for {} % of the time. {}", run.name, status.name, percent, status.meaning)});
     }
   }
 }
 
-void Judge::add_band(std::vector<Text>& out) const {
+void Judge::add_references(std::vector<Remark>& out) const {
+  constexpr double least_scale = 0.03, least_offset = 0.02;  // the latter: of full scale
+  for (const validation::RunResult& run : validation_.runs) {
+    if (!run.reference_scale) continue;
+    const validation::ReferenceScale& found = *run.reference_scale;
+    const double off = std::abs(found.scale - 1), offset = found.offset_m3_per_s * percent_ / 100;
+    constexpr double surely = 3;  // standard uncertainties
+    const bool scaled = off > std::max(least_scale, surely * found.scale_uncertainty);
+    const bool shifted =
+        std::abs(found.offset_m3_per_s) > surely * found.offset_uncertainty_m3_per_s && std::abs(offset) > least_offset;
+    if (!scaled && !shifted) continue;
+    out.push_back(
+        {Harm::off_reference, std::max(off, std::abs(offset)),
+         fmt::format("{}: the reference reads {} \u00b1 {} times the estimate {} {} \u00b1 {} FS (95 %). Look "
+                     "at the meter's factor and zero; nothing of it was applied.",
+                     run.name, fixed(found.scale, 3), fixed(2 * found.scale_uncertainty, 3),
+                     offset < 0 ? "less" : "plus", fixed(100 * std::abs(offset), 1),
+                     percent(2 * found.offset_uncertainty_m3_per_s))});
+  }
+}
+
+void Judge::add_band(std::vector<Remark>& out) const {
   const validation::GroupFigures& all = leading().metrics->all;
   const char* judgement = all.band_coverage < 0.93   ? "too narrow"
                           : all.band_coverage > 0.99 ? "wider than it need be"
                                                      : "about as wide as it should be";
-  out.emplace_back(fmt::format("The 95 % band holds {} % of the samples, {} % FS wide on average: {}.",
-                               fixed(100 * all.band_coverage, 1), fixed(all.band_mean_width_m3_per_s * percent_, 1),
-                               judgement));
+  out.push_back(
+      {all.band_coverage < 0.93 ? Harm::narrow_band : Harm::wide_band, 1,
+       fmt::format("The 95 % band holds {} % of the samples, {} % FS wide on average: {}.",
+                   fixed(100 * all.band_coverage, 1), fixed(all.band_mean_width_m3_per_s * percent_, 1), judgement)});
   add_bands_of_runs(out);
 }
 
-void Judge::add_bands_of_runs(std::vector<Text>& out) const {
+void Judge::add_bands_of_runs(std::vector<Remark>& out) const {
   constexpr double least_coverage = 0.92, most_coverage = 0.99, most_widths = 8;
   std::map<std::string, std::string> narrow, wide;  // by name, whatever the order of the arguments
   for (const validation::RunResult& run : validation_.runs) {
@@ -180,66 +240,50 @@ void Judge::add_bands_of_runs(std::vector<Text>& out) const {
     if (all.band_coverage > most_coverage && all.band_mean_width_m3_per_s > most_widths * all.error.rms)
       wide[run.name] = share;
   }
-  const auto tell = [&](const std::map<std::string, std::string>& runs, const char* how) {
+  const auto tell = [&](const std::map<std::string, std::string>& runs, const char* how, Harm harm) {
     std::string names;
     for (const auto& [name, share] : runs) names += (names.empty() ? "" : ", ") + share;
-    if (!names.empty()) out.emplace_back(fmt::format("The band is too {} on {}.", how, names));
+    if (!names.empty()) out.push_back({harm, 0, fmt::format("The band is too {} on {}.", how, names)});
   };
-  tell(narrow, "narrow");
-  tell(wide, "wide");
+  tell(narrow, "narrow", Harm::narrow_band);
+  tell(wide, "wide", Harm::wide_band);
 }
 
-void Judge::add_known_runs(std::vector<Text>& out) const {
-  std::string names;
+void Judge::add_known_runs(std::vector<Remark>& out) const {
+  std::vector<std::string> known;
   for (const validation::RunResult& run : validation_.runs) {
-    if (run.calibrated_with) names += (names.empty() ? "" : ", ") + run.name;
+    if (run.calibrated_with) known.push_back(run.name);
   }
-  if (names.empty()) return;
-  out.emplace_back("Also an input of the calibration, so no independent test" +
-                   std::string(validation_.held_out ? " and not counted: " : ": ") + names + ".");
+  if (known.empty()) return;
+  std::ranges::sort(known);
+  std::string names;
+  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+  out.push_back({Harm::no_test, 0,
+                 "Also an input of the calibration, so no independent test" +
+                     std::string(validation_.held_out ? " and not counted: " : ": ") + names + "."});
 }
 
 std::vector<Text> Judge::limits() const {
-  std::vector<Text> out;
+  std::vector<Remark> remarks;
   for (const validation::RunResult& run : validation_.runs) {
-    for (const std::string& doubt : run.doubts) out.emplace_back("Doubt: " + doubt + ".");
+    for (const std::string& doubt : run.doubts) remarks.push_back({Harm::doubt, 0, Text("Doubt: " + doubt + ".")});
   }
-  const std::size_t doubts = out.size();
-  add_status(out, true);
-  if (!leading().metrics) {
-    add_status(out, false);
-  } else {
-    add_sign(out);
-    add_phases(out);
-    add_worst_bins(out);
-    add_band(out);
-    add_known_runs(out);
-    add_status(out, false);
+  add_status(remarks);
+  if (leading().metrics) {
+    add_sign(remarks);
+    add_phases(remarks);
+    add_worst_bins(remarks);
+    add_references(remarks);
+    add_band(remarks);
+    add_known_runs(remarks);
   }
-  const std::size_t most = doubts + (leading().sign ? 8 : 7);
-  if (out.size() > most) out.resize(most);
-  return out;
-}
-
-Text residual_text(const model::Model& model, std::string_view of) {
-  for (const model::Residual& residual : model.condensed.residuals) {
-    if (residual.of != of) continue;
-    const std::optional<units::Kind> kind = units::kind_in(residual.unit);
-    return kind ? Text(three_digits(units::Quantity{*kind, residual.rms}))
-                : Text(three_digits(residual.rms) + " " + residual.unit);
-  }
-  return "an unknown residual";
-}
-
-/// Of both directions.
-Verdict whole_calibration_verdict(const model::Model& model) {
-  Verdict out;
-  out.sentence = "The whole valve: both directions of flow in one model.";
-  for (const char* direction : {"b", "a"}) {
-    Verdict of_one = calibration_verdict(model::of_direction(model, direction));
-    const char* const flow = *direction == 'a' ? "Flow P to A" : "Flow P to B";
-    out.limits.push_back(phrase("{}: {}", flow, of_one.sentence));
-    for (const Text& limit : of_one.limits) out.limits.push_back(phrase("{}: {}", flow, limit));
+  const auto rank = [](const Remark& remark) { return std::tuple(remark.harm, -remark.share, remark.text.str()); };
+  std::ranges::sort(remarks, {}, rank);
+  constexpr std::size_t most = 8;
+  std::vector<Text> out;
+  for (Remark& remark : remarks) {  // what promises too much is always told, and runs that are no test
+    if (remark.harm > Harm::narrow_band && remark.harm != Harm::no_test && out.size() >= most) continue;
+    out.push_back(std::move(remark.text));
   }
   return out;
 }
@@ -249,35 +293,6 @@ Verdict whole_calibration_verdict(const model::Model& model) {
 Verdict verdict(const model::Model& model, const validation::Validation& validation) {
   const Judge judge(model, validation);
   return {judge.sentence(), judge.limits()};
-}
-
-Verdict calibration_verdict(const model::Model& model) {
-  if (model.whole()) return whole_calibration_verdict(model);
-  const model::Condensed& condensed = model.condensed;
-  Verdict out;
-  out.sentence = phrase(
-      "Calibrated {} from {} to {} and up to {}. The maps give the bench's forces back to {} (magnetic) and {} "
-      "(axial), its flow to {} RMS.",
-      model.observer ? "for the observer and the condensed sensor" : "for the condensed sensor",
-      bare(fixed(units::pressure(condensed.pressure_difference_Pa.lower), 0)),
-      fixed(units::pressure(condensed.pressure_difference_Pa.upper), 0),
-      fixed(units::current(condensed.current_A.upper), 2), residual_text(model, model::of_magnetic_force),
-      residual_text(model, model::of_axial_force), residual_text(model, model::of_flow_rate));
-  const model::Uniqueness& uniqueness = model.evidence.uniqueness;
-  out.limits.push_back(phrase("Below {} of opening the flow force does not tell the flow.",
-                              fixed(units::length(uniqueness.blind_below_m), 2)));
-  out.limits.push_back(
-      uniqueness.ambiguous_at_m.empty()
-          ? Text("Nowhere does a higher pressure difference pull less: each force means one flow rate.")
-          : phrase("At {} positions a higher pressure difference pulls less, the first at {}: there one force "
-                   "means several flow rates.",
-                   uniqueness.ambiguous_at_m.size(), fixed(units::length(uniqueness.ambiguous_at_m.front()), 2)));
-  if (model.observer && !model.observer->defaults.empty()) {
-    std::string names;
-    for (const std::string& name : model.observer->defaults) names += (names.empty() ? "" : ", ") + name;
-    out.limits.emplace_back("Assumed, because no recording of the campaign shows it: " + names + ".");
-  }
-  return out;
 }
 
 }  // namespace spoolflow::report

@@ -1,5 +1,6 @@
 #include "spoolflow/report/validation/validation_report.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -18,6 +19,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::Property;
+using ::testing::StartsWith;
 
 constexpr double full_scale = 80 / 60000.0;
 
@@ -151,6 +153,51 @@ TEST(Verdict, DoesNotBlameRestWhereItIsNoWorse) {
 
 TEST(Verdict, WithoutReferenceSaysThatTheErrorCannotBeTold) {
   EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence.str(), HasSubstr("cannot be told"));
+}
+
+TEST(Verdict, OrdersItsRemarksByHarmWhateverTheOrderOfTheRuns) {
+  validation::Validation validation = one_run(1000, 5);
+  validation.runs.front().results.back().status = {{"coil_fault", "Look.", true, 0.001, {}}};
+  const auto add = [&](const char* name) -> validation::RunResult& {
+    validation.runs.push_back(validation.runs.front());
+    validation.runs.back().name = name;
+    return validation.runs.back();
+  };
+  add("lasts").results.back().status = {{"position_fault", "Look.", true, 0.2, {}}};
+  add("longer").results.back().status = {{"position_fault", "Look.", true, 0.6, {}}};
+  add("beyond").results.back().status = {{"outside_force_map", "Answered at its edge.", false, 0.3, {}}};
+  add("doubted").doubts = {"run.csv: position looks reversed"};
+  add("scaled").reference_scale = validation::ReferenceScale{1.07, 0.005, 0, 1e-6};
+  const Verdict said = verdict(small_model(), validation);
+  ASSERT_GE(said.limits.size(), 7U);
+  const std::vector<std::string> starts{"Doubt: run.csv", "longer: position_fault", "lasts: position_fault",
+                                        "scaled: the reference reads 1.070", "At rest"};
+  for (std::size_t k = 0; k < starts.size(); ++k) EXPECT_THAT(said.limits[k].str(), StartsWith(starts[k]));
+  std::ranges::reverse(validation.runs);
+  const Verdict turned = verdict(small_model(), validation);
+  EXPECT_EQ(turned.sentence.str(), said.sentence.str());
+  ASSERT_EQ(turned.limits.size(), said.limits.size());
+  for (std::size_t k = 0; k < said.limits.size(); ++k) EXPECT_EQ(turned.limits[k].str(), said.limits[k].str());
+}
+
+TEST(Verdict, SaysWhatItWouldBeWereEverySampleToWeighAlike) {
+  validation::Validation validation = one_run(1000, 5);
+  validation.runs.push_back(validation.runs.front());
+  validation.pooled.front().by_sample = validation.pooled.front().metrics;
+  validation.pooled.front().by_sample->all.error.p95 = 0.08 * full_scale;
+  EXPECT_THAT(verdict(small_model(), validation).sentence.str(),
+              HasSubstr("every run weighs alike in this, were every sample to, it would be 8.0 %"));
+}
+
+TEST(ValidationReport, NeverCallsASpoolClosedOrAtRestWhereItMoves) {
+  validation::Validation validation = one_run(1000, 5);
+  validation::WorstMoment& worst = *validation.runs.front().results.front().worst;
+  worst.status = {"spool_at_rest"};
+  EXPECT_THAT(page_of(validation), HasSubstr("the spool at rest, "));
+  worst.moving = true;
+  worst.velocity_m_per_s = -0.05;
+  EXPECT_THAT(page_of(validation),
+              HasSubstr("the spool moving at 50.0 mm/s, 0.00 mm open. Status then: spool_at_rest, though it moved"));
 }
 
 TEST(CalibrationReport, IsOneWellFormedPage) {

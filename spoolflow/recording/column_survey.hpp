@@ -1,0 +1,42 @@
+#pragma once
+/// A file's columns by their numbers, whatever they are called: what a column could be by how it moves.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/files/open_table.hpp"
+
+namespace spoolflow::recording {
+
+/// A column as the file holds it: in its own unit, whatever that is.
+struct SurveyedColumn {
+  std::string name, unit;           ///< unit: as the file states it; empty where it does not
+  double lowest = 0, highest = 0;   ///< NaN without numbers
+  std::uint64_t samples = 0;        ///< numbers
+  bool rises = false;               ///< each number lies above the one before
+  std::vector<double> beginning{};  ///< at most 20,000 samples; NaN where one is missing
+};
+
+/// Reads every column, of files with several lengths those of the most frequent one (the others: no samples). At most
+/// 64 columns. Throws RecordingError as reading does.
+[[nodiscard]] std::vector<SurveyedColumn> survey_columns(SampleTable& table);
+
+struct DataGuess {
+  std::size_t column;
+  std::string why;  ///< "it rises before 'weg' does"
+};
+
+/// For those channels of time, current, voltage, position and oil temperature that `known` (channel to column) lacks,
+/// the column among those that are not known which behaves like it: time rises with every sample; the current rises
+/// before the position does; the voltage goes along with the current, not after it; an oil temperature drifts slowly
+/// between 5 and 120 degC or 278 and 393 K. None where no column does. The unit of a column, where stated, must fit.
+[[nodiscard]] std::map<Channel, DataGuess> guess_by_data(const std::vector<SurveyedColumn>& columns,
+                                                         std::map<Channel, std::size_t> known);
+
+/// What else a column could be, in words; empty where nothing can be said: "stands still", "could be a pressure in
+/// bar".
+[[nodiscard]] std::string character_of(const SurveyedColumn& column);
+
+}  // namespace spoolflow::recording
