@@ -93,8 +93,8 @@ void print_columns(const recording::Inspection& found) {
                                   ? fmt::format("{}{}: {}", channel, column.guessed ? ", a guess" : "", column.why)
                               : column.why.empty() ? "not used"
                                                    : "not used; " + column.why;
-    print_text(fmt::format("{:<24} {:<8} {:>12.5g} {:>12.5g}  {}\n", column.name,
-                           column.unit.empty() ? "?" : column.unit, column.lowest, column.highest, taken));
+    print("{:<24} {:<8} {:>12.5g} {:>12.5g}  {}\n", column.name, column.unit.empty() ? "?" : column.unit, column.lowest,
+          column.highest, taken);
   }
   print("\n");
 }
@@ -109,7 +109,7 @@ void print_missing(const recording::Inspection& found) {
   for (const recording::InspectedColumn& column : found.columns) {
     if (!column.channel) unused.push_back(column.name);
   }
-  if (!unused.empty()) print_text(fmt::format("Columns that are not used: {}\n", joined(unused)));
+  if (!unused.empty()) print("Columns that are not used: {}\n", joined(unused));
   if (!found.missing.empty() || !found.helpful.empty() || !unused.empty()) print("\n");
 }
 
@@ -170,7 +170,7 @@ std::string number(double value) {
 
 void print_names_json(const char* key, const std::vector<recording::Channel>& channels) {
   print(" \"{}\": [", key);
-  for (const recording::Channel channel : channels)
+  for (const recording::Channel& channel : channels)
     print("{}\"{}\"", &channel == channels.data() ? "" : ", ", recording::name(channel));
   print("],\n");
 }

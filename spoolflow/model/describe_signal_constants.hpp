@@ -56,6 +56,11 @@ void describe_coil_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "how well the resistance must be known, as a share of it, before it is called implausible"},
       sensor::known_resistance_share);
+  visitor.constant({.name = "unanswered_voltage_share",
+                    .unit = "1",
+                    .meaning = "voltage that no current answers before the current is not believed, as a share of what "
+                               "holds the largest current"},
+                   sensor::unanswered_voltage_share);
 }
 
 template <class Visitor>
@@ -147,6 +152,10 @@ void describe_position_constants(Visitor& visitor) {
                     .unit = "s",
                     .meaning = "a jump of the position signal that lasts longer is believed"},
                    sensor::longest_position_fault_s);
+  visitor.constant({.name = "longest_position_doubt_s",
+                    .unit = "s",
+                    .meaning = "and doubted until so long after it, within which the way back is believed at once"},
+                   sensor::longest_position_doubt_s);
   visitor.constant(
       {.name = "direction_only_m", .unit = "m", .meaning = "size of a travel that tells a direction and nothing else"},
       sensor::direction_only_m);

@@ -41,8 +41,8 @@ template <class Object>
 concept Structure = std::is_aggregate_v<Object> && !detail::is_array<Object>;
 
 /// `visit(member)` for each, in their order.
-// long: one case for each number of members, which the language asks for
 template <Structure Object, class Visit>
+// long: one case for each number of members, which the language asks for
 constexpr void for_each_member(Object& object, const Visit& visit) {
   constexpr std::size_t count = detail::member_count<std::remove_const_t<Object>>();
   static_assert(count <= 24);

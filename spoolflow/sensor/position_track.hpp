@@ -41,9 +41,9 @@ inline constexpr double quiet_current_share = 0.005;
 inline constexpr double quiet_voltage_share = 0.03;
 /// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
 inline constexpr double quiet_jump_m = 60e-6;
-/// A jump that lasts longer than this [s] is believed, ...
+/// A jump that lasts longer than this [s] is believed, but doubted until that [s]: where the signal jumps back
+/// meanwhile, it was the jump that was wrong.
 inline constexpr double longest_position_fault_s = 0.25;
-/// ... but doubted until this [s]: where the signal jumps back meanwhile, it was the jump that was wrong.
 inline constexpr double longest_position_doubt_s = 2.5;
 /// A period of dither that is longer [s] is none any more: the block ends.
 inline constexpr double longest_tremble_block_s = 0.015;
@@ -52,16 +52,6 @@ inline constexpr double shortest_block_s = 1e-6;
 inline constexpr double fastest_m_per_s = 10;         ///< no spool moves faster
 inline constexpr double velocity_smoothing_s = 0.03;  ///< of the velocity
 inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that tells a direction and nothing else
-
-/// The valve's position sensor.
-template <class T>
-struct PositionSensor {
-  T noise_m{};                        ///< standard deviation of one sample
-  T backlash_m{};                     ///< half width: how far the spool may creep unseen
-  T drift_m_per_K{};                  ///< of the zero point over the oil temperature
-  T drift_free_K{};                   ///< oil temperature at which the zero point is right
-  T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
-};
 
 /// Changes of the coil's current and voltage from one sample to the next, >= 0, that tell of no motion.
 template <class T>
@@ -287,13 +277,12 @@ constexpr T outlast_fault(PositionState<T>& state, Mask<T> faulty, T position_m,
   const T believed_m = position_m - state.offset_m;
   // The spool did not move: the next step starts from here.
   state.last_m = select(believes, position_m, state.last_m);
-  const Mask<T> over = state.fault_s > T(longest_position_doubt_s);
-  state.fault_s = select(faulty, select(over, T(0), state.fault_s + time_step_s), state.fault_s);
+  const T goes_on_s = select(state.fault_s > T(longest_position_doubt_s), T(0), state.fault_s + time_step_s);
+  state.fault_s = select(faulty, goes_on_s, state.fault_s);
   return believed_m;
 }
 
-/// The position without acquisition faults: a change beyond what is credible is taken out of the signal until the
-/// signal jumps back, or for `longest_position_fault_s` in all, after which the signal is believed.
+/// A change beyond what is credible is taken out of the signal until it jumps back, or `longest_position_fault_s` long.
 template <class T>
 [[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
@@ -304,8 +293,8 @@ template <class T>
     judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
   }
   T believed_m = position_m - state.offset_m;
-  const Mask<T> faulty = state.fault_s != T(0);
-  if (any(faulty)) believed_m = outlast_fault(state, faulty, position_m, sample.time_step_s);
+  if (const Mask<T> faulty = state.fault_s != T(0); any(faulty))
+    believed_m = outlast_fault(state, faulty, position_m, sample.time_step_s);
   state.current_A = sample.current_A;
   state.voltage_V = sample.voltage_V;
   state.step_m = believed_m - state.last_m;
@@ -314,12 +303,6 @@ template <class T>
 }
 
 }  // namespace detail
-
-/// The signal [m] without what the oil temperature [K] does to its zero.
-template <class T>
-constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_temperature_K) {
-  return position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
-}
 
 /// To be called before the first sample, with its drift-free position, and where time has leapt.
 template <class T>
@@ -357,16 +340,9 @@ template <class T>
         detail::tell_motion(sensor, state);
       });
   const Mask<T> busy = state.velocity_due && state.per_block_samples < T(1);
-  const Mask<T> fault = state.fault_s != T(0);
-  const T velocity_m_per_s = state.velocity_m_per_s;
-  return {position_m,
-          state.motion,
-          fault,
-          state.travel_m,
-          velocity_m_per_s,
-          state.acceleration_m_per_s2,
-          position_m + state.elsewhere_m,
-          busy};
+  const T elsewhere_m = position_m + state.elsewhere_m, acceleration = state.acceleration_m_per_s2;
+  return {position_m,  state.motion, state.fault_s != T(0), state.travel_m, state.velocity_m_per_s, acceleration,
+          elsewhere_m, busy};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

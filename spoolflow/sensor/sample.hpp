@@ -46,6 +46,22 @@ constexpr auto unusable(const Sample<T>& sample) {
          when(!within(sample.time_step_s, T(endless_step_s)), Status::time_fault);
 }
 
+/// The valve's position sensor.
+template <class T>
+struct PositionSensor {
+  T noise_m{};                        ///< standard deviation of one sample
+  T backlash_m{};                     ///< half width: how far the spool may creep unseen
+  T drift_m_per_K{};                  ///< of the zero point over the oil temperature
+  T drift_free_K{};                   ///< oil temperature at which the zero point is right
+  T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
+};
+
+/// The signal [m] without what the oil temperature [K] does to its zero.
+template <class T>
+constexpr T drift_free_m(const PositionSensor<T>& sensor, T position_m, T oil_temperature_K) {
+  return position_m - sensor.drift_m_per_K * (oil_temperature_K - sensor.drift_free_K);
+}
+
 /// The flow rate with its band and what led to it. Signs: magnetic force opens (+), spring and flow force close (+),
 /// friction has the sign of the velocity.
 template <class T>

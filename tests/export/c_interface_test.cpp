@@ -43,7 +43,7 @@ std::string example_text() {
 /// A spool that opens and closes under a current that follows it; made up.
 spoolflow_sample sample_at(int k) {
   const double phase = 0.002 * k;
-  return {1e-3 * k, 1.0 + 0.6 * std::sin(phase), 8.0 + 5 * std::sin(phase), 1.1e-3 + 0.8e-3 * std::sin(phase), 318.0};
+  return {1e-3 * k, 1.0 + 0.6 * std::sin(phase), 3.0 + 1.8 * std::sin(phase), 1.1e-3 + 0.8e-3 * std::sin(phase), 318.0};
 }
 
 spoolflow_estimate step(const Sensor& sensor, const spoolflow_sample& sample) {

@@ -35,7 +35,7 @@ spoolflow_whole_sample swinging(int k) {
   const double swing = std::sin(0.002 * k);
   const double current_b_A = swing > 0 ? 1.6 * swing : 0.0;
   const double current_a_A = swing < 0 ? -1.6 * swing : 0.0;
-  return {1e-3 * k, current_a_A, current_b_A, 8 * current_a_A, 8 * current_b_A, 1.9e-3 * swing, 318.0};
+  return {1e-3 * k, current_a_A, current_b_A, 3 * current_a_A, 3 * current_b_A, 1.9e-3 * swing, 318.0};
 }
 
 spoolflow_estimate answered(const WholeSensor& sensor, const spoolflow_whole_sample& sample) {

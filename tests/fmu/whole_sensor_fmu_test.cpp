@@ -31,7 +31,7 @@ class WholeSensorFmu : public ::testing::TestWithParam<FmiVersion> {
     const double swing = std::sin(0.002 * k);
     const double current_b_A = swing > 0 ? 1.6 * swing : 0.0;
     const double current_a_A = swing < 0 ? -1.6 * swing : 0.0;
-    return {1e-3 * k, current_a_A, current_b_A, 8 * current_a_A, 8 * current_b_A, 1.9e-3 * swing, 318.0};
+    return {1e-3 * k, current_a_A, current_b_A, 3 * current_a_A, 3 * current_b_A, 1.9e-3 * swing, 318.0};
   }
   static void put(FmuInstance& instance, const estimation::TimedWholeSample& in) {
     instance.put("current_a", in.current_a_A);
