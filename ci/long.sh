@@ -17,11 +17,13 @@ SPOOLFLOW_KILLS=50 build/release/tests/apps/apps_test --gtest_filter='Kills.*' -
 for name in live_datagram live_csv live_site live_http fleet_block; do
   ci/fuzz.sh "$seconds" "$name" || status=1
 done
-echo "== fleets whose parts are killed, 20 seeds"
+echo "== fleets whose parts are killed, 20 seeds, and one with 200 valves for ten minutes"
 ci/build.sh release fleet_reference
 for kind in single cluster; do
   /usr/bin/python3 tests/fleet/faults_test.py build/release/bin/spoolflow build/release/tests/fleet/fleet_reference examples $kind \
     $(seq 1 20) || status=1
+  /usr/bin/python3 tests/fleet/faults_test.py build/release/bin/spoolflow build/release/tests/fleet/fleet_reference examples $kind 1 \
+    --tell --large || status=1
 done
 echo "== 500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"

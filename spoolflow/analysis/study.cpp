@@ -40,6 +40,12 @@ std::string nearest_preset(const model::Model& model) {
   return nearest;
 }
 
+std::string text_of(const model::Model& model) {
+  std::ostringstream out;
+  model::write_model(out, model);
+  return std::move(out).str();
+}
+
 /// Everything that the results follow from, as text.
 std::string everything(const model::Model& given, const Scenario& scenario, const rig::ValveUnderTest& valve,
                        const std::string& identity) {
@@ -67,6 +73,12 @@ rig::BenchRun duty_cycle(const rig::ValveUnderTest& valve, double oil_temperatur
   protocol.longest_hold_s = 0.6;  // a short run is to hold many motions
   protocol.longest_pressure_hold_s = 2;
   return rig::plan(protocol, scenario.seed);
+}
+
+std::vector<unsigned> numbers_per_factor() {
+  std::vector<unsigned> out;
+  for (const Factor& factor : valve_factors()) out.push_back(factor.numbers);
+  return out;
 }
 
 /// The sensor over one simulated run, against the true flow of the plant.
@@ -123,12 +135,6 @@ class Ledger {
   std::size_t done_ = 0, open_ = 0;
 };
 
-std::vector<unsigned> numbers_per_factor() {
-  std::vector<unsigned> out;
-  for (const Factor& factor : valve_factors()) out.push_back(factor.numbers);
-  return out;
-}
-
 }  // namespace
 
 const std::array<StudyOutput, study_outputs>& study_output_list() {
@@ -155,30 +161,48 @@ rig::ValveAndCampaign study_valve(const model::Model& given, const Scenario& sce
   return asked;
 }
 
+StudyRuns::StudyRuns(const model::Model& given, const Scenario& scenario, const rig::ValveAndCampaign& asked,
+                     const std::string& identity)
+    : scenario_(scenario),
+      nominal_(rig::as_built(asked.valve)),
+      design_(numbers_per_factor(), static_cast<std::uint32_t>(scenario.study.base_samples), scenario.seed),
+      fingerprint_(fingerprint_of(everything(given, scenario, nominal_, identity))) {}
+
+RunErrors StudyRuns::run(const model::Model& model, std::size_t number) const {
+  return run_errors(model, drawn_valve(nominal_, scenario_.study.spread, design_.point(number)), scenario_);
+}
+
 Study global_study(const model::Model& given, const Scenario& scenario, const rig::ValveAndCampaign& asked,
                    const StudyWork& work) {
-  const rig::ValveUnderTest nominal = rig::as_built(asked.valve);
-  const auto base_samples = static_cast<std::uint32_t>(scenario.study.base_samples);
-  const SaltelliDesign design(numbers_per_factor(), base_samples, scenario.seed);
-  const std::uint64_t fingerprint = fingerprint_of(everything(given, scenario, nominal, work.identity));
-  FinishedRuns runs = finished_runs(work.saved, fingerprint, design.points());
+  const StudyRuns study(given, scenario, asked, work.identity);
+  const SaltelliDesign& design = study.design();
+  FinishedRuns runs = finished_runs(work.saved, study.fingerprint(), design.points());
 
   constexpr double calibrating_share = 0.2;
   const bool own_model = !scenario.study.given_model;
-  const model::Model model =
-      own_model ? virtual_model(
+  // As its file would hold it: the same wherever the runs are done.
+  const std::string text =
+      own_model ? text_of(virtual_model(
                       asked, work.workers,
-                      [&](double share) { work.progress("calibrating the virtual valve", calibrating_share * share); })
-                : given;
+                      [&](double share) { work.progress("calibrating the virtual valve", calibrating_share * share); }))
+                : std::string();
+  const model::Model model = own_model ? model::parse_model(text, "the virtual valve's model") : given;
   const double before = own_model ? calibrating_share : 0;
-  Ledger ledger(runs, fingerprint, work,
+  Ledger ledger(runs, study.fingerprint(), work,
                 [&](double share) { work.progress("simulating the series", before + (1 - before) * share); });
-  parallel::for_each(design.points(), work.workers, [&](std::size_t k) {
-    if (runs[k]) return;
-    ledger.finished(k, run_errors(model, drawn_valve(nominal, scenario.study.spread, design.point(k)), scenario));
-  });
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!runs[k]) open.push_back(k);
+  }
+  if (work.elsewhere) {
+    work.elsewhere(study, text, open, [&](std::size_t k, const RunErrors& errors) { ledger.finished(k, errors); });
+  } else {
+    parallel::for_each(open.size(), work.workers,
+                       [&](std::size_t k) { ledger.finished(open[k], study.run(model, open[k])); });
+  }
 
-  Study out{nominal.name, scenario.study.given_model, base_samples, design.points(), scenario.study.run_s, {}};
+  Study out{study.nominal().name, scenario.study.given_model, static_cast<std::uint32_t>(scenario.study.base_samples),
+            design.points(),      scenario.study.run_s,       {}};
   for (std::size_t o = 0; o < study_outputs; ++o) {
     std::vector<double> outputs;
     for (const auto& run : runs) outputs.push_back((*run)[o]);

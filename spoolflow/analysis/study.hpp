@@ -32,6 +32,32 @@ struct Study {
   std::array<SobolIndices, study_outputs> indices;
 };
 
+/// The runs of a study, each by itself: what one gives follows from the study and its number alone.
+class StudyRuns {
+ public:
+  /// `identity` of the program. Keeps no reference.
+  StudyRuns(const model::Model& given, const Scenario& scenario, const rig::ValveAndCampaign& asked,
+            const std::string& identity);
+  [[nodiscard]] const SaltelliDesign& design() const { return design_; }
+  /// Of all that the results follow from.
+  [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
+  [[nodiscard]] const rig::ValveUnderTest& nominal() const { return nominal_; }
+  /// The sensor with `model`, given or made by virtual_model(), over the run of that number. From any thread.
+  [[nodiscard]] RunErrors run(const model::Model& model, std::size_t number) const;
+
+ private:
+  Scenario scenario_;
+  rig::ValveUnderTest nominal_;
+  SaltelliDesign design_;
+  std::uint64_t fingerprint_;
+};
+
+/// Does the runs of these numbers and tells each result, once and from any thread. `model`: the virtual valve's as the
+/// text of a model file; empty: the given one.
+using RunsWork =
+    std::function<void(const StudyRuns& runs, const std::string& model, const std::vector<std::size_t>& numbers,
+                       const std::function<void(std::size_t, const RunErrors&)>& finished)>;
+
 /// How a study is run. None of it changes the result.
 struct StudyWork {
   std::string identity;  ///< of the program: another's saved runs are not used
@@ -42,6 +68,7 @@ struct StudyWork {
   double saving_interval_s = 1;
   /// Task and share of the whole.
   std::function<void(const std::string&, double)> progress = [](const std::string&, double) {};
+  RunsWork elsewhere = {};  ///< empty: the runs are done here, on `workers` threads
 };
 
 /// The virtual valve that the scenario names. Throws rig::SettingsError for an unknown one, ModelError where the study

@@ -10,6 +10,8 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/pieces/piece_kinds.hpp"
+#include "spoolflow/apps/pieces/study_pieces.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
@@ -34,6 +36,7 @@ struct AnalyseArguments {
   std::string recording;
   std::string channels;
   std::string self_check;
+  std::string fleet;  ///< whose workers do the runs of the study; empty: this machine
   std::vector<std::string> units;
   std::uint32_t samples = 0;  ///< 0: as the scenario says
   std::uint64_t seed = 0;     ///< 0: as the scenario says
@@ -93,7 +96,7 @@ analysis::Scenario scenario_of(const AnalyseArguments& arguments) {
   return scenario;
 }
 
-std::string text_of(const std::filesystem::path& file) {
+std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -141,16 +144,17 @@ analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& a
     options.optional.push_back(channel);
   options.stands_in = {{Channel::current, Channel::current_b}};  // so that a whole valve's run is told as such
   const recording::Recording run = recording::read_recording(arguments.recording, options);
+  if (!run.resampled.empty()) say("{}: {}\n", arguments.recording, run.resampled);
   refuse_whole_valve(run, arguments.recording);
   return analysis::run_samples(run);
 }
 
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
-                      const AnalyseArguments& arguments, Progress& progress) {
+                      const AnalyseArguments& arguments, FleetWork* fleet, Progress& progress) {
   analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
   const std::optional<std::filesystem::path> state = state_file(arguments);
   if (state) {
-    work.saved = text_of(*state);
+    work.saved = bytes_of(*state);
     work.save = [&](const std::string& text) {
       OutputFile output(*state);
       output.stream() << text;
@@ -161,6 +165,8 @@ analysis::Study study(const model::Model& model, const analysis::Scenario& scena
     progress.task(task);
     progress.update(budget_share + (1 - budget_share) * share);
   };
+  if (fleet != nullptr)
+    work.elsewhere = runs_by_fleet(*fleet, {arguments.model, model.valve.direction, scenario, arguments.scenario});
   return analysis::global_study(model, scenario, valve, work);
 }
 
@@ -215,6 +221,8 @@ void analyse(const AnalyseArguments& arguments) {
   if (!arguments.recording.empty()) run = run_of(model, arguments);
   std::optional<rig::ValveAndCampaign> valve;
   if (whole) valve = analysis::study_valve(model, results.scenario);
+  std::optional<FleetWork> fleet;
+  if (whole && !arguments.fleet.empty()) fleet.emplace(arguments.fleet, tool_version(), say_line);
   {
     const double share_of_budget = whole ? budget_share : 1;
     Progress progress("uncertainty budget", arguments.quiet);
@@ -232,7 +240,7 @@ void analyse(const AnalyseArguments& arguments) {
         progress.update(share_of_budget * (run_from + (1 - run_from) * share));
       });
     }
-    if (whole) results.study = study(model, results.scenario, *valve, arguments, progress);
+    if (whole) results.study = study(model, results.scenario, *valve, arguments, fleet ? &*fleet : nullptr, progress);
   }
   if (page) report::write_analysis_report(page->stream(), model, results, units);
   if (figures) report::write_analysis_json(figures->stream(), model, results);
@@ -304,13 +312,15 @@ void add_analyse_command(CLI::App& program) {
                    "of a whole valve the flow analysed: b (P to B, default) or a (P to A)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"a", "b"}));
-  add_dither_options(*command, *arguments, {recording, samples});
+  CLI::Option* const fleet = add_fleet_option(*command, arguments->fleet, "of the global study");
+  add_dither_options(*command, *arguments, {recording, samples, fleet});
   command->add_flag("--print-scenario", arguments->print_scenario, "print a scenario with all keys and end");
   command->add_option("--self-check", arguments->self_check, "check the Sobol indices on a function whose are known")
       ->type_name("NAME")
       ->check(CLI::IsMember({"ishigami"}));
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
+  add_piece_kind("study", [](const fleet::Piece& piece) { return do_study_piece(piece, std::string(tool_version())); });
   command->callback([arguments] { analyse(*arguments); });
 }
 

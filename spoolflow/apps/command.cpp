@@ -87,7 +87,7 @@ class HelpPage : public CLI::Formatter {
 // What a shell completes.
 
 std::vector<const CLI::App*> commands_of(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App*) { return true; });
+  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 std::string options_of(const CLI::App& command) {
@@ -161,6 +161,11 @@ CLI::App* add_command(CLI::App& program, const CommandText& text) {
 
 void add_quiet(CLI::App& command, bool& quiet) {
   command.add_flag("-q,--quiet", quiet, "no progress (it is shown on a terminal only)");
+}
+
+CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::string& which) {
+  return command.add_option("--fleet", fleet, "workers of a fleet do the work " + which + "; the result is the same")
+      ->type_name("FLEET.toml");
 }
 
 void add_units(CLI::App& command, std::vector<std::string>& units) {

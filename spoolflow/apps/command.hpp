@@ -5,7 +5,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace spoolflow::apps {
 
@@ -26,6 +27,9 @@ void shape_help_page(CLI::App& program);
 
 /// `-q,--quiet`: no progress.
 void add_quiet(CLI::App& command, bool& quiet);
+
+/// `--fleet FLEET.toml`: workers of a fleet do what falls into pieces. `which`: "of the global study".
+CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::string& which);
 
 /// `--units LIST`: the units of the report.
 void add_units(CLI::App& command, std::vector<std::string>& units);

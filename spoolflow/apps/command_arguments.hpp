@@ -24,12 +24,13 @@ struct CampaignArguments {
 void campaign(const CampaignArguments& arguments);
 
 struct CalibrateArguments {
-  std::string campaign;
+  std::vector<std::string> campaigns;   ///< of one the model is a file, of several a folder
   std::string model;                    ///< to write
-  std::string report;                   ///< to write; empty: none
+  std::string report;                   ///< to write, likewise; empty: none
   std::vector<std::string> units = {};  ///< of the report
   bool allow_outside = false;           ///< recordings outside the campaign's folder
   bool despite_doubts = false;          ///< recordings that contradict each other or physics
+  std::string fleet = {};               ///< whose workers do the work; empty: this machine
   bool quiet = false;
 };
 void calibrate(const CalibrateArguments& arguments);
@@ -38,10 +39,11 @@ struct EstimateArguments {
   std::string model;
   std::vector<std::string> recordings;  ///< of one the estimate is a file, of several a folder
   std::string output;
-  std::string estimator;  ///< "condensed" or "observer"; empty: the observer where the model has one
-  std::string channels;   ///< channel map; empty: none
-  std::string json = {};  ///< summary to write; empty: none
-  bool strict = false;    ///< faults and doubts fail
+  std::string estimator;   ///< "condensed" or "observer"; empty: the observer where the model has one
+  std::string channels;    ///< channel map; empty: none
+  std::string json = {};   ///< summary to write; empty: none
+  bool strict = false;     ///< faults and doubts fail
+  std::string fleet = {};  ///< whose workers do the work; empty: this machine
   bool quiet = false;
 };
 void estimate(const EstimateArguments& arguments);
@@ -73,6 +75,7 @@ struct MonitorArguments {
   std::string channels;                 ///< channel map; empty: none
   std::vector<std::string> units = {};  ///< of the report
   double false_alarms_per_year = 1;     ///< wanted, over all indicators
+  std::string fleet = {};               ///< whose workers do the work; empty: this machine
   bool quiet = false;
 };
 void monitor_recordings(const MonitorArguments& arguments);

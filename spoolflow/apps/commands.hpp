@@ -19,6 +19,14 @@ struct SeveralFailures : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "several failures"; }
 };
 
+/// Throws all failures, one at least, as one, each told as if it had come alone. A failure of the work weighs more than
+/// an unusable input.
+[[noreturn]] void throw_together(const std::vector<std::exception_ptr>& failures);
+
+/// For `inspect`: prints what an image of parameters is, as JSON or for people. False where the file is none; standard
+/// input and pipes are not asked. Throws std::invalid_argument where the sensor refuses it, after printing.
+bool inspect_image(const std::string& file, bool json);
+
 void add_demo_command(CLI::App& program);
 void add_inspect_command(CLI::App& program);
 void add_calibrate_command(CLI::App& program);

@@ -54,7 +54,7 @@ void demo(const DemoArguments& arguments) {
             .recording = runs.back(),
             .truth = in_folder("duty_cycle_truth.csv"),
             .quiet = arguments.quiet});
-  calibrate({.campaign = in_folder("campaign/campaign.toml"),
+  calibrate({.campaigns = {in_folder("campaign/campaign.toml")},
              .model = in_folder("model.json"),
              .report = in_folder("calibration.html"),
              .units = arguments.units,

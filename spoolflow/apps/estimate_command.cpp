@@ -13,9 +13,13 @@
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/pieces/fleet_work.hpp"
+#include "spoolflow/apps/pieces/piece_kinds.hpp"
+#include "spoolflow/apps/pieces/summary_text.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
@@ -75,6 +79,7 @@ void tell(const recording::ReadNotes& notes, const std::string& file) {
     say("{}: {} samples have no time stamp, of {} it runs back; the estimate is held there, with status time_fault\n",
         file, notes.missing_times, notes.backward_times);
   }
+  if (!notes.resampled.empty()) say("{}: {}\n", file, notes.resampled);
   if (notes.left_out > 0) say("{}: {} lines are no samples and have no row\n", file, notes.left_out);
 }
 
@@ -177,22 +182,6 @@ std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folde
   return targets;
 }
 
-/// Throws all failures as one, each told as if it had come alone. A failure of the work weighs more than an unusable
-/// input.
-[[noreturn]] void throw_together(const std::vector<std::exception_ptr>& failures) {
-  if (failures.size() == 1) std::rethrow_exception(failures.front());
-  SeveralFailures all;
-  for (const std::exception_ptr& failure : failures) {
-    try {
-      std::rethrow_exception(failure);
-    } catch (const std::exception& error) {
-      all.messages.emplace_back(error.what());
-      all.of_the_work = all.of_the_work || dynamic_cast<const std::invalid_argument*>(&error) == nullptr;
-    }
-  }
-  throw all;
-}
-
 /// All recordings, as many at a time as the machine has cores. Failures are thrown when the others are done.
 std::vector<validation::EstimateSummary> estimate_all(const Task& task, const std::vector<std::string>& recordings,
                                                       const std::vector<std::filesystem::path>& targets) {
@@ -209,6 +198,65 @@ std::vector<validation::EstimateSummary> estimate_all(const Task& task, const st
   std::erase(failures, nullptr);
   if (!failures.empty()) throw_together(failures);
   return out;
+}
+
+/// The same by workers of a fleet, a piece a recording.
+std::vector<validation::EstimateSummary> estimate_by_fleet(const Task& task, const EstimateArguments& arguments,
+                                                           const std::vector<std::filesystem::path>& targets) {
+  FleetWork fleet(arguments.fleet, tool_version(), say_line);
+  const std::size_t count = arguments.recordings.size();
+  std::vector<std::exception_ptr> failures(count);
+  std::vector<validation::EstimateSummary> out(count);
+  std::vector<std::size_t> recording_of;
+  const auto attempt = [&](std::size_t k, const auto& work) {
+    try {
+      work();
+    } catch (const fleet::ServerRefuses&) {
+      throw;
+    } catch (...) {
+      failures[k] = std::current_exception();
+    }
+  };
+  Progress progress("estimating by the fleet", arguments.quiet);
+  for (std::size_t k = 0; k < count; ++k) {
+    attempt(k, [&] {
+      (void)validation::open_sensor_channels(arguments.recordings[k],
+                                             validation::sensor_channels(task.model, task.channels));
+      SentPiece piece{{.kind = "estimate", .arguments = arguments.estimator}};
+      fleet.add(piece, arguments.model);
+      fleet.add(piece, arguments.recordings[k]);
+      if (!arguments.channels.empty()) fleet.add(piece, arguments.channels);
+      fleet.ask(std::move(piece));
+      recording_of.push_back(k);
+    });
+  }
+  std::size_t finished = 0;
+  fleet.wait([&](std::size_t number, const fleet::Outcome& outcome) {
+    const std::size_t k = recording_of[number];
+    attempt(k, [&] {
+      throw_failure(outcome);
+      OutputFile output(targets[k], task.inputs);
+      output.stream() << fleet.content(outcome.files.at(0));
+      out[k] = read_summary(outcome.text);
+      out[k].file = fleet.sent(number).here(out[k].file);
+      for (std::string& doubt : out[k].doubts) doubt = fleet.sent(number).here(doubt);
+      output.commit();
+    });
+    progress.update(static_cast<double>(++finished) / static_cast<double>(recording_of.size()));
+  });
+  std::erase(failures, nullptr);
+  if (!failures.empty()) throw_together(failures);
+  return out;
+}
+
+/// One recording on a worker.
+fleet::Outcome do_estimate_piece(const fleet::Piece& piece) {
+  EstimateArguments arguments{
+      path_of(piece, 0), {path_of(piece, 1)}, "estimate.csv", piece.arguments, {}, {}, false, {}, true};
+  if (piece.files.size() > 2) arguments.channels = path_of(piece, 2);
+  const validation::EstimateSummary summary =
+      estimate_one(task_of(arguments), arguments.recordings.front(), arguments.output, false);
+  return {.text = text_of(summary), .files = {{arguments.output}}};
 }
 
 /// What the user should know of the recordings; with --strict a fault or a doubt fails.
@@ -235,7 +283,15 @@ void estimate(const EstimateArguments& arguments) {
   std::optional<OutputFile> summary_file;
   if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);
   std::vector<validation::EstimateSummary> summaries;
-  if (arguments.recordings.size() == 1) {
+  const bool one = arguments.recordings.size() == 1;
+  if (!arguments.fleet.empty()) {
+    if (one && arguments.recordings.front() == "-")
+      throw std::invalid_argument("--fleet sends whole recordings; name a file instead of -");
+    if (!one) make_output_folder(arguments.output);
+    summaries = estimate_by_fleet(task, arguments,
+                                  one ? std::vector<std::filesystem::path>{arguments.output}
+                                      : targets_in(arguments.output, arguments.recordings));
+  } else if (one) {
     const bool beside = parallel::cores() > 1;
     summaries.push_back(estimate_one(task, arguments.recordings.front(), arguments.output, beside));
   } else {
@@ -282,7 +338,9 @@ void add_estimate_command(CLI::App& program) {
       ->type_name("SUMMARY.json");
   command->add_flag("--strict", arguments->strict,
                     "exit status 1 where a sample has a fault or a recording is doubted");
+  add_fleet_option(*command, arguments->fleet, "on the recordings");
   add_quiet(*command, arguments->quiet);
+  add_piece_kind("estimate", do_estimate_piece);
   command->callback([arguments] { estimate(*arguments); });
 }
 

@@ -1,5 +1,7 @@
-/// `spoolflow export`: a model as something that other programs and controllers run.
+/// `spoolflow export`: a model as something that other programs and controllers run; what an exported image of
+/// parameters is, read back.
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,9 +18,12 @@
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/embedded_parts.hpp"
+#include "spoolflow/export/parameters/image_summary.hpp"
+#include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -31,6 +36,7 @@ struct ExportArguments {
   std::string output;
   std::string fmi = "2";
   std::string direction;  ///< empty: all that the model has
+  std::string sensors;    ///< of parameters: "observer", "condensed"; empty: both
 };
 
 std::string content_of(const fs::path& file) {
@@ -135,7 +141,104 @@ void export_fmu(const ExportArguments& arguments) {
   }
 }
 
+void export_parameters(const ExportArguments& arguments) {
+  const model::Model model = asked_model(arguments);
+  exports::ImageContents contents{tool_version(), static_cast<std::uint64_t>(model::creation_seconds())};
+  contents.condensed = arguments.sensors != "observer";
+  contents.observer = arguments.sensors != "condensed";
+  OutputFile output(arguments.output, {arguments.model});
+  output.stream() << exports::parameter_image(model, contents);
+  output.commit();
+  if (!model.has_observer() && contents.observer) {
+    say("{}: the model is not calibrated for the observer, so the image holds the condensed sensor alone; calibrate "
+        "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
+        model.valve.name);
+  }
+}
+
+void export_asked(const ExportArguments& arguments) {
+  if (!arguments.sensors.empty() && arguments.kind != "parameters")
+    throw std::invalid_argument(fmt::format("--sensors {}: of parameters alone; leave it away", arguments.sensors));
+  if (arguments.kind == "fmu") return export_fmu(arguments);
+  if (arguments.kind == "cpp") return export_cpp(arguments);
+  export_parameters(arguments);
+}
+
+/// Whether a file is an image of parameters; standard input and pipes are not asked.
+bool holds_image(const std::string& file) {
+  std::error_code error;
+  if (file == "-" || !std::filesystem::is_regular_file(file, error)) return false;
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, sizeof sensor::image_magic> beginning{};
+  in.read(beginning.data(), beginning.size());
+  return exports::begins_as_image({beginning.data(), static_cast<std::size_t>(in.gcount())});
+}
+
+template <std::size_t Room>
+std::string field(const char (&text)[Room]) {
+  return std::string(exports::field_text(text, Room));
+}
+
+void print_image(const std::string& file, const exports::ImageSummary& image) {
+  const sensor::ImageHeader& header = image.header;
+  print("{}: parameters of {}, direction {}, for a flash page\n", file, field(header.valve_name),
+        field(header.direction));
+  print("layout version {}, header {} bytes, image {} bytes in a file of {}\n", header.layout_version,
+        header.header_bytes, header.total_bytes, image.file_bytes);
+  if (image.header_read) {
+    print("sensors: {}\n", exports::sensors_text(header));
+    print("rated flow {:.5g} L/min, stroke {:.5g} mm\n",
+          header.rated_flow_m3_per_s * units::litre_per_minute_per_m3_per_s,
+          header.stroke_m * units::millimetre_per_metre);
+    print("exported {} by spoolflow {}\n", exports::creation_text(header), field(header.tool_version));
+    print("model sha256 {}\n\n", exports::sha256_text(header));
+    print("{:<24} {:>9} {:>9}\n", "table", "offset", "bytes");
+    for (const exports::ImageTableSummary& table : image.tables)
+      print("{:<24} {:>9} {:>9}\n", table.name, table.offset, table.bytes);
+    print("\nCRC-32 {:08X}, {}\n", header.crc32,
+          image.crc32 == header.crc32 ? "as reckoned"
+          : image.crc32 == 0          ? "not reckoned"
+                                      : fmt::format("but reckoned {:08X}", image.crc32));
+  }
+  if (!image.problem.empty()) print("Its numbers break a limit of models: {}\n", image.problem);
+  if (image.refusal == sensor::ImageRefusal::none) print("The sensor takes it.\n");
+}
+
+void print_image_json(const exports::ImageSummary& image) {
+  const sensor::ImageHeader& header = image.header;
+  print("{{\n \"format\": \"parameters\",\n \"accepted\": {},\n \"refusal\": {},\n \"refusal_text\": {},\n",
+        image.refusal == sensor::ImageRefusal::none, static_cast<unsigned>(image.refusal),
+        json_text(text_of(image.refusal)));
+  print(" \"valve\": {},\n \"direction\": {},\n \"layout_version\": {},\n \"image_bytes\": {},\n \"file_bytes\": {},\n",
+        json_text(field(header.valve_name)), json_text(field(header.direction)), header.layout_version,
+        header.total_bytes, image.file_bytes);
+  print(" \"rated_flow_m3_per_s\": {},\n \"stroke_m\": {},\n \"created\": {},\n \"tool_version\": {},\n",
+        json_number(header.rated_flow_m3_per_s), json_number(header.stroke_m),
+        json_text(exports::creation_text(header)), json_text(field(header.tool_version)));
+  print(" \"model_sha256\": \"{}\",\n \"crc32\": \"{:08X}\",\n \"crc32_reckoned\": \"{:08X}\",\n \"problem\": {},\n",
+        exports::sha256_text(header), header.crc32, image.crc32, json_text(image.problem));
+  print(" \"tables\": [");
+  for (const exports::ImageTableSummary& table : image.tables) {
+    print("{}\n  {{\"table\": {}, \"offset\": {}, \"bytes\": {}}}", &table == image.tables.data() ? "" : ",",
+          json_text(table.name), table.offset, table.bytes);
+  }
+  print("\n ]\n}}\n");
+}
+
 }  // namespace
+
+bool inspect_image(const std::string& file, bool json) {
+  if (!holds_image(file)) return false;
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const exports::ImageSummary image = exports::image_summary(bytes);
+  json ? print_image_json(image) : print_image(file, image);
+  if (image.refusal != sensor::ImageRefusal::none) {
+    throw std::invalid_argument(fmt::format("{}: the sensor refuses these parameters ({}): {}", file,
+                                            static_cast<unsigned>(image.refusal), text_of(image.refusal)));
+  }
+  return true;
+}
 
 void add_export_command(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
@@ -145,17 +248,23 @@ void add_export_command(CLI::App& program) {
        "turn a model into something that other programs and controllers run",
        "MODEL.json from `spoolflow calibrate`; for fmu also a valve of the virtual rig: a valve file (TOML), or "
        "size_6, size_10, fast_dither, whole_size_6, whole_differential",
-       "fmu: a co-simulation FMU of the sensor, or of the virtual valve, for Linux and Windows (64 bit), with sources. "
+       "fmu: a co-simulation FMU of the sensor, or of the virtual valve, for Linux and Windows (64 bit; by FMI "
+       "3.0 for Linux on 64-bit Arm, too), with sources. "
        "cpp: a folder "
        "with the sensor's headers, the model as constexpr numbers in single precision, an "
-       "example and a self-test; files of an earlier export are replaced, all else in the folder stays",
+       "example and a self-test; files of an earlier export are replaced, all else in the folder stays. "
+       "parameters: one file of bytes for a flash page, which firmware checks and reads where it lies; "
+       "SOURCE_DATE_EPOCH "
+       "sets the time in it",
        {"spoolflow export fmu valve_a.json -o sensor.fmu --fmi 3", "spoolflow export fmu size_6 -o valve.fmu --fmi 3",
-        "spoolflow export cpp valve_a.json -o valve_a_cpp"}});
-  command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp: C++ for firmware")
+        "spoolflow export cpp valve_a.json -o valve_a_cpp", "spoolflow export parameters valve_a.json -o valve.bin"}});
+  command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp: for firmware; parameters: a flash page")
       ->required()
-      ->check(CLI::IsMember({"fmu", "cpp"}));
+      ->check(CLI::IsMember({"fmu", "cpp", "parameters"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
-  command->add_option("-o,--output", arguments->output, "file (fmu; - for standard output) or folder (cpp) to write")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "file (fmu, parameters; - for standard output) or folder (cpp) to write")
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))
@@ -164,7 +273,9 @@ void add_export_command(CLI::App& program) {
       ->add_option("--direction", arguments->direction,
                    "of a whole valve one direction alone: a (P to A) or b (P to B)")
       ->check(CLI::IsMember({"a", "b"}));
-  command->callback([arguments] { arguments->kind == "fmu" ? export_fmu(*arguments) : export_cpp(*arguments); });
+  command->add_option("--sensors", arguments->sensors, "of parameters: observer or condensed alone; without it both")
+      ->check(CLI::IsMember({"observer", "condensed"}));
+  command->callback([arguments] { export_asked(*arguments); });
 }
 
 }  // namespace spoolflow::apps

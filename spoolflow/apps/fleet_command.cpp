@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,8 +13,11 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/interruption.hpp"
+#include "spoolflow/apps/pieces/piece_kinds.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/fleet/jobs/job_worker.hpp"
+#include "spoolflow/fleet/jobs/piece_process.hpp"
 #include "spoolflow/fleet/page/fleet_page.hpp"
 #include "spoolflow/fleet/server_configuration.hpp"
 #include "spoolflow/fleet/worker.hpp"
@@ -42,8 +46,10 @@ fleet::SharedSettings shared_settings(const fleet::FleetSettings& settings) {
 
 void setup(const fleet::FleetSettings& settings) {
   fleet::Session session(settings.connection, "spoolflow fleet");
-  const bool made = fleet::make_schema(session, shared_settings(settings));
-  say("PostgreSQL: the tables {}\n", made ? "are made" : "were there");
+  const fleet::SchemaWork work = fleet::make_schema(session, shared_settings(settings));
+  say("PostgreSQL: the tables {}\n", work == fleet::SchemaWork::made       ? "are made"
+                                     : work == fleet::SchemaWork::upgraded ? "are brought to the present version"
+                                                                           : "were there");
   fleet::Connection nats(fleet::access_of(settings.servers, settings.login), "spoolflow fleet");
   if (wait_for(nats)) {
     (void)nats.make_stream(settings.stream);
@@ -63,6 +69,9 @@ void status(const fleet::FleetSettings& settings) {
     print("{:>9}  {:>6}  {:>7}  {:>10}  {:>8}  {}\n", one.number, one.epoch, one.valves, one.blocks, behind,
           one.owner.empty() || one.lease_s <= 0 ? "(nobody)" : one.owner);
   }
+  const fleet::JobStatus jobs = fleet::job_status(session);
+  print("jobs: {} open, {} running, {} done, {} failed, {} given up; {} files, {:.1f} MB\n", jobs.open, jobs.running,
+        jobs.done, jobs.failed, jobs.given_up, jobs.contents, jobs.contents_MB);
   fleet::Connection nats(fleet::access_of(settings.servers, settings.login), "spoolflow fleet");
   if (!wait_for(nats)) {
     print("NATS: no server can be reached\n");
@@ -106,10 +115,18 @@ void worker_command(const FleetArguments& arguments) {
   fleet::FleetSettings settings = fleet::read_fleet(arguments.fleet);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   {
-    fleet::Worker worker(std::move(settings), fmt::format("spoolflow {}", tool_version()),
-                         [](const std::string& text) { say("{}\n", text); });
+    const auto tell = [](const std::string& text) { say("{}\n", text); };
+    fleet::JobWorkerParts parts{.connection = settings.connection, .owner = {}, .program = {}};
+    parts.lease_s = settings.worker.lease_s;
+    parts.settings = settings.jobs;
+    parts.write = write_piece_file;
+    fleet::Worker worker(std::move(settings), fmt::format("spoolflow {}", tool_version()), tell);
+    parts.owner = worker.owner();
+    parts.program = fleet::piece_program(std::string(tool_version()));
     say("worker {}; end with Ctrl-C\n", worker.owner());
+    fleet::JobWorker jobs(std::move(parts), tell);
     wait_for_the_end();
+    jobs.stop();
     worker.stop();
   }
   say("ended\n");
@@ -120,13 +137,23 @@ void worker_command(const FleetArguments& arguments) {
 void add_worker_command(CLI::App& program) {
   auto arguments = std::make_shared<FleetArguments>();
   CLI::App* command = add_command(
-      program, {"worker",
-                "work on valves of a fleet: take partitions, estimate, commit",
-                "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md), and blocks that sites send",
-                "the fleet's tables; messages go to standard error; any number of workers share the valves",
-                {"spoolflow worker fleet.toml"}});
+      program,
+      {"worker",
+       "work on valves of a fleet: take partitions, estimate, commit",
+       "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md), blocks that sites send, and pieces "
+       "of work that commands give to the fleet (--fleet)",
+       "the fleet's tables; messages go to standard error; any number of workers share valves and pieces",
+       {"spoolflow worker fleet.toml"}});
   command->add_option("fleet", arguments->fleet, "fleet file")->type_name("FLEET.toml")->required();
   command->callback([arguments] { worker_command(*arguments); });
+  // What a worker starts for each piece; nobody types it.
+  auto parent = std::make_shared<pid_t>(0);
+  CLI::App* piece = program.add_subcommand("piece", "one piece of batch work, in the present folder")->group("");
+  piece->add_option("worker", *parent, "process of the worker")->required();
+  piece->callback([parent] {
+    fleet::become_piece_process();
+    if (::getppid() == *parent) do_piece_here();
+  });
 }
 
 void add_fleet_command(CLI::App& program) {
@@ -138,7 +165,7 @@ void add_fleet_command(CLI::App& program) {
        "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md)",
        "a page at http://127.0.0.1:8080 with an interface for other programs, until it is ended; with --setup\n"
        "         tables, stream, roles, and both servers' configuration on standard output; with --status\n"
-       "         partitions, their owners, and how far behind they are",
+       "         partitions, their owners, how far behind they are, and pieces of batch work",
        {"spoolflow fleet fleet.toml", "spoolflow fleet --setup fleet.toml", "spoolflow fleet --status fleet.toml"}});
   command->add_option("fleet", arguments->fleet, "fleet file")->type_name("FLEET.toml")->required();
   command

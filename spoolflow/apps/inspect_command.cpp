@@ -1,6 +1,5 @@
 /// `spoolflow inspect`: what a recording holds, and a channel map for foreign column names.
 #include <algorithm>
-#include <cmath>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -91,8 +90,9 @@ void print_columns(const recording::Inspection& found) {
     const std::string_view channel = column.channel ? recording::name(*column.channel) : "";
     const std::string taken = column.channel
                                   ? fmt::format("{}{}: {}", channel, column.guessed ? ", a guess" : "", column.why)
-                              : column.why.empty() ? "not used"
-                                                   : "not used; " + column.why;
+                              : column.times_others ? column.why
+                              : column.why.empty()  ? "not used"
+                                                    : "not used; " + column.why;
     print("{:<24} {:<8} {:>12.5g} {:>12.5g}  {}\n", column.name, column.unit.empty() ? "?" : column.unit, column.lowest,
           column.highest, taken);
   }
@@ -107,7 +107,7 @@ void print_missing(const recording::Inspection& found) {
   }
   std::vector<std::string> unused;
   for (const recording::InspectedColumn& column : found.columns) {
-    if (!column.channel) unused.push_back(column.name);
+    if (!column.channel && !column.times_others) unused.push_back(column.name);
   }
   if (!unused.empty()) print("Columns that are not used: {}\n", joined(unused));
   if (!found.missing.empty() || !found.helpful.empty() || !unused.empty()) print("\n");
@@ -117,7 +117,8 @@ void print_proposal(const recording::Inspection& found) {
   print_columns(found);
   print_missing(found);
   if (found.proposal.sources.empty()) {
-    print("No column is known by its name or its numbers; write a channel map by hand (see docs/formats.md).\n");
+    print(
+        "No column is known by its name or its numbers; write a channel map by hand (see docs/formats/channels.md).\n");
     return;
   }
   const std::string map = recording::written(found.proposal, found.remarks, found.missing);
@@ -127,11 +128,25 @@ void print_proposal(const recording::Inspection& found) {
                          terminal_lines(map)));
 }
 
+/// The times of a file whose columns are of several, and what becomes of them.
+void print_clocks(const recording::Inspection& found) {
+  if (found.clocks.empty()) return;
+  print("\n{:<24} {:>10} {:>10} {:>12} {:>12}  {}\n", "time", "samples", "Hz", "from s", "to s", "columns");
+  for (const recording::InspectedClock& clock : found.clocks) {
+    print("{:<24} {:>10} {:>10.4g} {:>12.6g} {:>12.6g}  {}\n", clock.time.empty() ? "(even steps)" : clock.time,
+          clock.samples, clock.rate_Hz, clock.begin_s, clock.end_s,
+          joined(clock.columns) + (clock.leads ? " (the others are brought onto this time)" : ""));
+    if (!clock.fault.empty()) print("  cannot be used: {}\n", clock.fault);
+  }
+  if (!found.resampled.empty()) print("{}\n", found.resampled);
+}
+
 /// `map`: the one that the file was read with; null: none.
 void print_text(const InspectArguments& arguments, const recording::ChannelMap* map,
                 const recording::Inspection& found) {
   print("{}: {}, {} columns: {}\n", arguments.file == "-" ? "standard input" : arguments.file, found.contents.format,
         found.contents.columns.size(), joined(found.contents.columns));
+  print_clocks(found);
   if (!found.channels.empty()) {
     print("{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
           found.end_s - found.begin_s, found.rate_Hz);
@@ -163,11 +178,6 @@ void print_text(const InspectArguments& arguments, const recording::ChannelMap* 
   }
 }
 
-/// A number of JSON, which has none for NaN.
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
 void print_names_json(const char* key, const std::vector<recording::Channel>& channels) {
   print(" \"{}\": [", key);
   for (const recording::Channel& channel : channels)
@@ -182,7 +192,7 @@ void print_column_json(const recording::Inspection& found) {
         "{}\n  {{\"column\": {}, \"unit\": {}, \"lowest\": {}, \"highest\": {}, \"channel\": {}, \"guessed\": {}, "
         "\"why\": {}}}",
         &column == found.columns.data() ? "" : ",", json_text(column.name), json_text(column.unit),
-        number(column.lowest), number(column.highest),
+        json_number(column.lowest), json_number(column.highest),
         column.channel ? json_text(std::string(recording::name(*column.channel))) : "null", column.guessed,
         json_text(column.why));
   }
@@ -191,35 +201,54 @@ void print_column_json(const recording::Inspection& found) {
   print_names_json("helpful", found.helpful);
 }
 
+void print_clocks_json(const recording::Inspection& found) {
+  print(" \"times\": [");
+  for (const recording::InspectedClock& clock : found.clocks) {
+    print(
+        "{}\n  {{\"column\": {}, \"samples\": {}, \"rate_Hz\": {}, \"begin_s\": {}, \"end_s\": {}, \"leads\": {}, "
+        "\"fault\": {}, \"columns\": [",
+        &clock == found.clocks.data() ? "" : ",", json_text(clock.time), clock.samples, json_number(clock.rate_Hz),
+        json_number(clock.begin_s), json_number(clock.end_s), clock.leads, json_text(clock.fault));
+    for (const std::string& column : clock.columns)
+      print("{}{}", &column == clock.columns.data() ? "" : ", ", json_text(column));
+    print("]}}");
+  }
+  print("\n ],\n \"resampled\": {},\n", json_text(found.resampled));
+}
+
 void print_json(const recording::Inspection& found) {
   print("{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
   for (const std::string& column : found.contents.columns) {
     print("{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
   }
   print("],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
-        found.samples, number(found.begin_s), number(found.end_s), number(found.rate_Hz), number(found.jitter));
+        found.samples, json_number(found.begin_s), json_number(found.end_s), json_number(found.rate_Hz),
+        json_number(found.jitter));
   print(" \"duplicate_times\": {},\n \"gap_count\": {},\n \"gaps_s\": [", found.duplicate_times, found.gap_count);
   for (const recording::Gap& gap : found.gaps) {
-    print("{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", number(gap.from_s), number(gap.to_s));
+    print("{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", json_number(gap.from_s), json_number(gap.to_s));
   }
   print("],\n \"channels\": [");
   for (const recording::ChannelSummary& summary : found.channels) {
     const ShownUnit unit = shown_unit(summary.channel);
-    const auto shown = [&](double value) { return number(value * unit.per_SI + unit.offset); };
+    const auto shown = [&](double value) { return json_number(value * unit.per_SI + unit.offset); };
     print(
         "{}\n  {{\"channel\": \"{}\", \"unit\": \"{}\", \"lowest\": {}, \"mean\": {}, \"highest\": {}, \"missing\": "
         "{}, "
         "\"clipped_share\": {}}}",
         &summary == found.channels.data() ? "" : ",", recording::name(summary.channel), unit.name,
-        shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing, number(summary.clipped));
+        shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
+        json_number(summary.clipped));
   }
   print("\n ],\n");
+  print_clocks_json(found);
   print_column_json(found);
   print(" \"proposed_channel_map\": {}\n}}\n",
         json_text(recording::written(found.proposal, found.remarks, found.missing)));
 }
 
 void inspect(const InspectArguments& arguments) {
+  if (inspect_image(arguments.file, arguments.json)) return;
   refuse_other_kinds("inspect", {{arguments.file, FileKind::recording}});
   recording::ReadOptions options;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
@@ -244,13 +273,15 @@ void add_inspect_command(CLI::App& program) {
   CLI::App* command = add_command(
       program,
       {"inspect",
-       "show what a recording holds and propose a channel map",
+       "show what a recording, or a flash page of parameters, holds",
        "a recording: CSV (comma, semicolon or tab; decimal comma; - for CSV from standard input), MATLAB v5 or v7.3, "
-       "HDF5",
+       "HDF5; or parameters from `spoolflow export parameters`",
        "on standard output: channels, units, rate, gaps, clipping, what each column could be by its name and its "
-       "numbers, what is missing, and a channel map to paste",
-       {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml"}});
-  command->add_option("file", arguments->file, "recording")->required();
+       "numbers, what is missing, and a channel map to paste. Of parameters: valve, model, versions, tables, whether "
+       "the "
+       "sensor takes them; where it does not, the exit status is 2",
+       {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml", "spoolflow inspect valve.bin"}});
+  command->add_option("file", arguments->file, "recording, or parameters")->required();
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");

@@ -47,7 +47,8 @@ void add_commands(CLI::App& program) {
 
 std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const CLI::App* command :
+       program.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); })) {
     names.push_back(command->get_name());
   }
   return names;

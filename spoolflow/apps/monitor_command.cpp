@@ -3,6 +3,8 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <numeric>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,11 +13,15 @@
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/pieces/fleet_work.hpp"
+#include "spoolflow/apps/pieces/piece_kinds.hpp"
+#include "spoolflow/apps/pieces/watch_text.hpp"
 #include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/fleet/jobs/contents.hpp"
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
@@ -47,6 +53,8 @@ void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& 
 /// The band as told and as the raised indicators widen it.
 class BandWatch {
  public:
+  /// Goes on from there.
+  explicit BandWatch(const report::DoubtFigures& figures = {}) : figures_(figures) {}
   void take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
             const sensor::Estimate<double>& answer) {
     const double windows = watch.judged_windows();
@@ -95,6 +103,70 @@ void monitor_one(const model::Model& model, const std::string& recording, const 
   follow_trend(watch, trend);
 }
 
+/// By workers of a fleet: a piece a recording, each from the state that the one before has left.
+class MonitorByFleet {
+ public:
+  explicit MonitorByFleet(const MonitorArguments& arguments)
+      : arguments_(arguments), fleet_(arguments.fleet, tool_version(), say_line) {
+    if (std::ranges::count(arguments.recordings, "-") > 0)
+      throw std::invalid_argument("--fleet sends whole recordings; name a file instead of -");
+  }
+  /// The next recording; what is known behind it.
+  Watched next(const std::string& recording) {
+    SentPiece piece{{.kind = "monitor"}};
+    fleet_.add(piece, arguments_.model);
+    fleet_.add(piece, recording);
+    if (!arguments_.channels.empty()) fleet_.add(piece, arguments_.channels);
+    if (!arguments_.baseline.empty()) fleet_.add(piece, arguments_.baseline);
+    if (state_) FleetWork::add_kept(piece, "watched", *state_);
+    piece.piece.arguments = fmt::format("{} {:d} {:d} {:d}", arguments_.false_alarms_per_year,
+                                        !arguments_.channels.empty(), !arguments_.baseline.empty(), state_.has_value());
+    fleet_.ask(std::move(piece));
+    Watched out;
+    fleet_.wait([&](std::size_t, const fleet::Outcome& outcome) {
+      throw_failure(outcome);
+      state_ = outcome.files.at(0);
+      out = read_watched(fleet_.content(*state_));
+    });
+    return out;
+  }
+
+ private:
+  const MonitorArguments& arguments_;
+  FleetWork fleet_;
+  std::optional<fleet::PieceFile> state_;
+};
+
+void go_on(monitor::Watch& watch, const Watched& from) {
+  if (!watch.set_state(from.state)) throw fleet::PieceError("the state of a watch is of another version");
+}
+
+/// One recording on a worker.
+fleet::Outcome do_monitor_piece(const fleet::Piece& piece) {
+  std::istringstream arguments(piece.arguments);
+  double false_alarms_per_year = 1;
+  bool has_channels = false, has_baseline = false, goes_on = false;
+  arguments >> false_alarms_per_year >> has_channels >> has_baseline >> goes_on;
+  const model::Model model = model::read_model(path_of(piece, 0));
+  std::size_t next = 2;
+  recording::ChannelMap channels;
+  if (has_channels) channels = recording::read_channel_map(path_of(piece, next++));
+  const std::string baseline = has_baseline ? path_of(piece, next++) : std::string();
+  monitor::Watch watch(model, {false_alarms_per_year}, read_baseline(baseline));
+  Watched watched;
+  if (goes_on) {
+    watched = read_watched(fleet::whole_file(path_of(piece, next)));
+    go_on(watch, watched);
+  }
+  BandWatch band(watched.band);
+  monitor_one(model, path_of(piece, 1), channels, watch, watched.trend, band, [](std::optional<double>) {});
+  watched.state = watch.state();
+  watched.band = band.figures();
+  constexpr const char* output = "watched";
+  write_piece_file(output, bytes_of(watched));
+  return {.files = {{output}}};
+}
+
 /// The model with what was found put right, and from which recordings.
 void write_corrected(std::ostream& out, const MonitorArguments& arguments, const model::Model& model,
                      const monitor::Watch& watch, const std::vector<std::uint64_t>& samples) {
@@ -121,16 +193,20 @@ void print_condition(const monitor::Watch& watch) {
   }
 }
 
+void refuse_other_kinds(const MonitorArguments& arguments) {
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
+  apps::refuse_other_kinds("monitor", roles);
+}
+
 }  // namespace
 
 void monitor_recordings(const MonitorArguments& arguments) {
-  std::vector<Input> roles{{arguments.model, FileKind::model}};
-  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
-  refuse_other_kinds("monitor", roles);
+  refuse_other_kinds(arguments);
   const model::Model model = model::read_model(arguments.model);
   recording::ChannelMap channels;
-  std::vector<std::filesystem::path> inputs{arguments.model};
-  inputs.insert(inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
+  std::vector<std::filesystem::path> inputs(arguments.recordings.begin(), arguments.recordings.end());
+  inputs.emplace_back(arguments.model);
   if (!arguments.channels.empty()) {
     channels = recording::read_channel_map(arguments.channels);
     inputs.emplace_back(arguments.channels);
@@ -147,27 +223,36 @@ void monitor_recordings(const MonitorArguments& arguments) {
   if (!arguments.json.empty()) json.emplace(arguments.json, inputs);
   std::optional<OutputFile> corrected;
   if (!arguments.adapt.empty()) {
-    if (std::find(arguments.recordings.begin(), arguments.recordings.end(), "-") != arguments.recordings.end())
+    if (std::ranges::count(arguments.recordings, "-") > 0)
       throw model::ModelError("-: a corrected model tells its recordings by their checksums; --adapt needs files");
     inputs.emplace_back(arguments.json);
     corrected.emplace(arguments.adapt, inputs);
   }
+  std::optional<MonitorByFleet> fleet;
+  if (!arguments.fleet.empty()) fleet.emplace(arguments);
   std::vector<std::uint64_t> samples;
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
   BandWatch band;
+  const auto total = static_cast<double>(arguments.recordings.size());
   {
     Progress progress("monitoring", arguments.quiet);
-    const auto total = static_cast<double>(arguments.recordings.size());
     for (const std::string& recording : arguments.recordings) {
       const auto before = static_cast<double>(runs.size());
-      const std::uint64_t samples_before = watch.usage().samples;
-      monitor_one(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
-        if (share) progress.update((before + *share) / total);
-      });
+      if (fleet) {
+        Watched watched = fleet->next(recording);
+        go_on(watch, watched);
+        trend = std::move(watched.trend);
+        band = BandWatch(watched.band);
+        progress.update((before + 1) / total);
+      } else {
+        monitor_one(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
+          if (share) progress.update((before + *share) / total);
+        });
+      }
       runs.push_back(
           {std::filesystem::path(recording).stem().string(), watch.condition(), watch.causes(), watch.indicators()});
-      samples.push_back(watch.usage().samples - samples_before);
+      samples.push_back(watch.usage().samples - std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
     }
   }
   if (corrected) write_corrected(corrected->stream(), arguments, model, watch, samples);
@@ -209,6 +294,8 @@ void add_monitor_command(CLI::App& program) {
                    "wanted at most over all indicators, of a valve at work day and night")
       ->check(CLI::Range(1e-6, 1e4))
       ->capture_default_str();
+  add_fleet_option(*command, arguments->fleet, "file by file");
+  add_piece_kind("monitor", do_monitor_piece);
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { monitor_recordings(*arguments); });

@@ -1,5 +1,6 @@
 #pragma once
 /// What the command prints for people: names from files and command lines cannot steer the terminal or forge a line.
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,6 +16,11 @@ namespace spoolflow::apps {
 [[nodiscard]] std::string terminal_lines(std::string_view text);
 /// The text as a JSON string with its quotes, as harmless.
 [[nodiscard]] std::string json_text(std::string_view text);
+/// A number of JSON, which has none for what is infinite or no number: null. As many digits as its type needs.
+template <class Number>
+[[nodiscard]] std::string json_number(Number value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
 
 namespace detail {
 
@@ -44,6 +50,11 @@ void print(fmt::format_string<detail::Harmless<Values>...> format, const Values&
 template <class... Values>
 void say(fmt::format_string<detail::Harmless<Values>...> format, const Values&... values) {
   say_text(fmt::format(format, detail::harmless(values)...));
+}
+
+/// One line of the program's own.
+inline void say_line(const std::string& text) {
+  say("spoolflow: {}\n", text);
 }
 
 /// What was printed counts as written only once it is: `> /dev/full` must not look like success. Throws as

@@ -1,6 +1,7 @@
 /// `spoolflow validate`: how good the sensor is on recordings with a reference flow.
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,6 +31,16 @@ void print_row(const std::string& run, estimation::Estimator estimator, const va
                double percent) {
   print("{:<24} {:<10} {:>8.2f} {:>8.2f} {:>8.1f} {:>7.1f} %\n", run, estimation::name(estimator),
         all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
+}
+
+/// What each run shows of its meter.
+void print_meters(const validation::Validation& validation) {
+  bool first = true;
+  for (const validation::RunResult& run : validation.runs) {
+    if (!run.reference_meter_uncertainty) continue;
+    if (std::exchange(first, false)) print("\n");
+    print("Reference meter of {}: lag {} (95 %)\n", run.name, report::reference_meter_text(run));
+  }
 }
 
 void print_figures(const model::Model& model, const validation::Validation& validation) {
@@ -91,10 +102,16 @@ void validate(const ValidateArguments& arguments) {
     validation = validation::validate(model, {arguments.recordings.begin(), arguments.recordings.end()}, options,
                                       [&](double share) { progress.update(share); });
   }
+  for (const validation::RunResult& run : validation.runs) {
+    if (!run.resampled.empty()) say("{}: {}\n", run.file, run.resampled);
+  }
   if (page) report::write_validation_report(page->stream(), model, validation, others, units);
   if (figures) report::write_metrics(figures->stream(), model, validation);
   commit_together({page ? &*page : nullptr, figures ? &*figures : nullptr});
-  if (arguments.json != "-" && arguments.report != "-") print_figures(model, validation);
+  if (arguments.json != "-" && arguments.report != "-") {
+    print_figures(model, validation);
+    print_meters(validation);
+  }
   const auto unmet = std::ranges::count(validation.limits, false, &validation::JudgedLimit::met);
   if (arguments.fail_unmet && unmet > 0)
     throw std::runtime_error(

@@ -160,8 +160,9 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
     const recording::CampaignRecording& entry = campaign.recordings[k];
     progress(fmt::format("reading {}", entry.file.filename().string()),
              reading_share * static_cast<double>(k) / static_cast<double>(campaign.recordings.size()));
+    const recording::Recording& read = recordings.read_next();
     provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
-                                 model::sha256_of_file(entry.file), recordings.read_next().size()});
+                                 model::sha256_of_file(entry.file), read.size(), read.resampled});
   }
   const CalibrationProgress fitting = [&](const std::string& step, double share) {
     progress(step, reading_share + (1 - reading_share) * share);

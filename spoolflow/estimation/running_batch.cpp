@@ -61,6 +61,7 @@ template <class Parameters>
 RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>> valves,
                                        batch::InstructionSet instructions)
     : times_(valves.size()),
+      positions_(valves.size()),
       places_(filled_up(valves).size()),
       batch_(filled_up(valves), instructions),
       rows_(samples_at_once * places_) {
@@ -72,7 +73,8 @@ RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>>
 
 template <class Parameters>
 void RunningBatch<Parameters>::put(std::size_t at, std::size_t valve, TimedSample sample) {
-  const sensor::Status fault = take_out_implausible(limits_[valve], sample);
+  const sensor::Status fault =
+      take_out_implausible(limits_[valve], sample) | take_out_hanging(limits_[valve], positions_[valve], sample);
   SteppedSample<float>& given = rows_.given[at] = times_[valve].template next<float>(sample);
   given.fault = fault;
   if constexpr (whole) {

@@ -56,6 +56,7 @@ class RunningBatch {
   std::vector<double> rated_flow_m3_per_s_;
   std::vector<SolenoidLimits> limits_;
   std::vector<SampleTimes> times_;
+  std::vector<StillPosition> positions_;
   std::size_t places_;  ///< of valves in the batch, those that fill it up included
   batch::ValveBatch<Parameters> batch_;
   Rows rows_;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "spoolflow/estimation/coil_limits.hpp"
+#include "spoolflow/estimation/still_position.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
@@ -41,6 +42,15 @@ inline sensor::Status take_out_implausible(const SolenoidLimits& limits, TimedSa
   out = take_away(sample.current_a_A, a.current_A, now) || out;
   out = take_away(sample.voltage_a_V, a.voltage_V, not_measured) || out;
   return sensor::when(out, sensor::Status::coil_fault);
+}
+
+/// Takes a position out of a sample that hangs: it is then missing. Returns the fault to tell.
+inline sensor::Status take_out_hanging(const SolenoidLimits& limits, StillPosition& position, TimedSample& sample) {
+  const bool both_coils = std::isfinite(sample.current_a_A);
+  const double current_A = both_coils ? sample.current_A - sample.current_a_A : sample.current_A;
+  const bool hangs = position.hangs(sample.position_m, current_A, limits.b.current_A / implausible_current_ratio);
+  if (hangs) sample.position_m = not_measured;
+  return sensor::when(hangs, sensor::Status::position_fault);
 }
 
 /// The same as the sensor takes it.
@@ -125,6 +135,7 @@ struct RunningState {
   sensor::WholeCondensedState<double> whole_condensed;
   sensor::WholeValveState<double> whole_valve;
   SampleTimes times;
+  StillPosition position;
 };
 static_assert(std::is_trivially_copyable_v<RunningState>);
 
@@ -155,12 +166,14 @@ class RunningSensor {
     limits_ = limits();
   }
 
-  /// One sample. A current or voltage that no coil of the valve carries is missing, and coil_fault says so. A repeated
-  /// time is a second look at the same instant, a time that runs backwards holds the last
-  /// answer; both say time_fault, and the next time step counts from the new time. Before the first complete sample the
-  /// flow is zero with a band over the whole rated flow, of a whole valve to both sides.
+  /// One sample. A current or voltage that no coil of the valve carries is missing, and coil_fault says so; a position
+  /// that hangs is missing, and position_fault says so (StillPosition). A repeated time is a second look at the same
+  /// instant, a time that runs backwards holds the last answer; both say time_fault, and the next time step counts from
+  /// the new time. Before the first complete sample the flow is zero with a band over the whole rated flow, of a whole
+  /// valve to both sides.
   sensor::Estimate<double> step(TimedSample sample) {
-    const sensor::Status fault = take_out_implausible(limits_, sample);
+    const sensor::Status fault =
+        take_out_implausible(limits_, sample) | take_out_hanging(limits_, state_.position, sample);
     auto given = state_.times.next<double>(sample);
     given.fault = fault;
     if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;

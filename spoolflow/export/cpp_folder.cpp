@@ -3,19 +3,19 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "spoolflow/export/cpp/c_header.hpp"
 #include "spoolflow/export/cpp/cell_sums.hpp"
 #include "spoolflow/export/cpp_texts.hpp"
 #include "spoolflow/export/golden_points.hpp"
 #include "spoolflow/export/number_groups.hpp"
+#include "spoolflow/export/parameters/single_tables.hpp"
 #include "spoolflow/export/sensor_headers.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
-#include "spoolflow/model/limit_check.hpp"
 #include "spoolflow/numerics/crc32.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -57,7 +57,8 @@ std::string definition(const std::string& type, const std::string& name, const s
   std::vector<float> single;
   for (const double number : numbers) single.push_back(single_precision(number));
   return fmt::format(
-      "inline constexpr auto {1} = std::bit_cast<spoolflow::sensor::{0}<float>>(std::array<float, {2}>{{\n{3}}});\n"
+      "inline constexpr auto {1} = __builtin_bit_cast(spoolflow::sensor::{0}<float>, (std::array<float, "
+      "{2}>{{\n{3}}}));\n"
       "inline constexpr std::uint32_t {1}_crc32 = 0x{4:08X}U;\n\n",
       type, name, numbers.size(), literals(numbers, groups),
       numerics::crc32({reinterpret_cast<const std::uint8_t*>(single.data()), single.size() * sizeof(float)}));
@@ -95,22 +96,8 @@ std::string condensed_definition(const model::Condensed& condensed, const std::s
   return definition("CondensedTables", name, numbers, groups.in_order(numbers.size()));
 }
 
-/// What holds in double precision need not hold in the valve's: two thresholds may have become one. `path`: in the
-/// file.
-void require_limits_in_single_precision(const model::Observer& observer, const std::string& path) {
-  const auto found = model::violation(single_precision(observer.parameters), [](auto& parameters, auto& visitor) {
-    model::describe_observer(parameters, visitor);
-  });
-  if (found) {
-    throw std::invalid_argument(
-        fmt::format("in single precision the model's {}{}: {}; calibrate again and look at the report for what went "
-                    "astray",
-                    path, found->path, found->problem));
-  }
-}
-
 std::string observer_definition(const model::Observer& observer, const std::string& name, const std::string& path) {
-  require_limits_in_single_precision(observer, path);
+  (void)single_tables(observer, path);  // it holds there, too
   const std::vector<double> numbers = numbers_of(observer.parameters);
   NumberGroups groups(&observer.parameters);
   model::describe_observer(observer.parameters, groups);
@@ -158,23 +145,16 @@ std::string sensor_includes(const model::Model& model) {
          (model.has_observer() ? "#include \"spoolflow/sensor/observer.hpp\"\n" : "");
 }
 
-std::string model_text(const model::Model& model) {
-  std::ostringstream out;
-  model::write_model(out, model);
-  return out.str();
-}
-
 std::string model_header(const model::Model& model) {
   const bool has_observer = model.has_observer();
-  std::string out = made_from(model) +
-                    "\n#pragma once\n#include <array>\n#include <bit>\n#include <cstddef>\n#include <cstdint>\n\n" +
+  std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n" +
                     sensor_includes(model);
   out +=
       "\n/// One valve's numbers, SI. The arrays lie in flash as the sensor's structures do.\nnamespace valve_model "
       "{\n\n";
   out += fmt::format("inline constexpr char name[] = \"{}\";\n", in_quotes(model.valve.name));
   out += fmt::format("inline constexpr char model_sha256[] = \"{}\";  // of the model file as spoolflow writes it\n",
-                     model::sha256_of_text(model_text(model)));
+                     sha256_of_model(model));
   out += fmt::format("inline constexpr float rated_flow_m3_per_s = {};  // {:.4g} L/min\n",
                      float_literal(model.valve.rated_flow_m3_per_s),
                      units::L_per_min_from_m3_per_s(model.valve.rated_flow_m3_per_s));
@@ -304,6 +284,9 @@ std::vector<ExportedFile> cpp_folder(const model::Model& model) {
   std::vector<ExportedFile> files =
       model.whole() ? proof(model, whole_golden_points(model)) : proof(model, golden_points(model));
   files.push_back({"example.cpp", text(model.whole() ? "whole_example.cpp.in" : "example.cpp.in")});
+  files.push_back({"valve_sensor.h", c_header(text("valve_sensor.h.in"), model)});
+  files.push_back({"valve_sensor.cpp", text("valve_sensor.cpp.in")});
+  files.push_back({"example.c", text("example.c.in")});
   files.push_back({"self_test.cpp", text("self_test.cpp.in")});
   files.push_back({"cell_sums.hpp", text("cell_sums.hpp")});
   files.push_back({std::string(cpp_model_name), model_header(model)});

@@ -13,7 +13,7 @@ FmuParts embedded_parts(const std::string& name, std::span<const EmbeddedFile> s
     }
     throw std::logic_error("no embedded binary " + file);
   };
-  return {binary(name + ".so"), binary(name + ".dll"), sources};
+  return {binary(name + ".so"), binary(name + ".dll"), binary(name + "_aarch64.so"), sources};
 }
 
 bool windows_is_served() {

@@ -6,7 +6,7 @@
 
 namespace spoolflow::exports {
 
-/// Both binaries of "sensor_fmu" or "valve_fmu", with its sources.
+/// The binaries of "sensor_fmu" or "valve_fmu", with its sources.
 [[nodiscard]] FmuParts embedded_parts(const std::string& name, std::span<const EmbeddedFile> sources);
 /// Whether FMUs get libraries for Windows: not where this program was built without a compiler for it.
 [[nodiscard]] bool windows_is_served();

@@ -61,6 +61,8 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
   if (!parts.win64.empty()) {
     members.insert(members.begin() + 2, {win64 + content.identifier + ".dll", std::string(parts.win64)});
   }
+  if (!fmi2 && !parts.aarch64.empty())
+    members.push_back({"binaries/aarch64-linux/" + content.identifier + ".so", std::string(parts.aarch64)});
   if (fmi2) {
     members.push_back({"model.png", asset("icon.png")});
   } else {

@@ -58,7 +58,7 @@ ssl = on
 ssl_cert_file = '/etc/postgresql/server.pem'
 ssl_key_file = '/etc/postgresql/server.key'
 password_encryption = scram-sha-256
-max_connections = 200                   # one for each partition, and two for each worker
+max_connections = 200                   # one for each partition, two for each worker, one for each of its [jobs] processes
 wal_level = replica
 max_wal_senders = 5
 hot_standby = on
@@ -68,10 +68,12 @@ synchronous_standby_names = 'ANY 1 (fleet_standby)'
 hostssl fleet        +spoolflow_worker  all  scram-sha-256
 hostssl fleet        +spoolflow_reader  all  scram-sha-256
 hostssl fleet        +spoolflow_page    all  scram-sha-256
+hostssl fleet        +spoolflow_batch   all  scram-sha-256
 hostssl replication  replicator         all  scram-sha-256
 # once, as the database's owner; a role for each worker and each reader:
 #   CREATE ROLE worker_1 LOGIN PASSWORD '...' IN ROLE spoolflow_worker;
 #   CREATE ROLE page LOGIN PASSWORD '...' IN ROLE spoolflow_page;
+#   CREATE ROLE engineer_1 LOGIN PASSWORD '...' IN ROLE spoolflow_batch;
 #   CREATE ROLE dashboard LOGIN PASSWORD '...' IN ROLE spoolflow_reader;
 )";
 }

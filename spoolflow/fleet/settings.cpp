@@ -1,7 +1,9 @@
 #include "spoolflow/fleet/settings.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -42,6 +44,13 @@ void read_worker(const TomlTable& worker, WorkerSettings& out) {
   out.commit_s = within(worker, "commit_s", out.commit_s, 0.05, 10);
 }
 
+void read_jobs(const TomlTable& jobs, JobSettings& out) {
+  jobs.allow_only({"processes", "keep_hours", "largest_MB"});
+  out.processes = static_cast<unsigned>(within(jobs, "processes", out.processes, 0, 1024));
+  out.keep_hours = within(jobs, "keep_hours", out.keep_hours, 1, 1e5);
+  out.largest_MB = within(jobs, "largest_MB", out.largest_MB, 1, 2000);
+}
+
 void read_sites(const TomlTable& top, FleetSettings& out) {
   const toml::node* const node = top.table.get("sites");
   if (node == nullptr) return;
@@ -62,7 +71,7 @@ void read_sites(const TomlTable& top, FleetSettings& out) {
 FleetSettings read_fleet(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
   const TomlTable top{document, file, "the file"};
-  top.allow_only({"sites", "nats", "postgresql", "worker", "alarms", "page"});
+  top.allow_only({"sites", "nats", "postgresql", "worker", "jobs", "alarms", "page"});
   const auto part = [&](const char* key, bool needed) -> std::optional<TomlTable> {
     const toml::node* node = top.table.get(key);
     if (node == nullptr && !needed) return std::nullopt;
@@ -79,6 +88,8 @@ FleetSettings read_fleet(const std::filesystem::path& file) {
   postgresql->allow_only({"connection"});
   out.connection = postgresql->text("connection");
   if (const auto worker = part("worker", false)) read_worker(*worker, out.worker);
+  out.jobs.processes = std::max(1U, std::thread::hardware_concurrency());
+  if (const auto jobs = part("jobs", false)) read_jobs(*jobs, out.jobs);
   if (const auto page = part("page", false)) out.page = live::read_page(*page);
   if (const auto alarms = part("alarms", false)) {
     alarms->allow_only({"raised_after_s", "gone_after_s"});

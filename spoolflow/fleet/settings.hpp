@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/fleet/jobs/job_worker.hpp"
 #include "spoolflow/fleet/store/schema.hpp"
 #include "spoolflow/fleet/transport/nats.hpp"
 #include "spoolflow/live/page_settings.hpp"
@@ -23,6 +24,7 @@ struct FleetSettings {
   StreamSettings stream{};
   std::string connection{};  ///< to PostgreSQL, as libpq reads it
   WorkerSettings worker{};
+  JobSettings jobs{};  ///< processes: as many as the machine has cores where the file does not say
   double raised_after_s = 2, gone_after_s = 10;  ///< of alarms; --setup keeps them for all workers
   live::PageSettings page{};                     ///< of spoolflow fleet
   std::vector<std::string> sites{};              ///< for whose senders --setup prints what they may do

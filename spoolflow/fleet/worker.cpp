@@ -41,7 +41,8 @@ Worker::Worker(FleetSettings settings, std::string program, std::function<void(c
     Session session(settings_.connection, owner_);
     learn_settings(session);
   } catch (const ServerAway& error) {  // as later, too: it is waited for
-    tell_(error.what());
+    told_ = error.what();
+    tell_(told_);
   }
   keeper_ = std::jthread([this](const std::stop_token& stop) { keep_share(stop); });
 }
@@ -72,7 +73,6 @@ void Worker::stop() {
 
 void Worker::keep_share(const std::stop_token& stop) {
   std::optional<Session> session;
-  std::string told;
   live::SteadyTime next = std::chrono::steady_clock::now();
   do {
     try {
@@ -80,11 +80,11 @@ void Worker::keep_share(const std::stop_token& stop) {
       if (shared_.partitions == 0) learn_settings(*session);
       spread(*session);
       tell_of_nats();
-      told.clear();
+      told_.clear();
     } catch (const std::exception& error) {
       session.reset();
-      if (told != error.what()) tell_(error.what());
-      told = error.what();
+      if (told_ != error.what()) tell_(error.what());
+      told_ = error.what();
     }
     next = std::max(next + spread_every, std::chrono::steady_clock::now());
   } while (live::wait_until(next, stop));

@@ -53,10 +53,13 @@ std::string sha256_of_text(std::string_view text) {
   return sum.hexadecimal();
 }
 
+std::int64_t creation_seconds() {
+  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+  return epoch != nullptr ? std::strtoll(epoch, nullptr, 10) : static_cast<std::int64_t>(std::time(nullptr));
+}
+
 std::string creation_time() {
-  std::time_t now = std::time(nullptr);
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))
-    now = static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10));
+  const auto now = static_cast<std::time_t>(creation_seconds());
   std::tm utc{};
   gmtime_r(&now, &utc);
   std::array<char, 32> text;

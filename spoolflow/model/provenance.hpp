@@ -9,10 +9,11 @@
 namespace spoolflow::model {
 
 struct InputFile {
-  std::string protocol;   ///< as in the campaign, or "campaign" for the campaign file itself
-  std::string file;       ///< as written in the campaign
-  std::string sha256;     ///< 64 hexadecimal digits
-  std::uint64_t samples;  ///< rows read; 0 for the campaign file
+  std::string protocol;     ///< as in the campaign, or "campaign" for the campaign file itself
+  std::string file;         ///< as written in the campaign
+  std::string sha256;       ///< 64 hexadecimal digits
+  std::uint64_t samples;    ///< rows read; 0 for the campaign file
+  std::string resampled{};  ///< what of it was brought onto the time of its current; told, not written to the model
 };
 
 /// One number that was put right after calibration.
@@ -46,7 +47,9 @@ struct Provenance {
 /// Throws std::runtime_error where the file cannot be read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
 [[nodiscard]] std::string sha256_of_text(std::string_view text);
-/// The present moment in UTC, ISO 8601 to the second; SOURCE_DATE_EPOCH overrides it for reproducible models.
+/// The present moment in seconds since 1970, UTC; SOURCE_DATE_EPOCH overrides it for reproducible files.
+[[nodiscard]] std::int64_t creation_seconds();
+/// The same in UTC, ISO 8601 to the second.
 [[nodiscard]] std::string creation_time();
 
 }  // namespace spoolflow::model

@@ -7,6 +7,7 @@
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/column_clock.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 
 namespace spoolflow::recording {
@@ -26,6 +27,26 @@ class Binder {
     found = bind(other->second);
     if (found) found->channel = channel;
     return found;
+  }
+
+  /// Of a file with several times, or with one of another length than the leading channel: the leading channel's.
+  std::optional<BoundColumn> time(const std::vector<BoundColumn>& others) const {
+    const BoundColumn* const leading = leading_channel(others);
+    if (options_.channels.sources.contains(Channel::time) || leading == nullptr || !table_.samples_of(leading->column))
+      return bind(Channel::time);
+    std::vector<std::size_t> times, taken;
+    for (std::size_t index = 0; index < columns_.size(); ++index) {
+      const auto header = channel_header(columns_[index]);
+      if (header && header->channel == Channel::time) times.push_back(index);
+    }
+    if (times.size() == 1 && table_.samples_of(times.front()) == table_.samples_of(leading->column))
+      return bind(Channel::time);
+    for (const BoundColumn& other : others) taken.push_back(other.column);
+    const auto clock = clock_of(table_, leading->column, std::nullopt, taken, file_);
+    if (!clock) return bind(Channel::time);
+    if (clock->time) return as_time(*clock->time);
+    return BoundColumn{columns_.size(),        Channel::time, 1, 0, "wf_increment of " + leading->name,
+                       *units::unit_named("s")};
   }
 
   [[noreturn]] void missing(Channel channel) const {
@@ -133,18 +154,24 @@ class Binder {
                         "one in a channel map",
                         file_, out->name, column.name, name(channel)));
       }
-      const std::string place = fmt::format("{}, column '{}'", file_, column.name);
-      if (header->unit.empty()) {
-        throw RecordingError(fmt::format(
-            "{}: tells no unit; name it {}_{} or say its unit in a channel map (allowed: "
-            "{})",
-            place, name(channel), units::unit_named(unit_names(channel).front())->header, listed(unit_names(channel))));
-      }
-      const units::Unit unit = channel_unit(channel, header->unit, options_.stroke_m, place);
-      out = BoundColumn{index, channel, unit.factor, unit.offset, column.name, unit};
+      out = in_unit(index, channel, header->unit);
     }
     return out;
   }
+
+  BoundColumn in_unit(std::size_t index, Channel channel, const std::string& written) const {
+    const std::string place = fmt::format("{}, column '{}'", file_, columns_[index].name);
+    if (written.empty()) {
+      throw RecordingError(fmt::format(
+          "{}: tells no unit; name it {}_{} or say its unit in a channel map (allowed: "
+          "{})",
+          place, name(channel), units::unit_named(unit_names(channel).front())->header, listed(unit_names(channel))));
+    }
+    const units::Unit unit = channel_unit(channel, written, options_.stroke_m, place);
+    return {index, channel, unit.factor, unit.offset, columns_[index].name, unit};
+  }
+
+  BoundColumn as_time(std::size_t index) const { return in_unit(index, Channel::time, unit_of_time(columns_[index])); }
 
   const SampleTable& table_;
   const std::vector<FileColumn>& columns_;
@@ -154,24 +181,35 @@ class Binder {
 
 }  // namespace
 
+const BoundColumn* leading_channel(const std::vector<BoundColumn>& bound) {
+  for (const Channel channel : {Channel::current, Channel::current_a, Channel::current_b, Channel::position}) {
+    const auto found = std::ranges::find(bound, channel, &BoundColumn::channel);
+    if (found != bound.end()) return &*found;
+  }
+  const auto first = std::ranges::find_if(bound, [](const BoundColumn& one) { return one.channel != Channel::time; });
+  return first == bound.end() ? nullptr : &*first;
+}
+
 std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptions& options, const std::string& file) {
   const Binder binder(table, options, file);
   std::vector<BoundColumn> bound;
   const auto add = [&](Channel channel, bool required) {
     const auto same = [channel](const BoundColumn& column) { return column.channel == channel; };
-    if (std::any_of(bound.begin(), bound.end(), same)) return;
+    if (channel == Channel::time || std::any_of(bound.begin(), bound.end(), same)) return;
     if (auto column = binder.bind(channel)) {
       bound.push_back(std::move(*column));
     } else if (required) {
       binder.missing(channel);
     }
   };
-  add(Channel::time, true);
   for (const Channel channel : options.required) add(channel, true);
   for (const Channel channel : options.optional) add(channel, false);
   if (options.required.empty() && options.optional.empty()) {
     for (const Channel channel : all_channels()) add(channel, false);
   }
+  auto time = binder.time(bound);
+  if (!time) binder.missing(Channel::time);
+  bound.insert(bound.begin(), std::move(*time));
   return bound;
 }
 

@@ -25,7 +25,13 @@ struct BoundColumn {
 /// A channel that the map names is taken from there; any other from a header <channel>_<unit>. Throws RecordingError: a
 /// required channel that is missing, a column that the map names and the file lacks, two columns for one channel, a
 /// unit that is unknown, missing, of another quantity, or at odds with the one the file states.
+/// Where the file holds several times, that of the leading channel is taken; where it has none but the leading channel
+/// is sampled evenly (FileColumn), `time` is bound to a column beyond the last, which on_one_clock() provides.
 [[nodiscard]] std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptions& options,
                                                      const std::string& file);
+
+/// Of the bound channels the one whose time is that of the recording: the current, else the position, else the first
+/// that is not time. Null where there is none.
+[[nodiscard]] const BoundColumn* leading_channel(const std::vector<BoundColumn>& bound);
 
 }  // namespace spoolflow::recording

@@ -12,7 +12,7 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t most_columns = 64, kept_samples = 20'000, block_samples = 4096;
+constexpr std::size_t most_columns = 64, most_lengths = 16, kept_samples = 20'000, block_samples = 4096;
 constexpr std::size_t least_samples = 50;
 constexpr int most_lag = 100;           // samples
 constexpr double along = 0.5;           // correlation from which two columns go together
@@ -20,19 +20,20 @@ constexpr double closely_along = 0.8;   // of voltage and current
 constexpr double slow_share = 0.002;    // of a column's range, the largest mean step of what drifts
 constexpr double noise_over_range = 3;  // a range that is hardly more than the noise is no signal
 
-/// Those of the length that most columns have.
-std::vector<std::size_t> equally_long(const SampleTable& table) {
+/// Those of each length, the most frequent first.
+std::vector<std::vector<std::size_t>> equally_long(const SampleTable& table) {
   std::map<std::uint64_t, std::vector<std::size_t>> by_length;
   for (std::size_t k = 0; k < table.columns().size(); ++k) by_length[table.samples_of(k).value_or(0)].push_back(k);
-  std::vector<std::size_t> out;
-  for (auto& [length, columns] : by_length) {
-    if (columns.size() >= out.size()) out = std::move(columns);
-  }
-  if (out.size() > most_columns) out.resize(most_columns);
+  std::vector<std::vector<std::size_t>> out;
+  for (auto& [length, columns] : by_length) out.push_back(std::move(columns));
+  std::ranges::stable_sort(out, std::ranges::greater{}, [](const auto& columns) { return columns.size(); });
+  if (out.size() > most_lengths) out.resize(most_lengths);
+  for (std::vector<std::size_t>& columns : out) columns.resize(std::min(columns.size(), most_columns));
   return out;
 }
 
 void take(SurveyedColumn& column, const std::vector<double>& values, std::size_t rows, double& last) {
+  column.rows += rows;
   for (std::size_t k = 0; k < rows; ++k) {
     const double value = values[k];
     if (column.beginning.size() < kept_samples) column.beginning.push_back(value);
@@ -81,8 +82,10 @@ struct Alongside {
   int lag = 0;
 };
 
-Alongside compare(const std::vector<double>& first, const std::vector<double>& second) {
+Alongside compare(const SurveyedColumn& one, const SurveyedColumn& other) {
   Alongside out;
+  if (one.rows != other.rows) return out;
+  const std::vector<double>&first = one.beginning, &second = other.beginning;
   const int n = static_cast<int>(std::min(first.size(), second.size()));
   const int most = std::min(most_lag, n / 10);
   for (int lag = -most; lag <= most; ++lag) {
@@ -155,7 +158,7 @@ class Guesser {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (!free(k, dimension) || !moves(columns_[k])) continue;
-      const Alongside each = compare(columns_[anchor].beginning, columns_[k].beginning);
+      const Alongside each = compare(columns_[anchor], columns_[k]);
       if (side * each.lag <= 0 || std::abs(each.correlation) <= std::max(along, std::abs(best.correlation))) continue;
       best = each, found = k;
     }
@@ -183,7 +186,7 @@ class Guesser {
       if (!free(a, units::Dimension::current) || !moves(columns_[a])) continue;
       for (std::size_t b = 0; b < columns_.size(); ++b) {
         if (a == b || !free(b, units::Dimension::length) || !moves(columns_[b])) continue;
-        const Alongside each = compare(columns_[a].beginning, columns_[b].beginning);
+        const Alongside each = compare(columns_[a], columns_[b]);
         if (each.lag <= 0 || std::abs(each.correlation) < best) continue;
         best = std::abs(each.correlation), best_lag = each.lag, first = a, second = b;
       }
@@ -200,7 +203,7 @@ class Guesser {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (!free(k, units::Dimension::voltage) || !moves(columns_[k])) continue;
-      const Alongside each = compare(columns_[*current].beginning, columns_[k].beginning);
+      const Alongside each = compare(columns_[*current], columns_[k]);
       if (each.lag > 0 || each.correlation <= best) continue;
       best = each.correlation, found = k;
     }
@@ -222,18 +225,7 @@ class Guesser {
   std::map<Channel, DataGuess> out_;
 };
 
-}  // namespace
-
-std::vector<SurveyedColumn> survey_columns(SampleTable& table) {
-  std::vector<SurveyedColumn> out;
-  for (const FileColumn& column : table.columns()) {
-    SurveyedColumn& each = out.emplace_back();
-    each.name = column.name;
-    each.unit = column.unit;
-    each.lowest = each.highest = std::numeric_limits<double>::quiet_NaN();
-  }
-  const std::vector<std::size_t> chosen = equally_long(table);
-  if (chosen.empty()) return out;
+void survey(SampleTable& table, const std::vector<std::size_t>& chosen, std::vector<SurveyedColumn>& out) {
   table.select(chosen);
   std::vector<std::vector<double>> block(chosen.size(), std::vector<double>(block_samples));
   std::vector<double*> places;
@@ -242,6 +234,24 @@ std::vector<SurveyedColumn> survey_columns(SampleTable& table) {
   for (const std::size_t k : chosen) out[k].rises = true;
   for (std::size_t rows = table.read(places, block_samples); rows > 0; rows = table.read(places, block_samples)) {
     for (std::size_t k = 0; k < chosen.size(); ++k) take(out[chosen[k]], block[k], rows, last[k]);
+  }
+}
+
+}  // namespace
+
+std::vector<SurveyedColumn> survey_columns(const std::function<std::unique_ptr<SampleTable>()>& open) {
+  std::vector<SurveyedColumn> out;
+  std::unique_ptr<SampleTable> table = open();
+  for (const FileColumn& column : table->columns()) {
+    SurveyedColumn& each = out.emplace_back();
+    each.name = column.name;
+    each.unit = column.unit;
+    each.lowest = each.highest = std::numeric_limits<double>::quiet_NaN();
+  }
+  for (const std::vector<std::size_t>& chosen : equally_long(*table)) {
+    if (!table) table = open();
+    survey(*table, chosen, out);
+    table.reset();
   }
   return out;
 }
@@ -252,7 +262,7 @@ std::map<Channel, DataGuess> guess_by_data(const std::vector<SurveyedColumn>& co
 }
 
 std::string character_of(const SurveyedColumn& column) {
-  if (column.samples == 0) return "no numbers, or of another length";
+  if (column.samples == 0) return "no numbers";
   if (column.lowest == column.highest) return "stands still";
   if (column.rises) return "rises with every sample";
   if (!column.unit.empty()) return {};

@@ -1,7 +1,9 @@
 #pragma once
 /// A file's columns by their numbers, whatever they are called: what a column could be by how it moves.
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,14 @@ struct SurveyedColumn {
   std::string name, unit;           ///< unit: as the file states it; empty where it does not
   double lowest = 0, highest = 0;   ///< NaN without numbers
   std::uint64_t samples = 0;        ///< numbers
+  std::uint64_t rows = 0;           ///< with the missing ones; only columns of as many are compared
   bool rises = false;               ///< each number lies above the one before
   std::vector<double> beginning{};  ///< at most 20,000 samples; NaN where one is missing
 };
 
-/// Reads every column, of files with several lengths those of the most frequent one (the others: no samples). At most
-/// 64 columns. Throws RecordingError as reading does.
-[[nodiscard]] std::vector<SurveyedColumn> survey_columns(SampleTable& table);
+/// Reads every column, those of each length by an opening of their own; at most 64 columns of a length, and of 16
+/// lengths (the others: no samples). Throws RecordingError as reading does.
+[[nodiscard]] std::vector<SurveyedColumn> survey_columns(const std::function<std::unique_ptr<SampleTable>()>& open);
 
 struct DataGuess {
   std::size_t column;

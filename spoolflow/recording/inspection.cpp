@@ -138,8 +138,8 @@ void find_missing(Inspection& out) {
 
 /// Guesses by data what names do not tell, and says of every column what it is taken for.
 void look_at_columns(Inspection& out, const RepeatedInput& input) {
-  const OpenTable open = open_sample_table(input.open(), CsvTable::Text::counted);
-  std::vector<SurveyedColumn> columns = survey_columns(*open.table);
+  std::vector<SurveyedColumn> columns =
+      survey_columns([&] { return open_sample_table(input.open(), CsvTable::Text::counted).table; });
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {
@@ -160,6 +160,11 @@ void look_at_columns(Inspection& out, const RepeatedInput& input) {
     each.name = columns[k].name, each.unit = columns[k].unit;
     each.lowest = columns[k].lowest, each.highest = columns[k].highest;
     const auto taken = std::ranges::find_if(known, [&](const auto& entry) { return entry.second == k; });
+    each.times_others = std::ranges::count(out.clocks, each.name, &InspectedClock::time) > 0;
+    if (taken == known.end() && each.times_others) {
+      each.why = "the time of other columns";
+      continue;
+    }
     if (taken == known.end()) {
       each.why = character_of(columns[k]);
       continue;
@@ -179,13 +184,25 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   Inspection out;
   out.contents = contents_of(input.open());
   out.proposal = propose_channels(out.contents);
+  const auto open_table = [&input] { return open_sample_table(input.open(), CsvTable::Text::counted).table; };
+  bool even = false;  // sampled evenly, as the file says, without a column of time
+  {
+    const auto table = open_table();
+    propose_leading_time(out.proposal, *table, file.string());
+    even = !out.proposal.sources.contains(Channel::time) &&
+           std::ranges::any_of(table->columns(), [](const FileColumn& column) { return column.wave_step_s > 0; });
+  }
+  out.clocks =
+      inspected_clocks(options.channels.sources.empty() ? out.proposal : options.channels, open_table, file.string());
   if (options.channels.sources.empty()) {
     look_at_columns(out, input);
     find_missing(out);
+    if (even) std::erase(out.missing, Channel::time);
   }
   if (options.channels.sources.empty() && !has_own_names(out.contents)) return out;
   ReadOptions channels = options;
-  if (options.channels.sources.empty() && !names_time(out.contents)) {  // the other channels have their own names
+  if (options.channels.sources.empty() && !names_time(out.contents) &&
+      !even) {  // the other channels have their own names
     const auto time = out.proposal.sources.find(Channel::time);
     if (time == out.proposal.sources.end() || time->second.unit.empty()) return out;
     channels.channels = known_units(out.proposal);
@@ -204,6 +221,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   }
   steps.settle(out);
   out.samples = reader->notes().rows;
+  out.resampled = reader->notes().resampled;
   out.duplicate_times = reader->notes().duplicate_times;
   for (const Channel channel : all_channels()) {
     if (reader->has(channel)) out.channels.push_back(followers[static_cast<std::size_t>(channel)].summary(channel));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/recording/inspected_clock.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::recording {
@@ -29,6 +30,7 @@ struct InspectedColumn {
   std::optional<Channel> channel;  ///< nothing: not used
   std::string why;                 ///< of a channel how that is known, else what the column could be
   bool guessed = false;            ///< by its numbers alone
+  bool times_others = false;       ///< it holds the times of other columns
 };
 
 struct Inspection {
@@ -44,6 +46,8 @@ struct Inspection {
   ChannelMap proposal;                     ///< by names, then by numbers
   std::map<Channel, std::string> remarks;  ///< of channels of the proposal that are guesses
   std::vector<InspectedColumn> columns;    ///< in the file's order; none where a channel map was given
+  std::vector<InspectedClock> clocks;      ///< where columns are of several; else none
+  std::string resampled;                   ///< what was brought onto the time of the current (ReadNotes)
   std::vector<Channel> missing;            ///< that every sensor needs, and the proposal lacks
   std::vector<Channel> helpful;            ///< likewise, without which the answer is worse or cannot be judged
 };

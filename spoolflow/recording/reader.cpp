@@ -11,6 +11,7 @@
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/files/open_table.hpp"
 #include "spoolflow/recording/plausibility.hpp"
+#include "spoolflow/recording/resampled_table.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -25,11 +26,14 @@ std::size_t index(Channel channel) {
 class ChannelReader final : public Reader {
  public:
   ChannelReader(std::unique_ptr<SampleTable> table, const ReadOptions& options, std::string file)
-      : table_(std::move(table)),
-        file_(std::move(file)),
-        bound_(bind_channels(*table_, options, file_)),
+      : file_(std::move(file)),
+        bound_(bind_channels(*table, options, file_)),
         plausibility_(file_, bound_, options.stroke_m),
         runs_on_(options.runs_on) {
+    OneClock clocked = on_one_clock(
+        std::move(table), bound_, [this] { return open_sample_table(file_).table; }, file_);
+    table_ = std::move(clocked.table);
+    notes_.resampled = std::move(clocked.resampled);
     std::vector<std::size_t> chosen;
     for (const BoundColumn& column : bound_) {
       const auto same = std::find(chosen.begin(), chosen.end(), column.column);
@@ -126,8 +130,8 @@ class ChannelReader final : public Reader {
                     place, last_time_s_, time_s));
   }
 
-  std::unique_ptr<SampleTable> table_;
   std::string file_;
+  std::unique_ptr<SampleTable> table_;
   std::vector<BoundColumn> bound_;
   std::vector<std::size_t> source_of_;  ///< for each bound column, which of the chosen columns
   std::vector<double*> raw_;
@@ -174,6 +178,7 @@ Recording read_recording(const std::filesystem::path& file, const ReadOptions& o
       recording.column(channel).insert(recording.column(channel).end(), values.begin(), values.end());
     }
   }
+  recording.resampled = reader->notes().resampled;
   return recording;
 }
 

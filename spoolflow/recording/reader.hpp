@@ -32,6 +32,7 @@ struct ReadNotes {
   std::uint64_t missing_times = 0;    ///< these and what follows only of a source that runs on
   std::uint64_t backward_times = 0;   ///< before the time stamp before
   std::uint64_t left_out = 0;         ///< lines that could not be read
+  std::string resampled{};            ///< which columns had a time of their own, from which rate to which, and how
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; MAT and HDF5 are read in slabs).
@@ -48,7 +49,8 @@ class Reader {
   [[nodiscard]] virtual std::optional<double> progress() const = 0;
 };
 
-/// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV.
+/// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV. Columns with
+/// times of their own are brought onto those of the current (resampled_table.hpp).
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
 
 /// The same of an input that is open.

@@ -15,6 +15,7 @@ namespace spoolflow::recording {
 struct Recording {
   std::filesystem::path file;
   std::array<std::vector<double>, channel_count> columns;
+  std::string resampled{};  ///< what was brought onto the time of the current (ReadNotes)
 
   [[nodiscard]] bool has(Channel channel) const { return !columns[static_cast<std::size_t>(channel)].empty(); }
   /// The channel's samples in SI units. Throws RecordingError naming file and channel when absent.

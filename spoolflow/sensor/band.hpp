@@ -58,7 +58,7 @@ template <class T>
                                                         const ForceBalance<T>& balance, T further_Pa, T highest_Pa) {
   T expected_Pa = pressure.pressure_difference_Pa + further_Pa;
   const T yielded_Pa = pressure.yielded_Pa;
-  const Mask<T> yielded = yielded_Pa != T(0) && !balance.sliding && !balance.closed;
+  const Mask<T> yielded = !is_zero(yielded_Pa) && !balance.sliding && !balance.closed;
   if (any(yielded)) {
     const Mask<T> rises = yielded_Pa > T(0);
     const T room_N = select(rises, balance.apparent_friction_N - balance.resting.lower_N,

@@ -73,7 +73,7 @@ template <class T>
 constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state, T time_step_s) {
   in_valves(coil.resistance_Ohm > T(0) && time_step_s > T(0), state, [&] {
     const CoilEquation<T>& mean = state.mean;
-    const Mask<T> begins = state.variance_Ohm2 == T(0);
+    const Mask<T> begins = is_zero(state.variance_Ohm2);
     state.resistance_Ohm = select(begins, coil.resistance_Ohm, state.resistance_Ohm);
     state.variance_Ohm2 = select(begins, squared(coil.uncertainty_Ohm), state.variance_Ohm2);
     state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * time_step_s;

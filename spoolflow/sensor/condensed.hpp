@@ -117,7 +117,7 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   using Layout = CondensedLayout;
   Estimate<T>& out = state.last;
   detail::CondensedPoint<T> point;
-  if (!detail::find_point(valve, sample, point)) [[unlikely]] {
+  if (unlikely(!detail::find_point(valve, sample, point))) {
     if constexpr (one_valve<T>) hold(valve, state, sample);
     return out;
   }

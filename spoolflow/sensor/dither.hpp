@@ -94,7 +94,7 @@ constexpr void begin(DitherState<T>& state, T current_A) {
 template <class T>
 [[gnu::always_inline]] constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
                                                          T time_step_s) {
-  const Mask<T> began = state.since_s == T(0);
+  const Mask<T> began = is_zero(state.since_s);
   state.since_s += time_step_s;
   const T back_A = state.direction * (state.extreme_A - current_A);
   state.extreme_A = select(back_A < T(0), current_A, state.extreme_A);
@@ -167,7 +167,7 @@ struct FrictionSwing {
 /// A period is over: what was told in it is kept.
 template <class T>
 [[gnu::always_inline]] constexpr void turn_swing(FrictionSwingState<T>& state, T apparent_N) {
-  const Mask<T> lone = state.periods == T(0);
+  const Mask<T> lone = is_zero(state.periods);
   state.periods = smaller(state.periods + T(1), T(2));
   state.last_highest_N = select(lone, apparent_N, state.highest_N - state.flow_force_N);
   state.last_lowest_N = select(lone, apparent_N, state.lowest_N - state.flow_force_N);

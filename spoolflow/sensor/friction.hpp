@@ -122,7 +122,7 @@ struct Contact {
 template <class T>
 [[gnu::always_inline]] constexpr void drag(FrictionState<T>& state, T moved_m, T slack_m, T time_step_s) {
   const Mask<T> goes_on = !(moved_m * state.dragged_m < T(0));
-  const Mask<T> moves = moved_m != T(0);
+  const Mask<T> moves = !is_zero(moved_m);
   state.dragged_m = select(goes_on, state.dragged_m, T(0)) + moved_m;
   const T size2 = squared(state.dragged_m);
   const T doubtful2 = squared(T(doubtful_drag_slacks) * slack_m);

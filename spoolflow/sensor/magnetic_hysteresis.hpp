@@ -99,7 +99,7 @@ constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteres
       const T deflection = flux - state.centre[k];
       const T kept = limited(deflection, -hysteresis.threshold[k], hysteresis.threshold[k]);
       point.value += stiffness * kept;
-      point.slope += select(kept == deflection, stiffness, T(0));
+      point.slope += select(magnitude(deflection) <= hysteresis.threshold[k], stiffness, T(0));
     }
   } else if (flux < state.flux) {
     detail::add_stops<false, 0, false>(hysteresis, state, flux, share, point);

@@ -160,7 +160,7 @@ template <class T>
   in_valves(!position.busy && !((state.position.newest & 1) == 0), state.pressure,
             [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  has_time = has_time && !balance.sliding && !position.busy && !dither.begins && balance.resting.breakaway_N == T(0);
+  has_time = has_time && !balance.sliding && !position.busy && !dither.begins && is_zero(balance.resting.breakaway_N);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
   answer(valve, state, balance, position.velocity_m_per_s);
   state.last.status = status(valve, state, sample, balance);
@@ -174,7 +174,7 @@ template <class T>
                                               const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
   const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
   if constexpr (one_valve<T>) {
-    if (doubtful) [[unlikely]] {
+    if (unlikely(doubtful)) {
       answer_in_doubt(state, valve, sample, position, opposing_N, begins);
       return;
     }
@@ -232,7 +232,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
                                   const Sample<T>& sample) {
   Mask<T> begins = !state.started;
   if constexpr (one_valve<T>) {
-    if (!ordinary(sample)) [[unlikely]] {
+    if (unlikely(!ordinary(sample))) {
       const bool leapt = sample.time_step_s > T(longest_step_s);
       begins = begins || leapt;
       if (unusable(sample) != Status::none) {

@@ -70,8 +70,7 @@ enum class Motion : std::uint8_t {
 constexpr bool is(Motion motion, Motion which) {
   return motion == which;
 }
-template <class Choice>
-requires std::same_as<Choice, Motion> || std::same_as<Choice, int>
+template <class Choice, std::enable_if_t<std::is_same_v<Choice, Motion> || std::is_same_v<Choice, int>, int> = 0>
 constexpr Choice select(bool condition, Choice yes, Choice no) {
   return condition ? yes : no;
 }
@@ -256,7 +255,7 @@ constexpr void judge_jump(PositionState<T>& state, Mask<T> unusual, T change_m, 
   // A spool may stop in no time, at an end stop or by friction.
   const T innovation_m = change_m - limited(change_m, smaller(state.step_m, T(0)), larger(state.step_m, T(0)));
   const Mask<T> jumps = unusual && magnitude(innovation_m) > credible_m;
-  const Mask<T> believed = state.offset_m == T(0);
+  const Mask<T> believed = is_zero(state.offset_m);
   const Mask<T> returns =
       jumps && believed && state.fault_s > T(0) && magnitude(innovation_m - state.elsewhere_m) < credible_m;
   const T offset_m = state.offset_m + innovation_m;
@@ -264,14 +263,14 @@ constexpr void judge_jump(PositionState<T>& state, Mask<T> unusual, T change_m, 
   state.offset_m = select(jumps, left_m, state.offset_m);
   state.elsewhere_m = select(jumps, left_m, state.elsewhere_m);
   state.fault_s =
-      select(jumps, select(left_m == T(0), T(0), select(believed, time_step_s, state.fault_s)), state.fault_s);
+      select(jumps, select(is_zero(left_m), T(0), select(believed, time_step_s, state.fault_s)), state.fault_s);
 }
 
 /// One more sample of a fault: a jump that lasts is believed, then doubted, then forgotten. Returns the position.
 template <class T>
 constexpr T outlast_fault(PositionState<T>& state, Mask<T> faulty, T position_m, T time_step_s) {
   const Mask<T> believes =
-      faulty && state.offset_m != T(0) && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s;
+      faulty && !is_zero(state.offset_m) && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s;
   state.elsewhere_m = select(believes, -state.offset_m, state.elsewhere_m);
   state.offset_m = select(believes, T(0), state.offset_m);
   const T believed_m = position_m - state.offset_m;
@@ -293,7 +292,7 @@ template <class T>
     judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
   }
   T believed_m = position_m - state.offset_m;
-  if (const Mask<T> faulty = state.fault_s != T(0); any(faulty))
+  if (const Mask<T> faulty = !is_zero(state.fault_s); any(faulty))
     believed_m = outlast_fault(state, faulty, position_m, sample.time_step_s);
   state.current_A = sample.current_A;
   state.voltage_V = sample.voltage_V;
@@ -341,7 +340,7 @@ template <class T>
       });
   const Mask<T> busy = state.velocity_due && state.per_block_samples < T(1);
   const T elsewhere_m = position_m + state.elsewhere_m, acceleration = state.acceleration_m_per_s2;
-  return {position_m,  state.motion, state.fault_s != T(0), state.travel_m, state.velocity_m_per_s, acceleration,
+  return {position_m,  state.motion, !is_zero(state.fault_s), state.travel_m, state.velocity_m_per_s, acceleration,
           elsewhere_m, busy};
 }
 

@@ -189,7 +189,7 @@ constexpr void learn_process_noise(const PressureParameters<T>& pressure, Pressu
                                   squared(pressure.least_process_noise), T(1));
     state.drift_variance_Pa2 = T(0);
   });
-  state.observed_Pa = select(state.drift_variance_Pa2 == T(0), state.pressure_difference_Pa, state.observed_Pa);
+  state.observed_Pa = select(is_zero(state.drift_variance_Pa2), state.pressure_difference_Pa, state.observed_Pa);
 }
 
 /// Kalman's terms of one innovation.

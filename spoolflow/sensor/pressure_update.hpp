@@ -82,7 +82,7 @@ template <class T>
     in_valves(has_time && observed(pressure, slope, balance.noise_N), pressure,
               [&] { learn_process_noise(valve.pressure, pressure, balance.noise_N / slope); });
   });
-  const Mask<T> breaks = !balance.closed && !balance.sliding && balance.resting.breakaway_N != T(0) &&
+  const Mask<T> breaks = !balance.closed && !balance.sliding && !is_zero(balance.resting.breakaway_N) &&
                          balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
   in_valves(breaks, pressure, [&] {
     update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope),
@@ -90,7 +90,7 @@ template <class T>
   });
   const T beyond_N = balance.apparent_friction_N - balance.friction_N;
   const Mask<T> yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
-                         is(position.motion, Motion::rest) && beyond_N != T(0);
+                         is(position.motion, Motion::rest) && !is_zero(beyond_N);
   in_valves(yields, pressure, [&] {
     const T left_N =
         yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s, highest_Pa);

@@ -3,10 +3,9 @@
 /// automatic-differentiation number in calibration, a SIMD pack across valves. Other scalars overload these for
 /// themselves, found by argument-dependent lookup.
 #include <array>
-#include <bit>
 #include <cmath>
-#include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 namespace spoolflow::sensor {
 
@@ -17,7 +16,7 @@ enum class Status : std::uint32_t;
 template <class T>
 struct ScalarTypes {
   template <int Count>
-  using Numbers = std::array<T, Count>;
+  using Numbers = std::array<T, static_cast<unsigned>(Count)>;
   using Mask = bool;
   using Index = int;
   using StatusWord = Status;
@@ -31,10 +30,14 @@ using Index = typename ScalarTypes<T>::Index;
 
 /// Whether a comparison has one answer, on which the program may branch.
 template <class T>
-inline constexpr bool one_valve = std::same_as<Mask<T>, bool>;
+inline constexpr bool one_valve = std::is_same_v<Mask<T>, bool>;
+
+/// The type parameter of what is there for float and double alone.
+template <class T>
+using IfNumber = std::enable_if_t<std::is_floating_point_v<T>, int>;
 
 /// `condition ? yes : no`, the one place where data decides; a SIMD pack blends instead.
-template <std::floating_point T>
+template <class T, IfNumber<T> = 0>
 constexpr T select(bool condition, T yes, T no) {
   return condition ? yes : no;
 }
@@ -51,8 +54,16 @@ template <class State, class Body>
   if (condition) body();
 }
 
+/// What the compiler may lay out the step for; C++20 has attributes for it.
+constexpr bool likely(bool condition) {
+  return __builtin_expect(condition, true);
+}
+constexpr bool unlikely(bool condition) {
+  return __builtin_expect(condition, false);
+}
+
 /// The integer part of a number >= 0, as a table index.
-template <std::floating_point T>
+template <class T, IfNumber<T> = 0>
 constexpr int table_index(T value) {
   return static_cast<int>(value);
 }
@@ -79,7 +90,7 @@ constexpr Mask<T> within(T value, T highest) {
 }
 /// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.
 constexpr bool within(float value, float highest) {
-  return std::bit_cast<std::uint32_t>(value) < std::bit_cast<std::uint32_t>(highest);
+  return __builtin_bit_cast(std::uint32_t, value) < __builtin_bit_cast(std::uint32_t, highest);
 }
 
 /// Whether value < limit, where neither is below zero; NaN lies below nothing.
@@ -89,7 +100,7 @@ constexpr Mask<T> lies_below(T value, T limit) {
 }
 /// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
 constexpr bool lies_below(float value, float limit) {
-  return std::bit_cast<std::int32_t>(value) < std::bit_cast<std::int32_t>(limit);
+  return __builtin_bit_cast(std::int32_t, value) < __builtin_bit_cast(std::int32_t, limit);
 }
 
 /// Whether value > limit, where neither is above zero; NaN lies above nothing.
@@ -98,7 +109,7 @@ constexpr Mask<T> lies_above(T value, T limit) {
   return value > limit;
 }
 constexpr bool lies_above(float value, float limit) {
-  return std::bit_cast<std::int32_t>(value) < std::bit_cast<std::int32_t>(limit);
+  return __builtin_bit_cast(std::int32_t, value) < __builtin_bit_cast(std::int32_t, limit);
 }
 
 template <class T>
@@ -118,8 +129,8 @@ constexpr T at_least_zero(T value) {
 }
 /// The sign bit, spread over the word, takes all bits away: no comparison, no branch.
 constexpr float at_least_zero(float value) {
-  const auto bits = std::bit_cast<std::int32_t>(value);
-  return std::bit_cast<float>(bits & ~(bits >> 31));
+  const auto bits = __builtin_bit_cast(std::int32_t, value);
+  return __builtin_bit_cast(float, bits & ~(bits >> 31));
 }
 
 template <class T>
@@ -144,6 +155,19 @@ constexpr T squared(T value) {
   return value * value;
 }
 
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wfloat-equal"
+#endif
+/// Whether a number is nothing, as what was never set; not whether arithmetic has come to nothing.
+template <class T>
+constexpr Mask<T> is_zero(T value) {
+  return value == T(0);
+}
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
 constexpr Mask<T> is_number(T value) {
@@ -151,7 +175,7 @@ constexpr Mask<T> is_number(T value) {
 }
 /// The same by the bits without their sign.
 constexpr bool is_number(float value) {
-  return std::bit_cast<std::uint32_t>(value) << 1U < std::bit_cast<std::uint32_t>(0x1p30F) << 1U;
+  return __builtin_bit_cast(std::uint32_t, value) << 1U < __builtin_bit_cast(std::uint32_t, 0x1p30F) << 1U;
 }
 
 }  // namespace spoolflow::sensor

@@ -89,7 +89,7 @@ inline constexpr T wild_cells = T(1 << 30);
 template <int Cells, class T>
 [[nodiscard]] constexpr bool find_place(T cells_per_unit, T value, Status beyond, Place<T>& place, Status& status) {
   place.cells = value * cells_per_unit;
-  if (within(place.cells, T(Cells))) [[likely]] {
+  if (likely(within(place.cells, T(Cells)))) {
     place.index = table_index(place.cells);
     return true;
   }
@@ -114,7 +114,7 @@ template <int Cells, class T>
 /// `beyond`. Not for NaN.
 template <int Cells, class T>
 constexpr Place<T> root_place(T& cells2, Status beyond, Status& status) {
-  if (within(cells2, T(Cells * Cells))) [[likely]] {
+  if (likely(within(cells2, T(Cells * Cells)))) {
     const T cells = sqrt(cells2);
     return {cells, table_index(cells)};
   }

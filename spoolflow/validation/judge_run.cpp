@@ -173,6 +173,7 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
   result.samples = run.time_s.size();
   result.duplicate_times = run.notes.duplicate_times;
   result.missing_values = run.notes.missing_values;
+  result.resampled = run.notes.resampled;
   result.duration_s = run.time_s.empty() ? 0 : run.time_s.back() - run.time_s.front();
   result.has_reference = !run.reference_m3_per_s.empty();
   result.current_A = extent_of(run.current_A);
@@ -198,6 +199,9 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
   if (result.has_reference) {
     result.reference_meter = options.reference_lag_s ? numerics::MeterLag{.lag_s = *options.reference_lag_s}
                                                      : meter_lag(run, run.answers.back());
+    if (!options.reference_lag_s) {
+      result.reference_meter_uncertainty = meter_lag_uncertainty(run, run.answers.back(), result.reference_meter);
+    }
   }
   if (result.has_reference && options.apply_reference_lag) {
     for (Answers& answers : run.answers) apply_lag(run.time_s, answers, result.reference_meter);

@@ -87,13 +87,15 @@ struct SolenoidPoint {
 };
 
 struct RunResult {
-  numerics::MeterLag reference_meter;             ///< as given, or as the run shows it beside the leading estimator
-  std::optional<ReferenceScale> reference_scale;  ///< beside the leading estimator; told, never applied
-  std::string name;                               ///< file name without its ending
+  numerics::MeterLag reference_meter;  ///< as given, or as the run shows it beside the leading estimator
+  std::optional<numerics::MeterLag> reference_meter_uncertainty;  ///< half widths of 95 %; of a lag that was found
+  std::optional<ReferenceScale> reference_scale;                  ///< beside the leading estimator; told, never applied
+  std::string name;                                               ///< file name without its ending
   std::string file;
   std::string sha256;            ///< empty for standard input
   bool calibrated_with = false;  ///< the model names this very file among its inputs
   std::uint64_t samples = 0, duplicate_times = 0, missing_values = 0;
+  std::string resampled;  ///< columns brought onto the time of the current, and how (recording::ReadNotes)
   double duration_s = 0;
   bool has_reference = false;
   std::optional<Extent> current_A, position_m, oil_temperature_K, pressure_difference_Pa, reference_m3_per_s;

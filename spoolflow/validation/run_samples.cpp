@@ -1,6 +1,7 @@
 #include "spoolflow/validation/run_samples.hpp"
 
 #include "spoolflow/numerics/meter_lag.hpp"
+#include "spoolflow/numerics/meter_lag_uncertainty.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::validation {
@@ -94,6 +95,13 @@ numerics::MeterLag meter_lag(const RunSamples& run, const Answers& answers) {
   const std::vector<double> flow(answers.flow_m3_per_s.begin(), answers.flow_m3_per_s.end());
   const std::vector<double> reference(run.reference_m3_per_s.begin(), run.reference_m3_per_s.end());
   return numerics::find_meter_lag(run.time_s, flow, reference);
+}
+
+std::optional<numerics::MeterLag> meter_lag_uncertainty(const RunSamples& run, const Answers& answers,
+                                                        const numerics::MeterLag& found) {
+  const std::vector<double> flow(answers.flow_m3_per_s.begin(), answers.flow_m3_per_s.end());
+  const std::vector<double> reference(run.reference_m3_per_s.begin(), run.reference_m3_per_s.end());
+  return numerics::meter_lag_uncertainty(run.time_s, flow, reference, found);
 }
 
 void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter) {

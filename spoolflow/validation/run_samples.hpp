@@ -42,6 +42,10 @@ struct RunSamples {
 /// The reference meter's dead time and lag, as the run shows them beside the answers.
 [[nodiscard]] numerics::MeterLag meter_lag(const RunSamples& run, const Answers& answers);
 
+/// Half widths of their 95 % intervals (numerics/meter_lag_uncertainty.hpp).
+[[nodiscard]] std::optional<numerics::MeterLag> meter_lag_uncertainty(const RunSamples& run, const Answers& answers,
+                                                                      const numerics::MeterLag& found);
+
 /// Shows flow and band as the reference meter would.
 void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter);
 

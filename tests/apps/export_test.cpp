@@ -76,13 +76,34 @@ TEST_F(Export, RefusesWhatIsNoFolderAndWhatIsNoModel) {
 
 TEST_F(Export, TakesTheDirectionThatTheModelHasAndRefusesTheOther) {
   EXPECT_EQ(run("export cpp '" + model + "' --direction b -o valve").status, 0);
-  for (const char* kind : {"cpp", "fmu"}) {
+  for (const char* kind : {"cpp", "fmu", "parameters"}) {
     const Answer answer = run("export " + std::string(kind) + " '" + model + "' --direction a -o other");
     EXPECT_EQ(answer.status, 2);
     EXPECT_THAT(answer.message, AllOf(HasSubstr("--direction a"), HasSubstr("direction b alone")));
   }
   EXPECT_EQ(run("export fmu size_6 --direction a -o other").status, 2);
   EXPECT_THAT(files(), Not(Contains("other")));
+}
+
+TEST_F(Export, WritesParametersThatInspectReadsBackAndTellsDamageOf) {
+  const std::string command = "export parameters '" + model + "' -o valve.bin";
+  ASSERT_EQ(run(command).status, 0);
+  Answer answer = run("inspect valve.bin");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output, AllOf(HasSubstr("direction b"), HasSubstr("observer, condensed, of one direction"),
+                                   HasSubstr("as reckoned"), HasSubstr("The sensor takes it.")));
+  EXPECT_THAT(run("inspect valve.bin --json").output, HasSubstr("\"accepted\": true"));
+  std::string bytes = content("valve.bin");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write("worn.bin", bytes);
+  answer = run("inspect worn.bin");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.message, AllOf(HasSubstr("worn.bin"), HasSubstr("CRC-32 does not hold")));
+  EXPECT_EQ(run("inspect worn.bin --json").status, 2);
+  EXPECT_LT(content("valve.bin").size(), 80000U);
+  ASSERT_EQ(run(command + " --sensors observer").status, 0);
+  EXPECT_LT(content("valve.bin").size(), 32768U);
+  EXPECT_EQ(run("export cpp '" + model + "' --sensors observer -o other").status, 2);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 27> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
@@ -40,6 +40,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> library_
     {"arpa/", "POSIX"},
     {"netinet/", "POSIX"},
     {"poll.h", "POSIX"},
+    {"spawn.h", "POSIX"},
     {"sys/", "POSIX"},
     {"linux/", "Linux"},
     {"unistd.h", "POSIX"},

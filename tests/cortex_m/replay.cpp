@@ -1,82 +1,18 @@
 #include "tests/cortex_m/replay.hpp"
 
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <sstream>
 #include <stdexcept>
-#include <sys/wait.h>
 
 #include <fmt/format.h>
 
-#include "spoolflow/export/cpp_folder.hpp"
 #include "tests/cortex_m/packed_run.hpp"
+#include "tests/cortex_m/workshop.hpp"
 
 namespace spoolflow::cortex_m {
 namespace {
 
 namespace fs = std::filesystem;
 using estimation::Estimator;
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// The folder in which an export is built and run; it goes with the object.
-class Workshop {
- public:
-  explicit Workshop(const model::Model& model) {
-    std::string name = (fs::temp_directory_path() / "spoolflow-cortex-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
-    folder_ = name;
-    for (const exports::ExportedFile& file : exports::cpp_folder(model)) write(file.name, file.content);
-  }
-  ~Workshop() { fs::remove_all(folder_); }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-
-  void write(const std::string& name, const std::string& bytes) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-  }
-  /// What the command prints. Throws where its exit status is not one of 0 to `allowed_status`.
-  std::string run(const std::string& command, int allowed_status = 0) {
-    const fs::path said = folder_ / "said";
-    const int status =
-        std::system(fmt::format("cd '{}' && {{ {} ; }} </dev/null >said 2>&1", folder_.string(), command).c_str());
-    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    if (status_ > allowed_status)
-      throw std::runtime_error(fmt::format("{}\nfailed ({}): {}", command, status_, content(said)));
-    return content(said);
-  }
-  [[nodiscard]] int status() const { return status_; }
-
- private:
-  fs::path folder_;
-  int status_ = 0;
-};
-
-std::string compiler(const Core& core) {
-  return fmt::format(
-      "arm-none-eabi-g++ {} -mthumb -mfloat-abi=hard -std=c++20 -O2 -ffreestanding -fno-exceptions -fno-rtti "
-      "-fno-threadsafe-statics -ffunction-sections -fdata-sections -fno-tree-loop-distribute-patterns "
-      "-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -I. -I{} ",
-      core.flags, SPOOLFLOW_FIRMWARE);
-}
-
-/// -nostdlib: the sensor must not need any library but the compiler's own.
-std::string link() {
-  return fmt::format(" -nostartfiles -nostdlib -Wl,--gc-sections -T {}/board.ld ", SPOOLFLOW_FIRMWARE);
-}
-
-std::string emulator(const Core& core, const std::string& image) {
-  return fmt::format(
-      "qemu-system-arm -M {} -display none -serial none -monitor none -chardev stdio,id=c0 "
-      "-semihosting-config enable=on,target=native,chardev=c0 -icount shift=6 -kernel {}",
-      core.machine, image);
-}
 
 std::uint32_t flash_bytes(Workshop& workshop, const Core& core, const std::string& which) {
   workshop.run(compiler(core) + which +
@@ -87,19 +23,6 @@ std::uint32_t flash_bytes(Workshop& workshop, const Core& core, const std::strin
   std::uint32_t text = 0, data = 0;
   if (!(sizes >> text >> data)) throw std::runtime_error("arm-none-eabi-size: no sizes");
   return text + data;
-}
-
-using Figures = std::map<std::string, std::uint32_t>;
-
-Figures figures_of(const std::string& printed) {
-  Figures figures;
-  std::istringstream lines(printed);
-  for (std::string line; std::getline(lines, line);) {
-    const auto space = line.rfind(' ');
-    if (space == std::string::npos) throw std::runtime_error("the core said: " + printed);
-    figures[line.substr(0, space)] = static_cast<std::uint32_t>(std::stoul(line.substr(space + 1)));
-  }
-  return figures;
 }
 
 StepCost cost(const Figures& figures, const std::string& name, const std::string& way) {

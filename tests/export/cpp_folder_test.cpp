@@ -12,6 +12,8 @@
 #include "spoolflow/export/cpp/cell_sums.hpp"
 #include "spoolflow/export/golden_points.hpp"
 #include "spoolflow/export/number_groups.hpp"
+#include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
+#include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 #include "tests/export/exported_folder.hpp"
 
 namespace spoolflow::exports {
@@ -22,7 +24,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr const char* strict = " -std=c++20 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -I. ";
+constexpr const char* strict =
+    " -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Werror "
+    "-I. ";
 
 model::Model without_observer() {
   model::Model model = example_model();
@@ -55,6 +59,36 @@ TEST(CppFolder, StandsAloneAndAnswersAsTheHostWithoutAWarning) {
       }
     }
   }
+}
+
+TEST(CppFolder, ServesFirmwareInC) {
+  const std::string c_options = " -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -I. ";
+  for (const model::Model& model : {example_model(), whole_without_observer()}) {
+    const ExportedFolder folder(model);
+    for (const std::string& compiler : compilers()) {
+      const std::string in_cpp = compiler + strict + "-fno-exceptions -fno-rtti -c valve_sensor.cpp";
+      EXPECT_EQ(folder.run(in_cpp + " && cc" + c_options + "example.c valve_sensor.o -lm -o example_c && ./example_c"),
+                0)
+          << in_cpp;
+    }
+    EXPECT_EQ(folder.run("rm valve_model.hpp && g++" + std::string(strict) +
+                         "-DVALVE_SENSOR_NO_MODEL -fsyntax-only valve_sensor.cpp"),
+              0);
+  }
+}
+
+template <class State>
+bool begins_with_zeros() {
+  static const State state{};
+  const std::vector<char> zeros(sizeof state);
+  return std::memcmp(&state, zeros.data(), sizeof state) == 0;
+}
+
+TEST(CppFolder, InitialisesAStateInCAsInCpp) {
+  EXPECT_TRUE(begins_with_zeros<sensor::ObserverState<float>>());
+  EXPECT_TRUE(begins_with_zeros<sensor::CondensedState<float>>());
+  EXPECT_TRUE(begins_with_zeros<sensor::WholeValveState<float>>());
+  EXPECT_TRUE(begins_with_zeros<sensor::WholeCondensedState<float>>());
 }
 
 TEST(CppFolder, SelfTestTellsWhichSensorWentAstray) {
@@ -174,6 +208,8 @@ TEST(CppFolder, KeepsAValvesNameOutOfTheCode) {
   model.valve.name = "A \"B\" ?\?/ \\\n#error";
   const ExportedFolder folder(model);
   EXPECT_EQ(folder.run(std::string("g++") + strict + "example.cpp -o example && ./example"), 0);
+  model.valve.name = "*/ #error /*";
+  EXPECT_EQ(ExportedFolder(model).run("cc -std=c99 -Wall -Wextra -Werror -I. -fsyntax-only example.c"), 0);
 }
 
 TEST(CppFolder, RefusesANumberThatSinglePrecisionDoesNotHold) {

@@ -27,17 +27,68 @@ def unfolded(code):
     return -(code + 1) // 2 if code % 2 else code // 2
 
 
+class Report:
+    """The body of a block of version 2, member after member."""
+
+    def __init__(self, body):
+        self.body, self.at = body, 0
+
+    def number(self, form="q"):
+        value = struct.unpack_from("<" + form, self.body, self.at)[0]
+        self.at += struct.calcsize(form)
+        return value
+
+    def numbers(self, form, *names):
+        return {name: self.number(form) for name in names}
+
+    def text(self):
+        length = self.number("I")
+        self.at += length
+        return self.body[self.at - length:self.at].decode()
+
+    def entries(self, read):
+        return [read() for _ in range(self.number("I"))]
+
+    def indicator(self):
+        return {"name": self.text(), **self.numbers("d", "value", "uncertainty_95", "baseline"), "state": self.text(),
+                "unit": self.text()}
+
+    def event(self):
+        return {**self.numbers("q", "wall_ms"), **self.numbers("d", "time_s"), "kind": self.text(), "text": self.text()}
+
+    def alarm(self):
+        return {**self.numbers("q", "id"), "cause": self.text(), "sign": self.text(),
+                **self.numbers("q", "raised_ms", "gone_ms", "acknowledged_ms"), "acknowledged_by": self.text(),
+                **self.numbers("q", "times"), **self.numbers("d", "time_s"), "text": self.text(),
+                "indicators": self.entries(self.indicator)}
+
+    def read(self):
+        summary = {**self.numbers("Q", "samples"),
+                   **self.numbers("d", "time_s", "flow_min", "flow_mean", "flow_max", "lower_min", "upper_max", "energy_J"),
+                   **self.numbers("I", "status")}
+        out = {"summary": summary, **self.numbers("Q", "samples"), **self.numbers("d", "energy_J"),
+               "indicators": self.entries(self.indicator), "events": self.entries(self.event),
+               "alarms": self.entries(self.alarm)}
+        assert self.at == len(self.body)
+        return out
+
+
 def read_block(block):
+    """Of version 1 with a column for each channel, of version 2 with what Report.read() tells."""
     mark, version, length, channels = struct.unpack_from("<4sBBH", block)
-    assert (mark, version) == (b"SFBL", 1)
+    assert mark == b"SFBL" and version in (1, 2)
     assert zlib.crc32(block[:-4]) == struct.unpack("<I", block[-4:])[0]
     session, number, first, wall_ms, time, period, count, size = struct.unpack_from("<QQQqqqII", block, 8)
     out = {"valve": block[104:104 + length].decode(), "session": session, "number": number, "first": first,
-           "wall_ms": wall_ms, "model_sha256": block[72:104].hex(), "time_s": []}
+           "wall_ms": wall_ms, "model_sha256": block[72:104].hex()}
     frame = block[104 + length:-4]
     body = ctypes.create_string_buffer(max(size, 1))
     if size:
         assert ZSTD.ZSTD_decompress(body, size, frame, len(frame)) == size
+    if version == 2:
+        assert (channels, time, period, count) == (0, 0, 0, 0)
+        return {**out, **(Report(body.raw[:size]).read() if size else {})}
+    out["time_s"] = []
     codes = numbers(body.raw[:size])
     for _ in range(count):
         code = next(codes)

@@ -54,6 +54,7 @@ class Commands(unittest.TestCase):
             file.write(NATS + AWAY)
         for number in (signal.SIGINT, signal.SIGTERM):
             worker = subprocess.Popen([COMMAND, "worker", "f.toml"], cwd=self.folder, text=True, stderr=subprocess.PIPE)
+            self.addCleanup(worker.kill)
             first = worker.stderr.readline()
             self.assertIn("cannot be reached", first)
             self.assertIn("end with Ctrl-C", worker.stderr.readline())

@@ -55,7 +55,8 @@ def make_recordings(command, folder, seconds):
     for name, seed, wear in (("sound", 3, ""), ("worn", 4, "[wear]\nedge_rounding_m = 60e-6\nfriction_factor = 3\n")):
         scenario = os.path.join(folder, f"{name}.toml")
         with open(scenario, "w", encoding="utf-8") as file:
-            file.write(f'protocol = "duty_cycle"\nvalve = "size_6"\nseed = {seed}\n{wear}')
+            length = f"[run]\nduration_s = {seconds}\n" if seconds > 100 else ""
+            file.write(f'protocol = "duty_cycle"\nvalve = "size_6"\nseed = {seed}\n{wear}{length}')
         recording = os.path.join(folder, f"{name}.csv")
         subprocess.run([command, "simulate", "-q", scenario, "-o", recording], check=True)
         with open(recording, encoding="utf-8") as file:
@@ -153,13 +154,13 @@ def site(command, folder, servers):
     return Live(command, folder, "site.toml", "--listen", "127.0.0.1:0", "--publish", servers)
 
 
-def record_offline(command, folder, servers, valves, samples):
+def record_offline(command, folder, servers, valves, samples, seconds=120):
     """The site works through its recordings while no server is there: all blocks stay in its store."""
     with site(command, folder, servers) as live:
         def done():
             answer = json.loads(live.ask("/api/v1/valves")[2])["valves"]
             return len(answer) == valves and all(one["samples"] == samples for one in answer)
-        until(done, 120, "recordings that are worked on")
+        until(done, seconds, "recordings that are worked on")
 
 
 def outbox(folder):

@@ -3,18 +3,25 @@
 happens when the database goes away."""
 import json
 import os
+import re
+import socket
+import ssl
+import subprocess
 import sys
 import time
 import unittest
+import warnings
 import urllib.error
 import urllib.parse
 import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from servers import until  # noqa: E402
+import open_api  # noqa: E402
+from servers import make_certificates, until  # noqa: E402
 from synthetic_fleet import SyntheticFleet  # noqa: E402
 
 COMMAND = os.path.abspath(sys.argv[1])
+DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs")
 VALVES = int(sys.argv[2]) if len(sys.argv) > 2 else 2000
 
 
@@ -97,6 +104,88 @@ class Page(unittest.TestCase):
                          [f"{alarms[0]['valve']}|1|local|"])
         for none, status in (("hall_00/none/1", 404), ("hall_00/1", 405), ("1", 405), ("a/b/c", 405), ("a/b/1%27", 405)):
             self.assertEqual(self.ask(f"/api/v1/alarms/{none}/acknowledge", b"{}")[0], status, none)
+
+    def test_every_path_answers_as_it_is_described(self):
+        """And what is described is all that there is: docs/fleet.md lists no other, and unknown members are refused."""
+        description = self.told("/api/v1/openapi.json")
+        with open(os.path.join(DOCS, "fleet_openapi.json"), encoding="utf-8") as file:
+            self.assertEqual(description, json.load(file))
+        asked = set()
+        for path, methods in description["paths"].items():
+            for parameter in methods.get("get", {}).get("parameters", []):
+                parameter = open_api.resolved(description, parameter)
+                if "example" not in parameter:
+                    self.assertFalse(parameter.get("required"), (path, parameter))
+                elif parameter["in"] == "path":
+                    path = path.replace("{" + parameter["name"] + "}", parameter["example"])
+                else:
+                    path += ("&" if "?" in path else "?") + parameter["name"] + "=" + urllib.parse.quote(parameter["example"])
+            if "get" not in methods:
+                continue
+            status, body = self.ask(path)
+            self.assertEqual(status, 200, path)
+            asked.add(path.split("?")[0])
+            for media, content in methods["get"]["responses"]["200"]["content"].items():
+                value = json.loads(body) if media == "application/json" else body
+                self.assertEqual(open_api.violations(description, content["schema"], value), [], path)
+                if isinstance(value, dict):  # what is looked at is there
+                    self.assertTrue(all(value[name] for name in value if isinstance(value[name], list)), path)
+        self.assertGreater(len(asked), 10)
+        alarm = self.told("/api/v1/alarms")["alarms"][-1]
+        acknowledged = json.loads(self.ask(f"/api/v1/alarms/{alarm['key']}/acknowledge", b"{}")[1])
+        schema = description["paths"]["/api/v1/alarms/{site}/{id}/{number}/acknowledge"]["post"]["responses"]["200"]
+        self.assertEqual(open_api.violations(description, schema["content"]["application/json"]["schema"], acknowledged), [])
+        self.assertNotEqual(open_api.violations(description, schema["content"]["application/json"]["schema"], {"id": "7"}), [])
+        self.fleet.postgres.ask(f"DELETE FROM acknowledgement WHERE valve = '{alarm['valve']}'")
+
+    def test_speaks_tls_to_those_with_an_account(self):
+        make_certificates(self.fleet.folder)
+        token = subprocess.run([COMMAND, "account", "dashboard", "--token"], text=True, capture_output=True, check=True)
+        with open(os.path.join(self.fleet.folder, "page.toml"), encoding="utf-8") as file:
+            text = file.read()
+        with open(os.path.join(self.fleet.folder, "tls.toml"), "w", encoding="utf-8") as file:
+            file.write(text + 'certificate = "server.pem"\nkey = "server.key"\n' + token.stdout)
+        page = subprocess.Popen([COMMAND, "fleet", "tls.toml", "--listen", "0.0.0.0:0"], cwd=self.fleet.folder, text=True,
+                                stderr=subprocess.PIPE)
+        try:
+            port = int(page.stderr.readline().split("page at https://")[1].split(":")[1].split("/")[0])
+            address = f"https://127.0.0.1:{port}/api/v1/valves"
+            known, stranger = (ssl.create_default_context(cafile=os.path.join(self.fleet.folder, f"{name}.pem"))
+                               for name in ("authority", "stranger"))
+            bearer = {"Authorization": "Bearer " + re.search(r"dashboard\.\S+", token.stderr).group(0)}
+
+            def status(context, headers):
+                try:
+                    with urllib.request.urlopen(urllib.request.Request(address, headers=headers), context=context,
+                                                timeout=30) as answer:
+                        self.assertEqual(len(json.loads(answer.read())["valves"]), VALVES)
+                        return answer.status
+                except urllib.error.HTTPError as error:
+                    with error:
+                        return error.code
+            self.assertEqual(status(known, bearer), 200)
+            self.assertEqual(status(known, {}), 401)
+            self.assertEqual(status(known, {"Authorization": "Bearer dashboard.wrong"}), 401)
+            with self.assertRaisesRegex(urllib.error.URLError, "CERTIFICATE_VERIFY_FAILED"):
+                status(stranger, bearer)
+            old = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+            old.load_verify_locations(os.path.join(self.fleet.folder, "authority.pem"))
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                old.maximum_version = ssl.TLSVersion.TLSv1_1
+            with self.assertRaises(urllib.error.URLError):
+                status(old, bearer)
+            with socket.create_connection(("127.0.0.1", port), 10) as plain:  # nothing is told without TLS
+                plain.sendall(b"GET /api/v1/valves HTTP/1.1\r\nHost: localhost\r\n\r\n")
+                plain.settimeout(30)
+                try:
+                    self.assertNotIn(b"hall_", plain.recv(65536))
+                except OSError:
+                    pass
+        finally:
+            page.terminate()
+            self.assertEqual(page.wait(30), 0)
+            page.stderr.close()
 
     def test_z_says_that_the_database_is_away_and_comes_back(self):
         self.fleet.postgres.kill()

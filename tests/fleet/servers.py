@@ -188,8 +188,11 @@ class Postgres:
 
     def ask(self, sql, database="postgres"):
         done = subprocess.run([os.path.join(self.BIN, "psql"), "-X", "-h", "127.0.0.1", "-p", str(self.port), "-U",
+                               "postgres", "-d", database, "-qAt", "-F", "|", "-v", "ON_ERROR_STOP=1", "-1", "-f", "-"]
+                              if len(sql) > 100_000 else  # longer than an argument may be
+                              [os.path.join(self.BIN, "psql"), "-X", "-h", "127.0.0.1", "-p", str(self.port), "-U",
                                "postgres", "-d", database, "-At", "-F", "|", "-c", sql], text=True, capture_output=True,
-                              check=False)
+                              input=sql if len(sql) > 100_000 else "", check=False)
         if done.returncode != 0:
             raise RuntimeError(done.stderr)
         return done.stdout.splitlines()
@@ -267,22 +270,30 @@ def tell_nats(port, user, lines):
     return raw
 
 
+def heard(raw, enough):
+    """What a connection says until it is enough, or until it ends."""
+    got = b""
+    while not enough(got):
+        piece = raw.recv(65536)
+        if not piece:
+            break
+        got += piece
+    return got
+
+
 def ask_nats(port, subject, user=None):
-    """One request without content; what came back."""
-    with tell_nats(port, user, f"SUB answer 1\r\nPUB {subject} answer 0\r\n\r\n") as raw:
-        got = b""
-        while b"MSG answer" not in got or not got.endswith(b"}\r\n"):
-            got += raw.recv(65536)
-        return got.split(b"\r\n")[-2].decode()
+    """One request without content; what came back, "" where nothing did."""
+    def answered(got):
+        return b"MSG answer" in got and got.endswith(b"}\r\n")
+    try:
+        with tell_nats(port, user, f"SUB answer 1\r\nPUB {subject} answer 0\r\n\r\n") as raw:
+            got = heard(raw, answered)
+    except OSError:
+        return ""
+    return got.split(b"\r\n")[-2].decode() if answered(got) else ""
 
 
 def refused_by_nats(port, user, line):
     """Whether the server says that the user may not do so."""
     with tell_nats(port, user, f"{line}\r\nPING\r\n") as raw:
-        got = b""
-        while b"PONG" not in got and b"-ERR" not in got:
-            piece = raw.recv(65536)
-            if not piece:
-                break
-            got += piece
-        return b"Violation" in got
+        return b"Violation" in heard(raw, lambda got: b"PONG" in got or b"-ERR" in got)

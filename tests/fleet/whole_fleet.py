@@ -106,9 +106,11 @@ class Fleet:
         server.start()
 
     def delete_the_stream(self, _):
-        # A cluster may be without a leader for a while.
-        until(lambda: '"success":true' in ask_nats(self.nats_ports[0], "$JS.API.STREAM.DELETE.spoolflow", self.user), 30,
-              "a stream that is deleted")
+        # A cluster may be without a leader for a while, and one that has deleted it may fail before it says so.
+        def deleted():
+            said = ask_nats(self.nats_ports[0], "$JS.API.STREAM.DELETE.spoolflow", self.user)
+            return '"success":true' in said or "stream not found" in said
+        until(deleted, 30, "a stream that is deleted")
 
     def cut_the_site_off(self, chance):
         for gate in self.gates:

@@ -85,6 +85,19 @@ TEST_P(Description, ComesWithALibraryThatExportsEveryFunctionOfTheStandard) {
   for (const std::string& name : functions(GetParam())) EXPECT_NE(dll.find(name + '\0'), std::string::npos) << name;
 }
 
+TEST_P(Description, ServesLinuxOn64BitArmWhereTheStandardNamesIt) {
+  const std::string library = fmu.content("binaries/aarch64-linux/spoolflow_sensor.so");
+  if (GetParam() == FmiVersion::fmi2) {
+    EXPECT_EQ(library, "");
+    return;
+  }
+  if (library.empty()) GTEST_SKIP() << "built without g++-aarch64-linux-gnu";
+  EXPECT_EQ(library.substr(0, 4), "\177ELF");
+  constexpr std::size_t machine = 18;
+  EXPECT_EQ(static_cast<unsigned char>(library.at(machine)), 0xB7);  // EM_AARCH64
+  for (const std::string& name : functions(GetParam())) EXPECT_NE(library.find(name + '\0'), std::string::npos) << name;
+}
+
 TEST_P(Description, ExplainsItsVariablesAndStatusBitsOnAPage) {
   const std::string page = fmu.content("documentation/index.html");
   for (const XmlElement& variable : fmu.variables()) EXPECT_THAT(page, HasSubstr("<td>" + variable["name"] + "</td>"));

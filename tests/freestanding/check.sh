@@ -8,7 +8,8 @@ object=$3
 shift 3
 folders=
 for folder; do folders="$folders -I$folder"; done
-"$compiler" -std=c++20 -ffreestanding -fno-exceptions -fno-rtti -Wall -Wextra -Wdouble-promotion -Werror -O2 $folders \
+"$compiler" -std=c++17 -ffreestanding -fno-exceptions -fno-rtti -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion \
+  -Wdouble-promotion -Wfloat-equal -Werror -O2 $folders \
   -c "$source" -o "$object"
 needed=$(nm -C --undefined-only "$object" | awk '{ $1 = ""; print substr($0, 2) }')
 refused=$(echo "$needed" | grep -vxE '|(sqrt|fabs|floor|ceil|fmin|fmax|exp|exp2|log|log2|pow|sin|cos|tan|atan|atan2|tanh|hypot|cbrt)f|mem(cpy|move|set|cmp)' || true)

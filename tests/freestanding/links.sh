@@ -4,7 +4,7 @@
 set -eu
 source=$1 object=$2 expected=$3 folders=$4
 shift 4
-said=$("$@" -std=c++20 -O2 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-tree-loop-distribute-patterns \
+said=$("$@" -std=c++17 -O2 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-tree-loop-distribute-patterns \
   $folders "$source" -nostdlib -Wl,-e,observer_step -lgcc -o "$object" 2>&1) && status=0 || status=$?
 found=$(echo "$said" | sed -n "s/.*undefined reference to \`\(.*\)'.*/\1/p" | sort -u | paste -sd,)
 if [ "$found" != "$expected" ] || { [ $status -ne 0 ] && [ -z "$found" ]; }; then

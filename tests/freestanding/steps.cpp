@@ -24,3 +24,7 @@ extern "C" void whole_valve_step(const sensor::WholeValveParameters<float>* valv
                                  sensor::Estimate<float>* estimate) {
   *estimate = sensor::step(*valve, *state, *sample);
 }
+
+extern "C" unsigned open_image(const void* image, unsigned size, sensor::ValveParameters* valve) {
+  return static_cast<unsigned>(sensor::parameters_from(image, size, *valve));
+}

@@ -261,13 +261,30 @@ void keep(const PackMask<Register, Count>& condition, const Packs& kept, Packs& 
   }
 }
 
+/// Memory for a copy of packs, which is made only where it is needed.
+template <class Packs>
+union Copy {
+  Copy() {}
+  Packs packs;
+};
+
+/// Where it holds for all valves, nothing need be taken back, nor a copy made, if it is more than a handful of packs.
 template <class Register, int Count, class State, class Body>
 [[gnu::always_inline]] inline void in_valves(const PackMask<Register, Count>& condition, State& state,
                                              const Body& body) {
   if (!any(condition)) return;
-  const State before = state;
-  body();
-  keep(!condition, before, state);
+  const PackMask<Register, Count> others = !condition;
+  if constexpr (sizeof(State) <= 16 * sizeof others) {
+    const State before = state;
+    body();
+    keep(others, before, state);
+  } else {
+    const bool differ = any(others);
+    Copy<State> before;
+    if (differ) before.packs = state;
+    body();
+    if (differ) keep(others, before.packs, state);
+  }
 }
 
 }  // namespace spoolflow::estimation::batch

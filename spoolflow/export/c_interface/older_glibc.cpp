@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
-#if defined(__x86_64__) && defined(__GLIBC__)
+#if (defined(__x86_64__) || defined(__aarch64__)) && defined(__GLIBC__)
 
 #define SPOOLFLOW_IN_PLACE_OF(SYMBOL) __asm__(SYMBOL) __attribute__((visibility("hidden")))
 
@@ -17,11 +17,17 @@ int getentropy(void* bytes, std::size_t size);
 extern char spoolflow_single_threaded SPOOLFLOW_IN_PLACE_OF("__libc_single_threaded");
 char spoolflow_single_threaded = 0;
 
-/// Of glibc 2.33; before, headers made these calls of them, with the version of the structure on x86-64.
+/// Of glibc 2.33; before, headers made these calls of them, with the version of the structure on this platform.
+#ifdef __x86_64__
 constexpr int structure_version = 1;
-__asm__(".symver spoolflow_fxstat64, __fxstat64@GLIBC_2.2.5");
-__asm__(".symver spoolflow_xstat, __xstat@GLIBC_2.2.5");
-__asm__(".symver spoolflow_lxstat, __lxstat@GLIBC_2.2.5");
+#define SPOOLFLOW_FIRST_GLIBC "GLIBC_2.2.5"
+#else
+constexpr int structure_version = 0;
+#define SPOOLFLOW_FIRST_GLIBC "GLIBC_2.17"
+#endif
+__asm__(".symver spoolflow_fxstat64, __fxstat64@" SPOOLFLOW_FIRST_GLIBC);
+__asm__(".symver spoolflow_xstat, __xstat@" SPOOLFLOW_FIRST_GLIBC);
+__asm__(".symver spoolflow_lxstat, __lxstat@" SPOOLFLOW_FIRST_GLIBC);
 int spoolflow_fxstat64(int version, int file, void* status);
 int spoolflow_xstat(int version, const char* path, void* status);
 int spoolflow_lxstat(int version, const char* path, void* status);

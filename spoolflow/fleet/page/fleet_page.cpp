@@ -86,6 +86,7 @@ PageAnswer FleetPage::found(std::string_view path, std::string_view target) {
     return {200, json, distribution_json(one->second)};
   }
   if (path == "/api/v1/partitions") return {200, json, partitions_json(partition_status(session()))};
+  if (path == "/api/v1/openapi.json") return {200, json, page_file("fleet_openapi.json")};
   if (path == "/metrics") {
     return {200, "text/plain; version=0.0.4; charset=utf-8",
             metrics_text(shown_sites(valves()), partition_status(session()))};

@@ -68,15 +68,36 @@ CREATE VIEW alarm_seen AS SELECT
   FROM alarm LEFT JOIN acknowledgement ON acknowledgement.valve = alarm.valve AND acknowledgement.alarm = alarm.id;
 )";
 
-/// Workers read and write rows and change no table; readers read; the page acknowledges as well.
+/// What version 3 has beside: pieces of batch work, and the contents of files that they read and write.
+constexpr const char* third_version = R"(
+ALTER TABLE worker ADD COLUMN program text NOT NULL DEFAULT '', ADD COLUMN takes_jobs timestamptz;
+CREATE TABLE content(sha256 text PRIMARY KEY, bytes bigint NOT NULL, came timestamptz NOT NULL DEFAULT now());
+CREATE TABLE content_chunk(
+  sha256 text NOT NULL REFERENCES content(sha256) ON DELETE CASCADE, place int NOT NULL, packed bytea NOT NULL,
+  PRIMARY KEY(sha256, place));
+CREATE TABLE job(
+  key text PRIMARY KEY, number bigint GENERATED ALWAYS AS IDENTITY, kind text NOT NULL, program text NOT NULL,
+  manifest text NOT NULL, wanted timestamptz NOT NULL DEFAULT now(), state text NOT NULL DEFAULT 'open',
+  attempts bigint NOT NULL DEFAULT 0, owner text, lease_until timestamptz NOT NULL DEFAULT '-infinity',
+  finished timestamptz, outcome text);
+CREATE INDEX job_waits ON job(number) WHERE state IN ('open', 'running');
+CREATE TABLE job_content(
+  key text NOT NULL REFERENCES job(key) ON DELETE CASCADE, sha256 text NOT NULL REFERENCES content(sha256),
+  PRIMARY KEY(key, sha256));
+CREATE INDEX job_of_content ON job_content(sha256);
+)";
+
+/// Workers read and write rows and change no table; readers read; the page acknowledges as well; who asks for batch
+/// work adds pieces and files, and tells no result.
 constexpr const char* roles = R"(
 DO $$ BEGIN
   IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = 'spoolflow_worker') THEN CREATE ROLE spoolflow_worker NOLOGIN; END IF;
   IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = 'spoolflow_reader') THEN CREATE ROLE spoolflow_reader NOLOGIN; END IF;
   IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = 'spoolflow_page') THEN CREATE ROLE spoolflow_page NOLOGIN; END IF;
+  IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = 'spoolflow_batch') THEN CREATE ROLE spoolflow_batch NOLOGIN; END IF;
 END $$;
 REVOKE ALL ON SCHEMA public FROM PUBLIC;
-GRANT USAGE ON SCHEMA public TO spoolflow_worker, spoolflow_reader, spoolflow_page;
+GRANT USAGE ON SCHEMA public TO spoolflow_worker, spoolflow_reader, spoolflow_page, spoolflow_batch;
 GRANT SELECT, INSERT, UPDATE, DELETE ON worker TO spoolflow_worker;
 GRANT SELECT, UPDATE ON partition TO spoolflow_worker;
 GRANT SELECT ON setting TO spoolflow_worker;
@@ -84,7 +105,16 @@ GRANT SELECT, INSERT ON valve, model, model_in_force, second, indicator, event T
 GRANT SELECT, INSERT, UPDATE ON coverage, alarm, alarm_indicator, state, older_state TO spoolflow_worker;
 GRANT SELECT, UPDATE ON acknowledgement TO spoolflow_worker;
 GRANT SELECT ON ALL TABLES IN SCHEMA public TO spoolflow_reader, spoolflow_page;
+REVOKE SELECT ON content_chunk FROM spoolflow_reader, spoolflow_page;
 GRANT INSERT ON acknowledgement TO spoolflow_page;
+GRANT SELECT, INSERT, DELETE ON content, content_chunk TO spoolflow_worker;
+GRANT SELECT, INSERT ON job_content TO spoolflow_worker;
+GRANT SELECT, DELETE ON job TO spoolflow_worker;
+GRANT UPDATE(came) ON content TO spoolflow_worker, spoolflow_batch;
+GRANT UPDATE(state, attempts, owner, lease_until, finished, outcome) ON job TO spoolflow_worker;
+GRANT SELECT ON setting, worker, content, content_chunk, job, job_content TO spoolflow_batch;
+GRANT INSERT ON content, content_chunk, job_content TO spoolflow_batch;
+GRANT INSERT(key, kind, program, manifest), UPDATE(wanted, state, attempts) ON job TO spoolflow_batch;
 )";
 
 bool has_tables(Session& session) {
@@ -107,15 +137,15 @@ void keep_setting(Session& session, const char* name, double value) {
 void check_version(Session& session) {
   const auto version = static_cast<std::int64_t>(setting(session, "version"));
   if (version == schema_version) return;
-  throw ServerRefuses(
-      fmt::format("the fleet's tables are of version {}, this program knows version {}; use the program "
-                  "that made them, or another database",
-                  version, schema_version));
+  throw ServerRefuses(fmt::format(
+      "the fleet's tables are of version {}, this program knows version {}; {}", version, schema_version,
+      version < schema_version ? "run spoolflow fleet --setup of this program, which brings them to it"
+                               : "use a newer program, such as the one that made them, or another database"));
 }
 
 }  // namespace
 
-bool make_schema(Session& session, const SharedSettings& settings) {
+SchemaWork make_schema(Session& session, const SharedSettings& settings) {
   FleetTransaction whole(session);
   // Two at a time would both find nothing.
   session.run("SELECT pg_advisory_xact_lock(5457)");
@@ -123,11 +153,15 @@ bool make_schema(Session& session, const SharedSettings& settings) {
   if (made) {
     session.run_script(tables);
     session.run_script(second_version);
+    session.run_script(third_version);
     keep_setting(session, "version", static_cast<double>(schema_version));
     keep_setting(session, "partitions", static_cast<double>(settings.partitions));
   }
-  if (setting(session, "version") == 1) {
-    session.run_script(second_version);
+  const double version = setting(session, "version");
+  if (version == 1) session.run_script(second_version);
+  const bool upgraded = version == 1 || version == 2;
+  if (upgraded) {
+    session.run_script(third_version);
     keep_setting(session, "version", static_cast<double>(schema_version));
   }
   check_version(session);
@@ -144,7 +178,7 @@ bool make_schema(Session& session, const SharedSettings& settings) {
   keep_setting(session, "gone_after_s", settings.gone_after_s);
   session.run_script(roles);
   whole.commit();
-  return made;
+  return made ? SchemaWork::made : upgraded ? SchemaWork::upgraded : SchemaWork::nothing;
 }
 
 SharedSettings read_settings(Session& session) {

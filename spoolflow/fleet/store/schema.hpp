@@ -5,7 +5,7 @@
 
 namespace spoolflow::fleet {
 
-inline constexpr std::int64_t schema_version = 2;
+inline constexpr std::int64_t schema_version = 3;
 
 /// What all workers must agree in, or their results would differ.
 struct SharedSettings {
@@ -13,10 +13,13 @@ struct SharedSettings {
   double raised_after_s = 2, gone_after_s = 10;  ///< of alarms, by the sites' clocks
 };
 
-/// Makes tables, partitions and the roles spoolflow_worker, spoolflow_reader and spoolflow_page where they are missing,
-/// brings older tables to this version, and keeps the settings. Returns false where all was there before. Throws
-/// ServerRefuses where they are of another version.
-bool make_schema(Session& session, const SharedSettings& settings);
+/// What there was to do.
+enum class SchemaWork : std::uint8_t { nothing, made, upgraded };
+
+/// Makes tables, partitions and the roles spoolflow_worker, spoolflow_reader, spoolflow_page and spoolflow_batch where
+/// they are missing, brings older tables to this version with all their rows, and keeps the settings. Throws
+/// ServerRefuses where they are of a newer version.
+SchemaWork make_schema(Session& session, const SharedSettings& settings);
 /// Throws ServerRefuses, which says to run --setup, where there are none, and where they are of another version.
 [[nodiscard]] SharedSettings read_settings(Session& session);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -137,6 +138,8 @@ std::string listing_of(const VectorTable& table) {
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
     const FileColumn& column = table.columns()[k];
     for (const std::string* text : {&column.name, &column.leaf, &column.unit}) out.text(*text);
+    for (const double value : {column.wave_begin_s, column.wave_step_s})
+      out.number(std::bit_cast<std::uint64_t>(value));
     out.number(table.length(k));
   }
   return out.content();
@@ -207,6 +210,8 @@ class ConfinedTable final : public VectorTable {
     for (std::uint64_t k = 0; k < columns; ++k) {
       FileColumn column;
       for (std::string* text : {&column.name, &column.leaf, &column.unit}) *text = content.text();
+      for (double* value : {&column.wave_begin_s, &column.wave_step_s})
+        *value = std::bit_cast<double>(content.number());
       add({std::move(column), content.number()});
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <map>
 
@@ -144,7 +145,13 @@ class Hdf5Table final : public VectorTable {
     declared_.add(path, size[0], size[1], H5Tget_size(type.id()));
     std::string unit = text_attribute(dataset.id(), "unit");
     if (unit.empty()) unit = text_attribute(dataset.id(), "units");
-    const FileColumn column{path, path.substr(path.rfind('/') + 1), unit};
+    FileColumn column{path, path.substr(path.rfind('/') + 1), unit};
+    // Of waveforms from LabVIEW and TDMS files, in seconds.
+    const double step_s = number_attribute(dataset.id(), "wf_increment", 0.0);
+    if (step_s > 0 && std::isfinite(step_s)) {
+      const double begin_s = number_attribute(dataset.id(), "wf_start_offset", 0.0);
+      if (std::isfinite(begin_s)) column.wave_begin_s = begin_s, column.wave_step_s = step_s;
+    }
     for (MatrixPart& part : matrix_parts(column, size[0], size[1])) {
       sources_.push_back({path, rank, part.is_row, part.index});
       add(std::move(part.vector));

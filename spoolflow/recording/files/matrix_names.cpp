@@ -17,7 +17,9 @@ std::vector<MatrixPart> matrix_parts(const FileColumn& matrix, std::uint64_t row
   const bool by_rows = columns > rows;
   for (std::uint64_t k = 0; k < std::min(most, by_rows ? rows : columns); ++k) {
     const std::string part = by_rows ? fmt::format("({},:)", k + 1) : fmt::format("(:,{})", k + 1);
-    out.push_back({{{matrix.name + part, matrix.leaf + part, matrix.unit}, by_rows ? columns : rows}, by_rows, k});
+    FileColumn column = matrix;
+    column.name += part, column.leaf += part;
+    out.push_back({{std::move(column), by_rows ? columns : rows}, by_rows, k});
   }
   return out;
 }

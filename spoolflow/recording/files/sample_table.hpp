@@ -14,6 +14,7 @@ struct FileColumn {
   std::string name;  ///< as a channel map names it: CSV header, `struct.field`, `rig/time`
   std::string leaf;  ///< the last part of the name, which <channel>_<unit> is looked for in
   std::string unit;  ///< written in the file beside the name (units row, attribute); empty where it is not
+  double wave_begin_s = 0, wave_step_s = 0;  ///< sampled evenly, as attributes of it say; step 0 where none does
 };
 
 /// One open file. A new format implements this, and open_sample_table() tells it by its content.

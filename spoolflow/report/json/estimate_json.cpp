@@ -28,6 +28,7 @@ void write_estimate_summary(std::ostream& out, const std::vector<validation::Est
                           {"missing_values", summary.notes.missing_values},
                           {"missing_times", summary.notes.missing_times},
                           {"backward_times", summary.notes.backward_times},
+                          {"resampled", summary.notes.resampled},
                           {"doubts", summary.doubts}});
   }
   out << Json{{"recordings", std::move(recordings)}}.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';

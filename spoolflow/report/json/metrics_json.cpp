@@ -178,9 +178,14 @@ Json MetricsJson::run(const validation::RunResult& run) const {
            {"duration_s", run.duration_s},
            {"missing_values", run.missing_values},
            {"duplicate_times", run.duplicate_times},
+           {"resampled", run.resampled},
            {"has_reference", run.has_reference},
            {"also_calibrated_with", run.calibrated_with},
            {"estimators", Json::array()}};
+  if (run.reference_meter_uncertainty) {
+    out["reference_lag_uncertainty_s"] = run.reference_meter_uncertainty->lag_s;
+    out["reference_dead_time_uncertainty_s"] = run.reference_meter_uncertainty->dead_time_s;
+  }
   for (const validation::EstimatorResult& result : run.results) out["estimators"].push_back(estimator(result));
   if (run.step_response) out["step_response"] = steps(*run.step_response);
   if (run.reference_scale) {

@@ -57,6 +57,7 @@ std::string run_facts(const validation::RunResult& run) {
   if (rate_Hz > 0) out += fmt::format(" ({} Hz)", three_digits(rate_Hz));
   if (run.missing_values > 0) out += fmt::format("; {} values missing", run.missing_values);
   if (run.duplicate_times > 0) out += fmt::format("; {} repeated time stamps", run.duplicate_times);
+  if (!run.resampled.empty()) out += "; " + run.resampled;
   if (!run.has_reference) out += "; no reference flow: estimation only";
   if (run.calibrated_with) out += "; also an input of the calibration";
   return out + ".";
@@ -93,8 +94,7 @@ std::string meters(const validation::Validation& validation) {
   std::string out = "each run:";
   for (const validation::RunResult& run : validation.runs) {
     if (!run.has_reference) continue;
-    out += fmt::format(" {} {} ms after {} ms of dead time,", run.name, fixed(1e3 * run.reference_meter.lag_s, 0),
-                       fixed(1e3 * run.reference_meter.dead_time_s, 0));
+    out += fmt::format(" {} {},", run.name, reference_meter_text(run));
   }
   out.pop_back();
   return out;
@@ -115,7 +115,7 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
   page.paragraph(
       "Of several runs together each run weighs alike, however long it is, in the verdict and in what requirements "
       "ask of all runs; \u201call samples\u201d is the same with each sample weighing alike.");
-  page.paragraph(fmt::format("The reference meter lags by {} ms (first order; {}). The estimate was {}.",
+  page.paragraph(fmt::format("The reference meter lags by {} ms (first order; {}; \u00b1: 95 %). The estimate was {}.",
                              fixed(1e3 * validation.reference_lag_s, 0), meters(validation),
                              validation.reference_lag_applied
                                  ? "delayed and lagged likewise before it was compared: the answer itself is that of "

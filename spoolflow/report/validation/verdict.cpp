@@ -266,7 +266,8 @@ void Judge::add_known_runs(std::vector<Remark>& out) const {
 std::vector<Text> Judge::limits() const {
   std::vector<Remark> remarks;
   for (const validation::RunResult& run : validation_.runs) {
-    for (const std::string& doubt : run.doubts) remarks.push_back({Harm::doubt, 0, Text("Doubt: " + doubt + ".")});
+    for (const std::string& doubt : run.doubts)
+      remarks.push_back({Harm::doubt, 0, Text("Doubt: " + doubt + (doubt.ends_with('?') ? "" : "."))});
   }
   add_status(remarks);
   if (leading().metrics) {
@@ -293,6 +294,16 @@ std::vector<Text> Judge::limits() const {
 Verdict verdict(const model::Model& model, const validation::Validation& validation) {
   const Judge judge(model, validation);
   return {judge.sentence(), judge.limits()};
+}
+
+std::string reference_meter_text(const validation::RunResult& run) {
+  const auto ms = [](double time_s) { return fixed(1e3 * time_s, 1); };
+  const numerics::MeterLag& meter = run.reference_meter;
+  if (!run.reference_meter_uncertainty)
+    return fmt::format("{} ms after {} ms of dead time", ms(meter.lag_s), ms(meter.dead_time_s));
+  const numerics::MeterLag& width = *run.reference_meter_uncertainty;
+  return fmt::format("{} \u00b1 {} ms after {} \u00b1 {} ms of dead time", ms(meter.lag_s), ms(width.lag_s),
+                     ms(meter.dead_time_s), ms(width.dead_time_s));
 }
 
 }  // namespace spoolflow::report

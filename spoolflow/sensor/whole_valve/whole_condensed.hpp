@@ -14,8 +14,7 @@ struct WholeCondensedTables {
 };
 
 /// Those of the side into which the spool stands. A pack of valves brings its own.
-template <class T>
-requires one_valve<T>
+template <class T, std::enable_if_t<one_valve<T>, int> = 0>
 constexpr const CondensedTables<T>& of_side(const WholeCondensedTables<T>& valve, bool opens_a) {
   return opens_a ? *valve.a : *valve.b;
 }
@@ -44,7 +43,7 @@ template <class T>
 constexpr const Estimate<T>& step(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                   const WholeValveSample<T>& sample) {
   if constexpr (one_valve<T>) {
-    if (!is_number(sample.position_m)) [[unlikely]] {
+    if (unlikely(!is_number(sample.position_m))) {
       hold(valve, state, sample);
       return state.last;
     }

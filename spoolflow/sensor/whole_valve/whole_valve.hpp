@@ -37,8 +37,7 @@ struct Sides {
 };
 
 /// A pack of valves brings its own.
-template <class T>
-requires one_valve<T>
+template <class T, std::enable_if_t<one_valve<T>, int> = 0>
 constexpr Sides<T> sides(const WholeValveParameters<T>& valve, bool opens_a) {
   return opens_a ? Sides<T>{*valve.a, *valve.b} : Sides<T>{*valve.b, *valve.a};
 }
@@ -94,7 +93,7 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
 template <class T>
 [[gnu::always_inline]] constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
                                                   const Sample<T>& sample, Mask<T> begins, Mask<T> busy) {
-  const Mask<T> just_left = !begins && idle.closed_s == T(0);
+  const Mask<T> just_left = !begins && is_zero(idle.closed_s);
   idle.closed_s += sample.time_step_s;
   in_valves(!just_left, idle, [&] {
     const Mask<T> silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;

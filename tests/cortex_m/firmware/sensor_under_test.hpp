@@ -22,14 +22,11 @@ inline constexpr const auto& parameters = valve_model::observer;
 using State = valve_model::State;
 
 /// Of one direction, or of the side on which a whole valve's spool stands.
-template <class OneDirection>
-const auto& open_side(const OneDirection& state) {
+template <class T>
+const auto& open_side(const spoolflow::sensor::ObserverState<T>& state) {
   return state;
 }
 template <class WholeValve>
-requires requires(const WholeValve& state) {
-  state.open;
-}
 const auto& open_side(const WholeValve& state) {
   return state.open;
 }

@@ -1,0 +1,150 @@
+#include "spoolflow/recording/column_clock.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/header_name.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+constexpr std::array<std::string_view, 12> time_words{"time",     "t",           "zeit",  "temps",
+                                                      "tempo",    "tiempo",      "jikan", "timestamp",
+                                                      "timebase", "zeitstempel", "times", "timestamps"};
+
+/// "pressureTime_ms" and "p_time" in words: pressure, time, ms. A single capital T stays one: it is a temperature.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> out(1);
+  char last = '_';
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) == 0) {
+      if (!out.back().empty()) out.emplace_back();
+    } else {
+      const bool begins = std::isupper(byte) != 0 && std::islower(static_cast<unsigned char>(last)) != 0;
+      if (begins) out.emplace_back();
+      out.back() += c;
+    }
+    last = c;
+  }
+  for (std::string& word : out) {
+    if (word == "T") continue;
+    std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  }
+  std::erase(out, "");
+  return out;
+}
+
+bool is_time_word(const std::string& word) {
+  return std::ranges::find(time_words, word) != time_words.end();
+}
+
+bool is_time_unit(const std::string& word) {
+  const auto unit = units::unit_named(word);
+  return unit && unit->dimension == units::Dimension::time;
+}
+
+/// The group or struct that holds it: "rig/pressure" of "rig/pressure/p", empty at the top.
+std::string_view group_of(std::string_view name) {
+  const std::size_t last = name.substr(0, name.find(':')).find_last_of("./");
+  return last == std::string_view::npos ? std::string_view() : name.substr(0, last);
+}
+
+/// Whether `time` carries the name of `column`: pressure_time of pressure_bar.
+bool carries_name(const FileColumn& time, const FileColumn& column) {
+  const std::vector<std::string> words = words_of(column.leaf);
+  std::size_t own = 0;
+  for (const std::string& word : words_of(time.leaf)) {
+    if (is_time_word(word) || is_time_unit(word)) continue;
+    ++own;
+    if (std::ranges::find(words, word) == words.end()) return false;
+  }
+  return own > 0;
+}
+
+class Search {
+ public:
+  Search(const SampleTable& table, std::size_t column, std::span<const std::size_t> others, const std::string& file)
+      : table_(table), column_(column), samples_(table.samples_of(column).value_or(0)), file_(file) {
+    for (std::size_t k = 0; k < table.columns().size(); ++k) {
+      const bool other = std::ranges::find(others, k) != others.end();
+      if (k != column && !other && table.samples_of(k) == samples_ && named_time(at(k))) times_.push_back(k);
+    }
+  }
+
+  [[nodiscard]] std::optional<ColumnClock> clock(std::optional<std::size_t> usual) const {
+    for (std::string_view group = group_of(at(column_).name);; group = group_of(group)) {
+      std::vector<std::size_t> beside;
+      std::ranges::copy_if(times_, std::back_inserter(beside),
+                           [&](std::size_t k) { return group_of(at(k).name) == group; });
+      if (const auto found = chosen(beside, usual)) return by(*found);
+      if (group.empty()) break;
+    }
+    if (at(column_).wave_step_s > 0) {
+      return ColumnClock{std::nullopt, at(column_).wave_begin_s, at(column_).wave_step_s, samples_};
+    }
+    if (usual && table_.samples_of(*usual) == samples_) return by(*usual);
+    if (times_.size() == 1) return by(times_.front());
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] const FileColumn& at(std::size_t column) const { return table_.columns()[column]; }
+  [[nodiscard]] ColumnClock by(std::size_t time) const { return {time, 0, 0, samples_}; }
+
+  /// Of times of one group.
+  [[nodiscard]] std::optional<std::size_t> chosen(std::vector<std::size_t> times,
+                                                  std::optional<std::size_t> usual) const {
+    if (times.empty()) return std::nullopt;
+    std::vector<std::size_t> named = times;
+    std::erase_if(named, [&](std::size_t k) { return !carries_name(at(k), at(column_)); });
+    if (named.size() == 1) return named.front();
+    if (usual && std::ranges::find(times, *usual) != times.end()) return usual;
+    std::vector<std::size_t> plain = times;  // called nothing but a time
+    std::erase_if(plain, [&](std::size_t k) { return !channel_header(at(k)); });
+    if (plain.size() == 1) return plain.front();
+    if (times.size() == 1) return times.front();
+    throw RecordingError(
+        fmt::format("{}: '{}' has two times beside it, '{}' and '{}', both of {} samples; take one of them out of its "
+                    "group, or name the time {}_time_s",
+                    file_, at(column_).name, at(times[0]).name, at(times[1]).name, samples_, at(column_).leaf));
+  }
+
+  const SampleTable& table_;
+  std::size_t column_;
+  std::uint64_t samples_;
+  const std::string& file_;
+  std::vector<std::size_t> times_;
+};
+
+}  // namespace
+
+bool named_time(const FileColumn& column) {
+  if (const auto header = channel_header(column)) return header->channel == Channel::time;
+  const std::string unit = stated_unit(column);
+  if (!unit.empty() && !is_time_unit(unit)) return false;
+  const std::vector<std::string> words = words_of(split_brackets(column.leaf).stem);
+  return std::ranges::any_of(words, is_time_word);
+}
+
+std::string unit_of_time(const FileColumn& column) {
+  const auto header = channel_header(column);
+  if (header && !header->unit.empty()) return header->unit;
+  if (const std::string stated = stated_unit(column); !stated.empty()) return stated;
+  const std::size_t last = column.leaf.rfind('_');
+  const std::string ending = last == std::string::npos ? "" : column.leaf.substr(last + 1);
+  return is_time_unit(ending) ? ending : "";
+}
+
+std::optional<ColumnClock> clock_of(const SampleTable& table, std::size_t column, std::optional<std::size_t> usual,
+                                    std::span<const std::size_t> others, const std::string& file) {
+  return Search(table, column, others, file).clock(usual);
+}
+
+}  // namespace spoolflow::recording
