@@ -174,6 +174,33 @@ TEST_F(EngineTest, ReadsAPipeAgainAndAgain) {
               HasSubstr("is no pipe; make it with mkfifo"));
 }
 
+// A sender that writes and leaves at once, as a script of echo lines does: each finds a reader, and no row is lost.
+TEST_F(EngineTest, ReadsSendersThatFollowEachOtherAtOnce) {
+  ASSERT_EQ(::mkfifo(path("fifo").c_str(), 0600), 0);
+  Engine engine(site({{"p", PipeSettings{path("fifo")}}}), "test");
+  engine.start();
+  constexpr int senders = 200;
+  for (int k = 0; k < senders; ++k) {
+    const Descriptor writer(::open(path("fifo").c_str(), O_WRONLY | O_CLOEXEC));
+    const std::string text = engine_header + rows(10 * k, 10 * k + 10);
+    ASSERT_EQ(::write(writer.number(), text.data(), text.size()), static_cast<ssize_t>(text.size())) << k;
+  }
+  ASSERT_TRUE(has(engine, 0, 10 * senders));
+  EXPECT_EQ(engine.view(0).samples, 10U * senders);  // no header was taken for a sample
+  EXPECT_NEAR(engine.view(0).time_s, 0.001 * (10 * senders - 1), 1e-9);
+}
+
+TEST_F(EngineTest, AHeaderOfOtherColumnsInTheMiddleIsToldAndNotMisread) {
+  Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  sender.send(engine_header + rows(0, 10));
+  ASSERT_TRUE(has(engine, 0, 10));
+  sender.send("time_s,voltage_V,current_A,position_mm,oil_temperature_C\n" + rows(10, 20));
+  EXPECT_TRUE(comes_true([&] { return engine.source(0).trouble.find("in another order") != std::string::npos; }));
+  EXPECT_EQ(engine.view(0).samples, 10U);
+}
+
 TEST_F(EngineTest, GoesOnWhereItWas) {
   write("run.csv", engine_header + rows(0, 5000));
   const SourceSettings replay = ReplaySettings{path("run.csv"), 0};

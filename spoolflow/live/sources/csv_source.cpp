@@ -69,6 +69,7 @@ PipeSource::PipeSource(std::filesystem::path path, recording::ReadOptions option
 void PipeSource::run(const std::stop_token& stop) {
   const bool once = path_ == "-";
   const auto given_up = [&] { return stop.stop_requested(); };
+  Descriptor held;  // until the pipe is open again: what a sender writes in between must find a reader, and stay
   while (!stop.stop_requested()) {
     const int opened =
         once ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -77,6 +78,7 @@ void PipeSource::run(const std::stop_token& stop) {
       if (!wait_for(std::chrono::milliseconds(1000), stop) || once) return;
       continue;
     }
+    held = Descriptor(::fcntl(opened, F_DUPFD_CLOEXEC, 0));
     intake_.count_connection();
     next_ =
         read_csv(std::make_unique<recording::InputBytes>(opened, path_.string(), given_up), options_, next_, intake_);

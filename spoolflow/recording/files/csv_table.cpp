@@ -205,8 +205,32 @@ void CsvTable::refuse_length(std::size_t cells) const {
                   dialect_.delimiter == '\t' ? std::string("tab") : std::string(1, dialect_.delimiter)));
 }
 
+/// Whether the line is the header, which the next sender into the same pipe begins with. Throws RecordingError where
+/// it is another header: what follows would be read as the wrong channels.
+bool CsvTable::header_again(std::string_view line) const {
+  std::size_t same = 0;
+  std::size_t elsewhere = 0;
+  bool last = false;
+  for (std::size_t column = 0; !last; ++column) {
+    const CsvCell cell = take_cell(line, dialect_.delimiter);
+    last = cell.last;
+    double number = 0.0;
+    if (cell.text.empty() || read_number(cell.text, point_, number) == Digits::number) return false;
+    const auto named = std::ranges::find(dialect_.columns, cell.text, &FileColumn::name);
+    if (named == dialect_.columns.end()) continue;
+    ++(named - dialect_.columns.begin() == static_cast<std::ptrdiff_t>(column) ? same : elsewhere);
+  }
+  if (elsewhere > 0) {
+    throw RecordingError(fmt::format("{}, line {}: a header with its columns in another order than before; close the "
+                                     "connection before the channels change",
+                                     input_->name(), line_));
+  }
+  return same == dialect_.columns.size();
+}
+
 /// Any row: quotes, spaces, exponents, empty cells, trailing delimiters; and every refusal. False where it is left out.
 bool CsvTable::careful_row(std::string_view line, std::span<double* const> out, std::size_t row) {
+  if (text_ == Text::left_out && header_again(line)) return false;
   std::size_t cells = 0;
   std::size_t used = 0;  // up to the last cell that is not empty
   for (bool last = false; !last; ++cells) {

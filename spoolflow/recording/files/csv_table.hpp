@@ -15,7 +15,8 @@ namespace spoolflow::recording {
 class CsvTable final : public SampleTable {
  public:
   /// What to do with a cell that is no number: refuse it; count it and take the sample as missing (to inspect); or
-  /// likewise, and leave out lines that have not the header's number of cells (of a source that runs on).
+  /// likewise, and leave out lines that have not the header's number of cells, and the header itself where the next
+  /// sender begins with it (of a source that runs on).
   enum class Text : std::uint8_t { refused, counted, left_out };
 
   /// Throws RecordingError where the header cannot be read. `beginning`: bytes already taken from `input`.
@@ -39,6 +40,7 @@ class CsvTable final : public SampleTable {
   void refuse_zero_bytes(std::size_t first) const;
   void look_at_new_bytes();
   bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
+  [[nodiscard]] bool header_again(std::string_view line) const;
   bool careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
   [[noreturn]] void refuse_length(std::size_t cells) const;
