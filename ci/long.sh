@@ -9,7 +9,7 @@ status=0
 ci/packages.sh
 ci/packages.sh long
 ci/build.sh release apps_test
-ci/build.sh release live_load
+ci/build.sh release benchmarks
 echo "== clang-tidy"
 ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
 echo "== 50 kills"

@@ -35,6 +35,8 @@ constexpr sensor::FrictionParameters<double> assumed_friction{.ageing_ratio = 4,
 constexpr double assumed_backlash_m = 0.45e-6;
 constexpr double assumed_moving_mass_kg = 0.11;
 constexpr double assumed_hardest_acceleration_m_per_s2 = 90;
+/// Of a cylinder whose areas differ, whatever its size and mass (docs/accuracy.md, the differential cylinder).
+constexpr double unsettled_cylinder_share = 0.4;
 /// Of the supply, which may be any: the same for every valve.
 constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 3e5,
                                                     .resting_drift_Pa_per_sqrt_s = 1e6,
@@ -162,6 +164,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .creep_per_s = 1,
               .unseen_factor = 1.75};
   out.inlet = fits.axial.inlet;
+  out.unsettled_load_share = fits.axial.equal_flows ? 0 : unsettled_cylinder_share;
   out.moving_mass_kg = assumed_moving_mass_kg;
   out.closed_below_m = closed_below_m;
   out.largest_current_A = fits.magnetic.largest_current_A;

@@ -187,6 +187,11 @@ void describe_answer_constants(Visitor& visitor) {
                     .meaning = "the same at most, as a share of friction",
                     .evidence = "fast_10kHz: p95 2.37, 2.37, 2.37 % FS, band 93.1, 93.7, 93.8 %"},
                    sensor::most_friction_share_of_speed);
+  visitor.constant({.name = "displaced_friction_factor",
+                    .unit = "1",
+                    .meaning = "half the width that friction takes in the band, over the share of it by which its "
+                               "ratio in operation differs from the calibrated one"},
+                   sensor::displaced_friction_factor);
   visitor.constant({.name = "innovation_factor",
                     .unit = "1",
                     .meaning = "half the width that an innovation takes in the band while the spool slides, over it",

@@ -295,6 +295,13 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
   describe_pressure(parameters.pressure, visitor);
   describe_band(parameters.band, visitor);
   describe_inlet_share(parameters.inlet, visitor);
+  visitor.number({.key = "unsettled_load_share",
+                  .unit = "1",
+                  .limits = {0, 10},
+                  .meaning = "half the width that a whole valve's flow takes in the band to which its load has not "
+                             "settled, over the change still to settle; 0 behind loads of equal flows",
+                  .otherwise = 0},
+                 parameters.unsettled_load_share);
   visitor.number({.key = "moving_mass_kg",
                   .unit = "kg",
                   .limits = {1e-3, 100},

@@ -51,6 +51,8 @@ void describe_whole_valve_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "and so many standard deviations of the position's noise more"},
                    sensor::sign_deviations);
+  visitor.constant({.name = "load_settling_s", .unit = "s", .meaning = "pace at which a load settles to another flow"},
+                   sensor::load_settling_s);
   visitor.constant({.name = "idle_settling_s",
                     .unit = "s",
                     .meaning = "the iron of a coil has come to rest where its current has been silent for so long"},

@@ -90,8 +90,9 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                              const ForceBalance<T>& balance, T velocity_m_per_s) {
-  const PressureBand<T> band = pressure_band(valve.band, state.pressure, balance, state.friction.rest_s,
-                                             velocity_m_per_s, valve.edge.highest_pressure_difference_Pa());
+  const PressureBand<T> band =
+      pressure_band(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
+                    valve.edge.highest_pressure_difference_Pa(), valve.friction.operation_ratio);
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));

@@ -46,7 +46,9 @@ struct ObserverParameters {
   PressureParameters<T> pressure;
   BandParameters<T> band;
   InletShare<T> inlet;
-  T moving_mass_kg{};  ///< spool, push rod and armature together
+  T unsettled_load_share{};  ///< of a whole valve: half the width that a flow takes which its load has not settled to,
+                             ///< over the change still to settle; 0 where both edges always pass the load's flows
+  T moving_mass_kg{};        ///< spool, push rod and armature together
   T closed_below_m{};
   T largest_current_A{};
   T largest_voltage_V{};  ///< of the coil, as calibration saw it; 0: not known. The step reads no limit from it.

@@ -68,14 +68,16 @@ struct RestingSpool {
     pressure.process_noise = 1;
     pressure.unobserved_variance_Pa2 = squared(600e5);
     pressure.band_factor = 1;
+    pressure.friction_ratio = calibrated_ratio;
     balance.edge = parameters.edge.at(313.0, 50e5, 1.2e-3);
     balance.apparent_friction_N = 0.5;
     balance.resting = {-2.5, 1.5, 0, 0};
   }
   [[nodiscard]] PressureBand<double> band() const {
-    return pressure_band(parameters.band, pressure, balance, 3.0, 0.0, 1000e5);
+    return pressure_band(parameters.band, pressure, balance, 3.0, 0.0, 1000e5, calibrated_ratio);
   }
 
+  static constexpr double calibrated_ratio = 0.9;
   ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
   PressureState<double> pressure{};
   ForceBalance<double> balance{};
@@ -121,6 +123,21 @@ TEST(Band, ExpectsThePressureDifferenceTowardsWhereMoreIsOpen) {
   spool.pressure.unobserved_variance_Pa2 = 0;  // and of a supply that was just seen
   spool.balance.resting = {-2.5, 1.5, 0, 0};
   EXPECT_NEAR(spool.band().expected_Pa, 40e5, 0.02e5);
+}
+
+TEST(Band, InMotionDoubtsFrictionThatIsNotAsCalibrated) {
+  RestingSpool spool;
+  spool.balance.sliding = true;
+  spool.balance.friction_N = spool.balance.apparent_friction_N = 4;
+  spool.pressure.unobserved_variance_Pa2 = 0;
+  const auto half_N = [&] {
+    return (40e5 - spool.band().least_Pa) * ClosedFormValve::flow_force_per_pressure(1.2e-3);
+  };
+  const double as_calibrated_N = half_N();
+  for (const double displaced : {-0.2, 0.2}) {
+    spool.pressure.friction_ratio = RestingSpool::calibrated_ratio + displaced;
+    EXPECT_NEAR(half_N(), std::hypot(as_calibrated_N, displaced_friction_factor * 0.2 * 4), 0.01);
+  }
 }
 
 TEST(Band, OfTheFlowCountsItsOwnResidualAsIndependentOfThePressure) {

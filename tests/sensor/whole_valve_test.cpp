@@ -126,6 +126,34 @@ TEST(WholeValve, KeepsThePressureOfEachPathAndTrustsItLessTheLongerThePathWasClo
   EXPECT_GT(width_after(10), 1.5 * width_after(1));
 }
 
+TEST(WholeValve, DoubtsAFlowToWhichTheCylinderBehindItHasNotSettled) {
+  Sides sides;
+  sides.a.unsettled_load_share = sides.b.unsettled_load_share = 0.4;
+  const Sides equal_flows;
+  WholeValveState<double> cylinder{}, motor{};
+  Course course({.position_m = 0.4e-3, .pressure_difference_Pa = 60e5});
+  course.rest(2, 1).slide(2e-3, 20).rest(2, 1);
+  double before = 0, moving = 0, time_s = 0;
+  for (const ValveSample& sample : run_of(sides.law, course)) {
+    time_s += sample_s;
+    const Estimate<double>& answer = step(sides.whole, cylinder, to_side(sample.measured, true));
+    const Estimate<double>& sure = step(equal_flows.whole, motor, to_side(sample.measured, true));
+    EXPECT_EQ(answer.flow_m3_per_s, sure.flow_m3_per_s);
+    const auto added = [&](double end, double sure_end) {  // by the load alone
+      return std::sqrt(squared(answer.flow_m3_per_s - end) - squared(answer.flow_m3_per_s - sure_end));
+    };
+    const double below = added(answer.flow_lower_m3_per_s, sure.flow_lower_m3_per_s);
+    if (time_s < 2) before = below;
+    if (time_s > 2) moving = std::max(moving, below);
+    if (below > 1e-7) EXPECT_NEAR(added(answer.flow_upper_m3_per_s, sure.flow_upper_m3_per_s) / below, 1, 1e-3);
+  }
+  const double end = motor.open.last.flow_m3_per_s - cylinder.open.last.flow_lower_m3_per_s;
+  const double sure_end = motor.open.last.flow_m3_per_s - motor.open.last.flow_lower_m3_per_s;
+  EXPECT_LT(before, 0.01 * sides.law.full_scale_m3_per_s());
+  EXPECT_GT(moving, 0.3 * 0.4 * std::abs(motor.open.last.flow_m3_per_s));
+  EXPECT_NEAR(end, sure_end, 0.02 * sure_end);  // settled
+}
+
 TEST(WholeValve, FindsTheZeroOfItsPositionSensorAtRestInTheCentre) {
   const Sides sides;
   WholeValveState<double> state{};

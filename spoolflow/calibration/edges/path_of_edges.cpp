@@ -275,6 +275,7 @@ PathFit fit_path(const AxialForceMaps& maps, const sensor::Spring<double>& sprin
   };
   PathFit out;
   const double ratio = maps.outlet_flow_ratio;
+  out.equal_flows = ratio == 1;
   if (maps.inlet.empty()) {
     out.measured = {fits_of(maps.joined)};
     out.path = out.measured.front();

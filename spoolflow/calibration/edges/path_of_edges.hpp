@@ -58,6 +58,7 @@ struct AxialForceMaps {
 struct PathFit {
   std::vector<std::vector<AxialForceFit>> measured;  ///< of both edges joined, or of inlet and outlet
   std::vector<AxialForceFit> path;                   ///< as the load uses it
+  bool equal_flows = true;                           ///< the load passes the same flow over both edges
   sensor::InletShare<double> inlet;                  ///< dp1/dp; a half, with a wide range, where nothing tells e
 };
 

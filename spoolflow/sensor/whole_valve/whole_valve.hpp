@@ -6,6 +6,7 @@
 
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"
+#include "spoolflow/sensor/whole_valve/unsettled_load.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_parameters.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"
 
@@ -55,6 +56,7 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
   state.idle.waiting_s = state.idle.charge_As = T(0);
+  state.settled_m3_per_s = T(0);
   state.inlet_share = now.open.inlet.share;
   state.idle.inlet_share = now.idle.inlet.share;
 }
@@ -78,6 +80,7 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   std::swap(state.open.pressure, state.idle.pressure);
   std::swap(state.open.dither, state.idle.dither);
   std::swap(state.inlet_share, state.idle.inlet_share);
+  state.settled_m3_per_s = -state.settled_m3_per_s;
   mirror(state.open.friction);
   forget(state.open.swing);
   PressureState<T>& pressure = state.open.pressure;
@@ -177,7 +180,11 @@ template <class T>
       answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
     }
   }
-  if (!ports_measured) doubt_load(valve, state.open, position.position_m);
+  if (!ports_measured) {
+    doubt_load(valve, state.open, position.position_m);
+    if (any(valve.unsettled_load_share > T(0)))
+      widen_unsettled(valve.unsettled_load_share, state.settled_m3_per_s, sample.time_step_s, state.open.last);
+  }
 }
 
 /// The chain of the side on which the spool stands; one valve calls it with either side written out: with its tables'

@@ -34,10 +34,11 @@ struct WholeValveState {
   ObserverState<T> open;  ///< of the side on which the spool stands, in that direction's signs, but for the position
                           ///< track and the last answer, which keep the valve's: flow P to B > 0
   IdleSide<T> idle;
-  T zero_m{};         ///< of the position sensor, found at rest in the centre
-  T centred_s{};      ///< for how long the spool has rested there
-  T inlet_share{};    ///< of the open path's pressure drop, as measured port pressures have shown it
-  Mask<T> opens_a{};  ///< it stands on the side that opens P to A
+  T zero_m{};            ///< of the position sensor, found at rest in the centre
+  T centred_s{};         ///< for how long the spool has rested there
+  T inlet_share{};       ///< of the open path's pressure drop, as measured port pressures have shown it
+  T settled_m3_per_s{};  ///< flow through the open path to which the load has settled, in that direction's sign
+  Mask<T> opens_a{};     ///< it stands on the side that opens P to A
 };
 
 static_assert(std::is_trivially_copyable_v<WholeValveParameters<float>>);

@@ -1,0 +1,24 @@
+#pragma once
+/// A load that passes other flows over both edges only once it has settled: behind a cylinder of unequal areas the
+/// drops stand in the calibrated proportion when pressures in its chambers have become steady. Until then the force,
+/// which is made by their sum, tells less of the flow.
+#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/scalar.hpp"
+
+namespace spoolflow::sensor {
+
+/// A load settles to another flow at about this pace [s].
+inline constexpr double load_settling_s = 0.3;
+
+/// One more sample of `time_step_s` >= 0: `settled_m3_per_s` goes on towards the answer, both in the direction's sign,
+/// and the answer's band takes in `share` of what is between them.
+template <class T>
+constexpr void widen_unsettled(T share, T& settled_m3_per_s, T time_step_s, Estimate<T>& out) {
+  const T flow = out.flow_m3_per_s;
+  settled_m3_per_s += (flow - settled_m3_per_s) * smaller(time_step_s / T(load_settling_s), T(1));
+  const T open2 = squared(share * (flow - settled_m3_per_s));
+  out.flow_lower_m3_per_s = flow - sqrt(squared(flow - out.flow_lower_m3_per_s) + open2);
+  out.flow_upper_m3_per_s = flow + sqrt(squared(out.flow_upper_m3_per_s - flow) + open2);
+}
+
+}  // namespace spoolflow::sensor
