@@ -74,16 +74,15 @@ template <class T>
 }
 
 /// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, friction that
-/// depends on speed, friction by whose ratio operation has already differed by `displaced_ratio` from the calibrated
-/// one, and the swing of friction under dither.
+/// depends on speed, friction that operation has shown to differ by `displaced_ratio` (>= 0) from what was calibrated,
+/// and the swing of friction under dither.
 template <class T>
 [[gnu::always_inline]] constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s,
                                                       T displaced_ratio) {
   const T of_speed =
       smaller(T(friction_share_per_speed_s_per_m) * magnitude(velocity_m_per_s), T(most_friction_share_of_speed));
-  const T sliding_N =
-      T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
-      magnitude(balance.friction_N) * (of_speed + T(displaced_friction_factor) * magnitude(displaced_ratio));
+  const T sliding_N = T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
+                      magnitude(balance.friction_N) * (of_speed + T(displaced_friction_factor) * displaced_ratio);
   return select(balance.sliding, sliding_N, T(0)) + T(swing_deviation_share) * balance.half_swing_N;
 }
 
@@ -93,23 +92,21 @@ template <class T>
   return pressure_deviation_Pa(edge, bound_N / sqrt(T(1) + squared(bound_N) * per_open_1_N2));
 }
 
-/// After the pressure difference was believed; `calibrated_ratio` is friction's to begin with. At rest both what is
+/// After the pressure difference was believed; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
 /// open and how far friction's bounds and their uncertainty reach limit the error: each side lies below either.
 template <class T>
 [[gnu::always_inline]] constexpr PressureBand<T> pressure_band(const BandParameters<T>& band,
                                                                const PressureState<T>& pressure,
                                                                const ForceBalance<T>& balance, T rest_s,
-                                                               T velocity_m_per_s, T highest_Pa, T calibrated_ratio) {
+                                                               T velocity_m_per_s, T highest_Pa, T displaced_ratio) {
   const T share = select(balance.sliding, band.force_share, band.rest_share);
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T unobserved_N2 =
       squared(slope * band.unseen_factor * pressure.process_noise) * pressure.unobserved_variance_Pa2;
   const T factor = band.coverage_factor * pressure.band_factor * select(balance.slips, T(slip_widening), T(1));
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
-  if (any(balance.sliding || balance.dithered)) {
-    const T displaced_ratio = pressure.friction_ratio - calibrated_ratio;
+  if (any(balance.sliding || balance.dithered))
     open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s, displaced_ratio));
-  }
   const T believed_Pa = pressure.pressure_difference_Pa;
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
   T below_Pa = open_Pa, above_Pa = open_Pa, further_Pa = T(0);

@@ -92,7 +92,8 @@ template <class T>
                                              const ForceBalance<T>& balance, T velocity_m_per_s) {
   const PressureBand<T> band =
       pressure_band(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
-                    valve.edge.highest_pressure_difference_Pa(), valve.friction.operation_ratio);
+                    valve.edge.highest_pressure_difference_Pa(),
+                    displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));

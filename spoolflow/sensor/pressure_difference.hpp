@@ -140,6 +140,14 @@ constexpr void forget_ratio(const PressureParameters<T>& pressure, PressureState
   state.ratio_variance += T(2) * share * (squared(pressure.ratio_deviation) - state.ratio_variance);
 }
 
+/// By how much the friction ratio was found to differ from the calibrated one, beyond what is expected of it at any
+/// time.
+template <class T>
+[[gnu::always_inline]] constexpr T displaced_ratio(const PressureParameters<T>& pressure, const PressureState<T>& state,
+                                                   T calibrated_ratio) {
+  return larger(magnitude(state.friction_ratio - calibrated_ratio) - pressure.ratio_deviation, T(0));
+}
+
 /// Freed by dither the spool tells nothing of the friction ratio, and the covariance goes to zero by and by.
 template <class T>
 constexpr void drop_covariance(PressureState<T>& state) {

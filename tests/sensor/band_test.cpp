@@ -74,7 +74,8 @@ struct RestingSpool {
     balance.resting = {-2.5, 1.5, 0, 0};
   }
   [[nodiscard]] PressureBand<double> band() const {
-    return pressure_band(parameters.band, pressure, balance, 3.0, 0.0, 1000e5, calibrated_ratio);
+    return pressure_band(parameters.band, pressure, balance, 3.0, 0.0, 1000e5,
+                         displaced_ratio(parameters.pressure, pressure, calibrated_ratio));
   }
 
   static constexpr double calibrated_ratio = 0.9;
@@ -130,12 +131,13 @@ TEST(Band, InMotionDoubtsFrictionThatIsNotAsCalibrated) {
   spool.balance.sliding = true;
   spool.balance.friction_N = spool.balance.apparent_friction_N = 4;
   spool.pressure.unobserved_variance_Pa2 = 0;
-  const auto half_N = [&] {
-    return (40e5 - spool.band().least_Pa) * ClosedFormValve::flow_force_per_pressure(1.2e-3);
-  };
+  const auto half_N = [&] { return (40e5 - spool.band().least_Pa) * ClosedFormValve::flow_force_per_pressure(1.2e-3); };
   const double as_calibrated_N = half_N();
-  for (const double displaced : {-0.2, 0.2}) {
-    spool.pressure.friction_ratio = RestingSpool::calibrated_ratio + displaced;
+  const double expected = spool.parameters.pressure.ratio_deviation;
+  for (const double sign : {-1, 1}) {
+    spool.pressure.friction_ratio = RestingSpool::calibrated_ratio + sign * expected;
+    EXPECT_NEAR(half_N(), as_calibrated_N, 1e-9);
+    spool.pressure.friction_ratio = RestingSpool::calibrated_ratio + sign * (expected + 0.2);
     EXPECT_NEAR(half_N(), std::hypot(as_calibrated_N, displaced_friction_factor * 0.2 * 4), 0.01);
   }
 }
