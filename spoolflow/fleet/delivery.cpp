@@ -6,15 +6,15 @@ namespace spoolflow::fleet {
 namespace {
 
 /// Blocks of one valve on their way at a time.
-constexpr std::uint64_t window = 64;
+constexpr std::uint64_t blocks_under_way = 64;
 /// What is not covered for so long is sent again. A commit each half second, and servers that choose a leader anew, are
 /// within it or not far beyond.
-constexpr std::chrono::seconds patience{3};
+constexpr std::chrono::seconds sent_again_after{3};
 
 }  // namespace
 
 Delivery::Due Delivery::due(Time now) {
-  if (sent_ > covered_ && now - moved_ > patience) {
+  if (sent_ > covered_ && now - moved_ > sent_again_after) {
     moved_ = now;
     sends_alone_ = true;
     return {covered_, 1};
@@ -22,8 +22,8 @@ Delivery::Due Delivery::due(Time now) {
   sends_alone_ = false;
   // Numbers that the store has given up count as well: then nothing more is sent until what stands for them is covered.
   const std::uint64_t under_way = sent_ - covered_;
-  if (sent_ >= newest_ || under_way >= window) return {};
-  return {sent_, window - under_way};
+  if (sent_ >= newest_ || under_way >= blocks_under_way) return {};
+  return {sent_, blocks_under_way - under_way};
 }
 
 void Delivery::sent(std::uint64_t number, Time now) {

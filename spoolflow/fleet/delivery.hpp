@@ -34,7 +34,7 @@ class Delivery {
 
  private:
   std::uint64_t session_ = 0;
-  std::uint64_t newest_ = 0, sent_ = 0, covered_ = 0;
+  std::uint64_t covered_ = 0, sent_ = 0, newest_ = 0;
   std::uint64_t alone_ = 0;  ///< the block that was sent again by itself; 0: none
   bool sends_alone_ = false;
   Time moved_{};  ///< when something was covered, or sent again
