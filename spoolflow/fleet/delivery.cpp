@@ -7,9 +7,8 @@ namespace {
 
 /// Blocks of one valve on their way at a time.
 constexpr std::uint64_t blocks_under_way = 64;
-/// What is not covered for so long is sent again. A commit each half second, and servers that choose a leader anew, are
-/// within it or not far beyond.
-constexpr std::chrono::seconds sent_again_after{3};
+/// What is not covered for so long is sent again; a commit each half second is well within it.
+constexpr std::chrono::seconds sent_again_after{2};
 
 }  // namespace
 

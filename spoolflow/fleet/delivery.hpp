@@ -6,7 +6,7 @@
 
 namespace spoolflow::fleet {
 
-/// While nothing is covered the first block that waits is sent again every three seconds, by itself: so blocks go on as
+/// While nothing is covered the first block that waits is sent again every two seconds, by itself: so blocks go on as
 /// soon as the way is open again, however long it was closed, and a fleet that is away is not flooded meanwhile. Where
 /// that block alone comes to be covered, those behind it were lost as well and are sent again at once.
 class Delivery {

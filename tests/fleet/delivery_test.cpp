@@ -64,7 +64,7 @@ TEST(Delivery, DoesNotFloodAFleetThatIsAway) {
   way.open = false;
   way.newest = 1000;
   way.run(seconds(600));
-  EXPECT_LE(way.handed_over, 64 + 200U);
+  EXPECT_LE(way.handed_over, 64 + 300U);
 }
 
 TEST(Delivery, GoesOnBehindMoreBlocksThatWereGivenUpThanAreUnderWayAtATime) {

@@ -19,21 +19,21 @@ milliseconds renewed_after(ReaderWatch watch, ReaderWatch::Time begin) {
   return milliseconds::max();
 }
 
-TEST(ReaderWatch, MakesAnotherOfAReaderThatWasForgottenThoughItAnswersWithinFiveSeconds) {
+TEST(ReaderWatch, MakesAnotherOfAReaderThatWasForgottenThoughItAnswersWithinThreeSeconds) {
   const ReaderWatch::Time begin{seconds(1000)};
   ReaderWatch watch(begin);
-  EXPECT_LE(renewed_after(watch, begin), seconds(5));
+  EXPECT_LE(renewed_after(watch, begin), seconds(3));
   watch.heard(begin + seconds(30));
-  EXPECT_LE(renewed_after(watch, begin + seconds(30)), seconds(5));
+  EXPECT_LE(renewed_after(watch, begin + seconds(30)), seconds(3));
 }
 
-TEST(ReaderWatch, AsksOneWhoseServerIsGoneAfterTwoSeconds) {
+TEST(ReaderWatch, AsksOneWhoseServerMayBeGoneAfterOneAndAHalf) {
   const ReaderWatch::Time begin{seconds(1000)};
   ReaderWatch watch(begin);
-  EXPECT_EQ(watch.silent(begin + milliseconds(1900)), Step::wait);
-  EXPECT_EQ(watch.silent(begin + milliseconds(2000)), Step::ask);
+  EXPECT_EQ(watch.silent(begin + milliseconds(1400)), Step::wait);
+  EXPECT_EQ(watch.silent(begin + milliseconds(1500)), Step::ask);
   watch.heard(begin + seconds(2));
-  EXPECT_EQ(watch.silent(begin + milliseconds(3900)), Step::wait);
+  EXPECT_EQ(watch.silent(begin + milliseconds(3400)), Step::wait);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class ReaderWatch {
     renew,  ///< make another
   };
   /// After so long a silence.
-  static constexpr std::chrono::seconds asks_after{2}, renews_after{4};
+  static constexpr std::chrono::milliseconds asks_after{1500}, renews_after{3000};
 
   explicit ReaderWatch(Time now) : heard_(now), asked_(now) {}
   void heard(Time now) { heard_ = asked_ = now; }
