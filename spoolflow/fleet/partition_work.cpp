@@ -160,7 +160,9 @@ void PartitionWork::ask_for_missing() {
     if (at.early.empty()) continue;
     work_on_early(at);  // a model may have come
     if (at.early.empty() || at.line.turn(at.early.begin()->second) != ValveLine::Turn::early) continue;
-    ask(valve, at, fmt::format("blocks {} {}", id_of(valve), at.line.last().number + 1));
+    // Of another store of its site it misses the first.
+    const bool same_store = at.early.begin()->second.session == at.line.last().session;
+    ask(valve, at, fmt::format("blocks {} {}", id_of(valve), same_store ? at.line.last().number + 1 : 1));
   }
 }
 
@@ -195,6 +197,7 @@ void PartitionWork::tell_coverage(bool all) {
 void PartitionWork::run(const std::stop_token& stop) {
   const auto commit_every = std::chrono::duration<double>(parts_.settings.worker.commit_s);
   while (!stop.stop_requested()) {
+    if (!puller_ && uncommitted_ > 0) commit();  // what follows may wait for servers
     if (!fetch()) std::this_thread::sleep_for(retry);
     take_models();
     ask_for_missing();

@@ -1,6 +1,5 @@
 #include "spoolflow/fleet/publisher.hpp"
 
-#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -18,10 +17,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Blocks of one valve on their way at a time.
-constexpr std::uint64_t window = 64;
-/// The store is looked at so often; what is not covered within the patience is sent again, later and later.
-constexpr milliseconds look_every{100}, first_patience{3000}, longest_patience{15000}, model_every{500};
+/// The store is looked at, and a model sent again, so often.
+constexpr milliseconds look_every{100}, model_every{500};
 
 }  // namespace
 
@@ -63,10 +60,9 @@ void Publisher::run(const std::stop_token& stop) {
 
 void Publisher::look_for_new(live::Database& database) {
   for (const live::OutboxPosition& one : live::outbox_positions(database)) {
-    Progress& at = valves_[one.valve];
-    if (at.session != one.session)
-      at = {.session = one.session, .sent = one.covered, .covered = one.covered, .patience = first_patience};
-    at.newest = one.number;
+    Delivery& at = valves_[one.valve];
+    if (at.session() != one.session) at = Delivery(one.session, one.covered);
+    at.found(one.number);
   }
 }
 
@@ -85,14 +81,8 @@ void Publisher::take_coverage(const std::string& text) {
   std::uint64_t session = 0, number = 0;
   while (lines >> id >> session >> number) {
     const auto found = valves_.find(id);
-    if (found == valves_.end() || found->second.session != session) continue;
-    Progress& at = found->second;
-    if (number <= at.covered || number > at.newest) continue;
-    at.covered = number;
-    at.sent = std::max(at.sent, number);
-    at.moved = Clock::now();
-    at.patience = first_patience;
-    engine_.covered(id, number);
+    if (found == valves_.end() || found->second.session() != session) continue;
+    if (found->second.covered(number, Clock::now())) engine_.covered(id, number);
   }
 }
 
@@ -103,9 +93,7 @@ void Publisher::answer(const std::string& ask) {
   words >> what >> name >> number;
   if (what == "blocks") {
     const auto found = valves_.find(name);
-    if (found != valves_.end() && number > found->second.covered) {
-      found->second.sent = std::min(found->second.sent, number - 1);
-    }
+    if (found != valves_.end()) found->second.asked(number);
     return;
   }
   if (what == "model") send_model(name);
@@ -135,31 +123,26 @@ void Publisher::send_model(const std::string& sha256) {
 }
 
 void Publisher::send(live::Database& database) {
-  const Clock::time_point now = Clock::now();
-  for (auto& [valve, at] : valves_) {
-    if (at.sent > at.covered && now - at.moved > at.patience) {
-      at.sent = at.covered;
-      at.moved = now;
-      at.patience = std::min(2 * at.patience, longest_patience);
-    }
-    if (at.sent < at.newest && at.sent < at.covered + window) send(database, valve, at);
-  }
+  for (auto& [valve, at] : valves_) send(database, valve, at);
 }
 
-void Publisher::send(live::Database& database, const std::string& valve, Progress& at) {
-  if (at.sent == at.covered) at.moved = Clock::now();
+void Publisher::send(live::Database& database, const std::string& valve, Delivery& at) {
+  const Delivery::Due due = at.due(Clock::now());
+  if (due.most == 0) return;
   const std::string& site = engine_.site().fleet.site;
   const std::string subject = block_subject(partition_of(fmt::format("{}/{}", site, valve)), site);
-  for (live::OutboxBlock& one : live::blocks_of(database, valve, at.sent, std::min(at.newest, at.covered + window))) {
-    if (one.number != at.sent + 1) {  // those between were given up: this one stands for them
+  std::uint64_t before = due.after;
+  for (live::OutboxBlock& one : live::blocks_of(database, valve, due.after, due.most)) {
+    if (one.number != before + 1) {  // those between were given up: this one stands for them
       auto read = read_block(one.bytes);
       if (Block* const block = std::get_if<Block>(&read)) {
-        block->first = at.sent + 1;
+        block->first = before + 1;
         one.bytes = write_block(*block);
       }
     }
     if (!nats_.publish(subject, one.bytes)) return;
-    at.sent = one.number;
+    at.sent(one.number, Clock::now());
+    before = one.number;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "spoolflow/fleet/delivery.hpp"
 #include "spoolflow/fleet/transport/nats.hpp"
 #include "spoolflow/live/engine.hpp"
 
@@ -22,13 +23,6 @@ class Publisher {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// How far the blocks of a valve have come.
-  struct Progress {
-    std::uint64_t session = 0;
-    std::uint64_t newest = 0, sent = 0, covered = 0;
-    Clock::time_point moved{};             ///< when something was covered, or sent again
-    std::chrono::milliseconds patience{};  ///< until it is sent again; grows while nothing moves
-  };
   void run(const std::stop_token& stop);
   void look_for_new(live::Database& database);
   void hear(Subscription& coverage, Subscription& asks);
@@ -36,12 +30,12 @@ class Publisher {
   void answer(const std::string& ask);
   void send_model(const std::string& sha256);
   void send(live::Database& database);
-  void send(live::Database& database, const std::string& valve, Progress& at);
+  void send(live::Database& database, const std::string& valve, Delivery& at);
 
   live::Engine& engine_;
   std::function<void(const std::string&)> tell_;
   Connection nats_;
-  std::map<std::string, Progress> valves_;
+  std::map<std::string, Delivery> valves_;
   /// A model that was asked for, as it travels.
   struct SentModel {
     std::string packed{};

@@ -1,5 +1,6 @@
 #include "spoolflow/fleet/worker.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <optional>
@@ -28,6 +29,7 @@ constexpr std::chrono::seconds spread_every{1};
 struct Worker::Task {
   Claim claim;
   std::atomic<bool> ended = false;
+  bool is_given = false;  ///< to others, once it has ended
   std::jthread thread{};
 };
 
@@ -62,8 +64,10 @@ Worker::~Worker() {
 void Worker::stop() {
   keeper_ = {};
   for (const auto& [partition, task] : tasks_) task->thread.request_stop();
-  if (tasks_.empty()) return;
+  const bool has_partitions = !tasks_.empty() || !leaving_.empty();
   tasks_.clear();
+  leaving_.clear();
+  if (!has_partitions) return;
   try {
     Session session(settings_.connection, owner_);
     leave(session, owner_);
@@ -105,15 +109,20 @@ void Worker::spread(Session& session) {
   for (auto task = tasks_.begin(); task != tasks_.end();) {
     const auto held = mine.find(task->first);
     const bool lost = held == mine.end() || held->second != task->second->claim.epoch;
-    if (lost || task->second->ended) {
-      task->second->thread.request_stop();
-      task = tasks_.erase(task);  // waits for its thread, whose next commit fails
-    } else {
+    if (!lost && !task->second->ended) {
       ++task;
+      continue;
     }
+    task->second->thread.request_stop();
+    leaving_.push_back(std::move(task->second));  // where it was lost its next commit fails
+    task = tasks_.erase(task);
   }
+  see_off(session);
   for (const Claim& one : now.held) {
-    if (tasks_.contains(one.partition)) continue;
+    const bool still_ends = std::any_of(leaving_.begin(), leaving_.end(), [&](const auto& task) {
+      return task->claim.partition == one.partition && task->claim.epoch == one.epoch;
+    });
+    if (tasks_.contains(one.partition) || still_ends) continue;
     if (const auto again = claim_again(session, owner_, one.partition)) begin(*again);
   }
   const std::int64_t fair = (shared_.partitions + now.workers - 1) / now.workers;
@@ -123,10 +132,22 @@ void Worker::spread(Session& session) {
   }
   for (std::int64_t surplus = count - fair; surplus > 0; --surplus) {
     const auto last = std::prev(tasks_.end());
-    const Claim given = last->second->claim;
+    last->second->is_given = true;
     last->second->thread.request_stop();
+    leaving_.push_back(std::move(last->second));
     tasks_.erase(last);
-    release(session, given);
+  }
+}
+
+/// Those that have ended: a thread may wait for servers for seconds, in which all leases would run out.
+void Worker::see_off(Session& session) {
+  for (auto task = leaving_.begin(); task != leaving_.end();) {
+    if (!(*task)->ended) {
+      ++task;
+      continue;
+    }
+    if ((*task)->is_given) release(session, (*task)->claim);
+    task = leaving_.erase(task);
   }
 }
 

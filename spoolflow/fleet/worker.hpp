@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "spoolflow/fleet/partition_work.hpp"
 
@@ -33,6 +34,7 @@ class Worker {
   void tell_of_nats();
   void spread(Session& session);
   void begin(const Claim& claim);
+  void see_off(Session& session);
 
   FleetSettings settings_;
   std::string program_, owner_;
@@ -43,7 +45,9 @@ class Worker {
   std::string told_;  ///< what was told last of a server that is away; of the keeper, once it is at work
   int away_ = 0;      ///< times that NATS was found away, one after another
   std::map<std::int64_t, std::unique_ptr<Task>> tasks_;  ///< by partition
-  std::jthread keeper_;                                  ///< last: it uses the others
+  /// Asked to end; to be waited for by nobody who renews leases.
+  std::vector<std::unique_ptr<Task>> leaving_;
+  std::jthread keeper_;  ///< last: it uses the others
 };
 
 }  // namespace spoolflow::fleet

@@ -28,12 +28,10 @@ struct Destroy {
 template <class T>
 using Handle = std::unique_ptr<T, Destroy>;
 
-/// Several connection attempts fit a broken server's absence; JetStream's own answers take at most this long.
-constexpr std::int64_t reconnect_wait_ms = 250, answer_wait_ms = 3000, ping_interval_ms = 2000;
+/// Several connection attempts fit a broken server's absence. Who waits for an answer of JetStream that does not come
+/// does nothing else meanwhile, and it answers within milliseconds where it does; a server that stands takes no bytes.
+constexpr std::int64_t reconnect_wait_ms = 250, answer_wait_ms = 1500, ping_interval_ms = 2000, write_wait_ms = 3000;
 constexpr int pings_out = 2;
-/// A reader that has been silent for so long is asked whether it is there; one that still is, and says nothing for
-/// longer, may have been forgotten by servers that were killed.
-constexpr std::chrono::seconds silence{2}, longest_silence{8};
 
 Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name) {
   natsOptions* made = nullptr;
@@ -52,6 +50,7 @@ Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name
   check(natsOptions_SetIgnoreDiscoveredServers(made, true), "servers");
   check(natsOptions_SetPingInterval(made, ping_interval_ms), "pings");
   check(natsOptions_SetMaxPingsOut(made, pings_out), "pings");
+  check(natsOptions_SetWriteDeadline(made, write_wait_ms), "writes");
   const auto login = [](natsStatus status, const std::string& what, const std::string& remedy) {
     if (status == NATS_OK) return;
     throw LoginError("NATS: " + what + " (" + natsStatus_GetText(status) + "); " + remedy);
@@ -229,16 +228,18 @@ std::vector<Message> Puller::fetch(int most, std::chrono::milliseconds patience)
   for (int k = 0; k < list.Count; ++k) out.push_back(message_of(list.Msgs[k]));
   natsMsgList_Destroy(&list);
   if (!out.empty()) {
-    heard_ = asked_ = now();
+    watch_.heard(now());
     return out;
   }
   if (status != NATS_OK && status != NATS_TIMEOUT) refuse(status, "fetch");
-  if (now() - asked_ < silence) return out;
-  if (now() - heard_ > longest_silence) refuse(NATS_TIMEOUT, "reader that says nothing");
+  const ReaderWatch::Step step = watch_.silent(now());
+  if (step == ReaderWatch::Step::wait) return out;
+  if (step == ReaderWatch::Step::renew) refuse(NATS_TIMEOUT, "reader that says nothing");
   jsConsumerInfo* info = nullptr;
   check(natsSubscription_GetConsumerInfo(&info, subscription_.handle_.get(), nullptr, nullptr), "reader");
   const Handle<jsConsumerInfo> there(info);
-  asked_ = now();
+  if (there->NumPending > 0) refuse(NATS_TIMEOUT, "reader that does not say what it has");
+  watch_.answered(now());
   return out;
 }
 

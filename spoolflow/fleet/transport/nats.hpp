@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/fleet/transport/reader_watch.hpp"
+
 struct __natsSubscription;
 
 namespace spoolflow::fleet {
@@ -101,13 +103,13 @@ class Subscription {
 class Puller {
  public:
   explicit Puller(__natsSubscription* handle) : subscription_(handle) {}
-  /// Up to `most` messages; empty where none came within that time. Throws TransportError where the reader is gone:
-  /// make another.
+  /// Up to `most` messages; empty where none came within that time. Throws TransportError where the reader is gone, or
+  /// silent for long: make another.
   std::vector<Message> fetch(int most, std::chrono::milliseconds patience);
 
  private:
   Subscription subscription_;
-  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now(), asked_ = heard_;
+  ReaderWatch watch_{std::chrono::steady_clock::now()};
 };
 
 }  // namespace spoolflow::fleet

@@ -63,11 +63,10 @@ std::int64_t drop_oldest_blocks(Database& database, double largest_MB) {
 }
 
 std::vector<OutboxBlock> blocks_of(Database& database, const std::string& valve, std::uint64_t after,
-                                   std::uint64_t last) {
+                                   std::uint64_t most) {
   std::vector<OutboxBlock> out;
-  Statement each(database,
-                 "SELECT number, block FROM outbox WHERE valve = ? AND number > ? AND number <= ? ORDER BY number");
-  each.put(std::string_view(valve)).put(static_cast<std::int64_t>(after)).put(static_cast<std::int64_t>(last));
+  Statement each(database, "SELECT number, block FROM outbox WHERE valve = ? AND number > ? ORDER BY number LIMIT ?");
+  each.put(std::string_view(valve)).put(static_cast<std::int64_t>(after)).put(static_cast<std::int64_t>(most));
   while (each.next()) {
     OutboxBlock block{.number = static_cast<std::uint64_t>(each.integer(0))};
     const std::span<const std::byte> bytes = each.bytes(1);

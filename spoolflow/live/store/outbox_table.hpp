@@ -36,8 +36,9 @@ void drop_covered(Database& database, const std::string& valve, std::uint64_t co
 /// Deletes the oldest blocks, of all valves alike, until the others have at most so many bytes. Returns how many.
 std::int64_t drop_oldest_blocks(Database& database, double largest_MB);
 
-/// The blocks with after < number <= last, ascending. The database may be open to read alone.
+/// The first blocks that are kept behind the number `after`, at most so many, ascending: what was given up counts for
+/// nothing. The database may be open to read alone.
 [[nodiscard]] std::vector<OutboxBlock> blocks_of(Database& database, const std::string& valve, std::uint64_t after,
-                                                 std::uint64_t last);
+                                                 std::uint64_t most);
 
 }  // namespace spoolflow::live
