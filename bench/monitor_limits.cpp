@@ -6,9 +6,10 @@
 /// VALVE is PRESET or PRESET:SEED (drawn from a series), MODEL.json what `campaign` and `calibrate` make of it. Case k
 /// takes valve k modulo their number and has its own noise, strokes, pressure differences and oil temperature. Of each
 /// fault the smallest level is sought by halving that is found, raised and with its own cause first, in all cases but
-/// one of twenty. Keys: cases; strokes; dithered (0, 1; both if absent); fault (its number, or that after the last for
-/// healthy valves; all if absent); alarms
-/// (wanted a year); amplitude (of the dither, A), frequency (Hz); slowest, fastest (of the strokes, % of the
+/// one of twenty. With band=1 instead: how far the sensor's band holds while faults of usual size are raised, and the
+/// band widened by what the monitor says, against the true flow; one run a valve and fault. Keys: cases; strokes;
+/// dithered (0, 1; both if absent); fault (its number, or that after the last for healthy valves; all if absent);
+/// alarms (wanted a year); amplitude (of the dither, A), frequency (Hz); slowest, fastest (of the strokes, % of the
 /// stroke/s); lowest, highest (level that is tried, in the unit of the fault).
 #include <algorithm>
 #include <array>
@@ -20,6 +21,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -210,6 +212,56 @@ struct Bench {
     std::fflush(stdout);
   }
 
+  /// One run with the fault: while something is raised.
+  void band(const Valve& valve, FaultKind kind, double level) const {
+    struct Band {
+      double lower_m3_per_s, upper_m3_per_s;
+    };
+    struct Answer {
+      bool raised;
+      Band told, widened;
+    };
+    std::vector<Answer> answers;
+    rig::ValveUnderTest faulty = tested(static_cast<std::size_t>(&valve - valves.data()), false);
+    kind.apply(faulty, level);
+    estimation::RunningSensor sensor = estimation::running_sensor(valve.model, estimation::Estimator::observer);
+    monitor::Watch watch(valve.model, {set.at("alarms")});
+    monitor::Doubt doubt;
+    double windows = 0;
+    rig::SimulationOptions options{.with_truth = true, .keeps_recording = false};
+    options.each_sample = [&](const rig::MeasuredSample& in) {
+      const estimation::TimedSample sample{in.time_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K};
+      const sensor::Estimate<double> told = sensor.step(sample);
+      const auto wide = monitor::widened(valve.model, doubt, sample, watch.state().oil_temperature_K, told);
+      answers.push_back({doubt.any(),
+                         {told.flow_lower_m3_per_s, told.flow_upper_m3_per_s},
+                         {wide.flow_lower_m3_per_s, wide.flow_upper_m3_per_s}});
+      watch.take(sample, told);
+      if (watch.judged_windows() != windows) doubt = watch.doubt();
+      windows = watch.judged_windows();
+    };
+    const rig::Simulation done = rig::simulate(rig::as_built(faulty), strokes(valve, set, 4000), 4000, options);
+    const std::vector<double>& flow_L_min = done.truth["flow_L_min"];
+    double raised = 0;
+    std::array<double, 2> within{}, half_width{};
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      if (!answers[k].raised) continue;
+      ++raised;
+      const std::array<Band, 2> bands{answers[k].told, answers[k].widened};
+      for (std::size_t b = 0; b < bands.size(); ++b) {
+        const double flow_m3_per_s = flow_L_min.at(k) / 60e3;
+        within[b] += flow_m3_per_s >= bands[b].lower_m3_per_s && flow_m3_per_s <= bands[b].upper_m3_per_s ? 1 : 0;
+        half_width[b] += 0.5 * (bands[b].upper_m3_per_s - bands[b].lower_m3_per_s);
+      }
+    }
+    const double share = 100 / std::max(raised, 1.0), full_scale = share / valve.model.valve.rated_flow_m3_per_s;
+    fmt::print(
+        "{:<16} {:<32} {} {}: raised {:.0f} % of the time; in the band {:.0f} to {:.0f} %; {:.1f} to {:.1f} % FS\n",
+        valve.name, kind.name, level, kind.unit, 100 * raised / static_cast<double>(answers.size()), share * within[0],
+        share * within[1], full_scale * half_width[0], full_scale * half_width[1]);
+    std::fflush(stdout);
+  }
+
   void healthy(bool dithered) const {
     const int all = static_cast<int>(set.at("cases"));
     int raised = 0;
@@ -240,6 +292,7 @@ Bench bench_of(int argc, char** argv) {
              {"strokes", 100},
              {"dithered", -1},
              {"fault", -1},
+             {"band", 0},
              {"alarms", 1},
              {"amplitude", 0.1},
              {"frequency", 120},
@@ -269,6 +322,16 @@ Bench bench_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     const Bench bench = bench_of(argc, argv);
+    if (bench.set.at("band") > 0) {
+      constexpr std::array<double, 7> usual{50, 45, 11, 4,
+                                            0,  25, 25};  // by kind; resistance takes nothing off the band
+      for (const Valve& valve : bench.valves) {
+        for (std::size_t k = 0; k < usual.size(); ++k) {
+          if (usual[k] > 0) bench.band(valve, kinds()[k], usual[k]);
+        }
+      }
+      return 0;
+    }
     for (const bool dithered : {false, true}) {
       if (bench.set.at("dithered") >= 0 && dithered != (bench.set.at("dithered") > 0)) continue;
       const double fault = bench.set.at("fault");

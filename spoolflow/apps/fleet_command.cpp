@@ -82,14 +82,14 @@ void status(const fleet::FleetSettings& settings) {
         1e-6 * static_cast<double>(stream.bytes));
 }
 
-void serve(fleet::FleetSettings settings, const std::string& listen) {
+void serve(fleet::FleetSettings settings, const std::string& file, const std::string& listen) {
   if (!listen.empty()) settings.page.listen = live::read_address(listen, "--listen");
   live::PageSettings page = settings.page;
   live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   fleet::FleetPage fleet(settings);
   {
-    const live::PageServer server(fleet.content(), page);
+    const live::PageServer server(fleet.content(), page, {file, [](const std::string& text) { say("{}\n", text); }});
     page.listen.port = server.port();
     say("page at {}://{}/ ; end with Ctrl-C\n", page.has_tls() ? "https" : "http", page.listen.text());
     wait_for_the_end();
@@ -107,7 +107,7 @@ void fleet_command(const FleetArguments& arguments) {
   } else if (arguments.status) {
     status(settings);
   } else {
-    serve(std::move(settings), arguments.listen);
+    serve(std::move(settings), arguments.fleet, arguments.listen);
   }
 }
 

@@ -82,9 +82,11 @@ void live_command(const LiveArguments& arguments) {
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   const auto nursery = recording::nursery_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
+  engine.tell_by([](const std::string& text) { say("{}\n", text); });
   engine.start();
   {
-    const live::PageServer server(site_page(engine), page);
+    const live::PageServer server(site_page(engine), page,
+                                  {arguments.site, [&](const std::string& text) { engine.note(text); }});
     std::optional<live::PlotJuggler> plotjuggler;
     if (engine.site().plotjuggler) plotjuggler.emplace(engine, *engine.site().plotjuggler);
     page.listen.port = server.port();

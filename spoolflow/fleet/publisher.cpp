@@ -40,8 +40,9 @@ void Publisher::run(const std::stop_token& stop) {
   std::string told;
   while (!stop.stop_requested()) {
     try {
+      const std::uint64_t mendings = engine_.store_view().mendings;
       live::Database database = live::open_store_to_read(engine_.site().store);
-      while (!stop.stop_requested()) {
+      while (!stop.stop_requested() && engine_.store_view().mendings == mendings) {
         hear(coverage, asks);
         const bool connected = nats_.connected();
         if (connected != was_connected_)

@@ -25,15 +25,21 @@ Ne107 sign_named(std::string_view text) {
   return Ne107::failure;
 }
 
+/// With a true minus sign, as all texts have.
+std::string figure(double value) {
+  return fmt::format("{}{:.3g}", value < 0 ? "\u2212" : "", std::abs(value));
+}
+
 /// What was seen when the alarm was raised.
 std::string seen(const ValveView& valve, const Trouble& trouble) {
   std::string out = fmt::format("NE 107 {}", monitor::name(trouble.sign));
   if (trouble.odds > 0) out += fmt::format(", odds {:.3g} to 1", trouble.odds);
   if (!std::isfinite(valve.time_s)) return out;
   constexpr double flow = units::litre_per_minute_per_m3_per_s;
-  return out + fmt::format("; at {:.3g} L/min ({:.3g} to {:.3g}), {:.3g} bar", valve.answer.flow_m3_per_s * flow,
-                           valve.answer.flow_lower_m3_per_s * flow, valve.answer.flow_upper_m3_per_s * flow,
-                           valve.answer.pressure_difference_Pa / units::pascal_per_bar);
+  const sensor::Estimate<double>& answer = valve.answer;
+  return out + fmt::format("; at {} L/min ({} to {}), {} bar", figure(answer.flow_m3_per_s * flow),
+                           figure(answer.flow_lower_m3_per_s * flow), figure(answer.flow_upper_m3_per_s * flow),
+                           figure(answer.pressure_difference_Pa / units::pascal_per_bar));
 }
 
 std::vector<KeptIndicator> judged_indicators(const ValveView& valve) {

@@ -174,9 +174,26 @@ UdpCounters Engine::udp_counters() const {
   return udp_ ? udp_->counters() : UdpCounters{};
 }
 
-std::string Engine::store_trouble() const {
+Engine::StoreView Engine::store_view() const {
   const std::lock_guard lock(trouble_mutex_);
-  return store_trouble_;
+  return store_view_;
+}
+
+void Engine::note(const std::string& text) {
+  events_.add({.wall_ms = wall_ms(), .kind = "program", .text = text});
+  if (tell_) tell_(text);
+}
+
+/// What was known is put into a store that began anew; what was deleted or damaged meanwhile is told.
+void Engine::look_after_store(std::int64_t now_ms) {
+  if (const std::string done = store_->look_after(now_ms); !done.empty()) mended_ = done;
+  if (mended_.empty()) return;
+  store_->keep_again(events_.all(), alarms_.all());
+  note(mended_);
+  const std::lock_guard lock(trouble_mutex_);
+  store_view_.mended = std::exchange(mended_, {});
+  store_view_.mended_ms = now_ms;
+  ++store_view_.mendings;
 }
 
 /// Changes of condition and sources become events.
@@ -261,12 +278,18 @@ void Engine::keep(bool with_indicators) {
   std::vector<ValveCommit> commits;
   commits.reserve(valves_.size());
   for (const auto& place : valves_) commits.push_back(place->valve->take_commit(with_indicators));
-  std::vector<Event> events = events_.unkept();
-  const std::vector<Alarm> alarms = alarms_.take_changed();
   const std::int64_t now_ms = wall_ms();
-  report(now_ms, commits, events, alarms);
   std::string trouble;
   try {
+    look_after_store(now_ms);
+  } catch (const StoreError& error) {
+    trouble = error.what();
+  }
+  std::vector<Event> events = events_.unkept();
+  const std::vector<Alarm> alarms = alarms_.take_changed();
+  report(now_ms, commits, events, alarms);
+  try {
+    if (!trouble.empty()) throw StoreError(trouble);
     store_->commit(now_ms, commits, events, alarms);
     events_.kept(events);
     for (std::size_t k = 0; k < commits.size(); ++k) {
@@ -281,11 +304,11 @@ void Engine::keep(bool with_indicators) {
       valves_[k]->valve->give_back(commits[k]);
     }
   }
+  const std::string before = store_view().trouble;
+  if (!trouble.empty() && trouble != before) note(trouble);
+  if (trouble.empty() && !before.empty()) note("the store keeps what comes again");
   const std::lock_guard lock(trouble_mutex_);
-  if (!trouble.empty() && trouble != store_trouble_) {
-    events_.add({.wall_ms = wall_ms(), .kind = "program", .text = trouble});
-  }
-  store_trouble_ = trouble;
+  store_view_.trouble = trouble;
 }
 
 void Engine::keep_each_second(const std::stop_token& stop) {

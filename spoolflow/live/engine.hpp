@@ -5,6 +5,7 @@
 ///     engine.start();                   // from here on samples come in
 ///     engine.view(0); engine.events();  // from any thread
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -58,8 +59,18 @@ class Engine {
   void covered(const std::string& valve, std::uint64_t number);
   [[nodiscard]] UdpCounters udp_counters() const;
   [[nodiscard]] std::uint16_t udp_port() const { return udp_ ? udp_->port() : std::uint16_t{0}; }
-  /// Why nothing is kept at present; empty where it is, or where it need not be.
-  [[nodiscard]] std::string store_trouble() const;
+  /// How the store fares.
+  struct StoreView {
+    std::string trouble{};       ///< why nothing is kept at present; empty where it is, or where it need not be
+    std::string mended{};        ///< what was done last about a file that was deleted or damaged; empty: nothing
+    std::int64_t mended_ms = 0;  ///< when, since 1970-01-01 UTC
+    std::uint64_t mendings = 0;  ///< since the start: whoever reads the file opens it anew after each
+  };
+  [[nodiscard]] StoreView store_view() const;
+  /// Something of the program itself that people should know: an event, and told as tell_by() says.
+  void note(const std::string& text);
+  /// Before the start: who tells of the program's own events beside the page, such as at standard error.
+  void tell_by(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
   [[nodiscard]] const SiteSettings& site() const { return site_; }
 
  private:
@@ -87,6 +98,7 @@ class Engine {
   void restore();
   void begin_to_publish();
   void keep(bool with_indicators);
+  void look_after_store(std::int64_t now_ms);
   void report(std::int64_t now_ms, std::vector<ValveCommit>& commits, const std::vector<Event>& events,
               const std::vector<Alarm>& alarms) const;
   void forget_covered();
@@ -106,7 +118,9 @@ class Engine {
   mutable std::mutex covered_mutex_;
   std::map<std::string, std::uint64_t> covered_;  ///< valves whose blocks can go, up to that number
   mutable std::mutex trouble_mutex_;
-  std::string store_trouble_;
+  StoreView store_view_;
+  std::string mended_;  ///< told once the store has all again that was known
+  std::function<void(const std::string&)> tell_;
   std::jthread keeper_;
 };
 

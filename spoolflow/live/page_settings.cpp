@@ -104,6 +104,14 @@ PageSettings read_page(const TomlTable& page) {
   return out;
 }
 
+PageSettings read_page_of(const std::filesystem::path& file) {
+  const toml::table document = recording::read_toml(file);
+  const toml::node* page = document.get("page");
+  if (page == nullptr) return {};
+  if (!page->is_table()) throw SiteError(fmt::format("{}: page must be a table", file.string()));
+  return read_page({*page->as_table(), file, "[page]"});
+}
+
 void check_reach(const PageSettings& page) {
   if (page.listen.is_loopback()) return;
   if (page.has_tls() && !page.accounts.empty()) return;

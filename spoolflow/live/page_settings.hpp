@@ -39,6 +39,9 @@ struct PageSettings {
 /// Throws SiteError or RecordingError with file, line and remedy.
 [[nodiscard]] PageSettings read_page(const recording::TomlTable& page);
 
+/// The table [page] of a site's or a fleet's file alone. Throws as read_page() does.
+[[nodiscard]] PageSettings read_page_of(const std::filesystem::path& file);
+
 /// Throws SiteError, which says what to do, where other machines reach the address and not both TLS and accounts are
 /// there.
 void check_reach(const PageSettings& page);

@@ -1,5 +1,6 @@
 #pragma once
-/// What one side of a valve has shown so far: evidence of its windows, where it rests closed, its winding.
+/// What one side of a valve has shown so far: evidence of its windows, where it rests closed; and of a whole valve
+/// where it rests in its centre.
 #include <array>
 #include <cmath>
 #include <type_traits>
@@ -23,7 +24,8 @@ struct MeanEvidence {
 /// Readings of the closed stop: the coil is silent, springs centre the spool.
 struct RestReading {
   double mean_m = 0;
-  double lowest_m = 0;  ///< of the last readings: friction holds the spool open, never beyond the stop
+  double lowest_m = 0;     ///< of the last readings: friction holds the spool open, never beyond the stop
+  double deviation_m = 0;  ///< of one reading, one standard deviation; 0: rest_deviation_m
   double weight = 0;
   double silent_s = 0;  ///< for how long it is so now
   double sum_m = 0;
@@ -39,6 +41,40 @@ inline constexpr double farthest_rest_m = 60e-6;
 inline constexpr double silent_current_share = 0.01;
 inline constexpr double rest_begins_s = 0.1;
 inline constexpr double rest_ends_s = 0.3;
+
+/// Readings of a whole valve's centre, to which springs bring the spool from either side once both coils are silent.
+/// Friction holds it short of there, as far on one side as on the other: their middle is the position sensor's zero.
+struct CentreRest {
+  /// Back from one side, in the valve's signs.
+  struct Back {
+    double mean_m = 0;
+    double newest_m = 0;
+    double weight = 0;
+    bool paired = true;  ///< the newest has been judged together with one from the other side
+  };
+  std::array<Back, 2> back{};  ///< from solenoid b's side, from a's
+  double pairs = 0;            ///< that were judged, forgotten by and by
+  double silent_s = 0;         ///< for how long both coils are silent now
+  double sum_m = 0;
+  double sum_s = 0;
+  int from = -1;  ///< the side on which the spool was last, index of `back`; -1: not known
+};
+static_assert(std::is_trivially_copyable_v<CentreRest>);
+/// A spool further from the centre than this stands open: either the last side from which it comes, or held there.
+inline constexpr double farthest_centre_m = 150e-6;
+/// Where friction holds the spool, the middle is off by this share of how far both sides lie apart, one standard
+/// deviation: the springs' ends and the contacts are not quite alike.
+inline constexpr double centre_unlike_share = 0.25;
+
+/// The position sensor's zero [m], in the valve's signs, by the readings of both sides. To be asked where both told.
+[[nodiscard]] inline double centre_zero_m(const CentreRest& rest) {
+  return 0.5 * (rest.back[0].mean_m + rest.back[1].mean_m);
+}
+/// One standard deviation of the middle of two readings [m].
+[[nodiscard]] inline double centre_deviation_m(const CentreRest& rest) {
+  return std::hypot(rest_deviation_m / std::sqrt(2.0),
+                    centre_unlike_share * (rest.back[0].mean_m - rest.back[1].mean_m));
+}
 
 struct Learnt {
   MeanEvidence shape;     ///< of windows that tell all magnitudes
@@ -93,9 +129,10 @@ inline Evidence evidence_of(const Learnt& learnt) {
   if (learnt.rest.weight > 0) {
     const double unit_m = usual_fault[index(Magnitude::position_zero)];
     const double readings = std::fmin(learnt.rest.weight, independent_windows);
-    add(out, {reading(Magnitude::position_zero, learnt.rest.lowest_m / unit_m,
-                      rest_deviation_m / unit_m / std::sqrt(readings)),
-              1});
+    const double deviation_m = learnt.rest.deviation_m > 0 ? learnt.rest.deviation_m : rest_deviation_m;
+    add(out,
+        {reading(Magnitude::position_zero, learnt.rest.lowest_m / unit_m, deviation_m / unit_m / std::sqrt(readings)),
+         1});
   }
   return out;
 }

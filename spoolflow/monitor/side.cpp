@@ -115,6 +115,19 @@ void close(const SideReference& reference, const Limits& limits, SideState& stat
   raise_explained(reference, limits, state);
 }
 
+/// The position sensor's two charts, by a reading of where the spool rests [m].
+void judge_rest(const SideReference& reference, const Limits& limits, SideState& state, double position_m,
+                double deviation_m) {
+  const std::size_t k = index(Magnitude::position_zero);
+  const double unit_m = usual_fault[k];
+  const double value = position_m / unit_m - reference.baseline.centre[k];
+  const double deviation = deviation_m / unit_m;
+  const double spread = reference.baseline.spread[k];
+  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], (value - spread) / deviation, cusum_allowance,
+         limits.sum);
+  follow(state.chart[zero_below], (-value - spread) / deviation, cusum_allowance, limits.sum);
+}
+
 /// The closed stop, once for each time that the coil falls silent.
 void follow_rest(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
   RestReading& rest = state.learnt.rest;
@@ -137,15 +150,8 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   rest.mean_m += (position_m - rest.mean_m) / rest.weight;
   const bool lowest = rest.weight <= 1 || position_m < rest.lowest_m;
   rest.lowest_m = lowest ? position_m : rest.lowest_m + lowest_forgetting * (position_m - rest.lowest_m);
-  if (rest.weight <= 1 || reference.whole) return;  // the first may be held by friction
-  const std::size_t k = index(Magnitude::position_zero);
-  const double unit_m = usual_fault[k];
-  const double value = rest.lowest_m / unit_m - reference.baseline.centre[k];
-  const double deviation = rest_deviation_m / unit_m;
-  const double spread = reference.baseline.spread[k];
-  follow(state.chart[static_cast<std::size_t>(Fault::position_sensor)], (value - spread) / deviation, cusum_allowance,
-         limits.sum);
-  follow(state.chart[zero_below], (-value - spread) / deviation, cusum_allowance, limits.sum);
+  if (rest.weight <= 1) return;  // the first may be held by friction
+  judge_rest(reference, limits, state, rest.lowest_m, rest_deviation_m);
 }
 
 void follow_closing(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
@@ -188,13 +194,61 @@ void take(const SideReference& reference, const Limits& limits, SideState& state
   } else {
     begin_winding_window(state.winding);
   }
-  follow_rest(reference, limits, state, sample);
+  if (!reference.whole) follow_rest(reference, limits, state, sample);
   follow_closing(reference, limits, state, sample);
   const FoundEvents found = find_events(*reference.valve, reference.stroke_m, state.finder, sample.motion);
   for (const std::optional<ForceEvent>& event : {found.breakaway, found.slide}) {
     if (!event) continue;
     close(reference, limits, state, add_event(*reference.valve, reference.stroke_m, state.window, *event));
   }
+}
+
+namespace {
+
+/// Both sides told anew: the middle is judged, and tells both directions, to a's springs mirrored.
+void judge_centre(const std::array<SideReference, 2>& reference, const Limits& limits, std::array<SideState, 2>& sides,
+                  CentreRest& rest) {
+  rest.back[0].paired = rest.back[1].paired = true;
+  rest.pairs = rest.pairs * (1 - 1 / memory_windows) + 1;
+  const double middle_m = 0.5 * (rest.back[0].newest_m + rest.back[1].newest_m);
+  const double deviation_m = centre_deviation_m(rest);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const double sign = k == 0 ? 1 : -1;
+    RestReading& told = sides[k].learnt.rest;
+    told.mean_m = told.lowest_m = sign * centre_zero_m(rest);
+    told.deviation_m = deviation_m;
+    told.weight = rest.pairs;
+    if (rest.pairs > 1) judge_rest(reference[k], limits, sides[k], sign * middle_m, deviation_m);
+  }
+}
+
+}  // namespace
+
+void take_centre(const std::array<SideReference, 2>& reference, const Limits& limits, std::array<SideState, 2>& sides,
+                 CentreRest& rest, const CentreSample& sample) {
+  const bool open = std::abs(sample.position_m) > farthest_centre_m;
+  if (open) rest.from = sample.position_m > 0 ? 0 : 1;
+  if (open || !sample.silent) {
+    leave(rest);
+    return;
+  }
+  const double before_s = rest.silent_s;
+  rest.silent_s += sample.time_step_s;
+  if (before_s >= rest_ends_s || rest.silent_s < rest_begins_s) return;
+  rest.sum_m += sample.position_m * sample.time_step_s;
+  rest.sum_s += sample.time_step_s;
+  if (rest.silent_s < rest_ends_s || !(rest.sum_s > 0) || rest.from < 0) return;
+  CentreRest::Back& back = rest.back[static_cast<std::size_t>(rest.from)];
+  back.newest_m = rest.sum_m / rest.sum_s;
+  back.weight = back.weight * (1 - 1 / memory_windows) + 1;
+  back.mean_m += (back.newest_m - back.mean_m) / back.weight;
+  back.paired = false;
+  rest.from = -1;  // the next reading needs another stroke
+  if (!rest.back[0].paired && !rest.back[1].paired) judge_centre(reference, limits, sides, rest);
+}
+
+void leave(CentreRest& rest) {
+  rest.silent_s = rest.sum_m = rest.sum_s = 0;
 }
 
 void leave(SideState& state) {
@@ -210,9 +264,7 @@ void finish(const SideReference& reference, const Limits& limits, SideState& sta
 }
 
 Evidence evidence_of(const SideReference& reference, const SideState& state) {
-  Learnt learnt = state.learnt;
-  if (reference.whole) learnt.rest = {};
-  Evidence out = evidence_of(learnt);
+  Evidence out = evidence_of(state.learnt);
   const double learnt_Ohm = reference.baseline.resistance_Ohm;
   const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
   const double expected_Ohm = learnt_Ohm > 0 ? learnt_Ohm : usual_resistance_ratio * calibrated_Ohm;

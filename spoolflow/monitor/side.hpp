@@ -49,7 +49,7 @@ static_assert(std::is_trivially_copyable_v<SideState>);
 struct SideReference {
   const sensor::ObserverParameters<double>* valve = nullptr;
   double stroke_m = 0;
-  bool whole = false;  ///< springs of both ends centre the spool: friction, not the sensor's zero, says where it rests
+  bool whole = false;  ///< springs of both ends centre the spool: it rests in the centre, at no stop
   SideBaseline baseline;
 };
 
@@ -63,6 +63,17 @@ struct SideSample {
 void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample);
 /// Nothing is carried over to what comes next.
 void leave(SideState& state);
+
+/// One sample of a whole valve that follows the one before, in the valve's signs, free of calibrated drift.
+struct CentreSample {
+  double time_step_s;
+  double position_m;
+  bool silent;  ///< both coils
+};
+/// Where the spool rests in the centre tells the position sensor's zero; `sides` of solenoids b and a.
+void take_centre(const std::array<SideReference, 2>& reference, const Limits& limits, std::array<SideState, 2>& sides,
+                 CentreRest& rest, const CentreSample& sample);
+void leave(CentreRest& rest);
 /// The window that was begun is judged.
 void finish(const SideReference& reference, const Limits& limits, SideState& state);
 

@@ -105,17 +105,44 @@ void tell_winding(const SideReference& reference, const SideState& side, bool a,
                  warm ? IndicatorState::good : IndicatorState::unknown});
 }
 
+/// Of a baseline [m].
+double usual_zero_m(const SideReference& reference) {
+  constexpr std::size_t zero = index(Magnitude::position_zero);
+  return reference.baseline.centre[zero] * usual_fault[zero];
+}
+
+void tell_closed(const SideReference& reference, const SideState& side, std::vector<Indicator>& out) {
+  const bool rested = side.learnt.rest.weight > 0;
+  out.push_back({"closed_position", rested ? side.learnt.rest.mean_m : unknown, "m",
+                 rested ? 2 * rest_deviation_m : unknown, usual_zero_m(reference),
+                 rested ? IndicatorState::good : IndicatorState::unknown});
+}
+
 }  // namespace
+
+void tell_centre(const std::array<SideReference, 2>& reference, const std::array<SideState, 2>& sides,
+                 const CentreRest& rest, std::vector<Indicator>& out) {
+  const bool known = rest.pairs > 0;
+  bool is_raised = false;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Isolation found = isolation_of(reference[k], sides[k]);
+    is_raised =
+        is_raised || (decided(sides[k], found) && found.likeliest[static_cast<std::size_t>(Fault::position_sensor)]);
+  }
+  const double readings = std::fmin(std::fmax(rest.pairs, 1), independent_windows);
+  const IndicatorState state = !known            ? IndicatorState::unknown
+                               : is_raised       ? IndicatorState::raised
+                               : rest.pairs <= 1 ? IndicatorState::learning
+                                                 : IndicatorState::good;
+  out.push_back({"centre_position", known ? centre_zero_m(rest) : unknown, "m",
+                 known ? 2 * centre_deviation_m(rest) / std::sqrt(readings) : unknown, usual_zero_m(reference[0]),
+                 state});
+}
 
 void tell_side(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out) {
   tell_magnitudes(reference, side, a, out);
   tell_winding(reference, side, a, out);
-  constexpr Names closed{"closed_position", "closed_position_a"};
-  const bool rested = side.learnt.rest.weight > 0;
-  out.push_back(
-      {closed.of(a), rested ? side.learnt.rest.mean_m : unknown, "m", rested ? 2 * rest_deviation_m : unknown,
-       reference.baseline.centre[index(Magnitude::position_zero)] * usual_fault[index(Magnitude::position_zero)],
-       rested ? IndicatorState::good : IndicatorState::unknown});
+  if (!reference.whole) tell_closed(reference, side, out);
   tell_contacts(side, a, out);
 }
 

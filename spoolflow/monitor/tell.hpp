@@ -12,6 +12,9 @@ namespace spoolflow::monitor {
 
 /// Of one direction; those of solenoid a have the suffix "_a".
 void tell_side(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out);
+/// Where a whole valve rests in its centre.
+void tell_centre(const std::array<SideReference, 2>& reference, const std::array<SideState, 2>& sides,
+                 const CentreRest& rest, std::vector<Indicator>& out);
 /// Response to the command.
 void tell_command(const CommandResponse& response, std::vector<Indicator>& out);
 /// Dither; `amplitude_A` and `frequency_Hz` of the baseline, 0: not known.

@@ -98,12 +98,27 @@ void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<d
       follows && usable && (static_cast<std::uint32_t>(answer.status) & static_cast<std::uint32_t>(held)) == 0;
   if (!judged) {
     for (SideState& side : state_.side) leave(side);
+    leave(state_.centre);
     interrupt(state_.dither);
     interrupt(state_.response);
     return;
   }
   take_command(position_set_m, sample.position_m, time_step_s);
   take_motion(sample, answer, time_step_s);
+  if (model_->whole()) take_centre(sample, time_step_s);
+}
+
+/// Of a recording with one current, that of the active coil, the other is silent.
+void Watch::take_centre(const estimation::TimedSample& sample, double time_step_s) {
+  const auto silent = [&](double current_A, std::size_t side) {
+    return !(std::abs(current_A) > silent_current_share * reference_[side].valve->largest_current_A);
+  };
+  const sensor::ObserverParameters<double>& valve = *reference_[0].valve;
+  const double oil_K = state_.oil_temperature_K > 0 ? state_.oil_temperature_K : valve.edge.temperature_K.at(1);
+  monitor::take_centre(
+      reference_, limits_, state_.side, state_.centre,
+      {time_step_s, sensor::drift_free_m(valve.position_sensor, sample.position_m, oil_K),
+       std::isfinite(sample.current_A) && silent(sample.current_A, 0) && silent(sample.current_a_A, 1)});
 }
 
 void Watch::take_command(double position_set_m, double position_m, double time_step_s) {
@@ -148,6 +163,7 @@ void Watch::finish() {
 std::vector<Indicator> Watch::indicators() const {
   std::vector<Indicator> out;
   for (std::size_t k = 0; k < sides(); ++k) tell_side(reference_[k], state_.side[k], k == 1, out);
+  if (model_->whole()) tell_centre(reference_, state_.side, state_.centre, out);
   tell_command(state_.response, out);
   tell_dither(state_.dither, dither_amplitude_A_, dither_frequency_Hz_, out);
   tell_usage(state_.usage, judged_windows(), out);

@@ -26,7 +26,7 @@
 namespace spoolflow::monitor {
 
 /// Grows with the layout of WatchState; kept state of another version is not taken.
-inline constexpr std::uint32_t watch_state_version = 3;
+inline constexpr std::uint32_t watch_state_version = 4;
 
 struct Options {
   double false_alarms_per_year = 1;  ///< wanted, over all indicators of one valve, > 0
@@ -43,6 +43,7 @@ struct WatchState {
   CommandResponse response;
   DitherHealth dither;
   std::array<SideState, 2> side;  ///< of solenoids b and a; a valve of one direction has the first
+  CentreRest centre;              ///< of a whole valve
 };
 static_assert(std::is_trivially_copyable_v<WatchState>);
 
@@ -81,6 +82,7 @@ class Watch {
  private:
   [[nodiscard]] std::size_t sides() const { return model_->whole() ? 2 : 1; }
   void take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer, double time_step_s);
+  void take_centre(const estimation::TimedSample& sample, double time_step_s);
   void take_command(double position_set_m, double position_m, double time_step_s);
   const model::Model* model_;
   std::array<SideReference, 2> reference_;

@@ -56,6 +56,23 @@ class AccessTest : public ::testing::Test {
   Access::Time now = Access::Time(std::chrono::hours(1));
 };
 
+TEST_F(AccessTest, OtherAccountsLeaveSessionsToThoseWhoAreStillThere) {
+  const auto anna = access.login("anna", "correct horse", "p", now),
+             eve = access.login("eve", "correct horse", "p", now);
+  EXPECT_EQ(access.who("", "eve.correct horse", "p", now).visitor.role, Role::read);
+  PageSettings changed = with_accounts();
+  changed.accounts[0].role = Role::read;
+  changed.accounts[1].secret = secret_hash("another horse");
+  access.change(changed);
+  EXPECT_EQ(access.who(anna.session, "", "p", now).visitor.role, Role::read);
+  EXPECT_EQ(access.who(eve.session, "", "p", now).visitor.role, Role::none);
+  EXPECT_EQ(access.who("", "eve.correct horse", "p", now).visitor.role, Role::none);
+  EXPECT_EQ(access.who("", "eve.another horse", "p", now).visitor.role, Role::read);
+  changed.accounts.erase(changed.accounts.begin());
+  access.change(changed);
+  EXPECT_EQ(access.who(anna.session, "", "p", now).visitor.role, Role::none);
+}
+
 TEST_F(AccessTest, SessionsBeginWithThePasswordAndEnd) {
   const auto login = access.login("anna", "correct horse", "p", now);
   ASSERT_EQ(login.session.size(), 43U);

@@ -310,14 +310,14 @@ TEST_F(EngineTest, AFullDiskStopsKeepingNotWatching) {
   const rlimit no_more{4096, limit.rlim_max};
   ::setrlimit(RLIMIT_FSIZE, &no_more);
   sender.send(rows(100, 200));
-  const bool told = comes_true([&] { return !engine.store_trouble().empty(); });
+  const bool told = comes_true([&] { return !engine.store_view().trouble.empty(); });
   sender.send(rows(200, 300));
   const bool watched = has(engine, 0, 300);
   ::setrlimit(RLIMIT_FSIZE, &limit);
   ::signal(SIGXFSZ, before);
   EXPECT_TRUE(told);
   EXPECT_TRUE(watched);
-  EXPECT_TRUE(comes_true([&] { return engine.store_trouble().empty(); }));
+  EXPECT_TRUE(comes_true([&] { return engine.store_view().trouble.empty(); }));
   engine.stop();
   std::int64_t samples = 0;
   read_history(kept.store, "t", 0, std::int64_t{1} << 60,

@@ -32,8 +32,12 @@ class Live:
                 self.encrypted, self.port = page[1] == "https", int(page[2])
                 break
         assert self.port, "".join(self.said)
-        # Nobody reads on: a full pipe would hold the program.
-        threading.Thread(target=self.process.stderr.read, daemon=True).start()
+        # A full pipe would hold the program.
+        threading.Thread(target=lambda: self.said.extend(self.process.stderr), daemon=True).start()
+
+    def heard(self):
+        """What it said at standard error."""
+        return "".join(self.said)
 
     def __enter__(self):
         return self

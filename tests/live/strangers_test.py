@@ -180,6 +180,62 @@ class Strangers(unittest.TestCase):
         self.assertEqual(statuses, [401] * 5 + [429] * 3)
         self.assertEqual(self.login()[0], 200)
 
+    def test_accounts_and_certificate_are_read_anew_when_their_files_change(self):
+        folder = tempfile.mkdtemp(prefix="spoolflow-strangers-")
+        try:
+            certificate(folder)
+            old = os.path.join(folder, "old.pem")
+            shutil.copy(os.path.join(folder, "certificate.pem"), old)
+            shutil.copy(os.path.join(self.folder, "model.json"), folder)
+            site = os.path.join(folder, "site.toml")
+
+            def write(accounts):
+                with open(site, "w", encoding="utf-8") as file:
+                    file.write(self.page + accounts + self.valves)
+
+            write(self.eve)
+            with Live(COMMAND, folder, "site.toml") as live:
+                def status(trust=old):
+                    return live.ask("/api/v1/site", headers=self.bearer(), trust=trust)[0]
+
+                def until(true):
+                    for _ in range(300):
+                        if true():
+                            return
+                        time.sleep(0.1)
+                    self.fail(live.heard())
+
+                self.assertEqual(status(), 200)
+                def read_anew(times):  # not by trying: wrong tokens are held back
+                    until(lambda: live.heard().count("were read anew") == times)
+
+                write(self.anna)
+                read_anew(1)
+                self.assertEqual(status(), 401)
+                write(self.eve + "role = \n")
+                until(lambda: "of before stay in force" in live.heard())
+                self.assertEqual(status(), 401)
+                write(self.eve)
+                read_anew(2)
+                self.assertEqual(status(), 200)
+                # Not both files fit each other: the old ones stay.
+                with open(os.path.join(folder, "key.pem"), "w", encoding="utf-8") as key:
+                    key.write("no key")
+                until(lambda: "is no key of the certificate" in live.heard())
+                self.assertEqual(status(), 200)
+                certificate(folder)
+
+                def is_new():
+                    try:
+                        return status(os.path.join(folder, "certificate.pem")) == 200
+                    except ssl.SSLError:
+                        return False
+                until(is_new)
+                with self.assertRaises(ssl.SSLError):
+                    status()
+        finally:
+            shutil.rmtree(folder)
+
     def refused(self, site):
         self.write("other.toml", site)
         done = subprocess.run([COMMAND, "live", "other.toml"], cwd=self.folder, text=True, capture_output=True,

@@ -1,6 +1,7 @@
 #include "spoolflow/live/door/access.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -12,15 +13,37 @@ constexpr std::size_t longest_secret = 256;
 
 }  // namespace
 
-Access::Access(const PageSettings& settings) : settings_(settings) {
-  for (const Account& account : settings_.accounts) {
+void check_secrets(const PageSettings& settings) {
+  for (const Account& account : settings.accounts) {
     if (is_secret_hash(account.secret)) continue;
     throw SiteError(
         fmt::format("the secret of the account '{0}' is no hash that this program knows; make one with "
                     "`spoolflow account {0}`",
                     account.name));
   }
-  if (has_accounts()) nobodys_secret_ = secret_hash(random_token());
+}
+
+Access::Access(const PageSettings& settings) {
+  check_secrets(settings);
+  change(settings);
+}
+
+void Access::change(const PageSettings& settings) {
+  const auto account_in = [](const PageSettings& of, const std::string& name) {
+    const auto found =
+        std::find_if(of.accounts.begin(), of.accounts.end(), [&](const Account& one) { return one.name == name; });
+    return found == of.accounts.end() ? nullptr : &*found;
+  };
+  for (auto entry = sessions_.begin(); entry != sessions_.end();) {
+    Visitor& visitor = entry->second.visitor;
+    const Account *before = account_in(settings_, visitor.name), *now = account_in(settings, visitor.name);
+    const bool stays = now != nullptr && before != nullptr && now->secret == before->secret;
+    if (stays) visitor.role = now->role;
+    entry = stays ? std::next(entry) : sessions_.erase(entry);
+  }
+  known_bearers_.clear();  // they refer to the accounts before
+  settings_ = settings;
+  if (has_accounts() && nobodys_secret_.empty()) nobodys_secret_ = secret_hash(random_token());
 }
 
 bool Access::may_try(const std::string& peer, Time now) {

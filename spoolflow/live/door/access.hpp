@@ -28,6 +28,10 @@ class Access {
   /// Throws SiteError where an account's secret is no hash.
   explicit Access(const PageSettings& settings);
 
+  /// Other accounts from now on, of which none may be unusable (check_secrets). Whoever is logged in stays so, with the
+  /// role that they have now, unless their account is gone or its secret another.
+  void change(const PageSettings& settings);
+
   [[nodiscard]] bool has_accounts() const { return !settings_.accounts.empty(); }
 
   /// `too_many`: nothing was looked at, as too many were wrong before.
@@ -67,5 +71,8 @@ class Access {
   std::map<std::string, Trials> trials_;
   Trials all_trials_;
 };
+
+/// Throws SiteError where an account's secret is no hash.
+void check_secrets(const PageSettings& settings);
 
 }  // namespace spoolflow::live

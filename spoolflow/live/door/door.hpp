@@ -21,6 +21,12 @@ class Door {
   Door(PageContent content, const PageSettings& settings)
       : content_(std::move(content)), settings_(settings), access_(settings) {}
 
+  /// Accounts, names and the like from now on; see Access::change().
+  void change(const PageSettings& settings) {
+    settings_ = settings;
+    access_.change(settings);
+  }
+
   [[nodiscard]] Admission admit(const PageRequest& request, Access::Time now);
 
  private:

@@ -8,6 +8,7 @@
 #include <openssl/err.h>
 
 #include "spoolflow/live/door/connection.hpp"
+#include "spoolflow/live/door/settings_watch.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -17,9 +18,9 @@ std::string reason(const beast::system_error& error) {
 }
 
 /// Throws SiteError. TLS 1.2 at least.
-std::unique_ptr<asio::ssl::context> tls_context(const PageSettings& settings) {
+std::shared_ptr<asio::ssl::context> tls_context(const PageSettings& settings) {
   if (!settings.has_tls()) return nullptr;
-  auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
+  auto context = std::make_shared<asio::ssl::context>(asio::ssl::context::tls_server);
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
   SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
   // A key with a password would ask for it at the terminal.
@@ -58,18 +59,67 @@ std::string peer_of(const asio::ip::address& address) {
   return asio::ip::address_v6(bytes).to_string();
 }
 
+SettingsWatch::Files watched_files(const PageOrigin& origin, const PageSettings& settings) {
+  SettingsWatch::Files out;
+  for (const std::filesystem::path& file : {origin.file, settings.certificate, settings.key}) {
+    if (!file.empty()) out.push_back(file);
+  }
+  return out;
+}
+
+constexpr auto look_period = std::chrono::seconds(1);
+
 }  // namespace
 
 struct PageServer::Parts {
-  Seats seats;  ///< before the context, whose last handlers leave them
-  std::unique_ptr<asio::ssl::context> tls;
+  Seats seats;                              ///< before the context, whose last handlers leave them
+  std::shared_ptr<asio::ssl::context> tls;  ///< of connections from now on; each keeps what it began with
+  PageSettings settings;
+  PageOrigin origin;
+  SettingsWatch watch;
   asio::io_context context{1};
   Desk desk;
   tcp::acceptor acceptor{context};
+  asio::steady_timer next_look{context};
   std::jthread thread{};
 
-  Parts(PageContent&& content, const PageSettings& settings)
-      : tls(tls_context(settings)), desk(std::move(content), settings) {}
+  Parts(PageContent&& content, const PageSettings& page, PageOrigin&& from)
+      : tls(tls_context(page)),
+        settings(page),
+        origin(std::move(from)),
+        watch(watched_files(origin, page)),
+        desk(std::move(content), page) {}
+
+  void look_again() {
+    next_look.expires_after(look_period);
+    next_look.async_wait([this](beast::error_code ended) {
+      if (ended) return;
+      if (watch.changed()) read_anew();
+      look_again();
+    });
+  }
+  /// All of it or nothing.
+  void read_anew() {
+    std::string told;
+    try {
+      PageSettings now = origin.file.empty() ? settings : read_page_of(origin.file);
+      now.listen = settings.listen;  // another address needs a new start
+      check_reach(now);
+      check_secrets(now);
+      if (now.has_tls() != settings.has_tls()) {
+        throw SiteError(fmt::format("{}: a page with TLS instead of one without, or the other way, needs a new start",
+                                    origin.file.string()));
+      }
+      tls = tls_context(now);
+      settings = now;
+      watch.follow(watched_files(origin, now));
+      asio::post(desk.thread, [this, now] { desk.door.change(now); });
+      told = fmt::format("accounts and certificate were read anew: {} accounts", now.accounts.size());
+    } catch (const std::exception& error) {
+      told = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
+    }
+    if (origin.tell) origin.tell(told);
+  }
 
   void accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
@@ -92,13 +142,14 @@ struct PageServer::Parts {
   }
 };
 
-PageServer::PageServer(PageContent content, const PageSettings& settings) {
+PageServer::PageServer(PageContent content, const PageSettings& settings, PageOrigin origin) {
   check_reach(settings);
-  parts_ = std::make_unique<Parts>(std::move(content), settings);
+  parts_ = std::make_unique<Parts>(std::move(content), settings, std::move(origin));
   BoundSocket bound = bind_socket(settings.listen, Transport::tcp);
   const bool is_6 = settings.listen.host.find(':') != std::string::npos;
   parts_->acceptor.assign(is_6 ? tcp::v6() : tcp::v4(), bound.descriptor.release());
   parts_->accept();
+  parts_->look_again();
   parts_->thread = std::jthread([parts = parts_.get()] { parts->context.run(); });
 }
 

@@ -144,20 +144,24 @@ std::string site_json(const Engine& engine) {
   for (std::size_t k = 0; k < signs.size(); ++k)
     with_sign[std::string(monitor::name(static_cast<monitor::Ne107>(k)))] = signs[k];
   const UdpCounters udp = engine.udp_counters();
-  return written(Json{{"valves", engine.size()},
-                      {"stalled", stalled},
-                      {"model_doubt", doubted},
-                      {"ne107", std::move(with_sign)},
-                      {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
-                      {"hydraulic_power_W", rounded(power_W, 1)},
-                      {"store", engine.site().store},
-                      {"store_trouble", engine.store_trouble()},
-                      {"udp",
-                       {{"port", engine.udp_port()},
-                        {"datagrams", udp.datagrams},
-                        {"unreadable", udp.unreadable},
-                        {"unknown_valve", udp.unknown_valve},
-                        {"not_allowed", udp.not_allowed}}}});
+  const Engine::StoreView store = engine.store_view();
+  return written(
+      Json{{"valves", engine.size()},
+           {"stalled", stalled},
+           {"model_doubt", doubted},
+           {"ne107", std::move(with_sign)},
+           {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
+           {"hydraulic_power_W", rounded(power_W, 1)},
+           {"store", engine.site().store},
+           {"store_trouble", store.trouble},
+           {"store_mended",
+            store.mended.empty() ? Json(nullptr) : Json{{"time", utc(store.mended_ms)}, {"text", store.mended}}},
+           {"udp",
+            {{"port", engine.udp_port()},
+             {"datagrams", udp.datagrams},
+             {"unreadable", udp.unreadable},
+             {"unknown_valve", udp.unknown_valve},
+             {"not_allowed", udp.not_allowed}}}});
 }
 
 namespace {
@@ -219,6 +223,15 @@ std::string metrics_text(const Engine& engine) {
          [](const Row& row) { return row.source.counters.repeated; });
   family("spoolflow_unreadable_total", "counter", "Lines that are no samples.",
          [](const Row& row) { return row.source.counters.unreadable; });
+  if (!engine.site().store.empty()) {
+    const Engine::StoreView store = engine.store_view();
+    out += fmt::format(
+        "# HELP spoolflow_store_failing 1 where nothing is kept at present.\n# TYPE spoolflow_store_failing gauge\n"
+        "spoolflow_store_failing {}\n# HELP spoolflow_store_mended_total Times that the store's file was deleted or "
+        "damaged while the program ran.\n# TYPE spoolflow_store_mended_total counter\nspoolflow_store_mended_total "
+        "{}\n",
+        store.trouble.empty() ? 0 : 1, store.mendings);
+  }
   const UdpCounters udp = engine.udp_counters();
   const auto single = [&](const char* name, const char* help, std::uint64_t value) {
     out += fmt::format("# HELP {0} {1}\n# TYPE {0} counter\n{0} {2}\n", name, help, value);

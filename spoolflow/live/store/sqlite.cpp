@@ -1,5 +1,6 @@
 #include "spoolflow/live/store/sqlite.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sqlite3.h>
@@ -14,6 +15,9 @@ void Database::Close::operator()(sqlite3* handle) const {
 
 void Database::refuse(int code) const {
   const char* const said = handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code);
+  if (code == SQLITE_IOERR_SHORT_READ) {
+    throw StoreDamage(fmt::format("{}: is damaged (it, or the log beside it, has become shorter)", path_));
+  }
   switch (code & 0xFF) {
     case SQLITE_FULL:
       throw StoreError(
@@ -21,9 +25,9 @@ void Database::refuse(int code) const {
                       "largest_MB)",
                       path_));
     case SQLITE_NOTADB:
-      throw StoreError(fmt::format("{}: is no store of spoolflow live; name another file", path_));
+      throw StoreDamage(fmt::format("{}: is no store of spoolflow live; name another file", path_));
     case SQLITE_CORRUPT:
-      throw StoreError(
+      throw StoreDamage(
           fmt::format("{}: is damaged ({}); keep a copy of it, save what can be read with `sqlite3 {} "
                       ".recover`, and name another file",
                       path_, said, path_));
@@ -46,6 +50,20 @@ Database::Database(std::string path, Access access) : path_(std::move(path)) {
   if (code != SQLITE_OK) refuse(code);
   sqlite3_extended_result_codes(opened, 1);
   sqlite3_busy_timeout(opened, 2000);
+}
+
+bool Database::begins_as_database() const {
+  constexpr std::string_view magic("SQLite format 3\0", 16);
+  sqlite3_file* file = nullptr;
+  if (sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK) return true;
+  if (file == nullptr || file->pMethods == nullptr) return true;
+  std::array<char, magic.size()> found{};
+  const int code = file->pMethods->xRead(file, found.data(), static_cast<int>(found.size()), 0);
+  return code == SQLITE_OK && std::string_view(found.data(), found.size()) == magic;
+}
+
+void Database::leave_log() {
+  sqlite3_db_config(handle_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
 
 void Database::run(const std::string& sql) {

@@ -17,6 +17,11 @@ struct StoreError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// One that was sound: what SQLite reads is none of what it wrote.
+struct StoreDamage : StoreError {
+  using StoreError::StoreError;
+};
+
 class Statement;
 
 class Database {
@@ -32,6 +37,10 @@ class Database {
   [[nodiscard]] sqlite3* handle() const { return handle_.get(); }
   [[nodiscard]] const std::string& path() const { return path_; }
   [[noreturn]] void refuse(int code) const;
+  /// The file, not what the log beside it will make of it.
+  [[nodiscard]] bool begins_as_database() const;
+  /// Its end leaves the log beside the file as it is, and the file alone.
+  void leave_log();
 
  private:
   struct Close {

@@ -62,15 +62,34 @@ struct Store::Statements {
   }
 };
 
-Store::Store(const std::string& path) : lock_(only_program(path)) {
+Store::Store(const std::string& path) : path_(path), lock_(only_program(path)) {
   try {
-    database_ = std::make_unique<Database>(path, Database::Access::write);
-    prepare(*database_);
-    statements_ = std::make_unique<Statements>(*database_);
+    open();
   } catch (...) {
     ::close(lock_);
     throw;
   }
+}
+
+void Store::open() {
+  auto opened = std::make_unique<Database>(path_, Database::Access::write);
+  prepare(*opened);
+  if (on_disk_) opened->run("PRAGMA synchronous=FULL");
+  statements_ = std::make_unique<Statements>(*opened);
+  database_ = std::move(opened);
+  watch_.emplace(*database_);
+}
+
+void Store::close() {
+  if (database_) database_->leave_log();
+  statements_.reset();
+  database_.reset();
+  watch_.reset();
+}
+
+Database& Store::open_one() {
+  if (!database_) throw StoreError(fmt::format("{}: could not be opened anew; nothing is kept", path_));
+  return *database_;
 }
 
 Store::~Store() {
@@ -162,7 +181,7 @@ void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& val
       to.indicator.put(number).put(wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
       to.indicator.put(one.baseline).put(std::string_view(one.state)).run();
     }
-    if (valve.since_last.samples == 0 && valve.indicators.empty()) continue;  // nothing has changed since
+    if (valve.since_last.samples == 0 && valve.indicators.empty() && !needs_states_) continue;  // nothing has changed
     put_state(number, valve.state);
     any = true;
   }
@@ -183,9 +202,12 @@ void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& val
 
 void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
                    const std::vector<Alarm>& alarms) {
+  (void)open_one();
   try {
     commit_all(wall_ms, valves, events, alarms);
-  } catch (...) {
+    needs_states_ = false;
+  } catch (const std::exception& error) {
+    damaged_ = damaged_ || dynamic_cast<const StoreDamage*>(&error) != nullptr;
     for (Event& event : events) event.id = 0;
     statements_->read(*database_);  // what is in memory was taken back
     throw;
@@ -193,13 +215,13 @@ void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves,
 }
 
 void Store::cover(const std::vector<OutboxPosition>& covered) {
-  Transaction whole(*database_);
+  Transaction whole(open_one());
   for (const OutboxPosition& one : covered) drop_covered(*database_, one.valve, one.covered);
   whole.commit();
 }
 
 std::int64_t Store::keep_recording(const KeptRecording& recording) {
-  Statement add(*database_, "INSERT INTO recording(wall_ms,valve,why,csv) VALUES(?,?,?,?)");
+  Statement add(open_one(), "INSERT INTO recording(wall_ms,valve,why,csv) VALUES(?,?,?,?)");
   add.put(recording.wall_ms).put(std::string_view(recording.valve)).put(std::string_view(recording.why));
   add.put(std::as_bytes(std::span(recording.csv))).run();
   return database_->number("SELECT last_insert_rowid()");
@@ -220,7 +242,7 @@ std::vector<Event> Store::events(int most) {
 
 void Store::retain(std::int64_t wall_ms, const Retention& retention) {
   {
-    Transaction whole(*database_);
+    Transaction whole(open_one());
     move_rows();
     whole.commit();
   }

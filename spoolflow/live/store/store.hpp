@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "spoolflow/live/store/alarm_table.hpp"
+#include "spoolflow/live/store/file_watch.hpp"
 #include "spoolflow/live/store/outbox_table.hpp"
 #include "spoolflow/live/store/sqlite.hpp"
 
@@ -83,6 +84,18 @@ class Store {
   explicit Store(const std::string& path);
   ~Store();
 
+  /// To be asked before each commit: whether the file is still there and sound. Returns what was done about it, in
+  /// words; empty: all is well.
+  ///
+  /// Deleted, it is written anew with all that it held, as the open file still has that. Where another has its name, or
+  /// its log is gone, what it held is saved likewise. A damaged one is set aside as it is, and a store begins
+  /// anew. Throws StoreError where none of this can be done now: nothing is kept meanwhile, and the next call tries
+  /// again.
+  [[nodiscard]] std::string look_after(std::int64_t wall_ms);
+  /// After a store began anew, or goes on in another file: events and alarms that are known, with their numbers; and
+  /// the next commit has the states of all valves.
+  void keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms);
+
   [[nodiscard]] std::vector<KeptState> states();
   /// One transaction. Throws StoreError, and then nothing of it is kept.
   void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
@@ -90,11 +103,11 @@ class Store {
   [[nodiscard]] std::vector<OutboxPosition> positions() { return outbox_positions(*database_); }
   [[nodiscard]] std::uint64_t session(std::int64_t wall_ms) { return outbox_session(*database_, wall_ms); }
   /// Each commit waits for the disk from now on: a block whose number was given away must not be forgotten.
-  void keep_on_disk() { database_->run("PRAGMA synchronous=FULL"); }
+  void keep_on_disk();
   /// The fleet has the blocks of these valves up to their `covered`. Throws StoreError.
   void cover(const std::vector<OutboxPosition>& covered);
   /// As live::drop_oldest_blocks(). Throws StoreError.
-  std::int64_t drop_oldest_blocks(double largest_MB) { return live::drop_oldest_blocks(*database_, largest_MB); }
+  std::int64_t drop_oldest_blocks(double largest_MB) { return live::drop_oldest_blocks(open_one(), largest_MB); }
   /// The newest, ascending by id.
   [[nodiscard]] std::vector<Event> events(int most);
   /// As kept_alarms().
@@ -113,9 +126,24 @@ class Store {
   void commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
                   const std::vector<Alarm>& alarms);
 
+  void open();
+  /// Leaves file and log as they are.
+  void close();
+  [[nodiscard]] Database& open_one();
+  void save_as(const std::string& path);
+  [[nodiscard]] std::string write_anew();
+  [[nodiscard]] std::string go_on_in_another(const std::string& stamp);
+  [[nodiscard]] std::string set_aside(const std::string& stamp);
+  void hold_lock();
+
+  std::string path_;
   int lock_ = -1;
-  std::unique_ptr<Database> database_;
+  bool on_disk_ = false;
+  std::unique_ptr<Database> database_;  ///< nothing: it could not be opened anew
   std::unique_ptr<Statements> statements_;
+  std::optional<FileWatch> watch_;
+  bool damaged_ = false;       ///< a commit met it
+  bool needs_states_ = false;  ///< of all valves
 };
 
 /// Works while another program writes. Throws StoreError where the file is no store of this version.

@@ -12,8 +12,11 @@
 namespace spoolflow::report {
 namespace {
 
+/// With the signs of number_text.hpp.
 std::string figure_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+  if (!std::isfinite(value)) return "\u2013";
+  const std::string magnitude = fmt::format("{:.4g}", std::abs(value));
+  return value < 0 ? "\u2212" + magnitude : magnitude;
 }
 
 /// Lengths of a few micrometres are told in them.

@@ -71,6 +71,7 @@ export interface Site {
   hydraulic_power_W: number | null;
   store: string;
   store_trouble: string;
+  store_mended: { time: string; text: string } | null;
   udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number };
 }
 

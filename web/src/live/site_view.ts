@@ -1,6 +1,6 @@
 /** The site as a whole: totals, what they were over the last minutes, how each source fares, all alarms. */
 import { AlarmList } from './alarm_list';
-import { figure, severity, type Told, type Valve } from './api';
+import { clock, figure, severity, type Told, type Valve } from './api';
 import { element, row, setText } from './element';
 
 class Tile {
@@ -43,6 +43,7 @@ export class SiteView {
   };
   private readonly sources = element('tbody', '');
   private readonly kept = element('p', 'kept');
+  private readonly mended = element('p', 'stale');
   private readonly datagrams = element('p', 'kept');
   private readonly rates = new Rates();
   private readonly rows = new Map<string, HTMLTableCellElement[]>();
@@ -51,7 +52,7 @@ export class SiteView {
     const head = element('thead', '', row('th', 'valve', 'source', 'samples/s', 'age [s]', 'dropped', 'lost', 'repeated',
                                           'unreadable', 'connections', 'trouble'));
     this.place.append(element('h2', '', 'Site'), element('div', 'tiles', ...Object.values(this.tiles).map((tile) => tile.place)),
-                      this.kept, this.datagrams, element('h3', '', 'Sources'),
+                      this.kept, this.mended, this.datagrams, element('h3', '', 'Sources'),
                       element('div', 'wide', element('table', 'sources', head, this.sources)));
   }
 
@@ -65,6 +66,8 @@ export class SiteView {
     setText(this.kept, site.store === '' ? 'Nothing is kept: the program was started without a store.'
       : site.store_trouble === '' ? `Kept in ${site.store}` : `Nothing is kept at present: ${site.store_trouble}`);
     this.kept.classList.toggle('stale', site.store_trouble !== '');
+    this.mended.hidden = site.store_mended === null;
+    setText(this.mended, site.store_mended === null ? '' : `${clock(site.store_mended.time)}: ${site.store_mended.text}`);
     const { udp } = site;
     this.datagrams.hidden = udp.port === 0;
     setText(this.datagrams, `UDP port ${udp.port}: ${udp.datagrams} datagrams, ${udp.unreadable} unreadable, ` +
