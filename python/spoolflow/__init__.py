@@ -16,9 +16,14 @@ it works, other threads run, and Ctrl-C stops it.
 """
 from ._native import Error, __version__
 from .estimates import Answer, Estimate, Status
+from .figures import Figures
 from .models import Model, Sensor, load_model
 from .recordings import Recording, read_recording
+from .work import (Analysis, Condition, Simulation, Validation, analyse, calibrate, estimate_many, monitor, simulate,
+                   validate)
 
 __all__ = [
-    "Answer", "Error", "Estimate", "Model", "Recording", "Sensor", "Status", "__version__", "load_model", "read_recording",
+    "Analysis", "Answer", "Condition", "Error", "Estimate", "Figures", "Model", "Recording", "Sensor", "Simulation",
+    "Status", "Validation", "__version__", "analyse", "calibrate", "estimate_many", "load_model", "monitor",
+    "read_recording", "simulate", "validate",
 ]

@@ -47,6 +47,11 @@ class Sensor:
         columns = sample_columns(run, samples, self.model.direction)
         return Estimate(columns["time_s"], self._sensor.run(columns))
 
+    @property
+    def time_s(self) -> float:
+        """Time of the last sample that had one [s]; NaN before."""
+        return self._sensor.time_s
+
     def reset(self) -> None:
         """As new."""
         self._sensor.reset()

@@ -8,7 +8,11 @@ namespace spoolflow::python {
 void add_errors(pybind11::module_& module);
 /// Recordings from files and of the virtual rig.
 void add_recordings(pybind11::module_& module);
-/// Models and their sensors, step by step, over arrays, and many at once.
+/// Models and their sensors, step by step and over arrays.
 void add_sensors(pybind11::module_& module);
+/// Many valves at once.
+void add_batches(pybind11::module_& module);
+/// What commands do: calibrate, validate, monitor, analyse.
+void add_work(pybind11::module_& module);
 
 }  // namespace spoolflow::python

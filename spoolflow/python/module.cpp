@@ -7,4 +7,6 @@ PYBIND11_MODULE(_native, module) {
   spoolflow::python::add_errors(module);
   spoolflow::python::add_recordings(module);
   spoolflow::python::add_sensors(module);
+  spoolflow::python::add_batches(module);
+  spoolflow::python::add_work(module);
 }

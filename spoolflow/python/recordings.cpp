@@ -10,6 +10,8 @@
 #include "spoolflow/python/signal_check.hpp"
 #include "spoolflow/recording/files/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "spoolflow/rig/bench/scenario.hpp"
+#include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::python {
@@ -101,6 +103,28 @@ py::dict notes_of(const ReadRecording& read) {
   return out;
 }
 
+/// The recording, and what really happened by the headers of the truth's file, in their units; None where not asked
+/// for.
+py::tuple simulate(const std::filesystem::path& scenario, bool with_truth, const py::object& tell) {
+  const auto simulated = at_work([&](SignalCheck& check) {
+    const rig::PlannedScenario planned = rig::plan(rig::read_scenario(scenario));
+    return rig::simulate(planned.valve, planned.run, planned.valve.seed,
+                         {.with_truth = with_truth, .progress = [&](double share) { check(tell, share); }});
+  });
+  auto out = std::make_shared<ReadRecording>();
+  out->recording = simulated.recording;
+  out->recording.file = scenario;
+  out->notes.rows = out->recording.size();
+  if (!with_truth) return py::make_tuple(out, py::none());
+  py::dict truth;
+  for (std::size_t k = 0; k < simulated.truth.columns.size(); ++k) {
+    const std::vector<double>& column = simulated.truth.columns[k];
+    truth[py::str(std::string(simulated.truth.quantities[k].header))] =
+        py::array_t<double>(static_cast<py::ssize_t>(column.size()), column.data());
+  }
+  return py::make_tuple(out, truth);
+}
+
 /// For another process.
 py::tuple packed(const ReadRecording& read) {
   py::list columns;
@@ -136,6 +160,7 @@ void add_recordings(py::module_& module) {
       .def("notes", [](const ReadRecording& self) { return notes_of(self); })
       .def(py::pickle(&packed, &unpacked));
   module.def("read_recording", &read);
+  module.def("simulate", &simulate);
   module.def("takes_a_process", [](const std::vector<std::filesystem::path>& files) {
     return std::any_of(files.begin(), files.end(), recording::takes_a_process);
   });

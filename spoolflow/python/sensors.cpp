@@ -53,6 +53,12 @@ class WorkingSensor {
     return out.by_name();
   }
 
+  /// Of the last sample that had a time [s]; NaN before.
+  [[nodiscard]] double time_s() const {
+    const estimation::SampleTimes& times = sensor_.state().times;
+    return times.started ? times.last_time_s : estimation::not_measured;
+  }
+
   void reset() {
     const Turn turn(busy_);
     sensor_.reset();
@@ -160,6 +166,7 @@ void add_sensors(py::module_& module) {
              return self.step({s[0], s[1], s[2], s[3], s[4], s[5], s[6], {s[7], s[8], s[9], s[10]}});
            })
       .def("run", &WorkingSensor::run)
+      .def_property_readonly("time_s", &WorkingSensor::time_s)
       .def("reset", &WorkingSensor::reset);
 }
 

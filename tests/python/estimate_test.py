@@ -67,7 +67,9 @@ class Estimate(examples.InAFolder):
                   for parts in zip(*(np.array_split(column, 5) for column in run.values()))]
         np.testing.assert_array_equal(np.concatenate([piece.flow_upper_m3_per_s for piece in pieces]),
                                       at_once.flow_upper_m3_per_s)
+        self.assertEqual(sensor.time_s, run.time_s[-1])
         sensor.reset()
+        self.assertTrue(np.isnan(sensor.time_s))
         np.testing.assert_array_equal(sensor.estimate(run).flow_m3_per_s, at_once.flow_m3_per_s)
 
     def test_takes_arrays_where_they_are_and_copies_others(self):
