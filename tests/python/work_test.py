@@ -23,6 +23,7 @@ valve = "size_6"
 seed = 3
 [run]
 pressure_differences_bar = [60]
+rate_percent_per_s = 100
 """
 
 
@@ -71,7 +72,6 @@ class Work(examples.InAFolder):
         np.testing.assert_allclose(run.current_A, read.current_A, atol=0.51e-5)
         np.testing.assert_allclose(run.flow_reference_m3_per_s, read.flow_reference_m3_per_s, atol=0.51e-3 / 60000)
         self.assertEqual(len(run.truth["flow_L_min"]), run.samples)
-        self.assertIsNone(spoolflow.simulate(scenario).truth)
 
     def test_many_valves_at_once_answer_as_each_alone(self):
         run = examples.ramp()
