@@ -18,6 +18,9 @@ add_custom_command(OUTPUT ${made}/spoolflow.1.gz COMMAND gzip -9n < spoolflow.1 
 add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1.gz ${made}/spoolflow.bash)
 # All that is installed, for those who build no tests.
 add_custom_target(installable DEPENDS spoolflow spoolflow_pages spoolflow_c_shared spoolflow_c_static)
+if(SPOOLFLOW_PYTHON_INTERPRETER)
+  add_dependencies(installable spoolflow_python)
+endif()
 
 # The tool.
 install(TARGETS spoolflow RUNTIME COMPONENT tool)
@@ -48,6 +51,18 @@ configure_file(cmake/spoolflow.pc.in ${made}/spoolflow.pc @ONLY)
 install(FILES ${made}/spoolflowConfig.cmake ${made}/spoolflowConfigVersion.cmake DESTINATION ${config} COMPONENT development)
 install(FILES ${made}/spoolflow.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
+# The Python package, where it is built; in a prefix of its own PYTHONPATH names the folder.
+set(packages tool:spoolflow runtime:libspoolflow${PROJECT_VERSION_MAJOR} development:libspoolflow-dev)
+set(components tool runtime development)
+if(SPOOLFLOW_PYTHON_INTERPRETER)
+  list(APPEND packages python:python3-spoolflow)
+  list(APPEND components python)
+  set(python lib/python3/dist-packages/spoolflow)
+  install(TARGETS spoolflow_python LIBRARY DESTINATION ${python} COMPONENT python)
+  install(DIRECTORY python/spoolflow/ DESTINATION ${python} COMPONENT python FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed
+          PATTERN __pycache__ EXCLUDE)
+endif()
+
 # Whoever distributes the packages answers for them.
 set(SPOOLFLOW_PACKAGE_MAINTAINER "the spoolflow authors <spoolflow@example.org>" CACHE STRING
     "name and address that the Debian packages tell as their maintainer's")
@@ -55,7 +70,7 @@ set(SPOOLFLOW_PACKAGE_MAINTAINER "the spoolflow authors <spoolflow@example.org>"
 # Who may do what with it, and what has changed, of each package.
 set(library libspoolflow${PROJECT_VERSION_MAJOR})
 string(TIMESTAMP SPOOLFLOW_BUILD_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
-foreach(package IN ITEMS tool:spoolflow runtime:${library} development:libspoolflow-dev)
+foreach(package IN LISTS packages)
   string(REGEX MATCH "^[^:]+" component ${package})
   string(REGEX REPLACE "^[^:]+:" "" SPOOLFLOW_PACKAGE ${package})
   configure_file(cmake/debian/changelog.in ${made}/${component}/changelog @ONLY)
@@ -71,7 +86,7 @@ set(CPACK_PACKAGE_NAME spoolflow)
 set(CPACK_PACKAGE_VENDOR "the spoolflow authors")
 set(CPACK_PACKAGE_CONTACT "${SPOOLFLOW_PACKAGE_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL tool runtime development)
+set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -86,6 +101,14 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library} (= ${PROJECT_VERSION})"
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME spoolflow)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libspoolflow-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-spoolflow)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+if(SPOOLFLOW_PYTHON_INTERPRETER)
+  math(EXPR next "${SPOOLFLOW_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${SPOOLFLOW_PYTHON_MINOR}~), python3 (<< 3.${next}~), python3-numpy")  # the module is for this Python alone
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
+endif()
 set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)
 include(CPack)
 cpack_add_component(tool DESCRIPTION "Soft flow-rate sensor for spool valves: the command
@@ -97,3 +120,8 @@ cpack_add_component(runtime DESCRIPTION "Soft flow-rate sensor for spool valves:
 cpack_add_component(development DESCRIPTION "Soft flow-rate sensor for spool valves: C library and C++ core
  spoolflow.h with shared and static library, the sensor's C++ headers, and the
  files by which CMake and pkg-config find them.")
+if(SPOOLFLOW_PYTHON_INTERPRETER)
+  cpack_add_component(python DESCRIPTION "Soft flow-rate sensor for spool valves: Python package
+ Recordings, models, flow rates and their judgement as arrays of NumPy and
+ plain objects: import spoolflow.")
+endif()

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,8 +17,8 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/readable_model.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
-#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/report/calibration/calibration_summary.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
@@ -64,20 +63,6 @@ void print_summary(const model::Model& model) {
                units::litre_per_minute_per_m3_per_s * sensor::flow_residual_factor *
                    model.observer->parameters.band.flow_residual_m3_per_s);
   }
-}
-/// Never a file that no command would read.
-std::string readable_text(const model::Model& model, const std::string& file) {
-  std::ostringstream text;
-  model::write_model(text, model);
-  try {
-    (void)model::parse_model(text.str(), file);
-  } catch (const model::ModelError& error) {
-    throw calibration::CalibrationError(fmt::format(
-        "the recordings make a model that cannot be ({}); nothing was written; look at their channels, signs "
-        "and units",
-        error.what()));
-  }
-  return std::move(text).str();
 }
 
 /// One campaign, and what is made of it.

@@ -1,6 +1,5 @@
 /// `spoolflow monitor`: the condition of a valve from recordings of its operation.
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -20,88 +19,13 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
-#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/apps/work/monitored_recording.hpp"
 #include "spoolflow/fleet/jobs/contents.hpp"
-#include "spoolflow/model/json_limits.hpp"
-#include "spoolflow/monitor/baseline_json.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
 #include "spoolflow/report/monitor/monitor_report.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 namespace {
-
-std::optional<monitor::Baseline> read_baseline(const std::string& file) {
-  if (file.empty()) return {};
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw model::ModelError(file + ": the baseline cannot be read; name what an earlier --json wrote");
-  return monitor::parse_baseline(model::read_json_text(in), file);
-}
-
-/// Keeps what is told whenever a window was judged, and no more than a page can show.
-void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& trend) {
-  constexpr std::size_t most_points = 2000;
-  const double windows = watch.judged_windows();
-  if (windows == 0 || (!trend.empty() && trend.back().windows == windows)) return;
-  if (trend.size() == most_points) {
-    for (std::size_t k = 0; 2 * k < trend.size(); ++k) trend[k] = trend[2 * k];
-    trend.resize(trend.size() / 2);
-  }
-  trend.push_back({windows, watch.indicators()});
-}
-
-/// The band as told and as the raised indicators widen it.
-class BandWatch {
- public:
-  /// Goes on from there.
-  explicit BandWatch(const report::DoubtFigures& figures = {}) : figures_(figures) {}
-  void take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
-            const sensor::Estimate<double>& answer) {
-    const double windows = watch.judged_windows();
-    if (windows != windows_) {
-      doubt_ = watch.doubt();
-      windows_ = windows;
-    }
-    ++figures_.samples;
-    if (!doubt_.any()) return;
-    const sensor::Estimate<double> wider =
-        monitor::widened(model, doubt_, sample, watch.state().oil_temperature_K, answer);
-    ++figures_.doubted;
-    figures_.told_m3_per_s += answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
-    figures_.widened_m3_per_s += wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
-  }
-  [[nodiscard]] const report::DoubtFigures& figures() const { return figures_; }
-
- private:
-  monitor::Doubt doubt_;
-  double windows_ = -1;
-  report::DoubtFigures figures_;
-};
-
-/// One recording through sensor and watch.
-void monitor_one(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                 monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
-                 const std::function<void(std::optional<double>)>& progress) {
-  recording::ReadOptions options = validation::sensor_channels(model, channels);
-  options.optional.push_back(recording::Channel::position_set);
-  const auto reader = validation::open_sensor_channels(recording, options);
-  estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
-  recording::SampleBlock block;
-  while (reader->next(block)) {
-    const estimation::Columns columns = validation::sensor_columns(block);
-    const std::vector<double>& command = block.column(recording::Channel::position_set);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const estimation::TimedSample sample = columns[k];
-      const sensor::Estimate<double> answer = sensor.step(sample);
-      watch.take(sample, answer, command.empty() ? estimation::not_measured : model.valve.stroke_m * command[k]);
-      band.take(model, watch, sample, answer);
-    }
-    follow_trend(watch, trend);
-    progress(reader->progress());
-  }
-  watch.finish();
-  follow_trend(watch, trend);
-}
 
 /// By workers of a fleet: a piece a recording, each from the state that the one before has left.
 class MonitorByFleet {
@@ -159,7 +83,7 @@ fleet::Outcome do_monitor_piece(const fleet::Piece& piece) {
     go_on(watch, watched);
   }
   BandWatch band(watched.band);
-  monitor_one(model, path_of(piece, 1), channels, watch, watched.trend, band, [](std::optional<double>) {});
+  monitor_recording(model, path_of(piece, 1), channels, watch, watched.trend, band, [](std::optional<double>) {});
   watched.state = watch.state();
   watched.band = band.figures();
   constexpr const char* output = "watched";
@@ -246,7 +170,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
         band = BandWatch(watched.band);
         progress.update((before + 1) / total);
       } else {
-        monitor_one(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
+        monitor_recording(model, recording, channels, watch, trend, band, [&](std::optional<double> share) {
           if (share) progress.update((before + *share) / total);
         });
       }

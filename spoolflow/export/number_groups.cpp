@@ -1,8 +1,6 @@
 #include "spoolflow/export/number_groups.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -20,17 +18,6 @@ std::vector<NumberGroup> NumberGroups::in_order(std::size_t count) const {
   }
   if (next != count) throw std::logic_error(fmt::format("number {} of the parameters is not described", next));
   return groups;
-}
-
-float single_precision(double number) {
-  const auto single = static_cast<float>(number);
-  if (!std::isfinite(single)) {
-    throw std::invalid_argument(fmt::format(
-        "the model's number {} does not fit into single precision (at most {:.3g}); calibrate again and look at the "
-        "report for what went astray",
-        number, std::numeric_limits<float>::max()));
-  }
-  return std::abs(single) < std::numeric_limits<float>::min() ? 0.0F : single;
 }
 
 std::string float_literal(double number) {

@@ -2,13 +2,12 @@
 /// The sensor's parameters as one row of numbers in the order in which they lie in memory, each group of them with its
 /// description from the model's schema. A parameter that is added to the sensor and described there needs nothing here.
 #include <array>
-#include <bit>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "spoolflow/model/parameter.hpp"
+#include "spoolflow/numerics/single_precision.hpp"
 #include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::exports {
@@ -21,27 +20,8 @@ struct NumberGroup {
   std::string meaning;
 };
 
-/// All numbers of `Parameters`, which are made of nothing else.
-template <class Parameters>
-std::vector<double> numbers_of(const Parameters& parameters) {
-  static_assert(sizeof(Parameters) % sizeof(double) == 0);
-  std::vector<double> numbers(sizeof(Parameters) / sizeof(double));
-  std::memcpy(numbers.data(), &parameters, sizeof(Parameters));
-  return numbers;
-}
-
-/// Below the smallest normal number zero. Throws std::invalid_argument where it is not finite in single precision.
-[[nodiscard]] float single_precision(double number);
-
-/// The sensor's parameters as the target has them.
-template <template <class> class Parameters>
-Parameters<float> single_precision(const Parameters<double>& parameters) {
-  static_assert(2 * sizeof(Parameters<float>) == sizeof(Parameters<double>));
-  const std::vector<double> numbers = numbers_of(parameters);
-  std::array<float, sizeof(Parameters<float>) / sizeof(float)> single{};
-  for (std::size_t k = 0; k < single.size(); ++k) single[k] = single_precision(numbers[k]);
-  return std::bit_cast<Parameters<float>>(single);
-}
+using numerics::numbers_of;
+using numerics::single_precision;
 
 /// Visitor for model::describe_condensed and describe_observer.
 class NumberGroups {

@@ -28,7 +28,19 @@ dpkg-deb --info "$runtime" triggers | grep -q 'ldconfig'
 for package in "$tool" "$development"; do
   holds_not "$package" libspoolflow.so.0
 done
-for package in "$tool" "$runtime" "$development"; do
+# The Python package, where it is built.
+python=$(ls made/python3-spoolflow_*.deb 2>/dev/null || true)
+if [ -n "$python" ]; then
+  for file in __init__.py _native.pyi py.typed '_native.cpython-[0-9]*-[a-z0-9_-]*-gnu.so'; do
+    holds "$python" "usr/lib/python3/dist-packages/spoolflow/$file"
+  done
+  dpkg-deb --field "$python" Depends | grep -q 'python3 (<< .*python3-numpy'
+  dpkg-deb --field "$python" Depends | grep -q 'libhdf5'
+  dpkg-deb --extract "$python" root
+  PYTHONPATH=root/usr/lib/python3/dist-packages /usr/bin/python3 -B -c \
+    "import spoolflow, sys; print(spoolflow.load_model(sys.argv[1]).estimate(time_s=[0], current_A=[0], position_m=[0]))" "$model"
+fi
+for package in "$tool" "$runtime" "$development" $python; do
   dpkg-deb --field "$package" Maintainer | grep -q '@'
   holds "$package" copyright
   holds "$package" changelog.gz
@@ -38,5 +50,5 @@ root/usr/bin/spoolflow --version
 holds_not "$tool" spoolflow.h
 # Not among packages.txt: it brings 124 packages of Perl for three that are looked at.
 if command -v lintian >/dev/null; then
-  lintian --allow-root --fail-on error "$tool" "$runtime" "$development"
+  lintian --allow-root --fail-on error "$tool" "$runtime" "$development" $python
 fi

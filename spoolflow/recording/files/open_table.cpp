@@ -12,9 +12,6 @@
 
 namespace spoolflow::recording {
 
-namespace {
-
-/// False of what cannot be read: opening it tells why.
 bool takes_a_process(const std::filesystem::path& file) {
   std::error_code failure;
   if (file == "-" || !std::filesystem::is_regular_file(file, failure)) return false;  // a pipe's bytes come only once
@@ -26,8 +23,6 @@ bool takes_a_process(const std::filesystem::path& file) {
     return false;
   }
 }
-
-}  // namespace
 
 std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files) {
   if (std::none_of(files.begin(), files.end(), takes_a_process)) return nullptr;

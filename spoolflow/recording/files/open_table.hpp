@@ -25,6 +25,9 @@ struct OpenTable {
 [[nodiscard]] OpenTable open_sample_table(std::unique_ptr<InputBytes> input,
                                           CsvTable::Text text = CsvTable::Text::refused);
 
+/// Whether the file is read by a process of its own (HDF5, MATLAB). False of what cannot be read: opening it tells why.
+[[nodiscard]] bool takes_a_process(const std::filesystem::path& file);
+
 /// For whoever opens these files while this process has several threads: to be held from before the second thread until
 /// the last is gone. Null where none of the files is read by a process of its own (HDF5, MATLAB).
 [[nodiscard]] std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files);

@@ -1,0 +1,83 @@
+"""What users give as samples, made into the arrays that the compiled part reads."""
+from __future__ import annotations
+
+from typing import Any, Dict, Mapping, Optional
+
+import numpy as np
+
+from . import _native
+
+#: What a sensor may read, as arguments are called. Time, a current and position are needed.
+SAMPLE_NAMES = (
+    "time_s", "current_A", "voltage_V", "position_m", "oil_temperature_K",
+    "current_a_A", "current_b_A", "voltage_a_V", "voltage_b_V",
+    "pressure_p_Pa", "pressure_a_Pa", "pressure_b_Pa", "pressure_t_Pa",
+)
+
+#: The order of a single sample's numbers in the compiled part.
+STEP_NAMES = (
+    "time_s", "current_A", "voltage_V", "position_m", "oil_temperature_K", "current_a_A", "voltage_a_V",
+    "pressure_p_Pa", "pressure_a_Pa", "pressure_b_Pa", "pressure_t_Pa",
+)
+
+
+def array_of(name: str, values: Any) -> np.ndarray:
+    """`values` as one contiguous row of float64: the very array where it is one, else a copy."""
+    try:
+        if isinstance(values, np.ma.MaskedArray):
+            values = np.ma.asarray(values, dtype=np.float64).filled(np.nan)
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiub":
+            array = array.astype(np.float64) if array.dtype.kind == "O" else None
+        if array is None:
+            raise TypeError
+        array = np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise _native.Error(f"{name}: holds what is no number; give an array of numbers, NaN where one is missing") from None
+    if array.ndim != 1:
+        raise _native.Error(f"{name}: has {array.ndim} dimensions; give one row of numbers, a number a sample")
+    return array
+
+
+def of_one_coil_or_both(given: Mapping[str, Any], direction: str) -> Dict[str, Any]:
+    """The currents and voltages as the sensor of a model of that direction takes them."""
+    out = {name: value for name, value in given.items() if value is not None}
+    coils = {name: out.pop(name, None) for name in ("current_a_A", "current_b_A", "voltage_a_V", "voltage_b_V")}
+    if direction == "both":
+        if coils["current_a_A"] is not None and coils["current_b_A"] is not None:
+            out.pop("voltage_V", None)
+            out.update(current_A=coils["current_b_A"], current_a_A=coils["current_a_A"])
+            if coils["voltage_b_V"] is not None:
+                out["voltage_V"] = coils["voltage_b_V"]
+            if coils["voltage_a_V"] is not None:
+                out["voltage_a_V"] = coils["voltage_a_V"]
+        elif "current_A" not in out:
+            raise _native.Error(
+                "the model is of a whole valve and needs the currents of both coils, current_a_A and current_b_A, or "
+                "current_A of the active one")
+    else:
+        for name in ("pressure_p_Pa", "pressure_a_Pa", "pressure_b_Pa", "pressure_t_Pa"):
+            out.pop(name, None)  # as estimate does: the sensor of one direction reads none
+        if direction == "b":  # of a run of the whole valve, in whose signs P to B is > 0, the coil that this model knows
+            if "current_A" not in out and coils["current_b_A"] is not None:
+                out["current_A"] = coils["current_b_A"]
+            if "voltage_V" not in out and coils["voltage_b_V"] is not None:
+                out["voltage_V"] = coils["voltage_b_V"]
+    for name in ("time_s", "current_A", "position_m"):
+        if name not in out:
+            raise _native.Error(f"{name} is missing; the sensor needs time_s, current_A and position_m")
+    return out
+
+
+def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str) -> Dict[str, np.ndarray]:
+    """The arrays of a run, or of keyword arguments, by the compiled part's names."""
+    if run is not None:
+        also = sorted(name for name, value in given.items() if value is not None)
+        if also:
+            raise _native.Error(f"{also[0]} is given beside a whole recording; give either a recording or arrays")
+        if not isinstance(run, Mapping):
+            raise _native.Error(
+                f"a recording or arrays are estimated, and this is a {type(run).__name__}; read a file by "
+                "spoolflow.read_recording(path), or give time_s=..., current_A=..., position_m=...")
+        given = {name: run[name] for name in SAMPLE_NAMES if name in run}
+    return {name: array_of(name, value) for name, value in of_one_coil_or_both(given, direction).items()}

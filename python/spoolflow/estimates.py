@@ -1,0 +1,166 @@
+"""What a sensor answers: one sample's answer, and arrays of them."""
+from __future__ import annotations
+
+import enum
+from typing import TYPE_CHECKING, Any, List, Optional
+
+import numpy as np
+
+from . import _native
+from .extras import matplotlib_axes, pandas
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+#: What the sensor says about an answer, limits apart from faults (docs/troubleshooting.md tells each). Bits of a word:
+#: `Status.closed | Status.spool_at_rest`; `Status(word)` names them.
+Status = enum.IntFlag("Status", _native.status_bits, module=__name__)
+
+#: Of a status word: an input or the model cannot be trusted.
+FAULT_BITS = 0xFFFF0000
+
+
+class Answer:
+    """What a sensor says of one sample: flow rate with its 95 % band, and what led to it."""
+
+    __slots__ = (
+        "time_s", "flow_m3_per_s", "flow_lower_m3_per_s", "flow_upper_m3_per_s", "pressure_difference_Pa",
+        "magnetic_force_N", "spring_force_N", "flow_force_N", "friction_force_N", "status",
+    )
+    time_s: float
+    flow_m3_per_s: float
+    flow_lower_m3_per_s: float
+    flow_upper_m3_per_s: float
+    pressure_difference_Pa: float
+    magnetic_force_N: float
+    spring_force_N: float
+    flow_force_N: float
+    friction_force_N: float
+    status: int
+
+    def __init__(self, time_s: float, answer: "_native.Answer") -> None:
+        self.time_s = time_s
+        for name in self.__slots__[1:]:
+            setattr(self, name, getattr(answer, name))
+
+    @property
+    def flow_L_min(self) -> float:
+        """Flow rate [L/min]; of a whole valve > 0 for P to B."""
+        return self.flow_m3_per_s * _native.L_min_per_m3_per_s
+
+    @property
+    def status_text(self) -> str:
+        """The names of what is said, joined by `|` as in ESTIMATE.csv; empty when all is well."""
+        return _native.status_text(self.status)
+
+    def __repr__(self) -> str:
+        flow, lower, upper = (
+            value * _native.L_min_per_m3_per_s
+            for value in (self.flow_m3_per_s, self.flow_lower_m3_per_s, self.flow_upper_m3_per_s))
+        said = self.status_text or "all is well"
+        return f"<Answer at {self.time_s:g} s: {flow:.4g} L/min, 95 % band {lower:.4g} to {upper:.4g} L/min; {said}>"
+
+
+class Estimate:
+    """The flow rate of a run, sample by sample, in arrays of equal length.
+
+    Of sensors alone float64, of valves stepped together (`estimate_many`) float32. Forces: the magnetic one opens (> 0),
+    spring and flow force close (> 0), friction has the sign of the velocity.
+    """
+
+    time_s: np.ndarray  #: as given [s]
+    flow_m3_per_s: np.ndarray  #: flow rate; of a whole valve > 0 for P to B
+    flow_lower_m3_per_s: np.ndarray  #: 95 % band
+    flow_upper_m3_per_s: np.ndarray
+    pressure_difference_Pa: np.ndarray  #: over the metering edge
+    magnetic_force_N: np.ndarray
+    spring_force_N: np.ndarray
+    flow_force_N: np.ndarray
+    friction_force_N: np.ndarray
+    status: np.ndarray  #: uint32, bits of `Status`
+
+    def __init__(self, time_s: np.ndarray, columns: "dict[str, np.ndarray]") -> None:
+        self.time_s = time_s
+        for name, column in columns.items():
+            setattr(self, name, column)
+
+    @property
+    def flow_L_min(self) -> np.ndarray:
+        """Flow rate [L/min]."""
+        return self.flow_m3_per_s * _native.L_min_per_m3_per_s
+
+    @property
+    def flow_lower_L_min(self) -> np.ndarray:
+        """Lower end of the 95 % band [L/min]."""
+        return self.flow_lower_m3_per_s * _native.L_min_per_m3_per_s
+
+    @property
+    def flow_upper_L_min(self) -> np.ndarray:
+        """Upper end of the 95 % band [L/min]."""
+        return self.flow_upper_m3_per_s * _native.L_min_per_m3_per_s
+
+    @property
+    def pressure_difference_bar(self) -> np.ndarray:
+        """Over the metering edge [bar]."""
+        return self.pressure_difference_Pa / _native.Pa_per_bar
+
+    @property
+    def faulty(self) -> np.ndarray:
+        """Of each sample whether an input or the model cannot be trusted (any fault in `status`)."""
+        return (self.status & FAULT_BITS) != 0
+
+    @property
+    def status_texts(self) -> List[str]:
+        """Of each sample the names of what is said, joined by `|` as in ESTIMATE.csv; empty when all is well."""
+        words, which = np.unique(self.status, return_inverse=True)
+        names = [_native.status_text(int(word)) for word in words]
+        return [names[k] for k in which]
+
+    def share_with(self, status: int) -> float:
+        """Share of the samples, 0 to 1, that say any of these: `estimate.share_with(Status.spool_at_rest)`."""
+        return float(np.mean((self.status & int(status)) != 0)) if len(self) else 0.0
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """A table with the columns and units of ESTIMATE.csv (docs/formats/estimate.md). Needs pandas."""
+        return pandas().DataFrame({
+            "time_s": self.time_s,
+            "flow_L_min": self.flow_L_min,
+            "flow_lower_L_min": self.flow_lower_L_min,
+            "flow_upper_L_min": self.flow_upper_L_min,
+            "pressure_difference_bar": self.pressure_difference_bar,
+            "magnetic_force_N": self.magnetic_force_N,
+            "flow_force_N": self.flow_force_N,
+            "friction_force_N": self.friction_force_N,
+            "status": self.status_texts,
+        })
+
+    def plot(self, axes: "Optional[Axes]" = None, *, reference_m3_per_s: Optional[Any] = None) -> "Axes":
+        """Flow rate with its band over time [L/min over s], a reference flow beside it where given. Needs Matplotlib.
+
+        Draws into `axes`, else into a new figure, and returns the axes.
+        """
+        axes = matplotlib_axes(axes)
+        axes.fill_between(self.time_s, self.flow_lower_L_min, self.flow_upper_L_min, alpha=0.3, linewidth=0,
+                          label="95 % band")
+        axes.plot(self.time_s, self.flow_L_min, linewidth=1, label="estimate")
+        if reference_m3_per_s is not None:
+            reference = np.asarray(reference_m3_per_s, dtype=np.float64) * _native.L_min_per_m3_per_s
+            axes.plot(self.time_s, reference, color="black", linewidth=1, label="reference")
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("flow rate [L/min]")
+        axes.legend()
+        return axes
+
+    def __len__(self) -> int:
+        return len(self.flow_m3_per_s)
+
+    def __repr__(self) -> str:
+        if len(self) == 0:
+            return "<Estimate of no samples>"
+        low, mean, high = (
+            f(self.flow_m3_per_s) * _native.L_min_per_m3_per_s for f in (np.min, np.mean, np.max))
+        width = np.mean(self.flow_upper_m3_per_s - self.flow_lower_m3_per_s) * _native.L_min_per_m3_per_s
+        return (f"<Estimate of {len(self)} samples, {self.time_s[0]:g} to {self.time_s[-1]:g} s: "
+                f"{low:.4g} to {high:.4g} L/min, mean {mean:.4g}; band {width:.3g} L/min wide on average; "
+                f"{100 * float(np.mean(self.faulty)):.2g} % with faults>")

@@ -1,0 +1,158 @@
+"""Calibrated valves and their sensors."""
+from __future__ import annotations
+
+import json
+import math
+import os
+from typing import Any, Dict, List, Mapping, Optional
+
+from . import _native
+from .columns import STEP_NAMES, of_one_coil_or_both, sample_columns
+from .estimates import Answer, Estimate
+from .files import PathLike, write_whole
+
+
+class Sensor:
+    """A sensor in operation: goes on from sample to sample and remembers what it saw. For one thread at a time.
+
+        sensor = model.sensor()
+        answer = sensor.step(time_s=0.001, current_A=1.2, position_m=0.8e-3, voltage_V=5.1, oil_temperature_K=313)
+        answer.flow_L_min, answer.status_text
+    """
+
+    def __init__(self, model: "Model", estimator: Optional[str] = None) -> None:
+        #: "condensed" or "observer"
+        self.estimator: str = model.estimators[-1] if estimator is None else estimator
+        self.model = model
+        self._sensor = _native.Sensor(model._kept, self.estimator)
+
+    def step(self, *, time_s: float, position_m: float, current_A: Optional[float] = None,
+             voltage_V: Optional[float] = None, oil_temperature_K: Optional[float] = None,
+             current_a_A: Optional[float] = None, current_b_A: Optional[float] = None,
+             voltage_a_V: Optional[float] = None, voltage_b_V: Optional[float] = None,
+             pressure_p_Pa: Optional[float] = None, pressure_a_Pa: Optional[float] = None,
+             pressure_b_Pa: Optional[float] = None, pressure_t_Pa: Optional[float] = None) -> Answer:
+        """One sample; arguments as of `Model.estimate`, a number each. None or NaN: not measured.
+
+        A time that repeats or runs back is answered with status `time_fault`.
+        """
+        given = locals()
+        del given["self"]
+        sample = of_one_coil_or_both(given, self.model.direction)
+        numbers = [sample.get(name, math.nan) for name in STEP_NAMES]
+        return Answer(time_s, self._sensor.step(numbers))
+
+    def estimate(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> Estimate:
+        """The next samples, as `Model.estimate` takes them; goes on where the sensor is."""
+        columns = sample_columns(run, samples, self.model.direction)
+        return Estimate(columns["time_s"], self._sensor.run(columns))
+
+    @property
+    def time_s(self) -> float:
+        """Time of the last sample that had one [s]; NaN before."""
+        return self._sensor.time_s
+
+    def reset(self) -> None:
+        """As new."""
+        self._sensor.reset()
+
+    def __repr__(self) -> str:
+        return f"<Sensor of {self.model.name}: {self.estimator}>"
+
+
+class Model:
+    """Everything known about one valve: what `calibrate` makes and `load_model` reads. Does not change."""
+
+    def __init__(self, kept: "_native.Model") -> None:
+        self._kept = kept
+
+    @property
+    def name(self) -> str:
+        """Of the valve."""
+        return self._kept.name
+
+    @property
+    def rated_flow_m3_per_s(self) -> float:
+        """Full scale of every % FS figure [m3/s]."""
+        return self._kept.rated_flow_m3_per_s
+
+    @property
+    def rated_flow_L_min(self) -> float:
+        """The same [L/min]."""
+        return self._kept.rated_flow_m3_per_s * _native.L_min_per_m3_per_s
+
+    @property
+    def stroke_m(self) -> float:
+        """Of the spool, to one side [m]."""
+        return self._kept.stroke_m
+
+    @property
+    def direction(self) -> str:
+        """"b": flow P to B; "a": flow P to A; "both": the whole valve, whose flow is > 0 for P to B."""
+        return self._kept.direction
+
+    @property
+    def estimators(self) -> List[str]:
+        """Those it is calibrated for: "condensed", "observer"; the best is the last."""
+        return self._kept.estimators
+
+    @property
+    def doubts(self) -> List[str]:
+        """What physics says against the recordings that it was made from, a sentence each."""
+        return self._kept.doubts
+
+    @property
+    def provenance(self) -> Dict[str, Any]:
+        """Tool version, time, inputs with their checksums, as in the model file."""
+        return json.loads(self._kept.text)["provenance"]
+
+    def save(self, path: PathLike) -> None:
+        """Writes the model file (JSON, docs/formats/model.md); all commands read it."""
+        write_whole(path, self._kept.text)
+
+    def sensor(self, estimator: Optional[str] = None) -> Sensor:
+        """A sensor as new, for samples as they come. `estimator`: "observer" (where there is one) or "condensed"."""
+        return Sensor(self, estimator)
+
+    def estimate(self, run: Optional[Mapping[str, Any]] = None, *, estimator: Optional[str] = None,
+                 time_s: Any = None, current_A: Any = None, position_m: Any = None, voltage_V: Any = None,
+                 oil_temperature_K: Any = None, current_a_A: Any = None, current_b_A: Any = None,
+                 voltage_a_V: Any = None, voltage_b_V: Any = None, pressure_p_Pa: Any = None,
+                 pressure_a_Pa: Any = None, pressure_b_Pa: Any = None, pressure_t_Pa: Any = None) -> Estimate:
+        """The flow rate of a run with its 95 % band, sample by sample: the numbers of `spoolflow estimate`.
+
+        Give a recording (or any mapping with these names), or arrays of one length, a number a sample:
+
+        time_s: time [s], rising; a sample whose time repeats or runs back has status `time_fault`.
+        current_A: coil current [A], mean over the sample's step; of a whole valve that of the active coil.
+        position_m: spool position [m], 0 closed, > 0 opens P to B; of a whole valve < 0 opens P to A.
+        voltage_V: coil voltage [V], mean over the step. Without it the observer's band is wider.
+        oil_temperature_K: oil temperature [K], 233 to 423. Without it that of the calibration is assumed.
+        current_a_A, current_b_A, voltage_a_V, voltage_b_V: of a whole valve's coils a and b [A, V].
+        pressure_p_Pa, pressure_a_Pa, pressure_b_Pa, pressure_t_Pa: at a whole valve's ports [Pa], where measured.
+        estimator: "observer" (where the model has one) or "condensed".
+
+        NaN is a value that was not measured. Contiguous arrays of float64 are read where they are, without a copy; others
+        (float32, slices with steps, lists, columns of pandas) are converted once. Raises Error where a column is missing,
+        is no row of numbers, or has another length.
+        """
+        samples = locals()
+        for name in ("self", "run", "estimator"):
+            del samples[name]
+        return Sensor(self, estimator).estimate(run, **samples)
+
+    def __repr__(self) -> str:
+        return (f"<Model {self.name}: direction {self.direction}, rated flow {self.rated_flow_L_min:g} L/min, "
+                f"stroke {1e3 * self.stroke_m:g} mm, {' and '.join(self.estimators)}>")
+
+    def __reduce__(self) -> Any:
+        return (_from_text, (self._kept.text,))
+
+
+def _from_text(text: str) -> Model:
+    return Model(_native.Model(text, "a pickled model"))
+
+
+def load_model(path: PathLike) -> Model:
+    """Reads a model file that `calibrate` wrote. Raises Error with the file and the place in it."""
+    return Model(_native.read_model(os.fspath(path)))

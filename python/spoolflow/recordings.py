@@ -1,0 +1,91 @@
+"""Recordings in memory: a column a channel, in SI units."""
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Dict, Iterator, Mapping, Optional
+
+import numpy as np
+
+from . import _native, apart
+from .extras import matplotlib_axes, pandas
+from .files import PathLike
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+
+class Recording(Mapping[str, np.ndarray]):
+    """A whole recording: `recording["current_A"]` or `recording.current_A`, an array a channel, NaN where a sample is
+    missing. Names are those of docs/formats/channels.md with the SI unit: `time_s`, `current_A`, `voltage_V`,
+    `position_m`, `oil_temperature_K`, `flow_reference_m3_per_s`, `pressure_difference_Pa`, ...; shares (`position_set`, 0
+    to 1) and numbers (`test`) have none. The arrays refer to the recording's memory; nothing is copied.
+    """
+
+    def __init__(self, read: "_native.Recording", file: str) -> None:
+        self._read = read
+        self._columns: Dict[str, np.ndarray] = read.columns()
+        #: where it was read
+        self.file = file
+        notes = read.notes()
+        #: samples whose time stamp is that of the sample before
+        self.duplicate_times: int = notes["duplicate_times"]
+        #: empty cells
+        self.missing_values: int = notes["missing_values"]
+        #: which columns had a time of their own, from which rate to which, and how; empty where none
+        self.resampled: str = notes["resampled"]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        """Number of channels; `samples` is that of samples."""
+        return len(self._columns)
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        columns = self.__dict__.get("_columns", {})
+        if name in columns:
+            return columns[name]
+        raise AttributeError(f"{name}: no such channel; the recording has {', '.join(columns)}")
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._columns]
+
+    @property
+    def samples(self) -> int:
+        return len(self._columns["time_s"])
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """A table with a column a channel, in SI units. Needs pandas."""
+        return pandas().DataFrame(dict(self._columns))
+
+    def plot(self, name: str = "current_A", axes: "Optional[Axes]" = None) -> "Axes":
+        """One channel over time. Needs Matplotlib."""
+        axes = matplotlib_axes(axes)
+        axes.plot(self["time_s"], self[name], linewidth=1)
+        axes.set_xlabel("time_s")
+        axes.set_ylabel(name)
+        return axes
+
+    def __repr__(self) -> str:
+        time = self["time_s"]
+        span = f", {time[0]:g} to {time[-1]:g} s" if len(time) else ""
+        return f"<Recording {self.file}: {len(time)} samples{span}: {', '.join(self)}>"
+
+
+def read_recording(path: PathLike, channels: Optional[PathLike] = None, *,
+                   stroke_m: Optional[float] = None) -> Recording:
+    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, told apart by content.
+
+    path: the file. Columns named `<channel>_<unit>`, such as `current_A` or `position_mm`, need nothing more.
+    channels: a channel map (TOML, docs/formats/channels.md) of a file with other column names or units.
+    stroke_m: the valve's stroke [m], > 0, where positions are given in percent.
+
+    Raises Error with file, line and column: text among numbers, times that run back, values implausible for their unit.
+    """
+    file = os.fspath(path)
+    read = apart.call("read_recording", [file], file, None if channels is None else os.fspath(channels), stroke_m)
+    return Recording(read, file)

@@ -1,0 +1,278 @@
+"""What the commands do, for Python: calibrate, validate, monitor, analyse, simulate."""
+from __future__ import annotations
+
+import os
+import warnings
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _native, apart
+from .columns import sample_columns
+from .estimates import Estimate
+from .extras import matplotlib_axes, pandas
+from .figures import JudgedFigures
+from .files import PathLike, write_whole
+from .models import Model, load_model
+from .recordings import Recording
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+AnyModel = Union[Model, PathLike]
+#: Told the share of the work that is done, 0 to 1.
+Progress = Callable[[float], None]
+#: Told what begins, and the share.
+StepProgress = Callable[[str, float], None]
+
+
+def _model(model: AnyModel) -> Model:
+    return model if isinstance(model, Model) else load_model(model)
+
+
+def _paths(files: Union[PathLike, Iterable[PathLike]]) -> List[str]:
+    if isinstance(files, (str, os.PathLike)):
+        files = [files]
+    out = [os.fspath(file) for file in files]
+    if not out:
+        raise _native.Error("no recording is given; name one at least")
+    return out
+
+
+def _path(file: Optional[PathLike]) -> Optional[str]:
+    return None if file is None else os.fspath(file)
+
+
+def _units(report: Optional[PathLike], units: Sequence[str]) -> Optional[List[str]]:
+    return None if report is None else [units] if isinstance(units, str) else list(units)
+
+
+def calibrate(campaign: PathLike, *, allow_outside: bool = False, despite_doubts: bool = False,
+              report: Optional[PathLike] = None, units: Sequence[str] = (),
+              progress: Optional[StepProgress] = None) -> Model:
+    """Makes a valve's model from the bench recordings of a campaign: the model of `spoolflow calibrate`.
+
+    campaign: campaign.toml, which names the valve, the oil and the recordings with their protocols
+        (docs/formats/campaign.md).
+    allow_outside: read recordings that the campaign names outside its own folder, too.
+    despite_doubts: make a model of recordings that contradict each other or physics, too; `model.doubts` keeps them.
+    report: an HTML page to write about the calibration; `units` are its reader's ("gal/min", "psi", ...).
+    progress: called with what begins and the share done, 0 to 1 (not where HDF5 or MATLAB files are read beside other
+        threads, which a process of its own does).
+
+    What is only unusual about the recordings is warned of. Raises Error, naming the campaign's line, the file, the
+    channel and the likely cause.
+    """
+    file = os.fspath(campaign)
+    recordings = _native.campaign_files(file)
+    kept, page, notes = apart.call("calibrate", recordings, file, allow_outside, despite_doubts, _units(report, units),
+                                   telling=progress)
+    for note in [*notes, *(f"doubt: {doubt}" for doubt in kept.doubts)]:
+        warnings.warn(note, stacklevel=2)
+    if report is not None:
+        write_whole(report, page)
+    return Model(kept)
+
+
+class Validation(JudgedFigures):
+    """How good a model is on recordings with a reference flow: the figures of `validate --json`
+    (docs/formats/metrics.md) by attributes.
+
+        validation.verdict                  # the figures in one sentence
+        validation.limits                   # what limits them, the most telling first
+        validation.runs[0].estimators[-1].error.all.p95.percent_FS
+    """
+
+    def table(self) -> List[Dict[str, Any]]:
+        """A row for each run with reference flow and estimator: errors [% of full scale], share in the band [%]."""
+        rows = []
+        for run in self.runs:
+            for result in run.estimators if run.has_reference else []:
+                every = result.error.all
+                rows.append({
+                    "run": os.path.splitext(run.file)[0], "estimator": result.estimator,
+                    "p95_percent_FS": every.p95.percent_FS, "rms_percent_FS": every.rms.percent_FS,
+                    "largest_percent_FS": every.largest.percent_FS, "in_band_percent": 100 * every.band_coverage,
+                })
+        return rows
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """`table()` as a table of pandas."""
+        return pandas().DataFrame(self.table())
+
+    def plot(self, axes: "Optional[Axes]" = None) -> "Axes":
+        """95th percentile of the errors by run and estimator [% of full scale]. Needs Matplotlib."""
+        axes = matplotlib_axes(axes)
+        rows = self.table()
+        axes.barh([f"{row['run']}, {row['estimator']}" for row in rows], [row["p95_percent_FS"] for row in rows])
+        axes.set_xlabel("95 % of the errors within [% of full scale]")
+        return axes
+
+    def __repr__(self) -> str:
+        return f"<Validation: {self.verdict}>"
+
+
+def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, channels: Optional[PathLike] = None,
+             estimator: str = "both", requirements: Optional[PathLike] = None, reference_lag_s: Optional[float] = None,
+             apply_reference_lag: bool = True, report: Optional[PathLike] = None, units: Sequence[str] = (),
+             progress: Optional[Progress] = None) -> Validation:
+    """Compares the estimate with a reference flow meter: the figures of `spoolflow validate`.
+
+    model: a model or its file. recordings: one file or several, which also hold `flow_reference`.
+    channels: a channel map (TOML) of files with other column names or units.
+    estimator: "both", "condensed" or "observer".
+    requirements: limits (TOML, docs/formats/requirements.md) against which the figures are judged.
+    reference_lag_s: lag of the reference meter [s], 0 to 10; None: lag and dead time are found in each run.
+    apply_reference_lag: delay and lag the estimate as the meter does before comparing.
+    report: an HTML page to write; `units` are its reader's. progress: called with the share done, 0 to 1.
+    """
+    if reference_lag_s is not None and not 0 <= reference_lag_s <= 10:
+        raise _native.Error(f"reference_lag_s: Value {reference_lag_s} not in range 0 to 10")
+    files = _paths(recordings)
+    figures, page = apart.call(
+        "validate", files, _model(model)._kept, files, _path(channels), estimator, _path(requirements), reference_lag_s,
+        apply_reference_lag, _units(report, units), telling=progress)
+    if report is not None:
+        write_whole(report, page)
+    return Validation(figures)
+
+
+class Condition(JudgedFigures):
+    """The condition of a valve: the figures of `monitor --json` (docs/monitoring.md) by attributes. Saved, it is a baseline
+    for later runs: `monitor(..., baseline=path)`.
+
+        condition.ne107              # sign of NAMUR NE 107: "good", "M", "S", "C" or "F"
+        condition.indicators, condition.causes
+    """
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """The indicators as a table of pandas."""
+        return pandas().DataFrame([indicator.to_dict() for indicator in self.indicators])
+
+    def plot(self, axes: "Optional[Axes]" = None) -> "Axes":
+        """Of each judged indicator how far it is from its baseline, in its 95 % uncertainties. Needs Matplotlib."""
+        axes = matplotlib_axes(axes)
+        told = [each for each in self.indicators
+                if each.state in ("good", "raised") and each.value is not None and each.baseline is not None
+                and each.uncertainty_95]
+        axes.barh([each.name for each in told], [(each.value - each.baseline) / each.uncertainty_95 for each in told],
+                  color=["tab:red" if each.state == "raised" else "tab:blue" for each in told])
+        axes.set_xlabel("deviation from the baseline [95 % uncertainties]")
+        return axes
+
+    def __repr__(self) -> str:
+        raised = [indicator.name for indicator in self.indicators if indicator.state == "raised"]
+        return f"<Condition: NE 107 {self.ne107}; raised: {', '.join(raised) or 'none'}>"
+
+
+def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, baseline: Optional[PathLike] = None,
+            channels: Optional[PathLike] = None, false_alarms_per_year: float = 1.0, report: Optional[PathLike] = None,
+            units: Sequence[str] = (), progress: Optional[Progress] = None) -> Condition:
+    """Judges the condition of a valve from recordings of its operation: the figures of `spoolflow monitor`.
+
+    model: a model with an observer, or its file. recordings: in the order in which they were made.
+    baseline: what `Condition.save` or `monitor --json` wrote of healthy runs; None: the model is the reference.
+    false_alarms_per_year: wanted at most over all indicators, of a valve at work day and night, 1e-6 to 1e4.
+    channels, report, units, progress: as of `validate`.
+    """
+    if not 1e-6 <= false_alarms_per_year <= 1e4:
+        raise _native.Error(f"false_alarms_per_year: Value {false_alarms_per_year} not in range 1e-06 to 10000")
+    files = _paths(recordings)
+    figures, page = apart.call("monitor", files, _model(model)._kept, files, _path(channels), _path(baseline) or "",
+                               false_alarms_per_year, _units(report, units), telling=progress)
+    if report is not None:
+        write_whole(report, page)
+    return Condition(figures)
+
+
+class Analysis(JudgedFigures):
+    """How uncertain the flow rate is and why: the figures of `analyse --json` (docs/formats/analysis.md) by attributes.
+
+        analysis.verdict             # what to improve next
+        analysis.remarks             # what the figures rest on
+        analysis.mean_shares.groups  # of the variance
+    """
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """A row for each working point and estimator, its single figures."""
+        return pandas().DataFrame([
+            {name: value for name, value in point.items() if isinstance(value, (int, float, str, bool))}
+            for point in self.points])
+
+    def __repr__(self) -> str:
+        return f"<Analysis: {self.verdict}>"
+
+
+def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, samples: Optional[int] = None,
+            seed: Optional[int] = None, study: Optional[bool] = None, workers: int = 0, direction: str = "b",
+            report: Optional[PathLike] = None, units: Sequence[str] = (),
+            progress: Optional[StepProgress] = None) -> Analysis:
+    """How uncertain the flow rate is, why, and what to improve next: the figures of `spoolflow analyse`.
+
+    scenario: what to analyse (TOML); `spoolflow analyse --print-scenario` prints one with every key at its default.
+    samples: base samples of the global study, 2 to 65536; seed: of all random numbers, > 0.
+    study: whether there is a global study on the virtual rig, which takes minutes; None: as the scenario says.
+    workers: threads, 0 for all cores. direction: "a" or "b", of a model of a whole valve.
+    report, units: as of `validate`. progress: called with the task and the share done, 0 to 1.
+    """
+    kept = _model(model)._kept
+    if direction not in ("a", "b"):
+        raise _native.Error(f"direction: {direction} not in {{a,b}}")
+    figures, page = _native.analyse(kept, _path(scenario), samples, seed, study, workers, direction,
+                                    _units(report, units), progress)
+    if report is not None:
+        write_whole(report, page)
+    return Analysis(figures)
+
+
+class Simulation(Recording):
+    """A recording of the virtual rig, as its instruments show it."""
+
+    #: What really happened, free of any instrument, by the headers of the truth's file (`flow_L_min`, ...); None where not
+    #: asked for.
+    truth: Optional[Dict[str, np.ndarray]]
+
+
+def simulate(scenario: PathLike, *, truth: bool = False, progress: Optional[Progress] = None) -> Simulation:
+    """Makes one recording on the virtual test rig: that of `spoolflow simulate`, before it is rounded for its file.
+
+    scenario: the protocol, the valve, and what differs from them (TOML, docs/rig.md).
+    truth: keep flow, pressure and each force beside it, too (`simulation.truth`). progress: as of `validate`.
+    """
+    file = os.fspath(scenario)
+    recording, really = _native.simulate(file, truth, progress)
+    out = Simulation(recording, file)
+    out.truth = really
+    return out
+
+
+def estimate_many(models: Union[Model, Sequence[Model]], runs: Sequence[Mapping[str, Any]], *,
+                  estimator: Optional[str] = None, workers: int = 0) -> List[Estimate]:
+    """Runs of many valves through sensors that are stepped together in SIMD registers, in single precision.
+
+    models: a model for each run, or one for all. runs: recordings, or mappings with the names of `Model.estimate`; of any
+        lengths and rates, those of about one length waste least.
+    estimator: "observer" or "condensed"; None: of each model the best. workers: threads, 0 for all cores.
+
+    An estimate for each run, its arrays float32: as from a sensor alone but for single precision; a break-away may be told
+    a sample earlier or later. Eight observers take about a third of the time of eight alone (docs/batch.md).
+    """
+    models = [models] * len(runs) if isinstance(models, Model) else list(models)
+    if len(models) != len(runs):
+        raise _native.Error(f"{len(models)} models and {len(runs)} runs; give one model a run, or one for all")
+    estimators, columns = [], []
+    for k, (model, run) in enumerate(zip(models, runs)):
+        name = model.estimators[-1] if estimator is None else estimator
+        model.sensor(name)  # refuses what the model is not calibrated for
+        estimators.append(name)
+        try:
+            columns.append(sample_columns(run, {}, model.direction))
+        except _native.Error as error:
+            raise _native.Error(f"runs[{k}]: {error}") from None
+        pressures = sorted(name for name in columns[k] if name.startswith("pressure_"))
+        if pressures:
+            raise _native.Error(f"runs[{k}]: has {pressures[0]}, and valves stepped together read no port pressures; leave "
+                                "them away, or use model.estimate")
+    answers = _native.estimate_many([model._kept for model in models], estimators, columns, workers)
+    return [Estimate(column["time_s"], answer) for column, answer in zip(columns, answers)]

@@ -1,0 +1,74 @@
+#include "spoolflow/apps/work/monitored_recording.hpp"
+
+#include <fstream>
+
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/model/json_limits.hpp"
+#include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+/// Keeps what is told whenever a window was judged, and no more than a page can show.
+void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& trend) {
+  constexpr std::size_t most_points = 2000;
+  const double windows = watch.judged_windows();
+  if (windows == 0 || (!trend.empty() && trend.back().windows == windows)) return;
+  if (trend.size() == most_points) {
+    for (std::size_t k = 0; 2 * k < trend.size(); ++k) trend[k] = trend[2 * k];
+    trend.resize(trend.size() / 2);
+  }
+  trend.push_back({windows, watch.indicators()});
+}
+
+}  // namespace
+
+std::optional<monitor::Baseline> read_baseline(const std::string& file) {
+  if (file.empty()) return {};
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw model::ModelError(file + ": the baseline cannot be read; name what an earlier --json wrote");
+  return monitor::parse_baseline(model::read_json_text(in), file);
+}
+
+void BandWatch::take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
+                     const sensor::Estimate<double>& answer) {
+  const double windows = watch.judged_windows();
+  if (windows != windows_) {
+    doubt_ = watch.doubt();
+    windows_ = windows;
+  }
+  ++figures_.samples;
+  if (!doubt_.any()) return;
+  const sensor::Estimate<double> wider =
+      monitor::widened(model, doubt_, sample, watch.state().oil_temperature_K, answer);
+  ++figures_.doubted;
+  figures_.told_m3_per_s += answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
+  figures_.widened_m3_per_s += wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
+}
+
+void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
+                       monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
+                       const std::function<void(std::optional<double>)>& progress) {
+  recording::ReadOptions options = validation::sensor_channels(model, channels);
+  options.optional.push_back(recording::Channel::position_set);
+  const auto reader = validation::open_sensor_channels(recording, options);
+  estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
+  recording::SampleBlock block;
+  while (reader->next(block)) {
+    const estimation::Columns columns = validation::sensor_columns(block);
+    const std::vector<double>& command = block.column(recording::Channel::position_set);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const estimation::TimedSample sample = columns[k];
+      const sensor::Estimate<double> answer = sensor.step(sample);
+      watch.take(sample, answer, command.empty() ? estimation::not_measured : model.valve.stroke_m * command[k]);
+      band.take(model, watch, sample, answer);
+    }
+    follow_trend(watch, trend);
+    progress(reader->progress());
+  }
+  watch.finish();
+  follow_trend(watch, trend);
+}
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,46 @@
+#pragma once
+/// Recordings of one valve at work through its sensor and its watch.
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/monitor/baseline.hpp"
+#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/report/monitor/monitored_run.hpp"
+
+namespace spoolflow::apps {
+
+/// What `monitor --json` wrote of healthy runs; nothing where no file is named. Throws ModelError.
+[[nodiscard]] std::optional<monitor::Baseline> read_baseline(const std::string& file);
+
+/// The band as told and as the raised indicators widen it.
+class BandWatch {
+ public:
+  /// Goes on from there.
+  explicit BandWatch(const report::DoubtFigures& figures = {}) : figures_(figures) {}
+  void take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
+            const sensor::Estimate<double>& answer);
+  [[nodiscard]] const report::DoubtFigures& figures() const { return figures_; }
+
+ private:
+  monitor::Doubt doubt_;
+  double windows_ = -1;
+  report::DoubtFigures figures_;
+};
+
+/// What is known after several recordings.
+struct MonitoredRuns {
+  std::vector<report::MonitoredRun> runs;
+  std::vector<report::TrendPoint> trend;
+  BandWatch band{};
+};
+
+/// One recording through sensor and watch. `progress` is told the share read, where it is known.
+void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
+                       monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
+                       const std::function<void(std::optional<double>)>& progress);
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,18 @@
+#pragma once
+/// What the parts of the module add to it.
+#include <pybind11/pybind11.h>
+
+namespace spoolflow::python {
+
+/// spoolflow.Error, and which failure becomes which exception, with the words of the command line.
+void add_errors(pybind11::module_& module);
+/// Recordings from files and of the virtual rig.
+void add_recordings(pybind11::module_& module);
+/// Models and their sensors, step by step and over arrays.
+void add_sensors(pybind11::module_& module);
+/// Many valves at once.
+void add_batches(pybind11::module_& module);
+/// What commands do: calibrate, validate, monitor, analyse.
+void add_work(pybind11::module_& module);
+
+}  // namespace spoolflow::python

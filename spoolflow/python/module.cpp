@@ -1,0 +1,12 @@
+/// The compiled part of the Python package `spoolflow`: binds the library's functions, with no physics and no parsing
+/// of its own. The package (python/spoolflow) makes arguments of what users give, and plain objects of what comes back.
+#include "spoolflow/python/bindings.hpp"
+
+PYBIND11_MODULE(_native, module) {
+  module.attr("__version__") = SPOOLFLOW_VERSION;
+  spoolflow::python::add_errors(module);
+  spoolflow::python::add_recordings(module);
+  spoolflow::python::add_sensors(module);
+  spoolflow::python::add_batches(module);
+  spoolflow::python::add_work(module);
+}

@@ -1,0 +1,70 @@
+"""Recordings as arrays in SI units."""
+import threading
+import unittest
+
+import numpy as np
+
+import examples
+import spoolflow
+
+
+class Recording(examples.InAFolder):
+    def test_is_in_SI_whatever_the_file_is_in(self):
+        run = spoolflow.read_recording(self.written(
+            "run.csv", "time_ms,current_mA,position_mm,oil_temperature_C,flow_reference_L_min,test\n"
+            "0,1500,1.25,40,60,1\n1,1600,,40,60,1\n"))
+        self.assertEqual(list(run), ["time_s", "current_A", "position_m", "oil_temperature_K", "flow_reference_m3_per_s",
+                                     "test"])
+        self.assertEqual(run.current_A[0], 1.5)
+        self.assertEqual(run["position_m"][0], 1.25e-3)
+        self.assertTrue(np.isnan(run.position_m[1]))
+        self.assertEqual(run.missing_values, 1)
+        self.assertAlmostEqual(run.oil_temperature_K[0], 313.15)
+        self.assertAlmostEqual(run.flow_reference_m3_per_s[0], 1e-3)
+        self.assertEqual(run.samples, 2)
+        self.assertIn("2 samples, 0 to 0.001 s", repr(run))
+        with self.assertRaisesRegex(AttributeError, "voltage_V: no such channel; the recording has time_s, current_A"):
+            run.voltage_V
+
+    def test_is_read_through_a_channel_map(self):
+        run = self.written("rig.csv", "t;I_sol [mA];LVDT\n0;1500;5\n10;1500;5\n")
+        channels = self.written("map.toml", """[channels]
+time     = { column = "t", unit = "ms" }
+current  = { column = "I_sol [mA]", unit = "mA" }
+position = { column = "LVDT", unit = "V", scale = 0.24, offset = -0.6, to = "mm" }
+""")
+        read = spoolflow.read_recording(run, channels)
+        self.assertEqual(read.current_A.tolist(), [1.5, 1.5])
+        np.testing.assert_allclose(read.position_m, 0.6e-3)
+
+    def test_gives_its_own_memory(self):
+        current = examples.ramp().current_A
+        self.assertFalse(current.flags.owndata)
+        self.assertTrue(np.shares_memory(current, examples.ramp().current_A))
+
+    def test_outlives_the_recording_it_is_of(self):
+        current = spoolflow.read_recording(examples.DUTY)["current_A"]
+        np.testing.assert_array_equal(current, spoolflow.read_recording(examples.DUTY)["current_A"])
+
+    def test_of_HDF5_is_the_same_where_this_process_has_threads(self):
+        over = threading.Event()
+        thread = threading.Thread(target=over.wait)
+        thread.start()
+        self.addCleanup(thread.join)
+        self.addCleanup(over.set)
+        beside = spoolflow.read_recording(examples.RAMP)
+        self.assertEqual(list(beside), list(examples.ramp()))
+        for name, column in beside.items():
+            np.testing.assert_array_equal(column, examples.ramp()[name])
+        self.assertEqual(beside.file, str(examples.RAMP))
+        torn = self.folder / "torn.h5"
+        torn.write_bytes(examples.RAMP.read_bytes()[:5000])
+        with self.assertRaises(spoolflow.Error) as caught:
+            spoolflow.read_recording(torn)
+        self.assertEqual(str(caught.exception),
+                         examples.refusal("estimate", examples.MODEL, torn, "-o", self.folder / "e.csv"))
+
+
+if __name__ == "__main__":
+    examples.ramp()  # while there is one thread
+    unittest.main()

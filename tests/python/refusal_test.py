@@ -1,0 +1,65 @@
+"""Input that cannot be used: an exception with the words of the command line, or one that names the argument."""
+import pathlib
+import unittest
+
+import numpy as np
+
+import examples
+import spoolflow
+
+
+class Refusal(examples.InAFolder):
+    def assert_refused(self, words, work):
+        with self.assertRaises(spoolflow.Error) as caught:
+            work()
+        self.assertEqual(str(caught.exception), words)
+        self.assertIsInstance(caught.exception, ValueError)
+
+    def test_has_the_words_of_the_command_line(self):
+        run = self.written("run.csv", "time_s,current_A,position_mm\n0,1,1\n0.1,oops,1\n")
+        gone = self.folder / "gone.csv"
+        nowhere = self.folder / "nowhere.json"
+        torn = self.written("torn.json", pathlib.Path(examples.MODEL).read_text()[:5000])
+        empty = self.written("empty.json", "")
+        target = self.folder / "estimate.csv"
+        for recording in (run, gone):
+            self.assert_refused(examples.refusal("estimate", examples.MODEL, recording, "-o", target),
+                                lambda: spoolflow.read_recording(recording))
+        for model in (nowhere, torn, empty, self.folder):
+            self.assert_refused(examples.refusal("estimate", model, examples.RAMP, "-o", target),
+                                lambda: spoolflow.load_model(model))
+
+    def test_of_a_channel_map_names_file_and_line(self):
+        channels = self.written("map.toml", "[channels]\ntime = { column = \"t\", unit = \"ms\" }\ncurent = \"I\"\n")
+        run = self.written("run.csv", "t,I\n0,1\n")
+        self.assert_refused(examples.refusal("inspect", run, "--channels", channels),
+                            lambda: spoolflow.read_recording(run, channels))
+
+    def test_of_arrays_names_the_argument(self):
+        estimate = examples.model().estimate
+        time = np.arange(10.0)
+        for words, samples in (
+            ("position_m is missing", {"time_s": time, "current_A": time}),
+            ("current_A: has 9 samples and time_s has 10", {"time_s": time, "current_A": time[:9], "position_m": time}),
+            ("voltage_V: has 3 samples", {"time_s": time, "current_A": time, "position_m": time, "voltage_V": [1, 2, 3]}),
+            ("current_A: holds what is no number", {"time_s": time, "current_A": ["a"] * 10, "position_m": time}),
+            ("current_A: holds what is no number", {"time_s": time, "current_A": time * 1j, "position_m": time}),
+            ("position_m: has 2 dimensions", {"time_s": time, "current_A": time, "position_m": time.reshape(5, 2)}),
+        ):
+            with self.assertRaisesRegex(spoolflow.Error, "^" + words):
+                estimate(**samples)
+        with self.assertRaisesRegex(spoolflow.Error, r"read a file by spoolflow.read_recording\(path\)"):
+            estimate("run.csv")
+        with self.assertRaisesRegex(spoolflow.Error, "either a recording or arrays"):
+            estimate(examples.ramp(), current_A=time)
+        with self.assertRaisesRegex(spoolflow.Error, r"estimator: best not in \{condensed,observer\}"):
+            estimate(examples.ramp(), estimator="best")
+
+    def test_leaves_no_half_written_model(self):
+        with self.assertRaisesRegex(spoolflow.Error, "cannot be written: No such file"):
+            examples.model().save(self.folder / "nowhere" / "model.json")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,158 @@
+"""What the commands do, from Python: the same figures, the same words, and Ctrl-C stops it."""
+import json
+import signal
+import unittest
+
+import numpy as np
+
+import examples
+import spoolflow
+
+QUICK = """[points]
+positions_percent = [50]
+[monte_carlo]
+trials = 100
+[map]
+positions = 2
+pressure_differences = 2
+[study]
+skip = true
+"""
+RAMP = """protocol = "ramps"
+valve = "size_6"
+seed = 3
+[run]
+pressure_differences_bar = [60]
+rate_percent_per_s = 100
+"""
+
+
+class Work(examples.InAFolder):
+    def test_validate_has_the_figures_of_the_command(self):
+        page, figures = self.folder / "page.html", self.folder / "figures.json"
+        shares = []
+        found = spoolflow.validate(examples.model(), examples.RAMP, report=page, units=["m3/h"], progress=shares.append)
+        found.save(figures)
+        self.assertEqual(figures.read_text(), examples.command("validate", "-q", examples.MODEL, examples.RAMP, "--json", "-"))
+        self.assertIn("</html>", page.read_text())
+        self.assertEqual(shares, sorted(shares))
+        self.assertIn("95 % of the observer's errors lie within", found.verdict)
+        self.assertEqual(repr(found), f"<Validation: {found.verdict}>")
+        row = found.table()[-1]
+        self.assertEqual((row["run"], row["estimator"]), ("ramp_60bar", "observer"))
+        self.assertEqual(row["p95_percent_FS"], found.runs[0].estimators[-1].error.all.p95.percent_FS)
+        self.assertEqual(found.to_dict()["version"], json.loads(figures.read_text())["version"])
+
+    def test_monitor_has_the_figures_of_the_command_and_goes_on_from_a_baseline(self):
+        healthy = self.folder / "healthy.json"
+        found = spoolflow.monitor(examples.MODEL, [examples.RAMP, examples.DUTY])
+        self.assertEqual(found.ne107, "good")
+        found.save(healthy)
+        said = examples.command("monitor", "-q", examples.MODEL, examples.RAMP, examples.DUTY, "--json", "-")
+        self.assertEqual(healthy.read_text(), said)
+        later = spoolflow.monitor(examples.model(), examples.DUTY, baseline=healthy)
+        self.assertEqual(later.indicators[0].name, "friction_ratio")
+        self.assertIn("NE 107 good", repr(later))
+
+    def test_analyse_has_the_figures_of_the_command(self):
+        scenario, figures = self.written("scenario.toml", QUICK), self.folder / "figures.json"
+        found = spoolflow.analyse(examples.model(), scenario)
+        found.save(figures)
+        self.assertEqual(figures.read_text(),
+                         examples.command("analyse", "-q", examples.MODEL, "--scenario", scenario, "--json", "-"))
+        self.assertEqual(len(found.points), 6)  # three levels of pressure for each estimator
+        self.assertIn("Improve", repr(found))
+
+    def test_simulate_makes_the_recording_of_the_command(self):
+        scenario, written = self.written("ramp.toml", RAMP), self.folder / "ramp.csv"
+        run = spoolflow.simulate(scenario, truth=True)
+        examples.command("simulate", "-q", scenario, "-o", written)
+        read = spoolflow.read_recording(written)
+        self.assertEqual(sorted(read), sorted(run))
+        np.testing.assert_allclose(run.current_A, read.current_A, atol=0.51e-5)
+        np.testing.assert_allclose(run.flow_reference_m3_per_s, read.flow_reference_m3_per_s, atol=0.51e-3 / 60000)
+        self.assertEqual(len(run.truth["flow_L_min"]), run.samples)
+
+    def test_many_valves_at_once_answer_as_each_alone(self):
+        run = examples.ramp()
+        runs = [{name: column[start:start + 20000 - 700 * start // 1000] for name, column in run.items()}
+                for start in range(0, 11000, 1000)]
+        for estimator in ("condensed", "observer"):
+            together = spoolflow.estimate_many(examples.model(), runs, estimator=estimator)
+            for mine, answer in list(zip(runs, together))[::3]:
+                alone = spoolflow.estimate_many([examples.model()], [mine], estimator=estimator)[0]
+                self.assertEqual(answer.flow_m3_per_s.dtype, np.float32)
+                np.testing.assert_array_equal(answer.flow_upper_m3_per_s, alone.flow_upper_m3_per_s)
+                np.testing.assert_array_equal(answer.status, alone.status)
+                double = examples.model().estimate(mine, estimator=estimator)
+                apart = np.abs(answer.flow_m3_per_s - double.flow_m3_per_s)
+                # Single beside double precision: here and there a break-away is told a sample earlier.
+                self.assertLess(np.quantile(apart, 0.99), 1e-3 * examples.model().rated_flow_m3_per_s)
+
+    def test_refuses_in_the_words_of_the_command(self):
+        campaign = self.written("campaign.toml", "[valve]\nname = \"A\"\nrated_flow_L_min = -3\n")
+        text = self.written("run.csv", "time_s,current_A,position_mm\n0,1,1\n0.1,oops,1\n")
+        with self.assertRaises(spoolflow.Error) as caught:
+            spoolflow.calibrate(campaign)
+        self.assertEqual(str(caught.exception),
+                         examples.refusal("calibrate", campaign, "-o", self.folder / "model.json"))
+        with self.assertRaises(spoolflow.Error) as caught:
+            spoolflow.validate(examples.model(), [text])
+        self.assertEqual(str(caught.exception), examples.refusal("validate", examples.MODEL, text))
+        for words, work in (
+            ("no recording is given", lambda: spoolflow.validate(examples.model(), [])),
+            ("estimator: best not in", lambda: spoolflow.validate(examples.model(), [text], estimator="best")),
+            ("reference_lag_s: Value 11", lambda: spoolflow.validate(examples.model(), [text], reference_lag_s=11)),
+            ("false_alarms_per_year: Value 0", lambda: spoolflow.monitor(examples.model(), text, false_alarms_per_year=0)),
+            ("2 models and 1 runs", lambda: spoolflow.estimate_many([examples.model()] * 2, [examples.ramp()])),
+            (r"runs\[0\]: position_m is missing",
+             lambda: spoolflow.estimate_many(examples.model(), [{"time_s": [0], "current_A": [0]}])),
+        ):
+            with self.assertRaisesRegex(spoolflow.Error, "^" + words):
+                work()
+
+
+class Interruption(examples.InAFolder):
+    def setUp(self):
+        super().setUp()
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)  # as Ctrl-C, but at a time of ours
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        self.addCleanup(signal.setitimer, signal.ITIMER_REAL, 0)
+
+    def test_stops_an_estimate_within_its_arrays(self):
+        run = {name: np.tile(column, 40) for name, column in examples.ramp().items()}
+        run["time_s"] = np.arange(len(run["time_s"])) * 1e-3
+        sensor = examples.model().sensor()
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with self.assertRaises(KeyboardInterrupt):
+            sensor.estimate(run)
+        self.assertLess(sensor.time_s, run["time_s"][-1])  # and goes on from there
+
+    def test_stops_a_calibration(self):
+        told = []
+
+        def tell(step, share):
+            if not told:
+                signal.setitimer(signal.ITIMER_REAL, 0.2)
+            told.append(share)
+
+        with self.assertRaises(KeyboardInterrupt):
+            spoolflow.calibrate(examples.EXAMPLES / "valve_a" / "campaign.toml", progress=tell)
+        self.assertLess(told[-1], 1)
+
+    def test_stops_a_study_of_minutes(self):
+        signal.setitimer(signal.ITIMER_REAL, 0.5)
+        with self.assertRaises(KeyboardInterrupt):
+            spoolflow.analyse(examples.model(), self.written("scenario.toml", QUICK.replace("true", "false")), samples=1024)
+
+    def test_an_exception_of_progress_goes_through(self):
+        def tell(share):
+            raise LookupError("enough")
+
+        with self.assertRaisesRegex(LookupError, "enough"):
+            spoolflow.validate(examples.model(), examples.RAMP, progress=tell)
+
+
+if __name__ == "__main__":
+    examples.ramp()
+    unittest.main()
