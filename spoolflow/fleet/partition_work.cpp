@@ -86,7 +86,7 @@ void PartitionWork::open_stream() {
   const bool same = there.created_ns == stream_.created_ns && stream_.sequence <= there.last;
   if (!same) stream_ = {there.created_ns, 0};
   puller_.emplace(parts_.nats.pull(parts_.settings.stream.name, fmt::format("spoolflow.block.{}.>", claim_.partition),
-                                   stream_.sequence + 1));
+                                   stream_.sequence + 1, silent_readers_));
 }
 
 /// False where the stream is away.
@@ -96,6 +96,7 @@ bool PartitionWork::fetch() {
     for (const Message& message : puller_->fetch(fetched_blocks, patience)) take(message);
     return true;
   } catch (const TransportError&) {
+    if (puller_) silent_readers_ = puller_->has_spoken() ? 0 : silent_readers_ + 1;
     puller_.reset();
     return false;
   }

@@ -61,6 +61,7 @@ class PartitionWork {
   std::map<std::string, Place> places_;
   std::set<std::string> to_tell_;  ///< valves whose coverage their sites should hear
   std::optional<Puller> puller_;
+  int silent_readers_ = 0;  ///< in a row
   Subscription models_;
   StreamPosition stream_;
   std::size_t uncommitted_ = 0;  ///< blocks

@@ -203,12 +203,13 @@ class Faults(unittest.TestCase):
             for k, fault in enumerate(faults):
                 reach(fleet, waiting * (k + chance.random()) / (len(faults) + 2), 90 * PATIENCE)
                 if k > 0:
-                    tell(f"  since then no valve stood longer than {watch.lap():.1f} s")
+                    tell(f"  since then {watch.lap()}")
                 tell(fault.__name__.replace("_", " "))
-                watch.lap()
+                watch.begin_fault()
                 fault(chance)
             reach(fleet, waiting, 90 * PATIENCE)
-            tell(f"no valve stood longer than {watch.end():.1f} s")
+            tell(f"  since then {watch.lap()}")
+            tell(f"in all {watch.end()}")
             until(lambda: outbox(self.folder)[0] == 0, 30 * PATIENCE, "a site that has heard of all")
         def told():
             return subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,

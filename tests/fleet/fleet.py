@@ -207,10 +207,11 @@ def compared(lines):
 
 
 class Watch:
-    """For how long the blocks of a valve stood at most while others of it waited."""
+    """For how long the blocks of a valve stood at most while others of it waited, and for how long behind the last fault."""
 
     def __init__(self, fleet):
-        self.fleet, self.longest, self.since_lap, self.moved, self.ended = fleet, 0.0, 0.0, {}, False
+        self.fleet, self.moved, self.ended = fleet, {}, False
+        self.all, self.lapped, self.fault = (0.0, 0.0), (0.0, 0.0), time.monotonic()
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
 
@@ -226,19 +227,26 @@ class Watch:
                 valve, block = row.split("|")
                 before, since = self.moved.get(valve, (block, now))
                 if before != block:
-                    self.longest, self.since_lap = (max(one, now - since) for one in (self.longest, self.since_lap))
+                    stood = (now - since, now - max(since, self.fault))
+                    self.all, self.lapped = (tuple(map(max, longest, stood)) for longest in (self.all, self.lapped))
                     since = now
                 self.moved[valve] = (block, since)
 
+    @staticmethod
+    def told(stood):
+        return f"no valve stood longer than {stood[0]:.1f} s, {stood[1]:.1f} s behind the last fault"
+
     def lap(self):
-        """The longest since it was asked the last time, that ended since."""
-        longest, self.since_lap = self.since_lap, 0.0
-        return longest
+        """The longest of what ended since a fault began."""
+        return self.told(self.lapped)
+
+    def begin_fault(self):
+        self.lapped, self.fault = (0.0, 0.0), time.monotonic()
 
     def end(self):
         self.ended = True
         self.thread.join()
-        return self.longest
+        return self.told(self.all)
 
 
 def reckoned(command, reference, folder, model):

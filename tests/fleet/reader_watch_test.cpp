@@ -19,21 +19,28 @@ milliseconds renewed_after(ReaderWatch watch, ReaderWatch::Time begin) {
   return milliseconds::max();
 }
 
-TEST(ReaderWatch, MakesAnotherOfAReaderThatWasForgottenThoughItAnswersWithinThreeSeconds) {
+TEST(ReaderWatch, MakesAnotherOfAReaderThatWasForgottenThoughItAnswersWithinTwoSeconds) {
   const ReaderWatch::Time begin{seconds(1000)};
   ReaderWatch watch(begin);
-  EXPECT_LE(renewed_after(watch, begin), seconds(3));
+  EXPECT_LE(renewed_after(watch, begin), seconds(2));
+  EXPECT_FALSE(watch.has_spoken());
   watch.heard(begin + seconds(30));
-  EXPECT_LE(renewed_after(watch, begin + seconds(30)), seconds(3));
+  EXPECT_TRUE(watch.has_spoken());
+  EXPECT_LE(renewed_after(watch, begin + seconds(30)), seconds(2));
 }
 
-TEST(ReaderWatch, AsksOneWhoseServerMayBeGoneAfterOneAndAHalf) {
+TEST(ReaderWatch, MakesFewerWhereThereIsNothingToSay) {
+  const ReaderWatch::Time begin{seconds(1000)};
+  EXPECT_GE(renewed_after(ReaderWatch(begin, 100), begin), seconds(4));
+}
+
+TEST(ReaderWatch, AsksOneWhoseServerMayBeGoneAfterASecond) {
   const ReaderWatch::Time begin{seconds(1000)};
   ReaderWatch watch(begin);
-  EXPECT_EQ(watch.silent(begin + milliseconds(1400)), Step::wait);
-  EXPECT_EQ(watch.silent(begin + milliseconds(1500)), Step::ask);
-  watch.heard(begin + seconds(2));
-  EXPECT_EQ(watch.silent(begin + milliseconds(3400)), Step::wait);
+  EXPECT_EQ(watch.silent(begin + milliseconds(900)), Step::wait);
+  EXPECT_EQ(watch.silent(begin + seconds(1)), Step::ask);
+  watch.heard(begin + seconds(1));
+  EXPECT_EQ(watch.silent(begin + milliseconds(1900)), Step::wait);
 }
 
 }  // namespace

@@ -193,7 +193,7 @@ StreamPlace Connection::stream(const std::string& name) {
   return place_of(*found);
 }
 
-Puller Connection::pull(const std::string& stream, const std::string& subject, std::uint64_t from) {
+Puller Connection::pull(const std::string& stream, const std::string& subject, std::uint64_t from, int silent_before) {
   jsSubOptions options;
   check(jsSubOptions_Init(&options), "reader");
   options.Stream = stream.c_str();
@@ -206,7 +206,7 @@ Puller Connection::pull(const std::string& stream, const std::string& subject, s
   natsSubscription* made = nullptr;
   check(js_PullSubscribe(&made, handles_->stream.get(), subject.c_str(), nullptr, nullptr, &options, nullptr),
         "read " + subject);
-  return Puller(made);
+  return {made, silent_before};
 }
 
 void Subscription::Close::operator()(natsSubscription* handle) const {

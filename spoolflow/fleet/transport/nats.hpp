@@ -76,8 +76,10 @@ class Connection {
   StreamPlace make_stream(const StreamSettings& settings);
   /// Throws TransportError where it is not there or does not answer.
   [[nodiscard]] StreamPlace stream(const std::string& name);
-  /// What the stream holds under `subject` from that sequence number on. Throws TransportError.
-  [[nodiscard]] Puller pull(const std::string& stream, const std::string& subject, std::uint64_t from);
+  /// What the stream holds under `subject` from that sequence number on. `silent_before`: as of ReaderWatch. Throws
+  /// TransportError.
+  [[nodiscard]] Puller pull(const std::string& stream, const std::string& subject, std::uint64_t from,
+                            int silent_before);
 
  private:
   struct Handles;
@@ -102,14 +104,17 @@ class Subscription {
 /// Reads a stream by fetching.
 class Puller {
  public:
-  explicit Puller(__natsSubscription* handle) : subscription_(handle) {}
+  Puller(__natsSubscription* handle, int silent_before)
+      : subscription_(handle), watch_(std::chrono::steady_clock::now(), silent_before) {}
   /// Up to `most` messages; empty where none came within that time. Throws TransportError where the reader is gone, or
   /// silent for long: make another.
   std::vector<Message> fetch(int most, std::chrono::milliseconds patience);
+  /// Whether a message came by it.
+  [[nodiscard]] bool has_spoken() const { return watch_.has_spoken(); }
 
  private:
   Subscription subscription_;
-  ReaderWatch watch_{std::chrono::steady_clock::now()};
+  ReaderWatch watch_;
 };
 
 }  // namespace spoolflow::fleet
