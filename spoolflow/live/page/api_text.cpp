@@ -179,6 +179,18 @@ std::string alarm_metrics(const Engine& engine) {
       there, unacknowledged);
 }
 
+/// Nothing where there is no store.
+std::string store_metrics(const Engine& engine) {
+  if (engine.site().store.empty()) return {};
+  const Engine::StoreView store = engine.store_view();
+  return fmt::format(
+      "# HELP spoolflow_store_failing 1 where nothing is kept at present.\n# TYPE spoolflow_store_failing gauge\n"
+      "spoolflow_store_failing {}\n# HELP spoolflow_store_mended_total Times that the store's file was deleted or "
+      "damaged while the program ran.\n# TYPE spoolflow_store_mended_total counter\nspoolflow_store_mended_total "
+      "{}\n",
+      store.trouble.empty() ? 0 : 1, store.mendings);
+}
+
 }  // namespace
 
 std::string metrics_text(const Engine& engine) {
@@ -223,15 +235,7 @@ std::string metrics_text(const Engine& engine) {
          [](const Row& row) { return row.source.counters.repeated; });
   family("spoolflow_unreadable_total", "counter", "Lines that are no samples.",
          [](const Row& row) { return row.source.counters.unreadable; });
-  if (!engine.site().store.empty()) {
-    const Engine::StoreView store = engine.store_view();
-    out += fmt::format(
-        "# HELP spoolflow_store_failing 1 where nothing is kept at present.\n# TYPE spoolflow_store_failing gauge\n"
-        "spoolflow_store_failing {}\n# HELP spoolflow_store_mended_total Times that the store's file was deleted or "
-        "damaged while the program ran.\n# TYPE spoolflow_store_mended_total counter\nspoolflow_store_mended_total "
-        "{}\n",
-        store.trouble.empty() ? 0 : 1, store.mendings);
-  }
+  out += store_metrics(engine);
   const UdpCounters udp = engine.udp_counters();
   const auto single = [&](const char* name, const char* help, std::uint64_t value) {
     out += fmt::format("# HELP {0} {1}\n# TYPE {0} counter\n{0} {2}\n", name, help, value);
