@@ -75,7 +75,7 @@ def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str)
         also = sorted(name for name, value in given.items() if value is not None)
         if also:
             raise _native.Error(f"{also[0]} is given beside a whole recording; give either a recording or arrays")
-        if not isinstance(run, Mapping):
+        if not hasattr(run, "keys"):
             raise _native.Error(
                 f"a recording or arrays are estimated, and this is a {type(run).__name__}; read a file by "
                 "spoolflow.read_recording(path), or give time_s=..., current_A=..., position_m=...")

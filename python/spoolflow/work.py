@@ -217,6 +217,9 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, samples: Op
     report, units: as of `validate`. progress: called with the task and the share done, 0 to 1.
     """
     kept = _model(model)._kept
+    for name, value, least, most in (("samples", samples, 2, 65536), ("seed", seed, 1, 2**64 - 1), ("workers", workers, 0, 1024)):
+        if value is not None and not least <= value <= most:
+            raise _native.Error(f"{name}: Value {value} not in range {least} to {most}")
     if direction not in ("a", "b"):
         raise _native.Error(f"direction: {direction} not in {{a,b}}")
     figures, page = _native.analyse(kept, _path(scenario), samples, seed, study, workers, direction,

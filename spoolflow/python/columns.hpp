@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spoolflow/estimation/columns.hpp"
+#include "spoolflow/python/fresh_array.hpp"
 
 namespace spoolflow::python {
 
@@ -58,8 +59,8 @@ class ColumnArrays {
 template <class T>
 class EstimateArrays {
  public:
-  explicit EstimateArrays(std::size_t samples) : status_(static_cast<pybind11::ssize_t>(samples)) {
-    for (pybind11::array_t<T>& array : arrays_) array = pybind11::array_t<T>(static_cast<pybind11::ssize_t>(samples));
+  explicit EstimateArrays(std::size_t samples) : status_(fresh_array<std::uint32_t>(samples)) {
+    for (pybind11::array_t<T>& array : arrays_) array = fresh_array<T>(samples);
     for (std::size_t k = 0; k < arrays_.size(); ++k) columns_[k] = arrays_[k].mutable_data();
     words_ = status_.mutable_data();
   }

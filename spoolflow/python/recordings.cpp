@@ -29,7 +29,7 @@ struct ReadRecording {
 
 /// As arguments and attributes are called: name and SI unit.
 std::string column_name(Channel channel) {
-  const std::string name(recording::name(channel));
+  std::string name(recording::name(channel));
   switch (recording::dimension(channel)) {
     case units::Dimension::time:
       return name + "_s";

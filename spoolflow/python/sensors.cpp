@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -29,9 +30,15 @@ class WorkingSensor {
   WorkingSensor(SharedModel model, const std::string& estimator)
       : model_(std::move(model)), sensor_(estimation::running_sensor(model_->model, named(estimator))) {}
 
-  sensor::Estimate<double> step(const estimation::TimedSample& sample) {
+  /// One sample, its numbers in the order of column_names. Goes the library's way: a step compiled here, with less
+  /// optimisation, would take the place of the library's for all of the module.
+  sensor::Estimate<double> step(const std::array<double, column_names.size()>& numbers) {
     const Turn turn(busy_);
-    return sensor_.step(sample);
+    estimation::Columns columns{};
+    for (std::size_t k = 0; k < numbers.size(); ++k) columns.*(column_names[k].column) = {&numbers[k], 1};
+    sensor::Estimate<double> out;
+    estimation::run(sensor_, columns, std::span(&out, 1));
+    return out;
   }
 
   /// The arrays of one estimate a sample; goes on where the sensor was.
@@ -161,10 +168,7 @@ void add_sensors(py::module_& module) {
       .def(py::init([](const SharedModel& model, const std::string& estimator) {
         return std::make_unique<WorkingSensor>(model, estimator);
       }))
-      .def("step",
-           [](WorkingSensor& self, const std::array<double, column_names.size()>& s) {
-             return self.step({s[0], s[1], s[2], s[3], s[4], s[5], s[6], {s[7], s[8], s[9], s[10]}});
-           })
+      .def("step", &WorkingSensor::step)
       .def("run", &WorkingSensor::run)
       .def_property_readonly("time_s", &WorkingSensor::time_s)
       .def("reset", &WorkingSensor::reset);

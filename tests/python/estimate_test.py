@@ -74,7 +74,7 @@ class Estimate(examples.InAFolder):
 
     def test_takes_arrays_where_they_are_and_copies_others(self):
         model, run = examples.model(), examples.ramp()
-        needed = {name: np.tile(run[name], 5) for name in ("current_A", "voltage_V", "position_m", "oil_temperature_K")}
+        needed = {name: np.tile(run[name], 6) for name in ("current_A", "voltage_V", "position_m", "oil_temperature_K")}
         needed["time_s"] = np.arange(len(needed["current_A"])) * 1e-3
         size = needed["time_s"].nbytes
         model.estimate(time_s=[0], current_A=[0], position_m=[0])  # what is made once
@@ -87,10 +87,9 @@ class Estimate(examples.InAFolder):
             self.assertEqual(np.shares_memory(estimate.time_s, samples["time_s"]), samples["time_s"].dtype == np.float64)
             return peak
 
-        answers = 8 * size + size // 2  # eight quantities and a word of 32 bits
-        self.assertLess(most_memory(needed), answers + size // 2)
-        self.assertGreater(most_memory({name: array.astype(np.float32) for name, array in needed.items()}),
-                           answers + 5 * size)
+        # Answers of this length but for the status are not memory of NumPy's own: what else it allocates are copies.
+        self.assertLess(most_memory(needed), size)
+        self.assertGreater(most_memory({name: array.astype(np.float32) for name, array in needed.items()}), 5 * size)
 
     def test_lists_slices_and_masked_values_are_converted(self):
         run = examples.ramp()

@@ -6,6 +6,31 @@ import numpy as np
 
 import examples
 import spoolflow
+from spoolflow.columns import of_one_coil_or_both
+
+
+class Coils(unittest.TestCase):
+    """Whose current and voltage a sensor gets, as the command takes them from recordings."""
+
+    NEEDED = {"time_s": 1, "position_m": 2}
+
+    def columns(self, direction, **given):
+        return of_one_coil_or_both({**self.NEEDED, **given}, direction)
+
+    def test_of_a_whole_valve_are_both_or_the_active_one(self):
+        both = self.columns("both", current_a_A=3, current_b_A=4, voltage_a_V=5, voltage_b_V=6, voltage_V=7, pressure_p_Pa=8)
+        self.assertEqual(both, {**self.NEEDED, "current_A": 4, "current_a_A": 3, "voltage_V": 6, "voltage_a_V": 5,
+                                "pressure_p_Pa": 8})
+        self.assertEqual(self.columns("both", current_A=3, voltage_V=4), {**self.NEEDED, "current_A": 3, "voltage_V": 4})
+        with self.assertRaisesRegex(spoolflow.Error, "the model is of a whole valve and needs the currents of both coils"):
+            self.columns("both", current_a_A=3)
+
+    def test_of_one_direction_are_its_own(self):
+        whole_run = {"current_a_A": 3, "current_b_A": 4, "voltage_a_V": 5, "voltage_b_V": 6, "pressure_p_Pa": 8}
+        self.assertEqual(self.columns("b", **whole_run), {**self.NEEDED, "current_A": 4, "voltage_V": 6})
+        self.assertEqual(self.columns("b", current_A=1, **whole_run), {**self.NEEDED, "current_A": 1, "voltage_V": 6})
+        with self.assertRaisesRegex(spoolflow.Error, "current_A is missing"):
+            self.columns("a", **whole_run)
 
 
 class Refusal(examples.InAFolder):

@@ -104,6 +104,8 @@ class Work(examples.InAFolder):
             ("estimator: best not in", lambda: spoolflow.validate(examples.model(), [text], estimator="best")),
             ("reference_lag_s: Value 11", lambda: spoolflow.validate(examples.model(), [text], reference_lag_s=11)),
             ("false_alarms_per_year: Value 0", lambda: spoolflow.monitor(examples.model(), text, false_alarms_per_year=0)),
+            ("samples: Value 1 not in range 2 to 65536", lambda: spoolflow.analyse(examples.model(), samples=1)),
+            ("direction: c not in", lambda: spoolflow.analyse(examples.model(), direction="c")),
             ("2 models and 1 runs", lambda: spoolflow.estimate_many([examples.model()] * 2, [examples.ramp()])),
             (r"runs\[0\]: position_m is missing",
              lambda: spoolflow.estimate_many(examples.model(), [{"time_s": [0], "current_A": [0]}])),
