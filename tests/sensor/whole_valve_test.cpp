@@ -145,7 +145,9 @@ TEST(WholeValve, DoubtsAFlowToWhichTheCylinderBehindItHasNotSettled) {
     const double below = added(answer.flow_lower_m3_per_s, sure.flow_lower_m3_per_s);
     if (time_s < 2) before = below;
     if (time_s > 2) moving = std::max(moving, below);
-    if (below > 1e-7) EXPECT_NEAR(added(answer.flow_upper_m3_per_s, sure.flow_upper_m3_per_s) / below, 1, 1e-3);
+    if (below > 1e-7) {
+      EXPECT_NEAR(added(answer.flow_upper_m3_per_s, sure.flow_upper_m3_per_s) / below, 1, 1e-3);
+    }
   }
   const double end = motor.open.last.flow_m3_per_s - cylinder.open.last.flow_lower_m3_per_s;
   const double sure_end = motor.open.last.flow_m3_per_s - motor.open.last.flow_lower_m3_per_s;
