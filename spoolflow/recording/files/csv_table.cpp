@@ -221,9 +221,10 @@ bool CsvTable::header_again(std::string_view line) const {
     ++(named - dialect_.columns.begin() == static_cast<std::ptrdiff_t>(column) ? same : elsewhere);
   }
   if (elsewhere > 0) {
-    throw RecordingError(fmt::format("{}, line {}: a header with its columns in another order than before; close the "
-                                     "connection before the channels change",
-                                     input_->name(), line_));
+    throw RecordingError(
+        fmt::format("{}, line {}: a header with its columns in another order than before; close the "
+                    "connection before the channels change",
+                    input_->name(), line_));
   }
   return same == dialect_.columns.size();
 }
