@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""What a step costs wherever it runs, beside what was wanted: one table in Markdown, printed in one run.
+
+    ninja -C build/release benchmarks && python3 bench/limits.py build/release
+
+Calibrates examples/valve_a, then runs the benches of BUILD one after the other, each in its own process, and `analyse`
+with its defaults, of which it counts the processor time. Times are of this machine and this moment: what else runs
+meanwhile makes them longer. Standard library only.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+EXAMPLES = pathlib.Path(__file__).resolve().parent.parent / "examples" / "valve_a"
+
+
+def fail(message):
+    sys.exit(f"limits: {message}")
+
+
+class Build:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        if not (self.folder / "bin" / "spoolflow").exists():
+            fail(f"{folder}: holds no bin/spoolflow; build it with `ninja -C {folder} benchmarks`")
+
+    def run(self, program, *arguments):
+        """What the program prints; exit status 1 says that a wish was not met."""
+        path = self.folder / program
+        if not path.exists():
+            fail(f"{path}: is not built; run `ninja -C {self.folder} benchmarks`")
+        done = subprocess.run([path, *arguments], stdout=subprocess.PIPE, text=True, check=False)
+        if done.returncode > 1:
+            fail(f"{path}: ended with exit status {done.returncode}")
+        return done.stdout
+
+
+def number(pattern, text):
+    found = re.search(pattern, text, re.MULTILINE | re.DOTALL)
+    return float(found.group(1)) if found else None
+
+
+def shown(value, digits=0):
+    return "not measured" if value is None else f"{value:.{digits}f}"
+
+
+def row(what, now, beside, wanted):
+    print(f"| {what} | {now} | {beside} | {wanted} |", flush=True)
+
+
+def cortex_m(build, model):
+    text = build.run("bench/cortex_m_cost", model, EXAMPLES / "duty_cycle_1.h5")
+    part = {}
+    for block in text.split("\n\n"):
+        if block.startswith("Cortex-M4F, "):
+            part[block.split(", ")[1].split(":")[0]] = block
+    for estimator, wanted in (("observer", 800), ("condensed", 110)):
+        block = part.get(estimator, "")
+        largest = number(r"instructions a step.*?\n  \S.*?\s(\d+)\n", block)
+        row(f"Cortex-M4F, {estimator}, largest step [instructions]", shown(largest), "", wanted)
+    block = part.get("observer", "")
+    row("state / flash of the observer on it [bytes]",
+        f"{shown(number(r'state (\d+) bytes', block))} / {shown(number(r'tables (\d+) bytes', block))}", "", "768 / 32000")
+
+
+def host(build):
+    text = build.run("bench/sensor_bench", "--benchmark_min_time=0.5")
+    ns = {name: number(rf"^{name}\s+([\d.]+) ns", text)
+          for name in ("observer_step", "plain_eigen_filter", "condensed_step", "plain_lower_bound_maps")}
+    row("host, double, observer [ns a step]", shown(ns["observer_step"]),
+        f"three-state Eigen filter without maps {shown(ns['plain_eigen_filter'])}", 80)
+    row("host, double, condensed [ns a step]", shown(ns["condensed_step"], 1),
+        f"maps by `lower_bound` {shown(ns['plain_lower_bound_maps'], 1)}", "")
+
+
+def packs(build, model):
+    text = build.run("bench/valve_batch", model, EXAMPLES / "duty_cycle_1.h5")
+    for estimator, digits, wanted in (("observer", 0, 20), ("condensed", 1, 2.5)):
+        line = re.search(rf"^{estimator}\s+8  each its own\s+(.*)$", text, re.MULTILINE)
+        figures = re.findall(r"(?<![(\d.])\d+\.\d+", line.group(1)) if line else []
+        if len(figures) < 3:
+            row(f"packs, {estimator}, 8 valves", "not measured", "", wanted)
+            continue
+        row(f"packs of {'AVX2' if len(figures) > 3 else 'the baseline'}, {estimator}, 8 valves with a model each [ns a sample]",
+            shown(float(figures[-2]), digits), f"alone {float(figures[0]):.{digits}f}; reading and writing {figures[-1]}", wanted)
+
+
+def parsing(build, model, folder):
+    recording = folder / "run.csv"
+    build.run("bin/spoolflow", "simulate", EXAMPLES.parent / "scenarios" / "ramp.toml", "-o", recording, "-q")
+    text = build.run("bench/estimate_throughput", model, recording)
+    row("`estimate` of CSV over `from_chars` alone [share of its pace]", shown(number(r"^ratio\s+([\d.]+)", text), 2),
+        f"plain parse {shown(number(r'^plain parse.*?([\d.]+) MiB/s', text))} MiB/s", "1.0")
+
+
+def analysis(build, model, folder):
+    before, begun = os.times(), time.monotonic()
+    build.run("bin/spoolflow", "analyse", model, "--report", folder / "analysis.html", "-q")
+    after = os.times()
+    processor_s = after.children_user + after.children_system - before.children_user - before.children_system
+    row("`analyse` with defaults [processor s]", shown(processor_s), f"{time.monotonic() - begun:.0f} s by the clock", 60)
+
+
+def rig(build):
+    text = build.run("bench/rig_speed", "1")
+    times = [float(x) for x in re.findall(r"([\d.]+) times real time", text)]
+    row("virtual rig, closed loop [times real time, a core]", f"{min(times):.0f} to {max(times):.0f}" if times else "not measured",
+        f"CVODE at equal error {shown(number(r'is ([\d.]+) times faster than CVODE', text), 1)} times slower", 400)
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        fail(__doc__.split("\n\n")[1].strip())
+    build = Build(arguments[0])
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        model = folder / "valve_a.json"
+        build.run("bin/spoolflow", "calibrate", EXAMPLES / "campaign.toml", "-o", model, "-q")
+        print("| what | now | beside it | wanted |\n|---|---|---|---|")
+        cortex_m(build, model)
+        host(build)
+        packs(build, model)
+        parsing(build, model, folder)
+        analysis(build, model, folder)
+        rig(build)
+
+
+main(sys.argv[1:])
