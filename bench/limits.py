@@ -33,9 +33,9 @@ class Build:
         path = self.folder / program
         if not path.exists():
             fail(f"{path}: is not built; run `ninja -C {self.folder} benchmarks`")
-        done = subprocess.run([path, *arguments], stdout=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run([path, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
         if done.returncode > 1:
-            fail(f"{path}: ended with exit status {done.returncode}")
+            fail(f"{path}: ended with exit status {done.returncode}:\n{done.stderr}")
         return done.stdout
 
 
@@ -63,8 +63,8 @@ def cortex_m(build, model):
         largest = number(r"instructions a step.*?\n  \S.*?\s(\d+)\n", block)
         row(f"Cortex-M4F, {estimator}, largest step [instructions]", shown(largest), "", wanted)
     block = part.get("observer", "")
-    row("state / flash of the observer on it [bytes]",
-        f"{shown(number(r'state (\d+) bytes', block))} / {shown(number(r'tables (\d+) bytes', block))}", "", "768 / 32000")
+    state, flash = number(r"state (\d+) bytes", block), number(r"tables (\d+) bytes", block)
+    row("state / flash of the observer on it [bytes]", f"{shown(state)} / {shown(flash)}", "", "768 / 32000")
 
 
 def host(build):
@@ -93,8 +93,9 @@ def parsing(build, model, folder):
     recording = folder / "run.csv"
     build.run("bin/spoolflow", "simulate", EXAMPLES.parent / "scenarios" / "ramp.toml", "-o", recording, "-q")
     text = build.run("bench/estimate_throughput", model, recording)
+    plain = number(r"^plain parse.*?([\d.]+) MiB/s", text)
     row("`estimate` of CSV over `from_chars` alone [share of its pace]", shown(number(r"^ratio\s+([\d.]+)", text), 2),
-        f"plain parse {shown(number(r'^plain parse.*?([\d.]+) MiB/s', text))} MiB/s", "1.0")
+        f"plain parse {shown(plain)} MiB/s", "1.0")
 
 
 def analysis(build, model, folder):
@@ -108,8 +109,9 @@ def analysis(build, model, folder):
 def rig(build):
     text = build.run("bench/rig_speed", "1")
     times = [float(x) for x in re.findall(r"([\d.]+) times real time", text)]
+    slower = number(r"is ([\d.]+) times faster than CVODE", text)
     row("virtual rig, closed loop [times real time, a core]", f"{min(times):.0f} to {max(times):.0f}" if times else "not measured",
-        f"CVODE at equal error {shown(number(r'is ([\d.]+) times faster than CVODE', text), 1)} times slower", 400)
+        f"CVODE at equal error {shown(slower, 1)} times slower", 400)
 
 
 def main(arguments):
