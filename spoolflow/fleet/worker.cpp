@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/live/sources/pace.hpp"
+#include "spoolflow/parallel/pace.hpp"
 
 namespace spoolflow::fleet {
 namespace {
@@ -77,7 +77,7 @@ void Worker::stop() {
 
 void Worker::keep_share(const std::stop_token& stop) {
   std::optional<Session> session;
-  live::SteadyTime next = std::chrono::steady_clock::now();
+  parallel::SteadyTime next = std::chrono::steady_clock::now();
   do {
     try {
       if (!session) session.emplace(settings_.connection, owner_);
@@ -91,7 +91,7 @@ void Worker::keep_share(const std::stop_token& stop) {
       told_ = error.what();
     }
     next = std::max(next + spread_every, std::chrono::steady_clock::now());
-  } while (live::wait_until(next, stop));
+  } while (parallel::wait_until(next, stop));
 }
 
 /// Once, when it has been away for longer than a server takes to let somebody in.

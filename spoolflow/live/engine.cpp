@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/live/event_text.hpp"
-#include "spoolflow/live/sources/pace.hpp"
+#include "spoolflow/parallel/pace.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::live {
@@ -313,10 +313,10 @@ void Engine::keep(bool with_indicators) {
 
 void Engine::keep_each_second(const std::stop_token& stop) {
   constexpr int indicators_every = 60, retention_every = 60;
-  SteadyTime next = std::chrono::steady_clock::now();
+  parallel::SteadyTime next = std::chrono::steady_clock::now();
   for (int second = 1;; ++second) {
     next += std::chrono::seconds(1);
-    if (!wait_until(next, stop)) return;
+    if (!parallel::wait_until(next, stop)) return;
     watch_for_events();
     if (!store_) {
       (void)alarms_.take_changed();  // so that those of long ago can go

@@ -130,10 +130,9 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void band_of_flow(const BandParameters<T>& band, T least_m3_per_s, T most_m3_per_s,
                                                    Estimate<T>& out) {
-  const T residual2 = squared(T(flow_residual_factor) * band.flow_residual_m3_per_s);
-  const T flow = out.flow_m3_per_s;
-  out.flow_lower_m3_per_s = flow - sqrt(squared(flow - least_m3_per_s) + residual2);
-  out.flow_upper_m3_per_s = flow + sqrt(squared(most_m3_per_s - flow) + residual2);
+  out.flow_lower_m3_per_s = least_m3_per_s;
+  out.flow_upper_m3_per_s = most_m3_per_s;
+  widen_band(out, squared(T(flow_residual_factor) * band.flow_residual_m3_per_s));
 }
 
 /// What is left open of the pressure difference while no force tells of it. `edge` is that of the last position or of

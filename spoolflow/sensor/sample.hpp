@@ -84,6 +84,15 @@ struct FlowRange {
   T most;
 };
 
+/// Opens the band to both sides by an error that is independent of what made it; `half2` is the square of half its
+/// width [m6/s2].
+template <class T>
+[[gnu::always_inline]] constexpr void widen_band(Estimate<T>& out, T half2) {
+  const T flow = out.flow_m3_per_s;
+  out.flow_lower_m3_per_s = flow - sqrt(squared(flow - out.flow_lower_m3_per_s) + half2);
+  out.flow_upper_m3_per_s = flow + sqrt(squared(out.flow_upper_m3_per_s - flow) + half2);
+}
+
 /// Opens the band of a held answer to what may flow: at once, or as a spool that nobody sees goes to its ends in one
 /// more step of time [s], >= 0. The flow stays. What a broken state makes no number of opens nothing.
 template <class T>

@@ -8,6 +8,7 @@
 #include "spoolflow/fleet/jobs/contents.hpp"
 #include "spoolflow/fleet/jobs/piece_process.hpp"
 #include "spoolflow/fleet/store/schema.hpp"
+#include "spoolflow/parallel/pace.hpp"
 
 namespace spoolflow::fleet {
 namespace {
@@ -20,11 +21,6 @@ constexpr std::chrono::minutes cleans_every{5};
 
 Outcome failed(const std::string& message) {
   return {.status = 1, .messages = {message}};
-}
-
-void sleep(const std::stop_token& stop, Clock::duration time) {
-  for (const auto end = Clock::now() + time; Clock::now() < end && !stop.stop_requested();)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 }  // namespace
@@ -56,16 +52,16 @@ void JobWorker::work(const std::stop_token& stop, bool cleans_up) {
         cleaned = Clock::now();
       }
       tell_at_work(*session, parts_.owner, parts_.program);
-      if (!take_one(session, stop)) sleep(stop, asks_every);
+      if (!take_one(session, stop)) parallel::wait_for(asks_every, stop);
       told.clear();
     } catch (const ServerAway&) {  // the worker tells it as a whole
       session.reset();
-      sleep(stop, takes_up_again_after);
+      parallel::wait_for(takes_up_again_after, stop);
     } catch (const std::exception& error) {
       session.reset();
       if (told != error.what()) tell_(error.what());
       told = error.what();
-      sleep(stop, takes_up_again_after);
+      parallel::wait_for(takes_up_again_after, stop);
     }
   }
 }

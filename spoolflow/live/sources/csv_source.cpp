@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/live/sources/pace.hpp"
 #include "spoolflow/live/sources/peer.hpp"
+#include "spoolflow/parallel/pace.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -75,7 +75,7 @@ void PipeSource::run(const std::stop_token& stop) {
         once ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (opened < 0) {
       intake_.tell("the pipe cannot be opened");
-      if (!wait_for(std::chrono::milliseconds(1000), stop) || once) return;
+      if (!parallel::wait_for(std::chrono::milliseconds(1000), stop) || once) return;
       continue;
     }
     held = Descriptor(::fcntl(opened, F_DUPFD_CLOEXEC, 0));
@@ -84,7 +84,7 @@ void PipeSource::run(const std::stop_token& stop) {
         read_csv(std::make_unique<recording::InputBytes>(opened, path_.string(), given_up), options_, next_, intake_);
     if (intake_.trouble().empty()) intake_.tell(once ? "standard input has ended" : "nobody writes to the pipe");
     if (once) return;
-    wait_for(std::chrono::milliseconds(10), stop);  // a writer that ends at once must not keep a core busy
+    parallel::wait_for(std::chrono::milliseconds(10), stop);  // a writer that ends at once must not keep a core busy
   }
 }
 

@@ -85,7 +85,7 @@ bool ReplaySource::hand_over(std::vector<estimation::TimedSample>&& samples, con
       clock_s_ = time_s;
     } else {
       const auto ahead = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(ahead_s));
-      if (!wait_until(clock_ + ahead, stop)) return false;
+      if (!parallel::wait_until(clock_ + ahead, stop)) return false;
     }
   }
   block.arrived_ns = steady_ns();

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "spoolflow/live/sources/csv_stream.hpp"
-#include "spoolflow/live/sources/pace.hpp"
+#include "spoolflow/parallel/pace.hpp"
 
 namespace spoolflow::live {
 
@@ -34,8 +34,8 @@ class ReplaySource {
   double added_s_ = 0;               ///< to the recorded times, from pass to pass
   double first_s_ = 0, last_s_ = 0;  ///< recorded times of this pass
   double last_step_s_ = 0;
-  bool paced_ = false;  ///< the clock below was set
-  SteadyTime clock_;    ///< of a sample whose recorded and added time is `clock_s_`
+  bool paced_ = false;          ///< the clock below was set
+  parallel::SteadyTime clock_;  ///< of a sample whose recorded and added time is `clock_s_`
   double clock_s_ = 0;
   Intake& intake_;
   std::atomic<bool> ended_ = false;

@@ -66,7 +66,7 @@ RigSource::RigSource(RigSettings settings, SourcePosition after, Intake& intake)
 
 void RigSource::run(const std::stop_token& stop) {
   const rig::ValveUnderTest valve = rig::as_built(settings_.valve);
-  const SteadyTime begin = std::chrono::steady_clock::now();
+  const parallel::SteadyTime begin = std::chrono::steady_clock::now();
   const double period_s = 0.001;
   double worked_s = static_cast<double>(next_) * period_s;  // before this start of the program, too: wear stays
   const double before_s = worked_s;
@@ -86,7 +86,8 @@ void RigSource::run(const std::stop_token& stop) {
         worked_s = block.samples.back().time_s + period_s;
         if (block.samples.back().time_s - block.samples.front().time_s < piece_s * settings_.speed) return;
         const auto due = std::chrono::duration<double>((worked_s - before_s) / settings_.speed);
-        if (!wait_until(begin + std::chrono::duration_cast<std::chrono::nanoseconds>(due), stop)) throw Stopped();
+        if (!parallel::wait_until(begin + std::chrono::duration_cast<std::chrono::nanoseconds>(due), stop))
+          throw Stopped();
         block.after.next = next_;
         block.arrived_ns = steady_ns();
         intake_.push(std::exchange(block, {}));

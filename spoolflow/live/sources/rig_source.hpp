@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "spoolflow/live/sources/intake.hpp"
-#include "spoolflow/live/sources/pace.hpp"
+#include "spoolflow/parallel/pace.hpp"
 #include "spoolflow/rig/bench/valve_under_test.hpp"
 
 namespace spoolflow::live {

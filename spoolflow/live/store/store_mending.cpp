@@ -33,6 +33,11 @@ void remove(const std::string& path) {
   fs::remove(path, ignored);
 }
 
+void remove_log(const std::string& store) {
+  remove(store + "-wal");
+  remove(store + "-shm");
+}
+
 }  // namespace
 
 void Store::keep_on_disk() {
@@ -108,8 +113,7 @@ std::string Store::write_anew() {
     save_as(anew);
   } catch (const StoreDamage&) {  // deleted after it was damaged: there is nothing to set aside
     close();
-    remove(path_ + "-wal");
-    remove(path_ + "-shm");
+    remove_log(path_);
     needs_states_ = true;
     open();
     return fmt::format(
@@ -118,8 +122,7 @@ std::string Store::write_anew() {
         path_);
   }
   close();
-  remove(path_ + "-wal");  // of the deleted file: it must not be taken for the new one's
-  remove(path_ + "-shm");
+  remove_log(path_);  // of the deleted file: it must not be taken for the new one's
   rename(anew, path_);
   needs_states_ = true;
   open();
@@ -135,15 +138,13 @@ std::string Store::go_on_in_another(const std::string& stamp) {
   const bool has_log = watch_->has_log(*database_);
   close();
   if (has_log) {  // of the file that was there before: it must not be taken for this one's
-    remove(path_ + "-wal");
-    remove(path_ + "-shm");
+    remove_log(path_);
   }
   needs_states_ = true;
   open();
   return fmt::format(
       "{0}: another file was put in its place while spoolflow live worked on it; what it held is saved as {1}, and "
-      "what "
-      "comes is kept in the one that is there now",
+      "what comes is kept in the one that is there now",
       path_, aside);
 }
 

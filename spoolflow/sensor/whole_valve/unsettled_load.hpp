@@ -14,11 +14,8 @@ inline constexpr double load_settling_s = 0.3;
 /// and the answer's band takes in `share` of what is between them.
 template <class T>
 constexpr void widen_unsettled(T share, T& settled_m3_per_s, T time_step_s, Estimate<T>& out) {
-  const T flow = out.flow_m3_per_s;
-  settled_m3_per_s += (flow - settled_m3_per_s) * smaller(time_step_s / T(load_settling_s), T(1));
-  const T open2 = squared(share * (flow - settled_m3_per_s));
-  out.flow_lower_m3_per_s = flow - sqrt(squared(flow - out.flow_lower_m3_per_s) + open2);
-  out.flow_upper_m3_per_s = flow + sqrt(squared(out.flow_upper_m3_per_s - flow) + open2);
+  settled_m3_per_s += (out.flow_m3_per_s - settled_m3_per_s) * smaller(time_step_s / T(load_settling_s), T(1));
+  widen_band(out, squared(share * (out.flow_m3_per_s - settled_m3_per_s)));
 }
 
 }  // namespace spoolflow::sensor

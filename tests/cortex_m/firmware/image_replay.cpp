@@ -2,6 +2,7 @@
 /// With EXPORTED_MODEL the same through the exported model. Tells a sum over every bit of all answers, what checking
 /// the page and what a step costs. The recording is in flash: see packed_run.hpp.
 #include "board.hpp"
+#include "run_in_flash.hpp"
 
 #ifdef EXPORTED_MODEL
 #include "valve_model.hpp"
@@ -31,20 +32,9 @@ using Parameters = sensor::ObserverParameters<float>;
 
 namespace {
 
-struct Point {
-  Sample sample;
-  float golden_m3_per_s;
-};
-struct Run {
-  std::uint32_t points;
-  std::uint32_t recorded;
-};
-
-__asm__(
-    ".section .rodata.run\n.balign 8\nrun_begin:\n.incbin \"run.bin\", 0, 8\n"
-    "run_points:\n.incbin \"run.bin\", 8\n.balign 4\n.text\n");
-extern "C" const Run run_begin;
+using Point = PointOf<Sample>;
 extern "C" const Point run_points[];
+static_assert(alignof(Point) <= 8);
 
 State state;
 

@@ -1,25 +1,14 @@
 /// Replays a recording through the sensor and tells how far its flow is from the host's, what a step costs, and whether
 /// a NaN or a denormal came up. The recording is in flash: see packed_run.hpp.
 #include "board.hpp"
+#include "run_in_flash.hpp"
 #include "sensor_under_test.hpp"
 
 namespace {
 
-struct Point {
-  Sample sample;
-  float golden_m3_per_s;
-};
-struct Run {
-  std::uint32_t points;
-  std::uint32_t recorded;  ///< of them; after these come made-up disturbances
-};
-
-__asm__(
-    ".section .rodata.run\n.balign 8\nrun_begin:\n.incbin \"run.bin\", 0, 8\n"
-    "run_points:\n.incbin \"run.bin\", 8\n.balign 4\n.text\n");
-extern "C" const Run run_begin;
+using Point = PointOf<Sample>;
 extern "C" const Point run_points[];
-static_assert(sizeof(Run) == 8 && alignof(Point) <= 8);
+static_assert(alignof(Point) <= 8);
 
 constexpr std::uint32_t most_instructions = 8192;
 std::uint32_t histogram[modes][most_instructions];

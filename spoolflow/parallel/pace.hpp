@@ -5,7 +5,7 @@
 #include <mutex>
 #include <stop_token>
 
-namespace spoolflow::live {
+namespace spoolflow::parallel {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
 
@@ -21,4 +21,4 @@ inline bool wait_for(std::chrono::milliseconds time, const std::stop_token& stop
   return wait_until(std::chrono::steady_clock::now() + time, stop);
 }
 
-}  // namespace spoolflow::live
+}  // namespace spoolflow::parallel
