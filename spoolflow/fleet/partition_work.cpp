@@ -27,7 +27,7 @@ PartitionWork::PartitionWork(WorkerParts parts, const Claim& claim)
     : parts_(std::move(parts)),
       claim_(claim),
       session_(parts_.settings.connection, fmt::format("spoolflow partition {}", claim.partition)),
-      store_(session_, claim),
+      store_(session_, claim, parts_.settings.worker.lease_s),
       models_(parts_.nats.subscribe(model_subject("*"))) {
   restore();
 }

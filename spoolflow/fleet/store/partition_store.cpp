@@ -121,9 +121,10 @@ void PartitionStore::commit(const std::vector<ValveRows>& valves, const std::vec
                             const StreamPosition& stream) {
   FleetTransaction whole(session_);
   // First of all, and with it the row is this transaction's: nobody takes the partition before it has ended.
-  const Rows mine =
-      session_.run("UPDATE partition SET stream_created = $3, stream_sequence = $4 WHERE number = $1 AND epoch = $2",
-                   Values().put(claim_.partition).put(claim_.epoch).put(stream.created_ns).put(sql(stream.sequence)));
+  const Rows mine = session_.run(
+      "UPDATE partition SET stream_created = $3, stream_sequence = $4, lease_until = greatest(lease_until, "
+      "clock_timestamp() + $5::float8 * interval '1 s') WHERE number = $1 AND epoch = $2",
+      Values().put(claim_.partition).put(claim_.epoch).put(stream.created_ns).put(sql(stream.sequence)).put(lease_s_));
   if (mine.affected() != 1) {
     throw Fenced(fmt::format("partition {} was taken by another worker", claim_.partition));
   }

@@ -17,8 +17,9 @@ struct StreamPosition {
 
 class PartitionStore {
  public:
-  /// Keeps a reference to the session.
-  PartitionStore(Session& session, const Claim& claim) : session_(session), claim_(claim) {}
+  /// Keeps a reference to the session. Each commit renews the lease by `lease_s`: who commits is alive.
+  PartitionStore(Session& session, const Claim& claim, double lease_s)
+      : session_(session), claim_(claim), lease_s_(lease_s) {}
 
   [[nodiscard]] std::vector<KeptValve> read();
   [[nodiscard]] StreamPosition stream_position();
@@ -50,6 +51,7 @@ class PartitionStore {
 
   Session& session_;
   Claim claim_;
+  double lease_s_;
   std::map<std::string, OlderState> states_;
 };
 

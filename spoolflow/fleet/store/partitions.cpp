@@ -16,11 +16,14 @@ Spread renew(Session& session, const std::string& owner, double lease_s) {
       "INSERT INTO worker(name, alive_until) VALUES($1, now() + $2::float8 * interval '1 s') "
       "ON CONFLICT(name) DO UPDATE SET alive_until = excluded.alive_until",
       Values().put(std::string_view(owner)).put(lease_s));
+  // A row that a commit holds is renewed by that commit: waiting for it, the other leases would run out.
+  session.run(
+      "UPDATE partition SET lease_until = now() + $2::float8 * interval '1 s' "
+      "WHERE number IN (SELECT number FROM partition WHERE owner = $1 FOR UPDATE SKIP LOCKED)",
+      Values().put(std::string_view(owner)).put(lease_s));
   Spread out;
-  out.held =
-      claims(session.run("UPDATE partition SET lease_until = now() + $2::float8 * interval '1 s' WHERE owner = $1 "
-                         "RETURNING number, epoch",
-                         Values().put(std::string_view(owner)).put(lease_s)));
+  out.held = claims(
+      session.run("SELECT number, epoch FROM partition WHERE owner = $1", Values().put(std::string_view(owner))));
   out.workers = session.run("SELECT count(*) FROM worker WHERE alive_until > now()").integer(0, 0);
   session.run("DELETE FROM worker WHERE alive_until < now() - interval '1 hour'");
   return out;

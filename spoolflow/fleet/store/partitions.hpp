@@ -20,7 +20,7 @@ struct Fenced : std::runtime_error {
 };
 
 struct Spread {
-  std::vector<Claim> held;   ///< this worker's, the lease renewed
+  std::vector<Claim> held;   ///< this worker's, the lease renewed here or by a commit that is under way
   std::int64_t workers = 1;  ///< that are alive, this one included
 };
 
