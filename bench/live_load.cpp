@@ -1,7 +1,7 @@
 /// `spoolflow live` under load: valves of the rig sent as datagrams from a process of their own, everything on (ingest,
 /// observer, monitor, store, page with an open plot). At the end it is killed and started again.
 /// live_load SPOOLFLOW MODEL.json [VALVES=200] [SECONDS=20] [SAMPLES_PER_SECOND=1000]
-/// Above two minutes there is a line a minute: what would grow or drift shows.
+/// Above two minutes it says where the page is, and there is a line a minute: what would grow or drift shows.
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
@@ -260,6 +260,8 @@ int main(int argc, char** argv) {
     });
     std::jthread teller;
     if (seconds > 120) {
+      fmt::print("page at http://127.0.0.1:{}\n", child.page);
+      std::fflush(stdout);
       teller = std::jthread(
           [&](const std::stop_token& stop) { tell_each_minute(child, folder / "s.sqlite", began_ns, stop); });
     }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, RISC-V, `live` killed at fifty
-# instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, and 500 valves
-# at 1 kHz for as long. Prints figures; the exit status tells of clang-tidy, kills, fleets and fuzzing.
+# instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, 500 valves
+# at 1 kHz for as long, and the page of 200. Prints figures; the exit status tells of clang-tidy, kills, fleets, fuzzing and the page.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
@@ -27,4 +27,7 @@ for kind in single cluster; do
 done
 echo "== 500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"
+echo "== the page of 200 valves"
+tests/web/live_for_long.sh build/release/tests/web/page build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 200 \
+  "$seconds" || status=1
 exit $status
