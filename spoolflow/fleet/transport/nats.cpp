@@ -1,6 +1,9 @@
 #include "spoolflow/fleet/transport/nats.hpp"
 
+#include <algorithm>
+#include <array>
 #include <nats/nats.h>
+#include <string_view>
 
 namespace spoolflow::fleet {
 namespace {
@@ -22,6 +25,7 @@ struct Destroy {
   void operator()(jsCtx* handle) const { jsCtx_Destroy(handle); }
   void operator()(jsStreamInfo* handle) const { jsStreamInfo_Destroy(handle); }
   void operator()(jsConsumerInfo* handle) const { jsConsumerInfo_Destroy(handle); }
+  void operator()(natsInbox* handle) const { natsInbox_Destroy(handle); }
   void operator()(natsMsg* handle) const { natsMsg_Destroy(handle); }
   void operator()(jsMsgMetaData* handle) const { jsMsgMetaData_Destroy(handle); }
 };
@@ -32,6 +36,7 @@ using Handle = std::unique_ptr<T, Destroy>;
 /// does nothing else meanwhile, and it answers within milliseconds where it does; a server that stands takes no bytes.
 constexpr std::int64_t reconnect_wait_ms = 250, answer_wait_ms = 1500, ping_interval_ms = 2000, write_wait_ms = 3000;
 constexpr int pings_out = 2;
+constexpr std::string_view nothing_there = "404", request_over = "408";  // of the server to a request for messages
 
 Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name) {
   natsOptions* made = nullptr;
@@ -79,9 +84,9 @@ bool is_refusal(natsStatus status) {
 }
 
 /// Asks one server after the other until one lets us in; the connection itself would go on trying in silence.
-/// Throws LoginError where one refuses us; servers that are away are passed over.
-void check_login(const NatsAccess& access, const std::string& name) {
-  constexpr std::int64_t answer_within_ms = 1000;
+/// Throws LoginError where one refuses us; servers that are away, or do not answer in time, are passed over. Returns
+/// whether one let us in.
+bool let_in(const NatsAccess& access, const std::string& name, std::int64_t answer_within_ms) {
   for (const std::string& server : access.servers) {
     NatsAccess one = access;
     one.servers = {server};
@@ -92,12 +97,21 @@ void check_login(const NatsAccess& access, const std::string& name) {
     natsConnection* made = nullptr;
     const natsStatus status = natsConnection_Connect(&made, options.get());
     const Handle<natsConnection> connection(made);
-    if (status == NATS_OK) return;
+    if (status == NATS_OK) return true;
     if (!is_refusal(status)) continue;
     const char* const last = nats_GetLastError(nullptr);
     throw LoginError("NATS: " + server + " refuses this user or its TLS: " + natsStatus_GetText(status) +
                      (last != nullptr && *last != 0 ? std::string(" (") + last + ")" : "") +
                      "; check user, password_file or credentials, and authority");
+  }
+  return false;
+}
+
+/// A busy server needs longer for TLS and a password than one that is away is worth.
+void check_login(const NatsAccess& access, const std::string& name) {
+  constexpr std::array<std::int64_t, 2> patience_ms{1000, 5000};
+  for (const std::int64_t one : patience_ms) {
+    if (let_in(access, name, one)) return;
   }
 }
 
@@ -122,6 +136,7 @@ struct Connection::Handles {
   Handle<natsOptions> options;
   Handle<natsConnection> connection;
   Handle<jsCtx> stream;
+  std::shared_ptr<RetiredSubscriptions> retired = std::make_shared<RetiredSubscriptions>();
 };
 
 Connection::Connection(const NatsAccess& access, const std::string& name) : handles_(std::make_unique<Handles>()) {
@@ -139,7 +154,9 @@ Connection::Connection(const NatsAccess& access, const std::string& name) : hand
   handles_->stream.reset(stream);
 }
 
-Connection::~Connection() = default;
+Connection::~Connection() {
+  natsConnection_Close(handles_->connection.get());  // its reader has ended then, and subscriptions may
+}
 
 bool Connection::connected() const {
   return natsConnection_Status(handles_->connection.get()) == NATS_CONN_STATUS_CONNECTED;
@@ -158,7 +175,7 @@ bool Connection::publish(const std::string& subject, const std::string& text) {
 Subscription Connection::subscribe(const std::string& subject) {
   natsSubscription* made = nullptr;
   check(natsConnection_SubscribeSync(&made, handles_->connection.get(), subject.c_str()), "subscribe to " + subject);
-  return Subscription(made);
+  return {made, handles_->retired};
 }
 
 StreamPlace Connection::make_stream(const StreamSettings& settings) {
@@ -194,23 +211,22 @@ StreamPlace Connection::stream(const std::string& name) {
 }
 
 Puller Connection::pull(const std::string& stream, const std::string& subject, std::uint64_t from, int silent_before) {
-  jsSubOptions options;
-  check(jsSubOptions_Init(&options), "reader");
-  options.Stream = stream.c_str();
-  options.Config.DeliverPolicy = from > 1 ? js_DeliverByStartSequence : js_DeliverAll;
-  options.Config.OptStartSeq = from > 1 ? from : 0;
-  options.Config.AckPolicy = js_AckNone;
-  options.Config.InactiveThreshold = std::int64_t{30'000'000'000};
-  options.Config.MemoryStorage = true;
-  options.Config.Replicas = 1;
-  natsSubscription* made = nullptr;
-  check(js_PullSubscribe(&made, handles_->stream.get(), subject.c_str(), nullptr, nullptr, &options, nullptr),
-        "read " + subject);
-  return {made, silent_before};
-}
-
-void Subscription::Close::operator()(natsSubscription* handle) const {
-  natsSubscription_Destroy(handle);
+  jsConsumerConfig config;
+  check(jsConsumerConfig_Init(&config), "reader");
+  config.DeliverPolicy = from > 1 ? js_DeliverByStartSequence : js_DeliverAll;
+  config.OptStartSeq = from > 1 ? from : 0;
+  config.FilterSubject = subject.c_str();
+  config.AckPolicy = js_AckNone;
+  config.InactiveThreshold = std::int64_t{30'000'000'000};
+  config.MemoryStorage = true;
+  config.Replicas = 1;
+  jsConsumerInfo* info = nullptr;
+  check(js_AddConsumer(&info, handles_->stream.get(), stream.c_str(), &config, nullptr, nullptr), "read " + subject);
+  const Handle<jsConsumerInfo> there(info);
+  natsInbox* inbox = nullptr;
+  check(natsInbox_Create(&inbox), "inbox");
+  const Handle<natsInbox> address(inbox);
+  return {*handles_, {stream, there->Name, address.get()}, subscribe(address.get()), silent_before};
 }
 
 std::optional<Message> Subscription::next(std::chrono::milliseconds patience) {
@@ -220,26 +236,69 @@ std::optional<Message> Subscription::next(std::chrono::milliseconds patience) {
   return message_of(message);
 }
 
-std::vector<Message> Puller::fetch(int most, std::chrono::milliseconds patience) {
-  std::vector<Message> out;
-  natsMsgList list{};
-  const auto now = std::chrono::steady_clock::now;
-  const natsStatus status = natsSubscription_Fetch(&list, subscription_.handle_.get(), most, patience.count(), nullptr);
-  for (int k = 0; k < list.Count; ++k) out.push_back(message_of(list.Msgs[k]));
-  natsMsgList_Destroy(&list);
-  if (!out.empty()) {
-    watch_.heard(now());
-    return out;
-  }
-  if (status != NATS_OK && status != NATS_TIMEOUT) refuse(status, "fetch");
-  const ReaderWatch::Step step = watch_.silent(now());
-  if (step == ReaderWatch::Step::wait) return out;
-  if (step == ReaderWatch::Step::renew) refuse(NATS_TIMEOUT, "reader that says nothing");
+Puller::Puller(Connection::Handles& handles, Place place, Subscription subscription, int silent_before)
+    : handles_(&handles),
+      place_(std::move(place)),
+      subscription_(std::move(subscription)),
+      watch_(std::chrono::steady_clock::now(), silent_before) {}
+
+/// What the server has not sent by then it forgets.
+void Puller::ask(int most, Time now) {
+  constexpr std::chrono::seconds forgotten_after{1}, on_its_way{1};
+  const std::string request = "{\"batch\":" + std::to_string(most) +
+                              ",\"expires\":" + std::to_string(std::chrono::nanoseconds(forgotten_after).count()) + "}";
+  const std::string subject = "$JS.API.CONSUMER.MSG.NEXT." + place_.stream + "." + place_.consumer;
+  check(natsConnection_PublishRequestString(handles_->connection.get(), subject.c_str(), place_.inbox.c_str(),
+                                            request.c_str()),
+        "ask for messages");
+  owed_ = most;
+  owed_until_ = now + forgotten_after + on_its_way;
+}
+
+void Puller::look_whether_it_is_there(Time now) {
   jsConsumerInfo* info = nullptr;
-  check(natsSubscription_GetConsumerInfo(&info, subscription_.handle_.get(), nullptr, nullptr), "reader");
+  check(js_GetConsumerInfo(&info, handles_->stream.get(), place_.stream.c_str(), place_.consumer.c_str(), nullptr,
+                           nullptr),
+        "reader");
   const Handle<jsConsumerInfo> there(info);
   if (there->NumPending > 0) refuse(NATS_TIMEOUT, "reader that does not say what it has");
-  watch_.answered(now());
+  watch_.answered(now);
+}
+
+std::vector<Message> Puller::fetch(int most, std::chrono::milliseconds patience) {
+  const auto clock = std::chrono::steady_clock::now;
+  const Time begin = clock();
+  std::vector<Message> out;
+  while (static_cast<int>(out.size()) < most) {
+    const Time now = clock();
+    if (owed_ <= 0 || now >= owed_until_) {
+      if (!out.empty()) break;  // the next request is sent when these are worked on
+      ask(most, now);
+    }
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(begin + patience - now);
+    natsMsg* made = nullptr;
+    const natsStatus status =
+        natsSubscription_NextMsg(&made, subscription_.handle_.get(), std::max<std::int64_t>(left.count(), 0));
+    if (status == NATS_TIMEOUT) break;
+    if (status != NATS_OK) refuse(status, "fetch");
+    const Handle<natsMsg> message(made);
+    if (const char* told = nullptr; natsMsgHeader_Get(made, "Status", &told) == NATS_OK) {
+      const std::string_view verdict(told);
+      // Of a request: that it found nothing or is over; else that nobody takes it, or will not.
+      if (verdict != nothing_there && verdict != request_over) refuse(NATS_NO_RESPONDERS, "fetch");
+      owed_ = 0;
+      continue;
+    }
+    --owed_;
+    out.push_back(message_of(made));
+  }
+  if (!out.empty()) {
+    watch_.heard(clock());
+    return out;
+  }
+  const ReaderWatch::Step step = watch_.silent(clock());
+  if (step == ReaderWatch::Step::renew) refuse(NATS_TIMEOUT, "reader that says nothing");
+  if (step == ReaderWatch::Step::ask) look_whether_it_is_there(clock());
   return out;
 }
 

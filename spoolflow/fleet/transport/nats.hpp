@@ -9,11 +9,11 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spoolflow/fleet/transport/reader_watch.hpp"
-
-struct __natsSubscription;
+#include "spoolflow/fleet/transport/retired_subscriptions.hpp"
 
 namespace spoolflow::fleet {
 
@@ -59,8 +59,9 @@ class Puller;
 /// Safe to be used from any thread.
 class Connection {
  public:
-  /// Connects when a server can be reached; each is asked for a second at most. Throws LoginError where a file of
-  /// `access` cannot be read, or a server refuses user, password or TLS. `name`: for the servers' own lists.
+  /// Connects when a server can be reached; each is asked for a second at most, and once more for five
+  /// where none let us in. Throws LoginError where a file of `access` cannot be read, or a server refuses user,
+  /// password or TLS. `name`: for the servers' own lists.
   Connection(const NatsAccess& access, const std::string& name);
   ~Connection();
   Connection(const Connection&) = delete;
@@ -82,6 +83,7 @@ class Connection {
                             int silent_before);
 
  private:
+  friend class Puller;
   struct Handles;
   std::unique_ptr<Handles> handles_;
 };
@@ -89,23 +91,25 @@ class Connection {
 /// Messages of a subject as they come.
 class Subscription {
  public:
-  explicit Subscription(__natsSubscription* handle) : handle_(handle) {}
+  Subscription(__natsSubscription* handle, std::shared_ptr<RetiredSubscriptions> retired)
+      : handle_(handle, Retire{std::move(retired)}) {}
   /// Nothing where none came within that time, or the connection is away.
   std::optional<Message> next(std::chrono::milliseconds patience);
 
  private:
   friend class Puller;
-  struct Close {
-    void operator()(__natsSubscription* handle) const;
+  struct Retire {
+    std::shared_ptr<RetiredSubscriptions> to;
+    void operator()(__natsSubscription* handle) const { to->add(handle); }
   };
-  std::unique_ptr<__natsSubscription, Close> handle_;
+  std::unique_ptr<__natsSubscription, Retire> handle_;
 };
 
-/// Reads a stream by fetching.
+/// Reads a stream by asking for messages, a bounded number at a time. By requests of our own: the library's fetching
+/// (libnats 3.4.1, natsSubscription_Fetch) writes behind its list of messages where answers to an older request come
+/// with those to a newer one. Does not outlive its connection.
 class Puller {
  public:
-  Puller(__natsSubscription* handle, int silent_before)
-      : subscription_(handle), watch_(std::chrono::steady_clock::now(), silent_before) {}
   /// Up to `most` messages; empty where none came within that time. Throws TransportError where the reader is gone, or
   /// silent for long: make another.
   std::vector<Message> fetch(int most, std::chrono::milliseconds patience);
@@ -113,8 +117,21 @@ class Puller {
   [[nodiscard]] bool has_spoken() const { return watch_.has_spoken(); }
 
  private:
+  friend class Connection;
+  using Time = ReaderWatch::Time;
+  struct Place {
+    std::string stream, consumer, inbox;
+  };
+  Puller(Connection::Handles& handles, Place place, Subscription subscription, int silent_before);
+  void ask(int most, Time now);
+  void look_whether_it_is_there(Time now);
+
+  Connection::Handles* handles_;
+  Place place_;
   Subscription subscription_;
   ReaderWatch watch_;
+  int owed_ = 0;       ///< messages of the last request that have not come
+  Time owed_until_{};  ///< when the server has forgotten it
 };
 
 }  // namespace spoolflow::fleet
