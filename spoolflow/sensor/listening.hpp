@@ -75,6 +75,51 @@ template <class T>
   return limited(aim_A, state.given_A - T(1 / dither_fall_s) * step_A, state.given_A + T(1 / dither_rise_s) * step_A);
 }
 
+/// What listening goes by, of the observer's last answer.
+template <class T>
+struct Heard {
+  Mask<T> known;   ///< there is an answer, and it was not held
+  Mask<T> closed;  ///< the spool covers the metering edge
+  Mask<T> wide;    ///< the band is wider than wanted
+  Mask<T> frees;   ///< dither has the spool tremble
+};
+
+/// `position_m`: of the spool, opening > 0; `valve` is what opens there.
+template <class T>
+[[gnu::always_inline]] constexpr Heard<T> heard(const ListeningParameters<T>& limits,
+                                                const ObserverParameters<T>& valve, const ObserverState<T>& observer,
+                                                T position_m) {
+  const Estimate<T>& last = observer.last;
+  Mask<T> known = observer.started;
+  if constexpr (one_valve<T>) {
+    known = known && !has(last.status, Status::sample_missing | Status::time_fault);
+  }
+  return {known,
+          position_m<valve.closed_below_m, last.flow_upper_m3_per_s - last.flow_lower_m3_per_s> T(2) *
+              limits.wanted_half_width_m3_per_s,
+          observer.swing.frees};
+}
+
+template <class T>
+constexpr DitherRequest<T> listen(const ListeningParameters<T>& limits, ListeningState<T>& state, const Heard<T>& heard,
+                                  T time_step_s) {
+  const T step_s = select(time_step_s >= T(0) && is_number(time_step_s), time_step_s, T(0));
+  state.asked_s += step_s;
+  state.pause_s = larger(state.pause_s - step_s, T(0));
+  const Mask<T> lasted = state.asks && state.asked_s > limits.request_s - T(0.5) * step_s;  // no matter how it rounds
+  const Mask<T> ends = lasted || (state.asks && heard.closed);
+  const Mask<T> deaf = state.asks && heard.wide && !heard.frees && state.asked_s > T(hearing_s);
+  adapt(limits, state, deaf, lasted && !heard.closed && !heard.wide, step_s);
+  state.pause_s = select(ends, limits.pause_s, state.pause_s);
+  const Mask<T> begins = heard.known && (!state.asks || ends) && !heard.closed && heard.wide &&
+                         !(state.pause_s > T(0)) && limits.request_s > T(0);
+  state.asked_s = select(begins, T(0), state.asked_s);
+  state.asks = begins || (state.asks && !ends);
+  state.given_A = select(heard.closed, T(0), smaller(fade(state, step_s), limits.highest_amplitude_A));
+  const Mask<T> active = state.given_A > T(0);
+  return {active, state.given_A, select(active, limits.frequency_Hz, T(0))};
+}
+
 }  // namespace detail
 
 /// After each step of the observer, with its parameters, its state and the same time step. Where the observer holds its
@@ -82,29 +127,7 @@ template <class T>
 template <class T>
 constexpr DitherRequest<T> listen(const ListeningParameters<T>& limits, ListeningState<T>& state,
                                   const ObserverParameters<T>& valve, const ObserverState<T>& observer, T time_step_s) {
-  Mask<T> known = observer.started;
-  if constexpr (one_valve<T>) {
-    known = known && !has(observer.last.status, Status::sample_missing | Status::time_fault);
-  }
-  const T step_s = select(time_step_s >= T(0) && is_number(time_step_s), time_step_s, T(0));
-  const Mask<T> closed = observer.position.last_m < valve.closed_below_m;
-  const Mask<T> wide =
-      observer.last.flow_upper_m3_per_s - observer.last.flow_lower_m3_per_s > T(2) * limits.wanted_half_width_m3_per_s;
-
-  state.asked_s += step_s;
-  state.pause_s = larger(state.pause_s - step_s, T(0));
-  const Mask<T> lasted = state.asks && state.asked_s > limits.request_s - T(0.5) * step_s;  // no matter how it rounds
-  const Mask<T> ends = lasted || (state.asks && closed);
-  const Mask<T> deaf = state.asks && wide && !observer.swing.frees && state.asked_s > T(hearing_s);
-  detail::adapt(limits, state, deaf, lasted && !closed && !wide, step_s);
-  state.pause_s = select(ends, limits.pause_s, state.pause_s);
-  const Mask<T> begins =
-      known && (!state.asks || ends) && !closed && wide && !(state.pause_s > T(0)) && limits.request_s > T(0);
-  state.asked_s = select(begins, T(0), state.asked_s);
-  state.asks = begins || (state.asks && !ends);
-  state.given_A = select(closed, T(0), smaller(detail::fade(state, step_s), limits.highest_amplitude_A));
-  const Mask<T> active = state.given_A > T(0);
-  return {active, state.given_A, select(active, limits.frequency_Hz, T(0))};
+  return detail::listen(limits, state, detail::heard(limits, valve, observer, observer.position.last_m), time_step_s);
 }
 
 }  // namespace spoolflow::sensor

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spoolflow/sensor/whole_valve/whole_listening.hpp"
+
 namespace spoolflow::sensor {
 namespace {
 
@@ -180,6 +182,41 @@ TEST(Listening, IsTheSameInSinglePrecision) {
       slim.hear(1e-3);
       ASSERT_NEAR(wide.request.amplitude_A, static_cast<double>(slim.request.amplitude_A), 0.005) << k;
     }
+  }
+}
+
+TEST(WholeListening, HearsOnEitherSideOfTheCentreWhatOneDirectionHears) {
+  Listener<float> b, a;
+  const WholeValveParameters<float> valve{&b.valve, &a.valve};
+  for (const bool opens_a : {false, true}) {
+    WholeValveState<float> observer{};
+    observer.opens_a = opens_a;
+    observer.open = b.observer;
+    observer.open.position.last_m = opens_a ? -b.observer.position.last_m : b.observer.position.last_m;
+    ListeningState<float> memory{}, alone{};
+    for (int k = 0; k < 400; ++k) {
+      const DitherRequest<float> request = listen(b.limits, memory, valve, observer, 1e-3F);
+      const DitherRequest<float> of_one = listen(b.limits, alone, b.valve, b.observer, 1e-3F);
+      EXPECT_TRUE(request.active);
+      EXPECT_EQ(request.amplitude_A, of_one.amplitude_A);
+    }
+    observer.open.position.last_m = opens_a ? -0.1e-3F : 0.1e-3F;  // back over the edge: closed on this side
+    EXPECT_FALSE(listen(b.limits, memory, valve, observer, 1e-3F).active);
+  }
+}
+
+TEST(WholeListening, IsClosedByTheEdgeOfTheSideOnWhichTheSpoolStands) {
+  Listener<float> b, a;
+  a.valve.closed_below_m = 1.5e-3F;
+  const WholeValveParameters<float> valve{&b.valve, &a.valve};
+  for (const bool opens_a : {false, true}) {
+    WholeValveState<float> observer{};
+    observer.open = b.observer;
+    observer.opens_a = opens_a;
+    observer.open.position.last_m = opens_a ? -1e-3F : 1e-3F;
+    ListeningState<float> memory{};
+    listen(b.limits, memory, valve, observer, 1e-3F);
+    EXPECT_EQ(listen(b.limits, memory, valve, observer, 1e-3F).active, !opens_a);
   }
 }
 

@@ -66,6 +66,42 @@ void print(const char* name, std::uint32_t number) {
   print(first);
 }
 
+HostFile::HostFile(const char* name, Mode mode) : handle_(0) {
+  std::uint32_t length = 0;
+  while (name[length] != '\0') ++length;
+  const struct {
+    const char* name;
+    Mode mode;
+    std::uint32_t length;
+  } request{name, mode, length};
+  handle_ = ask_host(0x01, &request);
+}
+
+bool HostFile::read(void* to, std::uint32_t bytes) const {
+  auto* next = static_cast<unsigned char*>(to);
+  while (bytes > 0) {
+    const struct {
+      std::uint32_t handle;
+      void* to;
+      std::uint32_t bytes;
+    } request{handle_, next, bytes};
+    const std::uint32_t missing = ask_host(0x06, &request);
+    if (missing >= bytes) return false;
+    next += bytes - missing;
+    bytes = missing;
+  }
+  return true;
+}
+
+bool HostFile::write(const void* from, std::uint32_t bytes) const {
+  const struct {
+    std::uint32_t handle;
+    const void* from;
+    std::uint32_t bytes;
+  } request{handle_, from, bytes};
+  return ask_host(0x05, &request) == 0;
+}
+
 void exit(std::uint32_t status) {
   const std::uint32_t block[2] = {0x20026U, status};
   ask_host(0x20, block);

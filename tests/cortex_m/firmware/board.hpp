@@ -8,6 +8,19 @@ namespace board {
 void print(const char* text);
 /// "NAME number\n".
 void print(const char* name, std::uint32_t number);
+/// A file or pipe of the host (semihosting), by its name in the folder in which the emulator runs.
+class HostFile {
+ public:
+  enum class Mode : std::uint32_t { read = 1, write = 5 };
+  HostFile(const char* name, Mode mode);
+  /// False where the file ends before.
+  bool read(void* to, std::uint32_t bytes) const;
+  bool write(const void* from, std::uint32_t bytes) const;
+
+ private:
+  std::uint32_t handle_;
+};
+
 /// Ends the run; 0: all was well.
 [[noreturn]] void exit(std::uint32_t status);
 
