@@ -21,6 +21,7 @@
 #include "spoolflow/live/door/secret_hash.hpp"
 #include "spoolflow/live/door/server.hpp"
 #include "spoolflow/live/engine.hpp"
+#include "spoolflow/live/fieldbus/fieldbus_outputs.hpp"
 #include "spoolflow/live/page/answer.hpp"
 #include "spoolflow/live/page/plotjuggler.hpp"
 #include "spoolflow/recording/files/open_table.hpp"
@@ -77,6 +78,7 @@ void live_command(const LiveArguments& arguments) {
   if (!arguments.store.empty()) site.store = arguments.store;
   if (!arguments.publish.empty()) site.fleet.servers = live::read_servers(arguments.publish, "--publish");
   check_publishing(site);
+  live::check_built_in(site);
   live::PageSettings page = site.page;
   live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
@@ -89,6 +91,8 @@ void live_command(const LiveArguments& arguments) {
                                   {arguments.site, [&](const std::string& text) { engine.note(text); }});
     std::optional<live::PlotJuggler> plotjuggler;
     if (engine.site().plotjuggler) plotjuggler.emplace(engine, *engine.site().plotjuggler);
+    const live::FieldbusOutputs fieldbus(engine);
+    for (const std::string& one : fieldbus.where()) say("{}\n", one);
     page.listen.port = server.port();
     tell_where(engine, page);
     std::optional<fleet::Publisher> publisher;

@@ -14,6 +14,7 @@
 
 #include "spoolflow/live/alarms.hpp"
 #include "spoolflow/live/events.hpp"
+#include "spoolflow/live/outputs.hpp"
 #include "spoolflow/live/site.hpp"
 #include "spoolflow/live/sources/csv_source.hpp"
 #include "spoolflow/live/sources/intake.hpp"
@@ -72,6 +73,9 @@ class Engine {
   /// Before the start: who tells of the program's own events beside the page, such as at standard error.
   void tell_by(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
   [[nodiscard]] const SiteSettings& site() const { return site_; }
+  /// How what goes out beside the page fares, and where it is counted.
+  [[nodiscard]] Outputs& outputs() { return outputs_; }
+  [[nodiscard]] const Outputs& outputs() const { return outputs_; }
 
  private:
   struct Worker;
@@ -108,6 +112,7 @@ class Engine {
   void keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes);
 
   SiteSettings site_;
+  Outputs outputs_;
   std::string program_;
   std::unique_ptr<Store> store_;
   std::vector<std::unique_ptr<Place>> valves_;

@@ -183,6 +183,9 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
     plotjuggler->allow_only({"send_to"});
     site.plotjuggler = read_address(plotjuggler->text("send_to"), plotjuggler->place("send_to"));
   }
+  if (const auto can = part("can")) site.can = read_can(*can);
+  if (const auto modbus = part("modbus")) site.modbus = read_modbus(*modbus);
+  if (const auto mqtt = part("mqtt")) site.mqtt = read_mqtt(*mqtt);
   if (const auto fleet = part("fleet")) site.fleet = read_publish(*fleet);
   if (const auto store = part("store")) {
     store->allow_only({"file", "keep_days", "largest_MB", "raw_before_s", "raw_after_s"});
@@ -224,6 +227,7 @@ void check(const SiteSettings& site, const std::filesystem::path& file) {
                       file.string(), valve.id));
     }
   }
+  if (site.can) check_valves(*site.can, ids, file);
 }
 
 }  // namespace
@@ -235,7 +239,7 @@ std::string_view kind(const SourceSettings& source) {
 SiteSettings read_site(const std::filesystem::path& file) {
   const toml::table document = recording::read_toml(file);
   const TomlTable top{document, file, "the file"};
-  top.allow_only({"page", "store", "sources", "alarms", "plotjuggler", "fleet", "valve"});
+  top.allow_only({"page", "store", "sources", "alarms", "plotjuggler", "can", "modbus", "mqtt", "fleet", "valve"});
   SiteSettings site;
   read_parts(top, site);
   const toml::array* const valves = document["valve"].as_array();

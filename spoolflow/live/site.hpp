@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spoolflow/live/alarms.hpp"
+#include "spoolflow/live/fieldbus_settings.hpp"
 #include "spoolflow/live/page_settings.hpp"
 #include "spoolflow/live/publish_settings.hpp"
 #include "spoolflow/live/sources/replay_source.hpp"
@@ -49,6 +50,9 @@ struct SiteSettings {
   double raw_before_s = 20, raw_after_s = 10;
   AlarmDelays alarms{};
   std::optional<Address> plotjuggler{};  ///< where plots go as JSON over UDP; nothing: nowhere
+  std::optional<CanSettings> can{};      ///< what goes to fieldbus and plant; nothing: off
+  std::optional<ModbusSettings> modbus{};
+  std::optional<MqttSettings> mqtt{};
 };
 
 /// Reads the file, the models and valve files that it names. Throws RecordingError, SiteError, ModelError or

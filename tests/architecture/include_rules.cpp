@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> freestanding_headers{"array",  "bit",     "cmath", "concepts",    "cstddef", "cstdint",
                                                  "limits", "numbers", "span",  "type_traits", "utility"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 28> library_prefixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 31> library_prefixes{{
     {"experimental/", "std"},  // std::experimental::simd
     {"fmt/", "fmt"},
     {"nlohmann/", "nlohmann-json"},
@@ -37,6 +37,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> library_
     {"zstd.h", "zstd"},
     {"libpq-fe.h", "libpq"},
     {"nats/nats.h", "NATS"},
+    {"modbus/modbus.h", "libmodbus"},
+    {"MQTTClient.h", "Paho"},
+    {"net/if.h", "POSIX"},
     {"pybind11/", "pybind11"},
     {"arpa/", "POSIX"},
     {"netinet/", "POSIX"},

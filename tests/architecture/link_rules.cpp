@@ -28,6 +28,8 @@ const std::map<std::string, std::string> library_of_target{
     {"PkgConfig::ZSTD", "zstd"},
     {"PkgConfig::LIBPQ", "libpq"},
     {"PkgConfig::NATS", "NATS"},
+    {"PkgConfig::modbus", "libmodbus"},
+    {"Paho::MQTT", "Paho"},
     {"pybind11::headers", "pybind11"},
     {"Python3::Module", "pybind11"},
 };

@@ -85,6 +85,16 @@ Json valve_of(const Engine& engine, std::size_t k) {
           {"source", source_of(source)}};
 }
 
+/// Of what goes out beside the page; each name once.
+Json outputs_of(const Engine& engine) {
+  Json out = Json::object();
+  for (const OutputView& one : engine.outputs().views()) {
+    out[one.name] = {{"sent", one.sent},       {"received", one.received},   {"dropped", one.dropped},
+                     {"waiting", one.waiting}, {"connected", one.connected}, {"trouble", one.trouble}};
+  }
+  return out;
+}
+
 /// The text as a label's value may hold it; ids hold nothing else.
 std::string label(const std::string& id) {
   return fmt::format("{{valve=\"{}\"}}", id);
@@ -156,6 +166,7 @@ std::string site_json(const Engine& engine) {
            {"store_trouble", store.trouble},
            {"store_mended",
             store.mended.empty() ? Json(nullptr) : Json{{"time", utc(store.mended_ms)}, {"text", store.mended}}},
+           {"outputs", outputs_of(engine)},
            {"udp",
             {{"port", engine.udp_port()},
              {"datagrams", udp.datagrams},
@@ -189,6 +200,28 @@ std::string store_metrics(const Engine& engine) {
       "damaged while the program ran.\n# TYPE spoolflow_store_mended_total counter\nspoolflow_store_mended_total "
       "{}\n",
       store.trouble.empty() ? 0 : 1, store.mendings);
+}
+
+/// Nothing where all are off.
+std::string output_metrics(const Engine& engine) {
+  const std::vector<OutputView> outputs = engine.outputs().views();
+  std::string out;
+  const auto family = [&](const char* name, const char* type, const char* help, auto&& value) {
+    out += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
+    for (const OutputView& one : outputs) out += fmt::format("{}{{output=\"{}\"}} {}\n", name, one.name, value(one));
+  };
+  if (outputs.empty()) return out;
+  family("spoolflow_output_sent_total", "counter", "Frames, answers or messages that went out.",
+         [](const OutputView& one) { return one.sent; });
+  family("spoolflow_output_received_total", "counter", "Frames, requests or commands that came in.",
+         [](const OutputView& one) { return one.received; });
+  family("spoolflow_output_dropped_total", "counter", "What found no room or was given up.",
+         [](const OutputView& one) { return one.dropped; });
+  family("spoolflow_output_waiting", "gauge", "Records that are kept until they can be sent.",
+         [](const OutputView& one) { return one.waiting; });
+  family("spoolflow_output_failing", "gauge", "1 where nothing goes out at present.",
+         [](const OutputView& one) { return one.trouble.empty() ? 0 : 1; });
+  return out;
 }
 
 }  // namespace
@@ -236,6 +269,7 @@ std::string metrics_text(const Engine& engine) {
   family("spoolflow_unreadable_total", "counter", "Lines that are no samples.",
          [](const Row& row) { return row.source.counters.unreadable; });
   out += store_metrics(engine);
+  out += output_metrics(engine);
   const UdpCounters udp = engine.udp_counters();
   const auto single = [&](const char* name, const char* help, std::uint64_t value) {
     out += fmt::format("# HELP {0} {1}\n# TYPE {0} counter\n{0} {2}\n", name, help, value);
