@@ -23,7 +23,7 @@
 #include "spoolflow/live/engine.hpp"
 #include "spoolflow/live/page/answer.hpp"
 #include "spoolflow/live/page/plotjuggler.hpp"
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 
 namespace spoolflow::apps {
 namespace {
