@@ -24,7 +24,7 @@
 #include "spoolflow/live/fieldbus/fieldbus_outputs.hpp"
 #include "spoolflow/live/page/answer.hpp"
 #include "spoolflow/live/page/plotjuggler.hpp"
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 
 namespace spoolflow::apps {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "spoolflow/python/bindings.hpp"
 #include "spoolflow/python/signal_check.hpp"
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/rig/bench/scenario.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"

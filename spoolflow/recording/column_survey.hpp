@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 
 namespace spoolflow::recording {
 

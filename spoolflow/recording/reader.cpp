@@ -9,7 +9,7 @@
 #include "spoolflow/recording/channel_binding.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/plausibility.hpp"
 #include "spoolflow/recording/resampled_table.hpp"
 
@@ -33,7 +33,9 @@ class ChannelReader final : public Reader {
     OneClock clocked = on_one_clock(
         std::move(table), bound_, [this] { return open_sample_table(file_).table; }, file_);
     table_ = std::move(clocked.table);
-    notes_.resampled = std::move(clocked.resampled);
+    notes_.resampled = table_->lost();
+    if (!notes_.resampled.empty() && !clocked.resampled.empty()) notes_.resampled += "; ";
+    notes_.resampled += clocked.resampled;
     std::vector<std::size_t> chosen;
     for (const BoundColumn& column : bound_) {
       const auto same = std::find(chosen.begin(), chosen.end(), column.column);

@@ -32,10 +32,11 @@ struct ReadNotes {
   std::uint64_t missing_times = 0;    ///< these and what follows only of a source that runs on
   std::uint64_t backward_times = 0;   ///< before the time stamp before
   std::uint64_t left_out = 0;         ///< lines that could not be read
-  std::string resampled{};            ///< which columns had a time of their own, from which rate to which, and how
+  std::string resampled{};            ///< which columns had a time of their own, from which rate to which, and how;
+                                      ///< before it what of the file is missing (SampleTable::lost)
 };
 
-/// Streams a recording; memory does not grow with its length (CSV; MAT and HDF5 are read in slabs).
+/// Streams a recording; memory does not grow with its length (CSV; others are read in slabs).
 class Reader {
  public:
   virtual ~Reader() = default;
@@ -49,7 +50,7 @@ class Reader {
   [[nodiscard]] virtual std::optional<double> progress() const = 0;
 };
 
-/// `file` "-" is standard input (CSV). The format is told by content: HDF5 and MAT v7.3, MAT v5, else CSV. Columns with
+/// `file` "-" is standard input (CSV). The format is told by content (file_format.hpp). Columns with
 /// times of their own are brought onto those of the current (resampled_table.hpp).
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
 
@@ -58,7 +59,7 @@ class Reader {
 
 /// What a file is and what its columns are called, whether they are channels or not.
 struct FileContents {
-  std::string format;  ///< "CSV", "MATLAB", "HDF5"
+  std::string format;  ///< "CSV", "MATLAB", "HDF5", "TDMS"
   std::vector<std::string> columns;
   std::vector<std::string> units;  ///< as a units row or an attribute says; empty where nothing does
 };

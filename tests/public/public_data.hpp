@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 
 namespace spoolflow::public_data {
 

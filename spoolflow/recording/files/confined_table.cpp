@@ -134,6 +134,7 @@ std::size_t rows_of_block(std::size_t columns) {
 std::string listing_of(const VectorTable& table) {
   MessageText out;
   out.text(table.unread());
+  out.text(table.lost());
   out.number(table.columns().size());
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
     const FileColumn& column = table.columns()[k];
@@ -153,6 +154,7 @@ void send_blocks(VectorTable& table, double* numbers, Connection& parent) {
   ReceivedText chosen(content);
   std::vector<std::size_t> columns(static_cast<std::size_t>(chosen.number()));
   for (std::size_t& column : columns) column = static_cast<std::size_t>(chosen.number());
+  table.select(columns);
   const std::size_t rows = rows_of_block(columns.size());
   const std::uint64_t length = columns.empty() ? 0 : table.length(columns.front());
   std::uint64_t first = 0;
@@ -206,6 +208,7 @@ class ConfinedTable final : public VectorTable {
       : VectorTable(path.string()), process_(order_of(path, file_bytes, open, shared_)) {
     ReceivedText content(expect(Message::listing));
     unread_ = content.text();
+    lost_ = content.text();
     const std::uint64_t columns = content.number();
     for (std::uint64_t k = 0; k < columns; ++k) {
       FileColumn column;
@@ -217,6 +220,7 @@ class ConfinedTable final : public VectorTable {
   }
 
   [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::string lost() const override { return lost_; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const double* const values = block(shared_.numbers(), index_) + slot_of_.at(column) * rows_ + (first - first_);
@@ -272,6 +276,7 @@ class ConfinedTable final : public VectorTable {
   ReadingProcess process_;
   std::string content_;
   std::string unread_;
+  std::string lost_;
   std::vector<std::size_t> slot_of_;
   std::size_t rows_ = 0;     ///< of a block
   std::uint64_t first_ = 0;  ///< sample with which the block at hand begins

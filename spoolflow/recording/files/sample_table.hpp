@@ -30,6 +30,8 @@ class SampleTable {
   [[nodiscard]] virtual std::optional<std::uint64_t> samples_of(std::size_t) const { return std::nullopt; }
   /// What the file holds but is not read, with its remedy, for messages about missing channels; empty: nothing.
   [[nodiscard]] virtual std::string unread() const { return {}; }
+  /// What of the file is missing at its end, where it is read as far as it goes: "lacks ..."; empty: nothing.
+  [[nodiscard]] virtual std::string lost() const { return {}; }
   /// Chooses the columns that read() fills, by index, each at most once. Once, before the first read().
   virtual void select(const std::vector<std::size_t>& columns) = 0;
   /// Fills `out[k]` (room for `rows` numbers) from the k-th chosen column; returns the number of rows, 0 at the end.

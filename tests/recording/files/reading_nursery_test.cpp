@@ -21,7 +21,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
 #include "tests/recording/temporary_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/files/open_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,24 @@
 #include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
 #include "spoolflow/recording/files/mat_table.hpp"
+#include "spoolflow/recording/tdms/tdms_table.hpp"
 
 namespace spoolflow::recording {
+namespace {
+
+/// Of formats that a process of few rights reads.
+OpenVectors opener(FileFormat format) {
+  switch (format) {
+    case FileFormat::mat:
+      return open_mat_table;
+    case FileFormat::tdms:
+      return open_tdms_table;
+    default:
+      return open_hdf5_table;
+  }
+}
+
+}  // namespace
 
 bool takes_a_process(const std::filesystem::path& file) {
   std::error_code failure;
@@ -53,8 +69,7 @@ OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text te
                     "and name it",
                     input->name(), name(format)));
   }
-  return {format,
-          open_confined(input->name(), *input->size(), format == FileFormat::mat ? open_mat_table : open_hdf5_table)};
+  return {format, open_confined(input->name(), *input->size(), opener(format))};
 }
 
 }  // namespace spoolflow::recording

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "spoolflow/recording/file_format.hpp"
 #include "spoolflow/recording/files/csv_table.hpp"
-#include "spoolflow/recording/files/file_format.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
@@ -25,11 +25,11 @@ struct OpenTable {
 [[nodiscard]] OpenTable open_sample_table(std::unique_ptr<InputBytes> input,
                                           CsvTable::Text text = CsvTable::Text::refused);
 
-/// Whether the file is read by a process of its own (HDF5, MATLAB). False of what cannot be read: opening it tells why.
+/// Whether the file is read by a process of its own (all but CSV). False of what cannot be read: opening it tells why.
 [[nodiscard]] bool takes_a_process(const std::filesystem::path& file);
 
 /// For whoever opens these files while this process has several threads: to be held from before the second thread until
-/// the last is gone. Null where none of the files is read by a process of its own (HDF5, MATLAB).
+/// the last is gone. Null where none of the files is read by a process of its own (all but CSV).
 [[nodiscard]] std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files);
 
 }  // namespace spoolflow::recording
