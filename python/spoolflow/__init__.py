@@ -18,12 +18,12 @@ from ._native import Error, __version__
 from .estimates import Answer, Estimate, Status
 from .figures import Figures
 from .models import Model, Sensor, load_model
-from .recordings import Recording, read_recording
+from .recordings import Recording, inspect, read_recording
 from .work import (Analysis, Condition, Simulation, Validation, analyse, calibrate, estimate_many, monitor, simulate,
                    validate)
 
 __all__ = [
     "Analysis", "Answer", "Condition", "Error", "Estimate", "Figures", "Model", "Recording", "Sensor", "Simulation",
-    "Status", "Validation", "__version__", "analyse", "calibrate", "estimate_many", "load_model", "monitor",
+    "Status", "Validation", "__version__", "analyse", "calibrate", "estimate_many", "inspect", "load_model", "monitor",
     "read_recording", "simulate", "validate",
 ]

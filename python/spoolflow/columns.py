@@ -4,6 +4,7 @@ from __future__ import annotations
 from typing import Any, Dict, Mapping, Optional
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
 
@@ -21,16 +22,16 @@ STEP_NAMES = (
 )
 
 
-def array_of(name: str, values: Any) -> np.ndarray:
+def array_of(name: str, values: Any) -> NDArray[Any]:
     """`values` as one contiguous row of float64: the very array where it is one, else a copy."""
     try:
         if isinstance(values, np.ma.MaskedArray):
-            values = np.ma.asarray(values, dtype=np.float64).filled(np.nan)
+            values = np.ma.asarray(values, dtype=np.float64).filled(np.nan)  # type: ignore[no-untyped-call]
         array = np.asarray(values)
         if array.dtype.kind not in "fiub":
-            array = array.astype(np.float64) if array.dtype.kind == "O" else None
-        if array is None:
-            raise TypeError
+            if array.dtype.kind != "O":
+                raise TypeError
+            array = array.astype(np.float64)
         array = np.ascontiguousarray(array, dtype=np.float64)
     except (TypeError, ValueError):
         raise _native.Error(f"{name}: holds what is no number; give an array of numbers, NaN where one is missing") from None
@@ -69,7 +70,7 @@ def of_one_coil_or_both(given: Mapping[str, Any], direction: str) -> Dict[str, A
     return out
 
 
-def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str) -> Dict[str, np.ndarray]:
+def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str) -> Dict[str, NDArray[Any]]:
     """The arrays of a run, or of keyword arguments, by the compiled part's names."""
     if run is not None:
         also = sorted(name for name, value in given.items() if value is not None)

@@ -2,12 +2,15 @@
 from __future__ import annotations
 
 import enum
+import os
 from typing import TYPE_CHECKING, Any, List, Optional
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
 from .extras import matplotlib_axes, pandas
+from .files import PathLike, make_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -15,7 +18,7 @@ if TYPE_CHECKING:
 
 #: What the sensor says about an answer, limits apart from faults (docs/troubleshooting.md tells each). Bits of a word:
 #: `Status.closed | Status.spool_at_rest`; `Status(word)` names them.
-Status = enum.IntFlag("Status", _native.status_bits, module=__name__)
+Status = enum.IntFlag("Status", _native.status_bits, module=__name__)  # type: ignore[misc]
 
 #: Of a status word: an input or the model cannot be trusted.
 FAULT_BITS = 0xFFFF0000
@@ -69,46 +72,47 @@ class Estimate:
     spring and flow force close (> 0), friction has the sign of the velocity.
     """
 
-    time_s: np.ndarray  #: as given [s]
-    flow_m3_per_s: np.ndarray  #: flow rate; of a whole valve > 0 for P to B
-    flow_lower_m3_per_s: np.ndarray  #: 95 % band
-    flow_upper_m3_per_s: np.ndarray
-    pressure_difference_Pa: np.ndarray  #: over the metering edge
-    magnetic_force_N: np.ndarray
-    spring_force_N: np.ndarray
-    flow_force_N: np.ndarray
-    friction_force_N: np.ndarray
-    status: np.ndarray  #: uint32, bits of `Status`
+    time_s: NDArray[Any]  #: as given [s]
+    flow_m3_per_s: NDArray[Any]  #: flow rate; of a whole valve > 0 for P to B
+    flow_lower_m3_per_s: NDArray[Any]  #: 95 % band
+    flow_upper_m3_per_s: NDArray[Any]
+    pressure_difference_Pa: NDArray[Any]  #: over the metering edge
+    magnetic_force_N: NDArray[Any]
+    spring_force_N: NDArray[Any]
+    flow_force_N: NDArray[Any]
+    friction_force_N: NDArray[Any]
+    status: NDArray[Any]  #: uint32, bits of `Status`
 
-    def __init__(self, time_s: np.ndarray, columns: "dict[str, np.ndarray]") -> None:
+    def __init__(self, time_s: NDArray[Any], columns: "dict[str, NDArray[Any]]") -> None:
         self.time_s = time_s
         for name, column in columns.items():
             setattr(self, name, column)
 
     @property
-    def flow_L_min(self) -> np.ndarray:
+    def flow_L_min(self) -> NDArray[Any]:
         """Flow rate [L/min]."""
         return self.flow_m3_per_s * _native.L_min_per_m3_per_s
 
     @property
-    def flow_lower_L_min(self) -> np.ndarray:
+    def flow_lower_L_min(self) -> NDArray[Any]:
         """Lower end of the 95 % band [L/min]."""
         return self.flow_lower_m3_per_s * _native.L_min_per_m3_per_s
 
     @property
-    def flow_upper_L_min(self) -> np.ndarray:
+    def flow_upper_L_min(self) -> NDArray[Any]:
         """Upper end of the 95 % band [L/min]."""
         return self.flow_upper_m3_per_s * _native.L_min_per_m3_per_s
 
     @property
-    def pressure_difference_bar(self) -> np.ndarray:
+    def pressure_difference_bar(self) -> NDArray[Any]:
         """Over the metering edge [bar]."""
         return self.pressure_difference_Pa / _native.Pa_per_bar
 
     @property
-    def faulty(self) -> np.ndarray:
+    def faulty(self) -> NDArray[Any]:
         """Of each sample whether an input or the model cannot be trusted (any fault in `status`)."""
-        return (self.status & FAULT_BITS) != 0
+        faulty: NDArray[Any] = (self.status & FAULT_BITS) != 0
+        return faulty
 
     @property
     def status_texts(self) -> List[str]:
@@ -135,6 +139,16 @@ class Estimate:
             "status": self.status_texts,
         })
 
+    def write(self, path: PathLike) -> None:
+        """Writes what `spoolflow estimate` writes, as CSV, Parquet, MCAP, HDF5 or MATLAB by the suffix: .csv, .parquet, .mcap,
+        .h5 or .mat (docs/formats/estimate.md). The file appears when it is complete, in place of what was there.
+        """
+        columns = [self.time_s, self.flow_m3_per_s, self.flow_lower_m3_per_s, self.flow_upper_m3_per_s,
+                   self.pressure_difference_Pa, self.magnetic_force_N, self.flow_force_N, self.friction_force_N]
+        notes = [("written_by", f"spoolflow {_native.__version__}")]
+        make_whole(path, lambda file, beside: _native.write_estimate(os.fspath(path), file, beside, columns, self.status,
+                                                                     notes))
+
     def plot(self, axes: "Optional[Axes]" = None, *, reference_m3_per_s: Optional[Any] = None) -> "Axes":
         """Flow rate with its band over time [L/min over s], a reference flow beside it where given. Needs Matplotlib.
 
@@ -159,7 +173,8 @@ class Estimate:
         if len(self) == 0:
             return "<Estimate of no samples>"
         low, mean, high = (
-            f(self.flow_m3_per_s) * _native.L_min_per_m3_per_s for f in (np.min, np.mean, np.max))
+            value * _native.L_min_per_m3_per_s
+            for value in (self.flow_m3_per_s.min(), self.flow_m3_per_s.mean(), self.flow_m3_per_s.max()))
         width = np.mean(self.flow_upper_m3_per_s - self.flow_lower_m3_per_s) * _native.L_min_per_m3_per_s
         return (f"<Estimate of {len(self)} samples, {self.time_s[0]:g} to {self.time_s[-1]:g} s: "
                 f"{low:.4g} to {high:.4g} L/min, mean {mean:.4g}; band {width:.3g} L/min wide on average; "

@@ -2,15 +2,15 @@
 from __future__ import annotations
 
 from types import ModuleType
-from typing import Any
+from typing import Any, cast
 
 
 def pandas() -> ModuleType:
     try:
-        import pandas as module
+        import pandas
     except ImportError:
         raise ImportError("to_pandas() needs pandas; install it (Debian: python3-pandas), or use the arrays") from None
-    return module
+    return cast(ModuleType, pandas)
 
 
 def matplotlib_axes(axes: Any) -> Any:

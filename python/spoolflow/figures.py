@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Dict, Iterator, Mapping
+from typing import Any, Dict, Iterator, List, Mapping
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Figures(Mapping[str, Any]):
     def __len__(self) -> int:
         return len(self._members)
 
-    def __dir__(self):
+    def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._members]
 
     def to_dict(self) -> Dict[str, Any]:

@@ -104,7 +104,8 @@ class Model:
     @property
     def provenance(self) -> Dict[str, Any]:
         """Tool version, time, inputs with their checksums, as in the model file."""
-        return json.loads(self._kept.text)["provenance"]
+        provenance: Dict[str, Any] = json.loads(self._kept.text)["provenance"]
+        return provenance
 
     def save(self, path: PathLike) -> None:
         """Writes the model file (JSON, docs/formats/model.md); all commands read it."""

@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Dict, Iterator, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native, apart
+from .channels import Channels, as_file
 from .extras import matplotlib_axes, pandas
 from .files import PathLike
 
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class Recording(Mapping[str, np.ndarray]):
+class Recording(Mapping[str, NDArray[Any]]):
     """A whole recording: `recording["current_A"]` or `recording.current_A`, an array a channel, NaN where a sample is
     missing. Names are those of docs/formats/channels.md with the SI unit: `time_s`, `current_A`, `voltage_V`,
     `position_m`, `oil_temperature_K`, `flow_reference_m3_per_s`, `pressure_difference_Pa`, ...; shares (`position_set`, 0
@@ -24,7 +26,7 @@ class Recording(Mapping[str, np.ndarray]):
 
     def __init__(self, read: "_native.Recording", file: str) -> None:
         self._read = read
-        self._columns: Dict[str, np.ndarray] = read.columns()
+        self._columns: Dict[str, NDArray[Any]] = read.columns()
         #: where it was read
         self.file = file
         notes = read.notes()
@@ -35,7 +37,7 @@ class Recording(Mapping[str, np.ndarray]):
         #: which columns had a time of their own, from which rate to which, and how; empty where none
         self.resampled: str = notes["resampled"]
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         return self._columns[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -45,13 +47,13 @@ class Recording(Mapping[str, np.ndarray]):
         """Number of channels; `samples` is that of samples."""
         return len(self._columns)
 
-    def __getattr__(self, name: str) -> np.ndarray:
-        columns = self.__dict__.get("_columns", {})
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        columns: Dict[str, NDArray[Any]] = self.__dict__.get("_columns", {})
         if name in columns:
             return columns[name]
         raise AttributeError(f"{name}: no such channel; the recording has {', '.join(columns)}")
 
-    def __dir__(self):
+    def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._columns]
 
     @property
@@ -76,16 +78,36 @@ class Recording(Mapping[str, np.ndarray]):
         return f"<Recording {self.file}: {len(time)} samples{span}: {', '.join(self)}>"
 
 
-def read_recording(path: PathLike, channels: Optional[PathLike] = None, *,
+def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
                    stroke_m: Optional[float] = None) -> Recording:
     """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, told apart by content.
 
     path: the file. Columns named `<channel>_<unit>`, such as `current_A` or `position_mm`, need nothing more.
-    channels: a channel map (TOML, docs/formats/channels.md) of a file with other column names or units.
+    channels: a channel map of a file with other column names or units: a file (TOML, docs/formats/channels.md), or a
+        dict such as `{"current_A": "I_coil [mA]", "position": {"column": "LVDT", "unit": "V", "scale": 0.24, "to": "mm"}}`.
     stroke_m: the valve's stroke [m], > 0, where positions are given in percent.
 
     Raises Error with file, line and column: text among numbers, times that run back, values implausible for their unit.
     """
     file = os.fspath(path)
-    read = apart.call("read_recording", [file], file, None if channels is None else os.fspath(channels), stroke_m)
+    with as_file(channels) as map_file:
+        read = apart.call("read_recording", [file], file, map_file, stroke_m)
     return Recording(read, file)
+
+
+def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Optional[float] = None) -> Dict[str, Any]:
+    """What a recording holds, before anything is made of it; under the names of `spoolflow inspect --json`, in SI units.
+
+    path, channels, stroke_m: as of `read_recording`.
+
+    `format`, `columns`, `samples`, `begin_s`, `end_s`, `rate_Hz`, `time_step_jitter` (share of the step), `duplicate_times`,
+    `gap_count`, `gaps_s`; `channels`: lowest, highest and mean [SI], missing samples, the share that stands at an end; of
+    `raw_columns` the range in the file's unit and what each is taken for; `times`, where columns have several; what is
+    `missing` and `helpful`; `proposed_map`, a dict for `channels` once its units are filled in, and `proposed_text`, as TOML.
+
+    Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
+    """
+    file = os.fspath(path)
+    with as_file(channels) as map_file:
+        seen: Dict[str, Any] = apart.call("inspect", [file], file, map_file, stroke_m)
+    return seen

@@ -6,8 +6,10 @@ import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native, apart
+from .channels import Channels, as_file
 from .columns import sample_columns
 from .estimates import Estimate
 from .extras import matplotlib_axes, pandas
@@ -70,7 +72,7 @@ def calibrate(campaign: PathLike, *, allow_outside: bool = False, despite_doubts
                                    telling=progress)
     for note in [*notes, *(f"doubt: {doubt}" for doubt in kept.doubts)]:
         warnings.warn(note, stacklevel=2)
-    if report is not None:
+    if report is not None and page is not None:
         write_whole(report, page)
     return Model(kept)
 
@@ -113,14 +115,14 @@ class Validation(JudgedFigures):
         return f"<Validation: {self.verdict}>"
 
 
-def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, channels: Optional[PathLike] = None,
+def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, channels: Optional[Channels] = None,
              estimator: str = "both", requirements: Optional[PathLike] = None, reference_lag_s: Optional[float] = None,
              apply_reference_lag: bool = True, report: Optional[PathLike] = None, units: Sequence[str] = (),
              progress: Optional[Progress] = None) -> Validation:
     """Compares the estimate with a reference flow meter: the figures of `spoolflow validate`.
 
     model: a model or its file. recordings: one file or several, which also hold `flow_reference`.
-    channels: a channel map (TOML) of files with other column names or units.
+    channels: a channel map of files with other column names or units, as of `read_recording`.
     estimator: "both", "condensed" or "observer".
     requirements: limits (TOML, docs/formats/requirements.md) against which the figures are judged.
     reference_lag_s: lag of the reference meter [s], 0 to 10; None: lag and dead time are found in each run.
@@ -130,10 +132,11 @@ def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *
     if reference_lag_s is not None and not 0 <= reference_lag_s <= 10:
         raise _native.Error(f"reference_lag_s: Value {reference_lag_s} not in range 0 to 10")
     files = _paths(recordings)
-    figures, page = apart.call(
-        "validate", files, _model(model)._kept, files, _path(channels), estimator, _path(requirements), reference_lag_s,
-        apply_reference_lag, _units(report, units), telling=progress)
-    if report is not None:
+    with as_file(channels) as map_file:
+        figures, page = apart.call(
+            "validate", files, _model(model)._kept, files, map_file, estimator, _path(requirements), reference_lag_s,
+            apply_reference_lag, _units(report, units), telling=progress)
+    if report is not None and page is not None:
         write_whole(report, page)
     return Validation(figures)
 
@@ -167,7 +170,7 @@ class Condition(JudgedFigures):
 
 
 def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, baseline: Optional[PathLike] = None,
-            channels: Optional[PathLike] = None, false_alarms_per_year: float = 1.0, report: Optional[PathLike] = None,
+            channels: Optional[Channels] = None, false_alarms_per_year: float = 1.0, report: Optional[PathLike] = None,
             units: Sequence[str] = (), progress: Optional[Progress] = None) -> Condition:
     """Judges the condition of a valve from recordings of its operation: the figures of `spoolflow monitor`.
 
@@ -179,9 +182,10 @@ def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *,
     if not 1e-6 <= false_alarms_per_year <= 1e4:
         raise _native.Error(f"false_alarms_per_year: Value {false_alarms_per_year} not in range 1e-06 to 10000")
     files = _paths(recordings)
-    figures, page = apart.call("monitor", files, _model(model)._kept, files, _path(channels), _path(baseline) or "",
-                               false_alarms_per_year, _units(report, units), telling=progress)
-    if report is not None:
+    with as_file(channels) as map_file:
+        figures, page = apart.call("monitor", files, _model(model)._kept, files, map_file, _path(baseline) or "",
+                                   false_alarms_per_year, _units(report, units), telling=progress)
+    if report is not None and page is not None:
         write_whole(report, page)
     return Condition(figures)
 
@@ -224,7 +228,7 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, samples: Op
         raise _native.Error(f"direction: {direction} not in {{a,b}}")
     figures, page = _native.analyse(kept, _path(scenario), samples, seed, study, workers, direction,
                                     _units(report, units), progress)
-    if report is not None:
+    if report is not None and page is not None:
         write_whole(report, page)
     return Analysis(figures)
 
@@ -234,7 +238,7 @@ class Simulation(Recording):
 
     #: What really happened, free of any instrument, by the headers of the truth's file (`flow_L_min`, ...); None where not
     #: asked for.
-    truth: Optional[Dict[str, np.ndarray]]
+    truth: Optional[Dict[str, NDArray[Any]]]
 
 
 def simulate(scenario: PathLike, *, truth: bool = False, progress: Optional[Progress] = None) -> Simulation:

@@ -45,6 +45,7 @@ struct EstimateArguments {
   bool strict = false;     ///< faults and doubts fail
   std::string fleet = {};  ///< whose workers do the work; empty: this machine
   bool quiet = false;
+  std::string format = {};  ///< of the estimates, "parquet"; empty: by the output's suffix, of several CSV
 };
 void estimate(const EstimateArguments& arguments);
 

@@ -20,14 +20,13 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/estimate_table.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/parallel/for_each.hpp"
-#include "spoolflow/recording/files/csv_writer.hpp"
 #include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/written_tables/table_writers.hpp"
 #include "spoolflow/report/json/estimate_json.hpp"
-#include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/estimate_summary.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -48,23 +47,6 @@ struct EstimatedBlock {
   recording::ReadNotes notes;
   std::optional<double> share;
 };
-
-void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, estimation::StatusText& status_text) {
-  using units::litre_per_minute_per_m3_per_s;
-  for (std::size_t k = 0; k < block.estimates.size(); ++k) {
-    const sensor::Estimate<double>& estimate = block.estimates[k];
-    out.number(block.time_s[k], 6);
-    out.number(estimate.flow_m3_per_s * litre_per_minute_per_m3_per_s, 6);
-    out.number(estimate.flow_lower_m3_per_s * litre_per_minute_per_m3_per_s, 6);
-    out.number(estimate.flow_upper_m3_per_s * litre_per_minute_per_m3_per_s, 6);
-    out.number(estimate.pressure_difference_Pa / units::pascal_per_bar, 4);
-    out.number(estimate.magnetic_force_N, 3);
-    out.number(estimate.flow_force_N, 3);
-    out.number(estimate.friction_force_N, 3);
-    out.text(status_text(estimate.status));
-    out.end_row();
-  }
-}
 
 void tell(const recording::ReadNotes& notes, const std::string& file) {
   if (notes.duplicate_times > 0) {
@@ -90,11 +72,18 @@ struct Task {
   recording::ChannelMap channels;
   std::vector<consistency::KnownValve> known;  ///< what its recordings should be of
   std::vector<std::filesystem::path> inputs;
+  std::optional<recording::TableFormat> format;  ///< of the estimates; nothing: as their names say
   bool quiet;
 };
 
 Task task_of(const EstimateArguments& arguments) {
-  Task task{model::read_model(arguments.model), {}, {}, {}, {arguments.model}, arguments.quiet};
+  Task task{model::read_model(arguments.model),
+            {},
+            {},
+            {},
+            {arguments.model},
+            recording::table_format(arguments.format),
+            arguments.quiet};
   task.known = consistency::known_valve(task.model);
   task.estimator = estimation::best_estimator(task.model);
   if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;
@@ -107,6 +96,10 @@ Task task_of(const EstimateArguments& arguments) {
   return task;
 }
 
+recording::TableFormat format_for(const Task& task, const std::filesystem::path& target) {
+  return task.format ? *task.format : recording::table_format_of(target);
+}
+
 /// `beside`: whether reading, estimating and writing may have a thread each.
 validation::EstimateSummary estimate_one(const Task& task, const std::string& recording,
                                          const std::filesystem::path& target, bool beside) {
@@ -115,14 +108,14 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
   channels.runs_on = runs_on;
   const auto reader = validation::open_sensor_channels(recording, channels);
   estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
+  const recording::TableFormat format = format_for(task, target);
+  recording::TableHead head = estimate_table(task.model, task.estimator, fmt::format("spoolflow {}", tool_version()));
   OutputFile output(target, task.inputs);
   validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
   consistency::RunMeans means;
   {
     Progress progress("estimating", task.quiet);
-    recording::CsvWriter writer(output.stream());
-    writer.header({"time_s", "flow_L_min", "flow_lower_L_min", "flow_upper_L_min", "pressure_difference_bar",
-                   "magnetic_force_N", "flow_force_N", "friction_force_N", "status"});
+    const auto writer = recording::table_writer(format, std::move(head), output);
     Ahead<ReadBlock> reading(
         [&](ReadBlock& block) {
           const bool more = reader->next(block.samples);
@@ -144,18 +137,16 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
           return true;
         },
         beside);
-    estimation::StatusText status_text;
+    recording::TableRows rows;
     while (const EstimatedBlock* block = estimating.next()) {
-      write_rows(writer, *block, status_text);
+      put_estimates(rows, block->time_s, block->estimates);
+      writer->write(rows);
       summary.add(block->estimates);
-      if (runs_on) {  // whoever reads waits for these rows
-        writer.flush();
-        output.stream().flush();
-      }
+      if (runs_on) writer->hand_over();  // whoever reads waits for these rows
       summary.notes = block->notes;
       progress.update(block->share, block->notes.rows);
     }
-    writer.flush();
+    writer->finish();
   }
   output.commit();
   for (consistency::Doubt& doubt : consistency::doubts_about(task.known, means, recording))
@@ -163,16 +154,19 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
   return summary;
 }
 
-/// FOLDER/NAME.csv for each recording NAME.*. Throws OutputError where two would be the same.
+/// FOLDER/NAME.csv for each recording NAME.*, or with the format's suffix. Throws OutputError where two would be the
+/// same.
 std::vector<std::filesystem::path> targets_in(const std::filesystem::path& folder,
-                                              const std::vector<std::string>& recordings) {
+                                              const std::vector<std::string>& recordings,
+                                              std::optional<recording::TableFormat> format) {
+  const std::string extension = fmt::format(".{}", suffix(format.value_or(recording::TableFormat::csv)));
   std::map<std::filesystem::path, std::string> made_from;
   std::vector<std::filesystem::path> targets;
   for (const std::string& recording : recordings) {
     if (recording == "-" || folder == "-") {
       throw OutputError("several recordings are read from files and their estimates written to a folder, not to -");
     }
-    targets.push_back(folder / std::filesystem::path(recording).stem().concat(".csv"));
+    targets.push_back(folder / std::filesystem::path(recording).stem().concat(extension));
     const auto [other, is_new] = made_from.emplace(targets.back(), recording);
     if (!is_new) {
       throw OutputError(fmt::format("the estimates of {} and {} would both be {}; estimate them into different folders",
@@ -222,7 +216,8 @@ std::vector<validation::EstimateSummary> estimate_by_fleet(const Task& task, con
     attempt(k, [&] {
       (void)validation::open_sensor_channels(arguments.recordings[k],
                                              validation::sensor_channels(task.model, task.channels));
-      SentPiece piece{{.kind = "estimate", .arguments = arguments.estimator}};
+      const auto as = suffix(format_for(task, targets[k]));
+      SentPiece piece{{.kind = "estimate", .arguments = fmt::format("{} {}", as, arguments.estimator)}};
       fleet.add(piece, arguments.model);
       fleet.add(piece, arguments.recordings[k]);
       if (!arguments.channels.empty()) fleet.add(piece, arguments.channels);
@@ -251,8 +246,10 @@ std::vector<validation::EstimateSummary> estimate_by_fleet(const Task& task, con
 
 /// One recording on a worker.
 fleet::Outcome do_estimate_piece(const fleet::Piece& piece) {
+  const std::size_t gap = piece.arguments.find(' ');
   EstimateArguments arguments{
-      path_of(piece, 0), {path_of(piece, 1)}, "estimate.csv", piece.arguments, {}, {}, false, {}, true};
+      path_of(piece, 0), {path_of(piece, 1)}, "estimate", piece.arguments.substr(gap + 1), {}, {}, false, {}, true};
+  arguments.format = piece.arguments.substr(0, gap);
   if (piece.files.size() > 2) arguments.channels = path_of(piece, 2);
   const validation::EstimateSummary summary =
       estimate_one(task_of(arguments), arguments.recordings.front(), arguments.output, false);
@@ -290,12 +287,12 @@ void estimate(const EstimateArguments& arguments) {
     if (!one) make_output_folder(arguments.output);
     summaries = estimate_by_fleet(task, arguments,
                                   one ? std::vector<std::filesystem::path>{arguments.output}
-                                      : targets_in(arguments.output, arguments.recordings));
+                                      : targets_in(arguments.output, arguments.recordings, task.format));
   } else if (one) {
     const bool beside = parallel::cores() > 1;
     summaries.push_back(estimate_one(task, arguments.recordings.front(), arguments.output, beside));
   } else {
-    const auto targets = targets_in(arguments.output, arguments.recordings);
+    const auto targets = targets_in(arguments.output, arguments.recordings, task.format);
     make_output_folder(arguments.output);
     task.quiet = true;  // one line cannot tell of many
     summaries = estimate_all(task, arguments.recordings, targets);
@@ -315,18 +312,22 @@ void add_estimate_command(CLI::App& program) {
        "estimate the flow rate of a recording, with its 95 % band",
        "MODEL.json from `spoolflow calibrate`, and a recording (CSV, MATLAB, HDF5, TDMS; - for CSV from standard input) "
        "with time, current and position, better also voltage and oil temperature; nothing else of it is read",
-       "CSV, one row a sample: time, flow with its band, pressure difference, forces, status; of several recordings "
-       "DIR/NAME.csv each, worked on in parallel",
+       "one row a sample: time, flow with its band, pressure difference, forces, status; CSV, Parquet, MCAP, HDF5 or "
+       "MATLAB by the suffix; of several recordings DIR/NAME.csv each, in parallel",
        {"spoolflow estimate valve_a.json run.csv -o estimate.csv",
         "spoolflow estimate valve_a.json run.mat --channels map.toml -o - | head",
+        "spoolflow estimate valve_a.json run.csv -o estimate.parquet",
         "spoolflow estimate valve_a.json monday.csv tuesday.csv -o estimates"}});
   command->add_option("model", arguments->model, "model file")->required();
   command->add_option("recording", arguments->recordings, "one or several recordings")->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "CSV file to write, - for standard output; a folder for several recordings")
+      ->add_option("-o,--output", arguments->output, "a .csv, .parquet, .mcap, .h5 or .mat file, - for standard output")
       ->type_name("ESTIMATE.csv")
       ->required();
+  command
+      ->add_option("--format", arguments->format, "the format whatever the suffix, also of several recordings and of -")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"csv", "parquet", "mcap", "h5", "mat"}));
   command
       ->add_option("--estimator", arguments->estimator, "condensed or observer; the observer where the model has one")
       ->type_name("NAME")

@@ -1,5 +1,6 @@
 #include "spoolflow/apps/output_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -90,6 +91,37 @@ class DescriptorBuffer : public std::streambuf {
   std::array<char, std::size_t{256} * 1024> buffer_;
 };
 
+/// Reads and writes at places of a file descriptor.
+class DescriptorPlaces : public recording::PlacedBytes {
+ public:
+  DescriptorPlaces(fs::path target, int descriptor) : target_(std::move(target)), descriptor_(descriptor) {}
+
+  void write(std::uint64_t at, std::span<const std::uint8_t> bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+      if (written < 0 && errno != EINTR) refuse_errno(target_, errno);
+      if (written <= 0) continue;
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+      at += static_cast<std::uint64_t>(written);
+    }
+  }
+  void read(std::uint64_t at, std::span<std::uint8_t> bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t got = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+      if (got < 0 && errno != EINTR) refuse_errno(target_, errno);
+      if (got < 0) continue;
+      if (got == 0) break;
+      bytes = bytes.subspan(static_cast<std::size_t>(got));
+      at += static_cast<std::uint64_t>(got);
+    }
+    std::fill(bytes.begin(), bytes.end(), std::uint8_t{0});  // behind the end
+  }
+
+ private:
+  fs::path target_;
+  int descriptor_;
+};
+
 std::optional<struct stat> status_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;
@@ -163,7 +195,7 @@ struct OutputFile::Target {
     for (int attempt = 0; descriptor < 0; ++attempt) {
       const fs::path beside = fs::path(folder_of(final_name)) / fmt::format(".{}.spoolflow-{}.part", stem, attempt);
       remove_if_left_behind(beside);
-      descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      descriptor = ::open(beside.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor < 0) {
         if (errno != EEXIST || attempt > 1000) refuse_errno(name, errno);
       } else if (keep(descriptor)) {
@@ -194,6 +226,7 @@ struct OutputFile::Target {
   std::optional<UnfinishedFile> unfinished;
   DescriptorBuffer buffer;
   std::ostream stream;
+  std::optional<DescriptorPlaces> places;
 };
 
 OutputFile::OutputFile(const fs::path& target, const std::vector<fs::path>& also_used) {
@@ -221,6 +254,19 @@ std::ostream& OutputFile::stream() {
   return target_->stream;
 }
 
+recording::PlacedBytes& OutputFile::in_places() {
+  if (!target_->unfinished)
+    refuse(target_->name, "this format is not written from front to back, so it needs a file; name one");
+  if (!target_->places) target_->places.emplace(target_->name, target_->descriptor);
+  return *target_->places;
+}
+
+recording::PlacedBytes& OutputFile::scratch() {
+  if (!target_->unfinished) return in_places();  // which refuses
+  if (!scratch_) scratch_ = std::make_unique<OutputFile>(target_->name);
+  return scratch_->in_places();
+}
+
 void OutputFile::finish() {
   target_->buffer.write_out();
   target_->close();
@@ -228,6 +274,7 @@ void OutputFile::finish() {
 
 void OutputFile::commit() {
   finish();
+  scratch_.reset();
   if (!target_->unfinished) return;
   const InterruptionPause pause;
   if (::rename(target_->unfinished->path().c_str(), target_->final_name.c_str()) != 0) {

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "spoolflow/recording/written_tables/table_output.hpp"
+
 namespace spoolflow::apps {
 
 /// An output that cannot be written: exit status 2.
@@ -23,19 +25,25 @@ struct ReaderGone : std::runtime_error {
 /// stays untouched until then, and for good if commit() is never reached (error, interruption). What a killed run left
 /// beside the target is removed.
 /// "-" is standard output; devices and pipes (/dev/null, /dev/stdout, a FIFO) are written directly.
-class OutputFile {
+class OutputFile : public recording::TableOutput {
  public:
   /// `also_used`: files that the same command reads or writes; the target must be none of them. Throws OutputError
   /// where it is, where its folder does not exist, where it is itself a folder, or where writing is not permitted.
   explicit OutputFile(const std::filesystem::path& target, const std::vector<std::filesystem::path>& also_used = {});
   /// Without commit(): removes the temporary file.
-  ~OutputFile();
+  ~OutputFile() override;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   /// Buffered by 256 KiB. A failed write (full disk, size limit) throws OutputError or ReaderGone from the call that
   /// hits it: no need to look at the stream's state.
   [[nodiscard]] std::ostream& stream();
+  /// The same, for the tables' writers.
+  std::ostream& in_sequence() override { return stream(); }
+  /// Unbuffered; throws OutputError where the output is standard output, a pipe or a device.
+  recording::PlacedBytes& in_places() override;
+  /// A second temporary file beside the target, removed with this one, never given a name. Throws as in_places().
+  recording::PlacedBytes& scratch() override;
   /// Writes what is buffered, closes, and puts the file under its name. No fsync: the name changes hands at once for
   /// every reader, and a power cut is answered by running the command again.
   void commit();
@@ -45,6 +53,7 @@ class OutputFile {
  private:
   struct Target;
   std::unique_ptr<Target> target_;
+  std::unique_ptr<OutputFile> scratch_;
 };
 
 /// Commits several outputs of one run: none appears before all are finished. Null pointers are left out.

@@ -8,6 +8,10 @@ namespace spoolflow::python {
 void add_errors(pybind11::module_& module);
 /// Recordings from files and of the virtual rig.
 void add_recordings(pybind11::module_& module);
+/// What a file holds, before anything is made of it.
+void add_inspections(pybind11::module_& module);
+/// Estimates as files.
+void add_tables(pybind11::module_& module);
 /// Models and their sensors, step by step and over arrays.
 void add_sensors(pybind11::module_& module);
 /// Many valves at once.

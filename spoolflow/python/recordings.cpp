@@ -159,6 +159,9 @@ void add_recordings(py::module_& module) {
       .def("columns", [](const std::shared_ptr<ReadRecording>& self) { return columns_of(self); })
       .def("notes", [](const ReadRecording& self) { return notes_of(self); })
       .def(py::pickle(&packed, &unpacked));
+  py::list channels;
+  for (const Channel channel : recording::all_channels()) channels.append(std::string(recording::name(channel)));
+  module.attr("channels") = channels;
   module.def("read_recording", &read);
   module.def("simulate", &simulate);
   module.def("takes_a_process", [](const std::vector<std::filesystem::path>& files) {

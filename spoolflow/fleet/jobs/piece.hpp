@@ -9,7 +9,7 @@
 namespace spoolflow::fleet {
 
 /// Grows where the same piece would mean or give something else; then no result of before is taken.
-inline constexpr int piece_format = 1;
+inline constexpr int piece_format = 2;
 
 /// A file that the fleet keeps.
 struct PieceFile {
