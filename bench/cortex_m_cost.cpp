@@ -32,11 +32,13 @@ int main(int argc, char** argv) {
   }
   try {
     const model::Model model = model::read_model(argv[1]);
-    for (const cortex_m::Core& core : cortex_m::cores) {
+    const auto cost_on = [&](const cortex_m::Core& core) {
       for (const auto estimator : {estimation::Estimator::observer, estimation::Estimator::condensed}) {
         print(core, estimator, cortex_m::replay(model, estimator, argv[2], core));
       }
-    }
+    };
+    for (const cortex_m::Core& core : cortex_m::cores) cost_on(core);
+    for (const cortex_m::Core& core : cortex_m::soft_float_cores) cost_on(core);
   } catch (const std::exception& error) {
     fmt::print(stderr, "cortex_m_cost: {}\n", error.what());
     return 1;

@@ -62,6 +62,13 @@ def cortex_m(build, model):
         block = part.get(estimator, "")
         largest = number(r"instructions a step.*?\n  \S.*?\s(\d+)\n", block)
         row(f"Cortex-M4F, {estimator}, largest step [instructions]", shown(largest), "", wanted)
+    for core in ("Cortex-M3", "Cortex-M0+"):
+        for estimator in ("observer", "condensed"):
+            block = next((block for block in text.split("\n\n") if block.startswith(f"{core}, {estimator}")), "")
+            median = number(r"instructions a step.*?\n  \S.*?\s(\d+)\s+\d+\n", block)
+            largest = number(r"instructions a step.*?\n  \S.*?\s(\d+)\n", block)
+            row(f"{core} without a floating-point unit, {estimator}, median / largest step [instructions]",
+                f"{shown(median)} / {shown(largest)}", "", "")
     block = part.get("observer", "")
     state, flash = number(r"state (\d+) bytes", block), number(r"tables (\d+) bytes", block)
     row("state / flash of the observer on it [bytes]", f"{shown(state)} / {shown(flash)}", "", "768 / 32000")

@@ -18,7 +18,8 @@ std::uint32_t flash_bytes(Workshop& workshop, const Core& core, const std::strin
   workshop.run(compiler(core) + which +
                SPOOLFLOW_FIRMWARE
                "/sensor_image.cpp -o sensor.elf -nostartfiles -nostdlib "
-               "-Wl,--gc-sections -Wl,-e,sensor_step -lgcc");
+               "-Wl,--gc-sections -Wl,-e,sensor_step " +
+               core.libraries);
   std::istringstream sizes(workshop.run("arm-none-eabi-size sensor.elf | tail -1"));
   std::uint32_t text = 0, data = 0;
   if (!(sizes >> text >> data)) throw std::runtime_error("arm-none-eabi-size: no sizes");
@@ -43,7 +44,8 @@ Replay replay(const model::Model& model, Estimator estimator, const fs::path& re
   workshop.write("run.bin", packed_run(model, estimator, recording));
   const std::string which = estimator == Estimator::condensed ? "-DREPLAY_CONDENSED " : "";
   workshop.run(compiler(core) + which +
-               SPOOLFLOW_FIRMWARE "/board.cpp " SPOOLFLOW_FIRMWARE "/replay.cpp -o replay.elf" + link() + "-lgcc");
+               SPOOLFLOW_FIRMWARE "/board.cpp " SPOOLFLOW_FIRMWARE "/replay.cpp -o replay.elf" + link() +
+               core.libraries);
   const Figures figures = figures_of(workshop.run(emulator(core, "replay.elf")));
   if (figures.at("overflowing") > 0) throw std::runtime_error("a step took more instructions than the firmware counts");
 
@@ -63,7 +65,8 @@ Replay replay(const model::Model& model, Estimator estimator, const fs::path& re
   out.state_bytes = figures.at("state_bytes");
   out.stack_bytes = figures.at("stack_bytes");
   out.flash_bytes = flash_bytes(workshop, core, which);
-  workshop.run(compiler(core) + SPOOLFLOW_FIRMWARE "/board.cpp self_test.cpp -o self_test.elf" + link() + "-lgcc");
+  workshop.run(compiler(core) + SPOOLFLOW_FIRMWARE "/board.cpp self_test.cpp -o self_test.elf" + link() +
+               core.libraries);
   workshop.run(emulator(core, "self_test.elf"), 3);
   out.self_test_status = static_cast<std::uint32_t>(workshop.status());
   return out;

@@ -14,9 +14,15 @@ struct Core {
   const char* name;
   const char* flags;    ///< of the compiler
   const char* machine;  ///< of QEMU
+  const char* libraries = "-lgcc";
 };
-inline constexpr std::array<Core, 2> cores{{{"Cortex-M4F", "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16", "mps2-an386"},
-                                            {"Cortex-M7", "-mcpu=cortex-m7 -mfpu=fpv5-sp-d16", "mps2-an500"}}};
+inline constexpr std::array<Core, 2> cores{
+    {{"Cortex-M4F", "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard", "mps2-an386"},
+     {"Cortex-M7", "-mcpu=cortex-m7 -mfpu=fpv5-sp-d16 -mfloat-abi=hard", "mps2-an500"}}};
+/// Without a floating-point unit. The code of a Cortex-M0+ runs on the M3, whose instructions are all of its and more.
+inline constexpr std::array<Core, 2> soft_float_cores{
+    {{"Cortex-M3", "-mcpu=cortex-m3 -mfloat-abi=soft", "mps2-an385", "-lm -lc -lgcc"},
+     {"Cortex-M0+", "-mcpu=cortex-m0plus -mfloat-abi=soft", "mps2-an385", "-lm -lc -lgcc"}}};
 
 /// Instructions of one step, call and return included. Emulated: a count, no time.
 struct StepCost {

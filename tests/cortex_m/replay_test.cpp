@@ -73,6 +73,18 @@ TEST_P(CortexM, CondensedSensorOfAWholeValveAnswersAsTheHost) {
   expect_fit_for_a_valve(replay(whole(model), Estimator::condensed, minute, GetParam()), {350, 4, 131072});
 }
 
+class SoftFloat : public CortexM {};
+
+/// Minutes; run by the long tests. There is no unit that would tell of a NaN it made.
+TEST_P(SoftFloat, DISABLED_BothSensorsAnswerAsTheHostWithoutAFloatingPointUnit) {
+  const bool m0plus = GetParam().name == std::string("Cortex-M0+");
+  expect_fit_for_a_valve(replay(model, Estimator::observer, minute, GetParam()), {m0plus ? 61000U : 33000U, 9, 98304});
+  expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {m0plus ? 5500U : 3100U, 4, 98304});
+}
+
+INSTANTIATE_TEST_SUITE_P(Cores, SoftFloat, ::testing::ValuesIn(soft_float_cores),
+                         [](const auto& core) { return core.index == 0 ? "M3" : "M0plus"; });
+
 INSTANTIATE_TEST_SUITE_P(Cores, CortexM, ::testing::ValuesIn(cores),
                          [](const auto& core) { return std::string(core.param.machine).substr(5); });
 

@@ -51,7 +51,7 @@ std::string Workshop::run(const std::string& command, int allowed_status) {
 
 std::string options(const Core& core) {
   return fmt::format(
-      " {} -mthumb -mfloat-abi=hard -O2 -ffreestanding -ffunction-sections -fdata-sections "
+      " {} -mthumb -O2 -ffreestanding -ffunction-sections -fdata-sections "
       "-fno-tree-loop-distribute-patterns -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -I. -I{} ",
       core.flags, SPOOLFLOW_FIRMWARE);
 }

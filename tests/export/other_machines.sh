@@ -1,13 +1,16 @@
 #!/bin/sh
 # other_machines.sh SPOOLFLOW MODEL: the exported folder, compiled as C++17 for other machines, answers there as on the host
 # (its self-test): 64-bit Arm, 64-bit RISC-V, PowerPC, whose bytes lie the other way round, under qemu-user; and by the newest
-# clang. 77: none of them is here.
+# clang. A parameter image is taken where the lowest byte comes first and refused by a code of its own elsewhere. 77: none of them
+# is here.
 set -eu
 spoolflow=$1 model=$2
+byte_order=$(cd "$(dirname "$0")" && pwd)/other_byte_order.cpp
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 "$spoolflow" export cpp "$model" -o exported >said 2>&1 || { cat said; exit 1; }
+"$spoolflow" export parameters "$model" -o valve.bin >said 2>&1 || { cat said; exit 1; }
 cd exported
 warnings="-Wall -Wextra -Wconversion -Wdouble-promotion -Wsign-conversion -Wfloat-equal -Werror"
 tried=0
@@ -23,6 +26,9 @@ tried_on() {
   "$@" ./self_test || status=$?
   echo "$compiler: self-test ends with $status"
   [ $status -eq 0 ]
+  "$compiler" -std=c++17 -O2 $warnings -static -I. "$byte_order" -o byte_order
+  "$@" ./byte_order ../valve.bin >told || { cat told; exit 1; }
+  echo "$compiler: image: $(cat told)"
 }
 tried_on clang++-19
 tried_on aarch64-linux-gnu-g++ qemu-aarch64

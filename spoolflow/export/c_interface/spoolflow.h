@@ -13,7 +13,8 @@
  *     printf("%g L/min\n", estimate.flow_m3_per_s * 60000);
  *     spoolflow_destroy(sensor);
  *
- * Build:    cc program.c $(pkg-config --cflags --libs spoolflow)
+ * Build:    cc program.c $(pkg-config --cflags --libs spoolflow); for Windows x86_64-w64-mingw32-gcc program.c libspoolflow.dll.a,
+ *           or cl program.c spoolflow.lib, of which lib /def:spoolflow.def /machine:x64 is made
  * Model:    a file that `spoolflow calibrate` wrote; one file describes one valve.
  * Units:    SI everywhere, named in each member: m3/s, Pa, N, A, V, m, K, s. Pressures are differences.
  * Signs:    position 0 closed, > 0 opens the edge P to B; magnetic force opens (+), spring and flow force close (+),
@@ -40,7 +41,13 @@
 #define SPOOLFLOW_VERSION_PATCH 0
 #define SPOOLFLOW_VERSION "0.1.0"
 
-#if defined(__GNUC__)
+#if defined(_WIN32)
+#if defined(SPOOLFLOW_BUILDS_DLL)
+#define SPOOLFLOW_API __declspec(dllexport)
+#else
+#define SPOOLFLOW_API /* functions alone: a program may call them through the import library as they are */
+#endif
+#elif defined(__GNUC__)
 #define SPOOLFLOW_API __attribute__((visibility("default")))
 #else
 #define SPOOLFLOW_API

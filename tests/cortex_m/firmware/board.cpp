@@ -7,9 +7,11 @@ extern void (*last_initialiser[])();
 int main();
 
 [[noreturn]] void reset() {
+#ifdef __ARM_FP
   // Coprocessors 10 and 11 are the floating-point unit; before anything may use it.
   *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88U) |= 0xFU << 20U;
   __asm__ volatile("dsb\n isb" ::: "memory");
+#endif
   const std::uint32_t* from = stored_data;
   for (volatile std::uint32_t* to = first_data; to != last_data; ++to) *to = *from++;
   for (volatile std::uint32_t* to = first_bss; to != last_bss; ++to) *to = 0;
@@ -117,12 +119,16 @@ void start_ticks() {
 
 std::uint32_t float_flags() {
   std::uint32_t flags = 0;
+#ifdef __ARM_FP
   __asm__ volatile("vmrs %0, fpscr" : "=r"(flags));
+#endif
   return flags;
 }
 
 void watch_floats() {
+#ifdef __ARM_FP
   __asm__ volatile("vmsr fpscr, %0" ::"r"(1U << 24U));
+#endif
 }
 
 [[gnu::noinline]] void paint_stack() {

@@ -32,7 +32,7 @@ constexpr std::uint32_t instructions(std::uint32_t ticks) {
   return (ticks * 5U + 4U) / 8U;
 }
 
-/// The floating-point unit's status register: sticky flags of what happened since they were cleared.
+/// The floating-point unit's status register: sticky flags of what happened since they were cleared. 0 without one.
 std::uint32_t float_flags();
 /// Clears the flags; results below the smallest normal number are flushed to zero and leave a flag.
 void watch_floats();

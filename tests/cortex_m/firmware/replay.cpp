@@ -10,7 +10,11 @@ using Point = PointOf<Sample>;
 extern "C" const Point run_points[];
 static_assert(alignof(Point) <= 8);
 
+#ifdef __ARM_FP
 constexpr std::uint32_t most_instructions = 8192;
+#else
+constexpr std::uint32_t most_instructions = 98304;
+#endif
 std::uint32_t histogram[modes][most_instructions];
 State state, other_state;
 
