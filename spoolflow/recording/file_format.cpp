@@ -14,10 +14,9 @@ struct UnreadFormat {
   std::string_view what;
   std::string_view remedy;
 };
-constexpr std::array<UnreadFormat, 6> unread_formats{{
+constexpr std::array<UnreadFormat, 5> unread_formats{{
     {"PK\x03\x04", "a zip file, such as an Excel workbook", "save the sheet as CSV"},
     {"\xD0\xCF\x11\xE0", "an old Excel workbook", "save the sheet as CSV"},
-    {"MDF     ", "an MDF measurement file", "export it as CSV, MAT or HDF5"},
     {"TDSh", "the index that stands beside a TDMS file and holds no samples", "name the file that ends in .tdms"},
     {"\x1F\x8B", "compressed by gzip", "pipe it: gunzip -c FILE | spoolflow ... -"},
     {"%PDF", "a PDF document", "name the recording itself"},
@@ -36,7 +35,7 @@ bool has_mat_version(std::string_view beginning) {
 }  // namespace
 
 std::string_view name(FileFormat format) {
-  constexpr std::array<std::string_view, 4> names{"CSV", "MATLAB", "HDF5", "TDMS"};
+  constexpr std::array<std::string_view, 5> names{"CSV", "MATLAB", "HDF5", "TDMS", "MDF 4"};
   return names[static_cast<std::size_t>(format)];
 }
 
@@ -50,6 +49,7 @@ FileFormat format_of(std::string_view beginning, const std::filesystem::path& fi
     if (beginning.size() > at && beginning.substr(at).starts_with(hdf5_signature)) return FileFormat::hdf5;
   }
   if (beginning.starts_with("TDSm")) return FileFormat::tdms;
+  if (beginning.starts_with("MDF     ") || beginning.starts_with("UnFinMF ")) return FileFormat::mdf4;
   for (const UnreadFormat& format : unread_formats) {
     if (!beginning.starts_with(format.mark)) continue;
     throw RecordingError(

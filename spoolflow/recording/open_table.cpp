@@ -9,6 +9,7 @@
 #include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
 #include "spoolflow/recording/files/mat_table.hpp"
+#include "spoolflow/recording/mdf4/mdf4_table.hpp"
 #include "spoolflow/recording/tdms/tdms_table.hpp"
 
 namespace spoolflow::recording {
@@ -19,6 +20,8 @@ OpenVectors opener(FileFormat format) {
   switch (format) {
     case FileFormat::mat:
       return open_mat_table;
+    case FileFormat::mdf4:
+      return open_mdf4_table;
     case FileFormat::tdms:
       return open_tdms_table;
     default:

@@ -1,0 +1,48 @@
+#pragma once
+/// An MDF 4 file's groups and channels, as its blocks say.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spoolflow/recording/mdf4/mdf4_conversion.hpp"
+#include "spoolflow/recording/mdf4/mdf4_sample.hpp"
+#include "spoolflow/recording/mdf4/mdf4_stream.hpp"
+
+namespace spoolflow::recording {
+
+struct Mdf4Channel {
+  std::string name, unit;
+  bool is_time = false;  ///< the group's master, in seconds
+  Mdf4Sample sample;
+  Mdf4Conversion conversion;
+};
+
+/// The records of a data group: of one kind, or of several, told by the number with which each begins.
+struct Mdf4Records {
+  Mdf4Stream stream;
+  std::uint8_t number_bytes = 0;                 ///< before each record
+  std::map<std::uint64_t, std::uint64_t> bytes;  ///< of each kind's records, behind that number
+  std::map<std::uint64_t, bool> of_any_length;   ///< kinds whose records begin with their length of four bytes
+};
+
+/// A channel group.
+struct Mdf4Group {
+  std::string name;
+  std::shared_ptr<Mdf4Records> records;
+  std::uint64_t number = 0;        ///< of its records
+  std::uint64_t record_bytes = 0;  ///< behind that number
+  std::uint64_t count = 0;         ///< records
+  std::vector<Mdf4Channel> channels;
+};
+
+struct Mdf4Contents {
+  std::vector<Mdf4Group> groups;  ///< that hold numbers
+  std::string unread{};           ///< what cannot be read, with its remedy; empty: nothing
+};
+
+/// ASAM MDF from 4.00 on. Throws RecordingError: another version, a file that was never finished, damage.
+[[nodiscard]] Mdf4Contents read_mdf4_contents(const FileBytes& file);
+
+}  // namespace spoolflow::recording

@@ -1,0 +1,92 @@
+#include "spoolflow/recording/mdf4/mdf4_conversion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace spoolflow::recording {
+
+Mdf4Conversion::Mdf4Conversion(const Mdf4Block& block) {
+  ByteReader bytes = block.reader();
+  const std::uint8_t kind = bytes.u8();
+  bytes.skip(1 + 2 + 2);  // precision, flags, number of links
+  const std::uint16_t count = bytes.u16();
+  bytes.skip(2 * sizeof(double));  // range of values
+  constexpr std::uint8_t last_of_numbers = 6;
+  if (kind == static_cast<std::uint8_t>(Kind::formula)) {
+    unread_ = "numbers that a formula converts";
+  } else if (kind > last_of_numbers) {
+    unread_ = "texts in the place of numbers";
+  }
+  if (!unread_.empty()) return;
+  kind_ = static_cast<Kind>(kind);
+  for (std::uint16_t k = 0; k < count; ++k) numbers_.push_back(bytes.f64());
+  check(block.what);
+}
+
+void Mdf4Conversion::check(const std::string& what) const {
+  const std::size_t count = numbers_.size();
+  const bool fits = kind_ == Kind::identity ||                                                           //
+                    (kind_ == Kind::linear && count >= 2) || (kind_ == Kind::rational && count >= 6) ||  //
+                    (kind_ == Kind::ranges && count % 3 == 1) ||
+                    ((kind_ == Kind::interpolated || kind_ == Kind::nearest) && count >= 2 && count % 2 == 0);
+  if (!fits) refuse_mdf4(what, fmt::format("its conversion has {} numbers", count));
+  if (kind_ != Kind::interpolated && kind_ != Kind::nearest) return;
+  for (std::size_t k = 2; k < count; k += 2) {
+    if (!(numbers_[k] > numbers_[k - 2])) refuse_mdf4(what, "the keys of its table do not rise");
+  }
+}
+
+double Mdf4Conversion::of_pairs(double raw) const {
+  const std::size_t pairs = numbers_.size() / 2;
+  std::size_t above = 0;
+  for (std::size_t step = pairs; step > 0;) {  // how many keys lie below
+    const std::size_t half = step / 2;
+    if (numbers_[2 * (above + half)] < raw) {
+      above += half + 1;
+      step -= half + 1;
+    } else {
+      step = half;
+    }
+  }
+  if (above == 0) return numbers_[1];
+  if (above == pairs) return numbers_[2 * pairs - 1];
+  const double low = numbers_[2 * above - 2], high = numbers_[2 * above];
+  const double at_low = numbers_[2 * above - 1], at_high = numbers_[2 * above + 1];
+  if (kind_ == Kind::nearest) return raw - low > high - raw ? at_high : at_low;
+  return at_low + (at_high - at_low) * (raw - low) / (high - low);
+}
+
+double Mdf4Conversion::of_ranges(double raw, bool whole) const {
+  for (std::size_t k = 0; k + 3 < numbers_.size(); k += 3) {
+    if (raw >= numbers_[k] && (raw < numbers_[k + 1] || (whole && raw == numbers_[k + 1]))) return numbers_[k + 2];
+  }
+  return numbers_.back();
+}
+
+double Mdf4Conversion::value_at(double raw, bool whole) const {
+  const std::vector<double>& p = numbers_;
+  switch (kind_) {
+    case Kind::linear:
+      return p[0] + p[1] * raw;
+    case Kind::rational:
+      return ((p[0] * raw + p[1]) * raw + p[2]) / ((p[3] * raw + p[4]) * raw + p[5]);
+    case Kind::interpolated:
+    case Kind::nearest:
+      return of_pairs(raw);
+    case Kind::ranges:
+      return of_ranges(raw, whole);
+    default:
+      return raw;
+  }
+}
+
+void Mdf4Conversion::apply(double* values, std::size_t count, bool whole) const {
+  if (kind_ == Kind::identity) return;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!std::isnan(values[k])) values[k] = value_at(values[k], whole);
+  }
+}
+
+}  // namespace spoolflow::recording

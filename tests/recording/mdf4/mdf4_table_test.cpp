@@ -1,0 +1,176 @@
+/// MDF 4 files made by hand, read as any recording is: by the child of few rights.
+#include "spoolflow/recording/mdf4/mdf4_table.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/reader.hpp"
+#include "tests/recording/mdf4/mdf4_file.hpp"
+#include "tests/recording/refusal.hpp"
+#include "tests/recording/temporary_file.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<double> values_of(const std::string& bytes, const std::string& name) {
+  const TemporaryFile file("run.mf4", bytes);
+  const auto table = open_sample_table(file.path()).table;
+  for (std::size_t k = 0; k < table->columns().size(); ++k) {
+    if (table->columns()[k].name != name) continue;
+    table->select({k});
+    std::vector<double> out(64);
+    double* const into[1]{out.data()};
+    out.resize(table->read(into, out.size()));
+    return out;
+  }
+  ADD_FAILURE() << "no column " << name;
+  return {};
+}
+
+/// One sorted group of that many records with these channels.
+std::string one_group(Mdf4File& file, const std::vector<Mdf4File::Channel>& channels, const std::string& records,
+                      std::uint64_t count, std::uint32_t bytes, std::uint32_t invalid_bytes = 0) {
+  const auto group = file.group(0, file.channels(channels), "rig", 0, count, bytes, invalid_bytes);
+  return file.content(file.data_group(0, group, file.block("##DT", {}, records)));
+}
+
+TEST(Mdf4Table, UnpacksBitsOfEitherByteOrder) {
+  Mdf4File file;
+  // Byte 0: three bits unused, then 12 bits up to byte 1; 2 and 3: -300 with the highest byte first; 4: real numbers.
+  const std::string record =
+      WrittenBytes().u16(0x0ABC << 3).raw(WrittenBytes(true).put(std::int16_t{-300}).content()).put(0.25F).content();
+  const std::string bytes = one_group(file,
+                                      {{"packed", "", 0, 0, 0, 0, 12, 3},
+                                       {"turned", "", 0, 0, 3, 2, 16},
+                                       {"single", "bar", 0, 0, 4, 4, 32},
+                                       {"sign", "", 0, 0, 2, 0, 12, 3}},
+                                      record + record, 2, 8);
+  EXPECT_THAT(values_of(bytes, "packed"), ElementsAre(0xABC, 0xABC));
+  EXPECT_THAT(values_of(bytes, "turned"), ElementsAre(-300, -300));
+  EXPECT_THAT(values_of(bytes, "single"), ElementsAre(0.25, 0.25));
+  EXPECT_THAT(values_of(bytes, "sign"), ElementsAre(0xABC - 0x1000, 0xABC - 0x1000));
+}
+
+TEST(Mdf4Table, ConvertsByFormulaeOfNumbersAndByTables) {
+  Mdf4File file;
+  const std::uint64_t linear = file.conversion(1, {10, 0.5}), rational = file.conversion(2, {0, 1, 0, 0, 0, 4}),
+                      between = file.conversion(4, {0, 0, 10, 100}), nearest = file.conversion(5, {0, 7, 10, 8}),
+                      ranges = file.conversion(6, {0, 5, 1, 6, 10, 2, -1});
+  const std::string records = WrittenBytes().u8(4).u8(6).u8(20).content();
+  const auto column = [&](const std::string& name, std::uint64_t conversion) {
+    return Mdf4File::Channel{name, "", 0, 0, 0, 0, 8, 0, conversion};
+  };
+  const std::string bytes =
+      one_group(file,
+                {column("linear", linear), column("rational", rational), column("between", between),
+                 column("nearest", nearest), column("ranges", ranges)},
+                records, 3, 1);
+  EXPECT_THAT(values_of(bytes, "linear"), ElementsAre(12, 13, 20));
+  EXPECT_THAT(values_of(bytes, "rational"), ElementsAre(1, 1.5, 5));
+  EXPECT_THAT(values_of(bytes, "between"), ElementsAre(40, 60, 100));
+  EXPECT_THAT(values_of(bytes, "nearest"), ElementsAre(7, 8, 8));
+  EXPECT_THAT(values_of(bytes, "ranges"), ElementsAre(1, 2, -1));
+}
+
+TEST(Mdf4Table, InvalidSamplesAreMissing) {
+  Mdf4File file;
+  Mdf4File::Channel channel{"x", "", 0, 0, 0, 0, 8};
+  channel.invalid_bit = 1;
+  const std::string bytes = one_group(file, {channel}, WrittenBytes().u8(5).u8(0).u8(6).u8(2).content(), 2, 1, 1);
+  const std::vector<double> values = values_of(bytes, "x");
+  ASSERT_EQ(values.size(), 2U);
+  EXPECT_EQ(values[0], 5);
+  EXPECT_TRUE(std::isnan(values[1]));
+}
+
+TEST(Mdf4Table, RecordsGoOnFromBlockToBlockPackedOrNot) {
+  Mdf4File file;
+  const std::string records = WrittenBytes().u16(1).u16(2).u16(3).u16(4).u16(5).content();
+  const auto channel = file.channels({{"x", "", 0, 0, 0, 0, 16}});
+  const auto group = file.group(0, channel, "rig", 0, 5, 2);
+  const auto list = file.list({file.block("##DT", {}, records.substr(0, 3)), file.packed(records.substr(3, 2)),
+                               file.packed(records.substr(5), 2)});
+  const auto head = file.block("##HL", {list}, std::string(8, '\0'));
+  EXPECT_THAT(values_of(file.content(file.data_group(0, group, head)), "x"), ElementsAre(1, 2, 3, 4, 5));
+}
+
+/// Records of two groups in one row: a fast one with current and position, a slow one with the pressure, and texts.
+std::string unsorted() {
+  Mdf4File file;
+  const auto slow = file.group(
+      file.group(0, 0, "", 3, 1, 0, 0, 1),
+      file.channels({{"t", "s", 2, 1, 4, 0, 64}, {"pressure_difference_bar", "", 0, 0, 4, 8, 64}}), "oil", 2, 11, 16);
+  const auto fast = file.group(
+      slow,
+      file.channels(
+          {{"t", "s", 2, 1, 4, 0, 64}, {"current", "mA", 0, 0, 4, 8, 64}, {"position", "mm", 0, 0, 4, 16, 64}}),
+      "coil", 1, 1000, 24);
+  WrittenBytes records;
+  for (int k = 0; k < 1000; ++k) {
+    records.u8(1).f64(1e-3 * k).f64(500 + k).f64(0.1 + 1e-4 * k);
+    if (k % 100 == 0) records.u8(2).f64(1e-3 * k).f64(60 + 0.01 * k).u8(3).u32(5).raw("texts");
+  }
+  records.u8(2).f64(1).f64(70);
+  return file.content(file.data_group(0, fast, file.block("##DT", {}, records.content()), 1));
+}
+
+TEST(Mdf4Table, GroupsOfOtherRatesComeOntoTheTimeOfTheCurrent) {
+  const TemporaryFile file("run.mf4", unsorted());
+  const Recording run =
+      read_recording(file.path(), {.channels = {},
+                                   .required = {Channel::current, Channel::position, Channel::pressure_difference},
+                                   .optional = {},
+                                   .stroke_m = {}});
+  ASSERT_EQ(run.size(), 1000U);
+  EXPECT_NEAR(run[Channel::time][250], 0.25, 1e-12);
+  EXPECT_NEAR(run[Channel::current][250], 0.75, 1e-12);
+  EXPECT_NEAR(run[Channel::pressure_difference][250], 62.5e5, 1);
+  EXPECT_THAT(run.resampled, HasSubstr("'oil/pressure_difference_bar' from 10 Hz by linear interpolation"));
+}
+
+TEST(Mdf4Table, WhatIsNoNumberIsTold) {
+  Mdf4File file;
+  const std::uint64_t texts = file.conversion(7, {});
+  const std::string bytes = one_group(file, {{"t", "s", 2, 1, 4, 0, 64}, {"state", "", 0, 0, 0, 8, 8, 0, texts}},
+                                      WrittenBytes().f64(1).u8(1).content(), 1, 9);
+  const TemporaryFile written("run.mf4", bytes);
+  EXPECT_THAT(refusal([&] {
+                (void)read_recording(written.path(),
+                                     {.channels = {}, .required = {Channel::current}, .optional = {}, .stroke_m = {}});
+              }),
+              HasSubstr("channel 'state' holds texts in the place of numbers, which is not read"));
+}
+
+std::string refused_mdf4(const std::string& bytes) {
+  const TemporaryFile file("run.mf4", bytes);
+  return refusal([&] { (void)open_sample_table(file.path()); });
+}
+
+TEST(Mdf4Table, OtherVersionsAndDamagedFilesAreRefused) {
+  EXPECT_THAT(refused_mdf4("MDF     3.30    " + std::string(200, '\0')),
+              HasSubstr("version 3.30, where 4 is read; save it as MDF 4"));
+  Mdf4File unfinished("UnFinMF 4.10    ");
+  EXPECT_THAT(refused_mdf4(unfinished.content(0)), HasSubstr("was not finished by the program that recorded it"));
+  Mdf4File beyond;
+  EXPECT_THAT(refused_mdf4(one_group(beyond, {{"x", "", 0, 0, 0, 1, 16}}, "xx", 1, 2)),
+              HasSubstr("16 bits at byte 1 of records of 2 bytes"));
+  Mdf4File too_many;
+  EXPECT_THAT(refused_mdf4(one_group(too_many, {{"x", "", 0, 0, 0, 0, 16}}, "xx", 2, 2)),
+              HasSubstr("2 records of 2 bytes in 2 bytes of data"));
+  Mdf4File cut;
+  const std::string whole = one_group(cut, {{"x", "", 0, 0, 0, 0, 16}}, "xx", 1, 2);
+  EXPECT_THAT(refused_mdf4(whole.substr(0, whole.size() - 40)), HasSubstr("is cut short or damaged"));
+  Mdf4File round;
+  const auto group = round.group(0, 0, "rig", 0, 0, 2);
+  EXPECT_THAT(refused_mdf4(round.content(round.data_group(round.data_group(0, group, 0), group, 0))),
+              HasSubstr("round in a circle"));
+}
+
+}  // namespace
+}  // namespace spoolflow::recording
