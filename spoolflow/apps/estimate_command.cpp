@@ -20,6 +20,7 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/estimate_text.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/status_text.hpp"
@@ -49,38 +50,8 @@ struct EstimatedBlock {
   std::optional<double> share;
 };
 
-void write_rows(recording::CsvWriter& out, const EstimatedBlock& block, estimation::StatusText& status_text) {
-  using units::litre_per_minute_per_m3_per_s;
-  for (std::size_t k = 0; k < block.estimates.size(); ++k) {
-    const sensor::Estimate<double>& estimate = block.estimates[k];
-    out.number(block.time_s[k], 6);
-    out.number(estimate.flow_m3_per_s * litre_per_minute_per_m3_per_s, 6);
-    out.number(estimate.flow_lower_m3_per_s * litre_per_minute_per_m3_per_s, 6);
-    out.number(estimate.flow_upper_m3_per_s * litre_per_minute_per_m3_per_s, 6);
-    out.number(estimate.pressure_difference_Pa / units::pascal_per_bar, 4);
-    out.number(estimate.magnetic_force_N, 3);
-    out.number(estimate.flow_force_N, 3);
-    out.number(estimate.friction_force_N, 3);
-    out.text(status_text(estimate.status));
-    out.end_row();
-  }
-}
-
 void tell(const recording::ReadNotes& notes, const std::string& file) {
-  if (notes.duplicate_times > 0) {
-    say("{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n", file,
-        notes.duplicate_times);
-  }
-  if (notes.missing_values > 0) {
-    say("{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
-        notes.missing_values);
-  }
-  if (notes.missing_times + notes.backward_times > 0) {
-    say("{}: {} samples have no time stamp, of {} it runs back; the estimate is held there, with status time_fault\n",
-        file, notes.missing_times, notes.backward_times);
-  }
-  if (!notes.resampled.empty()) say("{}: {}\n", file, notes.resampled);
-  if (notes.left_out > 0) say("{}: {} lines are no samples and have no row\n", file, notes.left_out);
+  for (const std::string& line : notes_text(notes, file)) say("{}\n", line);
 }
 
 /// What all recordings of one command have in common.
@@ -121,8 +92,7 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
   {
     Progress progress("estimating", task.quiet);
     recording::CsvWriter writer(output.stream());
-    writer.header({"time_s", "flow_L_min", "flow_lower_L_min", "flow_upper_L_min", "pressure_difference_bar",
-                   "magnetic_force_N", "flow_force_N", "friction_force_N", "status"});
+    write_estimate_header(writer);
     Ahead<ReadBlock> reading(
         [&](ReadBlock& block) {
           const bool more = reader->next(block.samples);
@@ -146,7 +116,7 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
         beside);
     estimation::StatusText status_text;
     while (const EstimatedBlock* block = estimating.next()) {
-      write_rows(writer, *block, status_text);
+      write_estimate_rows(writer, block->time_s, block->estimates, status_text);
       summary.add(block->estimates);
       if (runs_on) {  // whoever reads waits for these rows
         writer.flush();
