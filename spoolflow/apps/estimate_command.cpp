@@ -21,6 +21,7 @@
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/estimate_table.hpp"
+#include "spoolflow/apps/work/reading_notes.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -49,20 +50,7 @@ struct EstimatedBlock {
 };
 
 void tell(const recording::ReadNotes& notes, const std::string& file) {
-  if (notes.duplicate_times > 0) {
-    say("{}: {} samples repeat the time stamp before them; each is estimated, with status time_fault\n", file,
-        notes.duplicate_times);
-  }
-  if (notes.missing_values > 0) {
-    say("{}: {} values are missing; the estimate is held there, with status sample_missing\n", file,
-        notes.missing_values);
-  }
-  if (notes.missing_times + notes.backward_times > 0) {
-    say("{}: {} samples have no time stamp, of {} it runs back; the estimate is held there, with status time_fault\n",
-        file, notes.missing_times, notes.backward_times);
-  }
-  if (!notes.resampled.empty()) say("{}: {}\n", file, notes.resampled);
-  if (notes.left_out > 0) say("{}: {} lines are no samples and have no row\n", file, notes.left_out);
+  for (const std::string& line : notes_text(notes, file)) say("{}\n", line);
 }
 
 /// What all recordings of one command have in common.

@@ -1,0 +1,256 @@
+#include "spoolflow/apps/work/inspection_text.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "spoolflow/apps/work/harmless_text.hpp"
+#include "spoolflow/recording/proposal.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+/// Every text among the values is made harmless.
+template <class... Values>
+void add(std::string& out, fmt::format_string<detail::Harmless<Values>...> format, const Values&... values) {
+  fmt::format_to(std::back_inserter(out), format, detail::harmless(values)...);
+}
+
+/// The unit that people read a channel in.
+struct ShownUnit {
+  const char* name;
+  double per_SI;
+  double offset;
+};
+
+ShownUnit shown_unit(recording::Channel channel) {
+  using units::Dimension;
+  switch (recording::dimension(channel)) {
+    case Dimension::time:
+      return {"s", 1, 0};
+    case Dimension::current:
+      return {"A", 1, 0};
+    case Dimension::voltage:
+      return {"V", 1, 0};
+    case Dimension::length:
+      return {"mm", units::millimetre_per_metre, 0};
+    case Dimension::ratio:
+      if (channel == recording::Channel::test) return {"", 1, 0};
+      return {"percent", 100, 0};
+    case Dimension::force:
+      return {"N", 1, 0};
+    case Dimension::pressure:
+      return {"bar", 1 / units::pascal_per_bar, 0};
+    case Dimension::temperature:
+      return {"C", 1, -units::kelvin_at_0_degC};
+    case Dimension::volume_flow:
+      return {"L/min", units::litre_per_minute_per_m3_per_s, 0};
+    default:
+      break;
+  }
+  return {"", 1, 0};
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+/// Columns that the map does not name.
+std::vector<std::string> columns_left_out(const recording::ChannelMap& map, const recording::Inspection& found) {
+  std::vector<std::string> out;
+  for (const std::string& column : found.contents.columns) {
+    const auto names_it = [&](const auto& entry) { return entry.second.column == column; };
+    if (std::none_of(map.sources.begin(), map.sources.end(), names_it)) out.push_back(column);
+  }
+  return out;
+}
+
+std::string names_of(const std::vector<recording::Channel>& channels) {
+  std::vector<std::string> names;
+  for (const recording::Channel channel : channels) names.emplace_back(recording::name(channel));
+  return joined(names);
+}
+
+/// Every column with its raw range and what it is taken for, where a name is not the program's own.
+void add_columns(std::string& out, const recording::Inspection& found) {
+  const auto own = [](const recording::InspectedColumn& column) { return column.why == "its own name"; };
+  if (std::ranges::all_of(found.columns, own)) return;
+  add(out, "{:<24} {:<8} {:>12} {:>12}  {}\n", "column", "unit", "lowest", "highest", "taken as");
+  for (const recording::InspectedColumn& column : found.columns) {
+    const std::string_view channel = column.channel ? recording::name(*column.channel) : "";
+    const std::string taken = column.channel
+                                  ? fmt::format("{}{}: {}", channel, column.guessed ? ", a guess" : "", column.why)
+                              : column.times_others ? column.why
+                              : column.why.empty()  ? "not used"
+                                                    : "not used; " + column.why;
+    add(out, "{:<24} {:<8} {:>12.5g} {:>12.5g}  {}\n", column.name, column.unit.empty() ? "?" : column.unit,
+        column.lowest, column.highest, taken);
+  }
+  add(out, "\n");
+}
+
+void add_missing(std::string& out, const recording::Inspection& found) {
+  if (!found.missing.empty()) add(out, "Needed and not found: {}\n", names_of(found.missing));
+  if (!found.helpful.empty()) {
+    add(out, "Not found, and helpful: {} (voltage and oil temperature narrow the band; validate needs a flow)\n",
+        names_of(found.helpful));
+  }
+  std::vector<std::string> unused;
+  for (const recording::InspectedColumn& column : found.columns) {
+    if (!column.channel && !column.times_others) unused.push_back(column.name);
+  }
+  if (!unused.empty()) add(out, "Columns that are not used: {}\n", joined(unused));
+  if (!found.missing.empty() || !found.helpful.empty() || !unused.empty()) add(out, "\n");
+}
+
+void add_proposal(std::string& out, const recording::Inspection& found) {
+  add_columns(out, found);
+  add_missing(out, found);
+  if (found.proposal.sources.empty()) {
+    add(out,
+        "No column is known by its name or its numbers; write a channel map by hand (see docs/formats/channels.md).\n");
+    return;
+  }
+  const std::string map = recording::written(found.proposal, found.remarks, found.missing);
+  const bool asks = map.find("\"?\"") != std::string::npos || !found.remarks.empty();
+  out += (fmt::format("Proposed channel map ({}, then give it with --channels MAP.toml):\n\n{}",
+                      asks ? "fill in each \"?\" and check what is called a guess" : "check it", terminal_lines(map)));
+}
+
+/// The times of a file whose columns are of several, and what becomes of them.
+void add_clocks(std::string& out, const recording::Inspection& found) {
+  if (found.clocks.empty()) return;
+  add(out, "\n{:<24} {:>10} {:>10} {:>12} {:>12}  {}\n", "time", "samples", "Hz", "from s", "to s", "columns");
+  for (const recording::InspectedClock& clock : found.clocks) {
+    add(out, "{:<24} {:>10} {:>10.4g} {:>12.6g} {:>12.6g}  {}\n", clock.time.empty() ? "(even steps)" : clock.time,
+        clock.samples, clock.rate_Hz, clock.begin_s, clock.end_s,
+        joined(clock.columns) + (clock.leads ? " (the others are brought onto this time)" : ""));
+    if (!clock.fault.empty()) add(out, "  cannot be used: {}\n", clock.fault);
+  }
+  if (!found.resampled.empty()) add(out, "{}\n", found.resampled);
+}
+
+void add_text(std::string& out, const InspectedFile& inspected) {
+  const recording::Inspection& found = inspected.found;
+  add(out, "{}: {}, {} columns: {}\n", inspected.file, found.contents.format, found.contents.columns.size(),
+      joined(found.contents.columns));
+  add_clocks(out, found);
+  if (!found.channels.empty()) {
+    add(out, "{} samples from {:.6g} to {:.6g} s ({:.6g} s), {:.6g} Hz", found.samples, found.begin_s, found.end_s,
+        found.end_s - found.begin_s, found.rate_Hz);
+    if (found.jitter > 0.01) add(out, ", time steps vary by up to {:.0f} %", 100 * found.jitter);
+    add(out, "\n");
+    if (found.duplicate_times > 0) add(out, "{} samples repeat the time stamp before them\n", found.duplicate_times);
+    if (found.gap_count > 0) {
+      add(out, "{} gaps in time", found.gap_count);
+      for (const recording::Gap& gap : found.gaps)
+        add(out, "{} {:.6g} to {:.6g} s", &gap == found.gaps.data() ? ":" : ",", gap.from_s, gap.to_s);
+      add(out, "{}\n", found.gap_count > found.gaps.size() ? ", …" : "");
+    }
+    add(out, "\n{:<24} {:<8} {:>12} {:>12} {:>12} {:>9} {:>9}\n", "channel", "unit", "lowest", "mean", "highest",
+        "missing", "clipped");
+    for (const recording::ChannelSummary& summary : found.channels) {
+      const ShownUnit unit = shown_unit(summary.channel);
+      const auto shown = [&](double value) { return value * unit.per_SI + unit.offset; };
+      add(out, "{:<24} {:<8} {:>12.5g} {:>12.5g} {:>12.5g} {:>9} {:>8.2f}%\n", recording::name(summary.channel),
+          unit.name, shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
+          100 * summary.clipped);
+    }
+    add(out, "\n");
+  }
+  if (inspected.map_file.empty()) {
+    add_proposal(out, found);
+  } else if (const std::vector<std::string> columns = columns_left_out(inspected.map, found); columns.empty()) {
+    add(out, "Read with {}, which names every column.\n", inspected.map_file);
+  } else {
+    add(out, "Read with {}; columns that it does not name: {}\n", inspected.map_file, joined(columns));
+  }
+}
+
+void add_names_json(std::string& out, const char* key, const std::vector<recording::Channel>& channels) {
+  add(out, " \"{}\": [", key);
+  for (const recording::Channel& channel : channels)
+    add(out, "{}\"{}\"", &channel == channels.data() ? "" : ", ", recording::name(channel));
+  add(out, "],\n");
+}
+
+void add_column_json(std::string& out, const recording::Inspection& found) {
+  add(out, " \"raw_columns\": [");
+  for (const recording::InspectedColumn& column : found.columns) {
+    add(out,
+        "{}\n  {{\"column\": {}, \"unit\": {}, \"lowest\": {}, \"highest\": {}, \"channel\": {}, \"guessed\": {}, "
+        "\"why\": {}}}",
+        &column == found.columns.data() ? "" : ",", json_text(column.name), json_text(column.unit),
+        json_number(column.lowest), json_number(column.highest),
+        column.channel ? json_text(std::string(recording::name(*column.channel))) : "null", column.guessed,
+        json_text(column.why));
+  }
+  add(out, "\n ],\n");
+  add_names_json(out, "missing", found.missing);
+  add_names_json(out, "helpful", found.helpful);
+}
+
+void add_clocks_json(std::string& out, const recording::Inspection& found) {
+  add(out, " \"times\": [");
+  for (const recording::InspectedClock& clock : found.clocks) {
+    add(out,
+        "{}\n  {{\"column\": {}, \"samples\": {}, \"rate_Hz\": {}, \"begin_s\": {}, \"end_s\": {}, \"leads\": {}, "
+        "\"fault\": {}, \"columns\": [",
+        &clock == found.clocks.data() ? "" : ",", json_text(clock.time), clock.samples, json_number(clock.rate_Hz),
+        json_number(clock.begin_s), json_number(clock.end_s), clock.leads, json_text(clock.fault));
+    for (const std::string& column : clock.columns)
+      add(out, "{}{}", &column == clock.columns.data() ? "" : ", ", json_text(column));
+    add(out, "]}}");
+  }
+  add(out, "\n ],\n \"resampled\": {},\n", json_text(found.resampled));
+}
+
+void add_json(std::string& out, const recording::Inspection& found) {
+  add(out, "{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
+  for (const std::string& column : found.contents.columns) {
+    add(out, "{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
+  }
+  add(out, "],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
+      found.samples, json_number(found.begin_s), json_number(found.end_s), json_number(found.rate_Hz),
+      json_number(found.jitter));
+  add(out, " \"duplicate_times\": {},\n \"gap_count\": {},\n \"gaps_s\": [", found.duplicate_times, found.gap_count);
+  for (const recording::Gap& gap : found.gaps) {
+    add(out, "{}[{}, {}]", &gap == found.gaps.data() ? "" : ", ", json_number(gap.from_s), json_number(gap.to_s));
+  }
+  add(out, "],\n \"channels\": [");
+  for (const recording::ChannelSummary& summary : found.channels) {
+    const ShownUnit unit = shown_unit(summary.channel);
+    const auto shown = [&](double value) { return json_number(value * unit.per_SI + unit.offset); };
+    add(out,
+        "{}\n  {{\"channel\": \"{}\", \"unit\": \"{}\", \"lowest\": {}, \"mean\": {}, \"highest\": {}, \"missing\": "
+        "{}, "
+        "\"clipped_share\": {}}}",
+        &summary == found.channels.data() ? "" : ",", recording::name(summary.channel), unit.name,
+        shown(summary.lowest), shown(summary.mean), shown(summary.highest), summary.missing,
+        json_number(summary.clipped));
+  }
+  add(out, "\n ],\n");
+  add_clocks_json(out, found);
+  add_column_json(out, found);
+  add(out, " \"proposed_channel_map\": {}\n}}\n",
+      json_text(recording::written(found.proposal, found.remarks, found.missing)));
+}
+
+}  // namespace
+
+std::string inspection_text(const InspectedFile& inspected) {
+  std::string out;
+  add_text(out, inspected);
+  return out;
+}
+
+std::string inspection_json(const recording::Inspection& found) {
+  std::string out;
+  add_json(out, found);
+  return out;
+}
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,21 @@
+#pragma once
+/// What `inspect` says of a recording.
+#include <string>
+
+#include "spoolflow/recording/inspection.hpp"
+
+namespace spoolflow::apps {
+
+struct InspectedFile {
+  std::string file;                  ///< as it is told
+  std::string map_file;              ///< of the map that it was read with; empty: none
+  const recording::ChannelMap& map;  ///< that map
+  const recording::Inspection& found;
+};
+
+/// For people.
+[[nodiscard]] std::string inspection_text(const InspectedFile& inspected);
+/// For programs, `inspect --json`.
+[[nodiscard]] std::string inspection_json(const recording::Inspection& found);
+
+}  // namespace spoolflow::apps

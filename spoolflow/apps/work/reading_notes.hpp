@@ -1,0 +1,13 @@
+#pragma once
+/// What the commands say of how a recording was read.
+#include <string>
+#include <vector>
+
+#include "spoolflow/recording/reader.hpp"
+
+namespace spoolflow::apps {
+
+/// What was met while reading, a line each; empty where all was well.
+[[nodiscard]] std::vector<std::string> notes_text(const recording::ReadNotes& notes, const std::string& file);
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,71 @@
+#pragma once
+/// A bench at work, one period of the electronics after the other: plant, instruments and electronics together.
+#include <cstdint>
+#include <functional>
+
+#include "spoolflow/recording/recording.hpp"
+#include "spoolflow/rig/bench/bench_run.hpp"
+#include "spoolflow/rig/bench/coil_supply.hpp"
+#include "spoolflow/rig/bench/instrument_panel.hpp"
+#include "spoolflow/rig/bench/valve_under_test.hpp"
+
+namespace spoolflow::rig {
+
+/// What the electronics have of one recorded sample, as the instruments show it; NaN where the run does not record it.
+struct MeasuredSample {
+  double time_s;
+  double current_A;                 ///< mean over the sample period that ends at `time_s`
+  double voltage_V;                 ///< likewise
+  double current_a_A, current_b_A;  ///< likewise, of a whole valve
+  double voltage_a_V, voltage_b_V;
+  double position_m;
+  double oil_temperature_K;
+};
+
+struct SimulationOptions {
+  bool with_truth = false;
+  /// Called at each recorded sample: the dither that the valve's electronics lay on the set current until the next one.
+  /// Without it the electronics keep their own.
+  std::function<Dither(const MeasuredSample&)> dither{};
+  /// Called at each recorded sample, after `dither`.
+  std::function<void(const MeasuredSample&)> each_sample{};
+  /// Called at each recorded sample: the plant as it has become until then, by wear. Spread and the run's own
+  /// arrangement are in it.
+  std::function<void(double time_s, PlantParameters& plant)> age{};
+  bool keeps_recording = true;                   ///< false: the recording that comes back holds nothing
+  std::function<void(double share)> progress{};  ///< called some hundred times, 0 to 1
+};
+
+class RunningBench {
+ public:
+  /// As simulate(). The run must outlive it, and its courses may be drawn on while it works.
+  RunningBench(const ValveUnderTest& valve, const BenchRun& run, std::uint64_t seed);
+  RunningBench(const RunningBench&) = delete;
+  RunningBench& operator=(const RunningBench&) = delete;
+
+  /// The next period; returns whether a sample was recorded at its beginning, in `recording`. Calls of the options
+  /// dither, age and each_sample, and keeps_recording. Throws as simulate().
+  bool tick(recording::Recording& recording, const SimulationOptions& options);
+
+  /// Of the period that comes next.
+  [[nodiscard]] double time_s() const;
+  /// What really was at the last sample.
+  [[nodiscard]] const PlantOutput& truth() const { return truth_; }
+
+ private:
+  void store_sample(recording::Recording& recording, const SimulationOptions& options, double time_s);
+
+  const BenchRun& run_;
+  ValveUnderTest tested_;
+  Instruments instruments_;
+  PlantInput input_;
+  PlantState state_;
+  PlantOutput truth_;
+  InstrumentPanel panel_;
+  CoilSupply coil_supply_;
+  SpanReader<double> sample_rate_;
+  SpanReader<double> test_;
+  std::int64_t tick_ = 0, next_sample_ = 0, observed_ = 0;
+};
+
+}  // namespace spoolflow::rig
