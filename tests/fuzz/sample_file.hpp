@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/inspection.hpp"
+#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/proposal.hpp"
 #include "tests/fuzz/input_file.hpp"
 

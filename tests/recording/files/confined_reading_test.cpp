@@ -14,8 +14,8 @@
 
 #include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
-#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
+#include "spoolflow/recording/open_table.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
 

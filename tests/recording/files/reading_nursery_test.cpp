@@ -21,8 +21,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
+#include "spoolflow/recording/open_table.hpp"
 #include "tests/recording/temporary_file.hpp"
 
 namespace spoolflow::recording {
