@@ -8,6 +8,7 @@
 
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "tests/recording/column_of.hpp"
 #include "tests/recording/mdf4/mdf4_file.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
@@ -19,18 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::vector<double> values_of(const std::string& bytes, const std::string& name) {
-  const TemporaryFile file("run.mf4", bytes);
-  const auto table = open_sample_table(file.path()).table;
-  for (std::size_t k = 0; k < table->columns().size(); ++k) {
-    if (table->columns()[k].name != name) continue;
-    table->select({k});
-    std::vector<double> out(64);
-    double* const into[1]{out.data()};
-    out.resize(table->read(into, out.size()));
-    return out;
-  }
-  ADD_FAILURE() << "no column " << name;
-  return {};
+  return column_of("run.mf4", bytes, name);
 }
 
 /// One sorted group of that many records with these channels.

@@ -8,6 +8,7 @@
 
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "tests/recording/column_of.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/tdms/tdms_file.hpp"
 #include "tests/recording/temporary_file.hpp"
@@ -18,25 +19,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// All samples of the column of that name.
 std::vector<double> column(const std::string& bytes, const std::string& name) {
-  const TemporaryFile file("run.tdms", bytes);
-  const auto table = open_sample_table(file.path()).table;
-  for (std::size_t k = 0; k < table->columns().size(); ++k) {
-    if (table->columns()[k].name != name) continue;
-    table->select({k});
-    std::vector<double> out(64);
-    double* const into[1]{out.data()};
-    std::size_t count = 0;
-    for (std::size_t rows = 1; rows > 0; count += rows) {
-      double* const next[1]{into[0] + count};
-      rows = table->read(next, out.size() - count);
-    }
-    out.resize(count);
-    return out;
-  }
-  ADD_FAILURE() << "no column " << name;
-  return {};
+  return column_of("run.tdms", bytes, name);
 }
 
 std::string refused(const std::string& bytes) {
