@@ -199,13 +199,12 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
     find_missing(out);
     if (even) std::erase(out.missing, Channel::time);
   }
-  if (options.channels.sources.empty() && !has_own_names(out.contents)) return out;
   ReadOptions channels = options;
-  if (options.channels.sources.empty() && !names_time(out.contents) &&
-      !even) {  // the other channels have their own names
-    const auto time = out.proposal.sources.find(Channel::time);
-    if (time == out.proposal.sources.end() || time->second.unit.empty()) return out;
+  const bool tells = has_own_names(out.contents) && (names_time(out.contents) || even);
+  if (options.channels.sources.empty() && !tells) {  // names alone do not, but with units of their own they may
     channels.channels = known_units(out.proposal);
+    const bool timed = even || channels.channels.sources.contains(Channel::time);
+    if (!timed || channels.channels.sources.size() < 2) return out;
   }
   const auto reader = open_reader(input.open(), channels);
   std::array<Follower, channel_count> followers;

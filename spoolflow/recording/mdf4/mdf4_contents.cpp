@@ -25,7 +25,7 @@ void check_version(const FileBytes& file) {
   if (version.empty() || version[0] != '4') {
     throw RecordingError(fmt::format(
         "{}: is an MDF file of version {}, where 4 is read; save it as MDF 4 (mf4) in the program that wrote it",
-        file.name(), version.substr(0, version.find_first_of(" \0"))));
+        file.name(), version.substr(0, version.find_first_of(std::string_view(" \0", 2)))));
   }
   if (unfinished) {
     throw RecordingError(
@@ -46,6 +46,7 @@ class Groups {
       data_group(block);
       at = block.link(0);
     }
+    find_times();
     return std::move(out_);
   }
 
@@ -57,10 +58,28 @@ class Groups {
     return out;
   }
 
+  /// Groups by columns may have their time in another one, whose records theirs then are as many as.
+  void find_times() {
+    for (std::size_t g = 0; g < out_.groups.size(); ++g) {
+      const Mdf4Group& group = out_.groups[g];
+      const auto master = std::ranges::find(out_.groups, group.master, &Mdf4Group::at);
+      const bool known = group.master != 0 && master != out_.groups.end();
+      if (known && master->count != group.count) {
+        refuse_mdf4(fmt::format("{}: group '{}'", file_.name(), group.name),
+                    fmt::format("{} records, where the group that holds its time has {}", group.count, master->count));
+      }
+      out_.time_group.push_back(known ? static_cast<std::size_t>(master - out_.groups.begin()) : g);
+    }
+  }
+
   void data_group(const Mdf4Block& block) {
     const std::uint8_t number_bytes = block.reader().u8();
     if (number_bytes > 8) refuse_mdf4(block.what, fmt::format("record numbers of {} bytes", number_bytes));
-    auto records = std::make_shared<Mdf4Records>(Mdf4Records{{file_, block.link(2), declared_}, number_bytes, {}, {}});
+    auto records = std::make_shared<Mdf4Records>(Mdf4Records{{file_, block.link(2), declared_},
+                                                             {file_, block.link(2), declared_, Mdf4Part::invalid_apart},
+                                                             number_bytes,
+                                                             {},
+                                                             {}});
     for (std::uint64_t at = block.link(1); at != 0;) {
       const Mdf4Block group = taken(at, "##CG");
       channel_group(group, records);
@@ -76,14 +95,18 @@ class Groups {
     ByteReader bytes = block.reader();
     Mdf4Group group;
     group.records = records;
+    group.at = block.head.at;
     group.number = bytes.u64();
     group.count = bytes.u64();
     const std::uint16_t flags = bytes.u16();
     bytes.skip(2 + 4);
     data_bytes_ = bytes.u32();
-    group.record_bytes = std::uint64_t{data_bytes_} + bytes.u32();
-    if (group.record_bytes > longest_record)
-      refuse_mdf4(block.what, fmt::format("records of {} bytes", group.record_bytes));
+    const std::uint32_t invalid_bytes = bytes.u32();
+    const bool by_columns = records->stream.by_columns();
+    group.record_bytes = std::uint64_t{data_bytes_} + (by_columns ? 0 : invalid_bytes);
+    if (by_columns && records->invalid.size() > 0) group.apart_bytes = invalid_bytes;
+    if (std::uint64_t{data_bytes_} + invalid_bytes > longest_record)
+      refuse_mdf4(block.what, fmt::format("records of {} bytes", std::uint64_t{data_bytes_} + invalid_bytes));
     if (!records->bytes.emplace(group.number, group.record_bytes).second) {
       refuse_mdf4(block.what, fmt::format("two kinds of records have the number {}", group.number));
     }
@@ -92,23 +115,27 @@ class Groups {
     ++groups_;
     group.name = read_text(file_, block.link(2));
     if (group.name.empty()) group.name = fmt::format("group {}", groups_);
-    std::string why = records->stream.unread();
-    if ((flags & bus) != 0) why = "messages of a bus, not signals (decode it with the bus's database)";
-    if ((flags & remote_master) != 0) why = "a time that stands in another group (MDF 4.2)";
-    if (!why.empty()) {
-      tell(fmt::format("group '{}' holds {}, which is not read; export it with its signals as MDF 4.1", group.name,
-                       why));
+    if ((flags & bus) != 0) {
+      tell(
+          fmt::format("group '{}' holds messages of a bus, which are not read; export it with its signals (by the "
+                      "bus's database)",
+                      group.name));
       return;
     }
+    constexpr std::size_t master_link = 6;
+    if ((flags & remote_master) != 0) group.master = block.link(master_link);
     check_count(block, group);
     channels(group, block.link(1), "", 0);
     if (group.count > 0 && !group.channels.empty()) out_.groups.push_back(std::move(group));
   }
 
   void check_count(const Mdf4Block& block, const Mdf4Group& group) const {
-    const std::uint64_t each = group.record_bytes + group.records->number_bytes, all = group.records->stream.size();
-    if (group.count == 0 || (each > 0 && group.count <= all / each)) return;
-    refuse_mdf4(block.what, fmt::format("{} records of {} bytes in {} bytes of data", group.count, each, all));
+    const auto check = [&](std::uint64_t each, std::uint64_t all, const char* of) {
+      if (group.count == 0 || (each > 0 && group.count <= all / each)) return;
+      refuse_mdf4(block.what, fmt::format("{} records of {} bytes in {} bytes of {}", group.count, each, all, of));
+    };
+    check(group.record_bytes + group.records->number_bytes, group.records->stream.size(), "data");
+    if (group.apart_bytes > 0) check(group.apart_bytes, group.records->invalid.size(), "what is invalid");
   }
 
   /// The chain of channels from there on; `structure`: the names of what they are members of, each with a dot.
@@ -168,9 +195,10 @@ class Groups {
     group.channels.push_back(std::move(out));
   }
 
-  /// The bits stand behind the record's data.
+  /// The bits stand behind the record's data; by columns there may be none.
   void invalid_from(const Mdf4Group& group, const Mdf4Block& block, std::uint32_t bit, Mdf4Sample& sample) const {
-    if (std::uint64_t{data_bytes_} + bit / 8 >= group.record_bytes) {
+    if (group.records->stream.by_columns() && group.apart_bytes == 0) return;
+    if (std::uint64_t{data_bytes_} + bit / 8 >= group.record_bytes + group.apart_bytes) {
       refuse_mdf4(block.what, fmt::format("there is no bit {} that tells what is invalid", bit));
     }
     sample.invalid_bit = 8 * data_bytes_ + bit;

@@ -14,25 +14,55 @@ constexpr std::uint64_t largest_unpacked = std::uint64_t{64} << 20U;  // the sta
 
 }  // namespace
 
-Mdf4Stream::Mdf4Stream(const FileBytes& file, std::uint64_t at, DeclaredSize& declared) : file_(file) {
+Mdf4Stream::Mdf4Stream(const FileBytes& file, std::uint64_t at, DeclaredSize& declared, Mdf4Part part) : file_(file) {
   if (at == 0) return;
   const Mdf4Head head = read_head(file_, at);
-  if (head.id == "##HL") {
+  by_columns_ = head.id == "##DV" || head.id == "##LD";
+  if (head.id == "##LD") {
+    add_columns(at, declared, part);
+  } else if (part == Mdf4Part::invalid_apart) {
+    return;
+  } else if (head.id == "##HL") {
     const Mdf4Block block = read_block(file_, at, "##HL");
     add_list(block.link(0), declared);
   } else if (head.id == "##DL") {
     add_list(at, declared);
-  } else if (head.id == "##DV" || head.id == "##LD") {
-    unread_ = "stored by columns (MDF 4.2)";
   } else {
     add(at, declared);
   }
 }
 
+/// A list of a chain, which is refused where it is met again.
+Mdf4Block Mdf4Stream::taken(std::uint64_t at, std::string_view id) {
+  Mdf4Block list = read_block(file_, at, id);
+  if (!lists_.insert(at).second) refuse_mdf4(list.what, "the lists of its data lead round in a circle");
+  return list;
+}
+
+/// Lists LD: links to the next list, to each block of values and, where their flags say so, to as many of what is
+/// invalid.
+void Mdf4Stream::add_columns(std::uint64_t at, DeclaredSize& declared, Mdf4Part part) {
+  constexpr std::uint32_t with_invalid = std::uint32_t{1} << 31U;
+  while (at != 0) {
+    const Mdf4Block list = taken(at, "##LD");
+    ByteReader bytes = list.reader();
+    const bool apart = (bytes.u32() & with_invalid) != 0;
+    const std::uint64_t count = bytes.u32(), behind = list.links.empty() ? 0 : list.links.size() - 1;
+    if (count > behind / (apart ? 2 : 1)) {
+      refuse_mdf4(list.what, fmt::format("{} blocks are said to be listed by {} links", count, behind));
+    }
+    const bool invalid = part == Mdf4Part::invalid_apart;
+    for (std::uint64_t k = 0; k < count && (apart || !invalid); ++k) {
+      const std::uint64_t block = list.link(static_cast<std::size_t>(1 + k + (invalid ? count : 0)));
+      if (block != 0) add(block, declared);
+    }
+    at = list.link(0);
+  }
+}
+
 void Mdf4Stream::add_list(std::uint64_t at, DeclaredSize& declared) {
   while (at != 0) {
-    const Mdf4Block list = read_block(file_, at, "##DL");
-    if (!lists_.insert(at).second) refuse_mdf4(list.what, "the lists of its data lead round in a circle");
+    const Mdf4Block list = taken(at, "##DL");
     for (std::size_t k = 1; k < list.links.size(); ++k) {
       if (list.links[k] != 0) add(list.links[k], declared);
     }
@@ -43,7 +73,7 @@ void Mdf4Stream::add_list(std::uint64_t at, DeclaredSize& declared) {
 void Mdf4Stream::add(std::uint64_t at, DeclaredSize& declared) {
   const Mdf4Head head = read_head(file_, at);
   if (head.id == "##DZ") return add_packed(head, declared);
-  if (head.id != "##DT") {
+  if (head.id != "##DT" && head.id != "##DV" && head.id != "##DI") {
     refuse_mdf4(fmt::format("{}: the block {} at byte {}", file_.name(), head.id.substr(2), at),
                 "samples are said to stand there, which it does not hold");
   }
@@ -64,7 +94,9 @@ void Mdf4Stream::add_packed(const Mdf4Head& head, DeclaredSize& declared) {
   bytes.skip(1);
   const std::uint32_t row_bytes = bytes.u32();
   const std::uint64_t unpacked = bytes.u64(), packed = bytes.u64();
-  if (of != "DT") refuse_mdf4(what, fmt::format("it holds a block {}, where DT is wanted", of));
+  if (of != "DT" && of != "DV" && of != "DI") {
+    refuse_mdf4(what, fmt::format("it holds a block {}, where DT, DV or DI is wanted", of));
+  }
   if (kind > 1) refuse_mdf4(what, fmt::format("it is packed in way {}, where 0 and 1 are known", kind));
   if (packed == 0 || packed > head.bytes - mdf4_head_bytes - raw.size() || unpacked > largest_unpacked) {
     refuse_mdf4(what, fmt::format("{} bytes are said to be packed in {}", unpacked, packed));

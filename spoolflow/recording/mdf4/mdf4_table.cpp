@@ -17,12 +17,16 @@ class Mdf4Table final : public VectorTable {
       : VectorTable(path.string()), bytes_(path), contents_(read_mdf4_contents(bytes_)) {
     std::set<std::string> names;
     for (std::size_t g = 0; g < contents_.groups.size(); ++g) {
-      Mdf4Group& group = contents_.groups[g];
-      if (!names.insert(group.name).second) group.name = fmt::format("{} #{}", group.name, g + 1);
+      if (contents_.time_group[g] != g) continue;
+      std::string& name = contents_.groups[g].name;
+      if (!names.insert(name).second) name = fmt::format("{} #{}", name, g + 1);
+    }
+    for (std::size_t g = 0; g < contents_.groups.size(); ++g) {
+      const Mdf4Group& group = contents_.groups[g];
+      const std::string& timed = contents_.groups[contents_.time_group[g]].name;
       for (std::size_t c = 0; c < group.channels.size(); ++c) {
         const Mdf4Channel& channel = group.channels[c];
-        const bool alone = contents_.groups.size() == 1;
-        FileColumn column{alone ? channel.name : group.name + "/" + channel.name,
+        FileColumn column{names.size() == 1 ? channel.name : timed + "/" + channel.name,
                           channel.is_time ? "time" : channel.name, channel.unit};
         add({std::move(column), group.count});
         sources_.push_back({g, c});

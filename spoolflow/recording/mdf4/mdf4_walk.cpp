@@ -18,25 +18,27 @@ std::uint64_t whole(const std::uint8_t* from, std::uint64_t bytes) {
 
 }  // namespace
 
-const std::uint8_t* Mdf4Walk::bytes(std::uint64_t at, std::uint64_t count) {
-  Mdf4Stream& stream = group_->records->stream;
+const std::uint8_t* Mdf4Bytes::from(std::uint64_t at, std::uint64_t count) {
   if (at < begin_ || at + count > begin_ + buffer_.size()) {
-    if (at > stream.size() || count > stream.size() - at) {
-      refuse_mdf4(fmt::format("{}: group '{}'", group_->records->stream.file(), group_->name),
-                  "its records end too soon");
-    }
-    buffer_.resize(static_cast<std::size_t>(std::min(stream.size() - at, std::max(bytes_at_once, count))));
+    if (at > stream_->size() || count > stream_->size() - at) refuse_mdf4(of_, "its records end too soon");
+    buffer_.resize(static_cast<std::size_t>(std::min(stream_->size() - at, std::max(bytes_at_once, count))));
     begin_ = at;
-    stream.read(at, buffer_);
+    stream_->read(at, buffer_);
   }
   return buffer_.data() + (at - begin_);
 }
+
+Mdf4Walk::Mdf4Walk(const Mdf4Group& group)
+    : group_(&group),
+      bytes_(group.records->stream, fmt::format("{}: group '{}'", group.records->stream.file(), group.name)),
+      apart_(group.records->invalid, fmt::format("{}: group '{}'", group.records->stream.file(), group.name)) {}
 
 std::uint64_t Mdf4Walk::next_own() {
   const Mdf4Records& records = *group_->records;
   const std::uint64_t number_bytes = records.number_bytes;
   for (;;) {
-    const std::uint64_t number = number_bytes == 0 ? group_->number : whole(bytes(at_, number_bytes), number_bytes);
+    const std::uint64_t number =
+        number_bytes == 0 ? group_->number : whole(bytes_.from(at_, number_bytes), number_bytes);
     at_ += number_bytes;
     if (number == group_->number || records.bytes.size() == 1) return at_;
     const auto kind = records.bytes.find(number);
@@ -44,8 +46,8 @@ std::uint64_t Mdf4Walk::next_own() {
       refuse_mdf4(fmt::format("{}: group '{}'", group_->records->stream.file(), group_->name),
                   fmt::format("records of the number {}, which no group has", number));
     }
-    at_ +=
-        records.of_any_length.at(number) ? length_bytes + whole(bytes(at_, length_bytes), length_bytes) : kind->second;
+    at_ += records.of_any_length.at(number) ? length_bytes + whole(bytes_.from(at_, length_bytes), length_bytes)
+                                            : kind->second;
   }
 }
 
@@ -60,7 +62,13 @@ void Mdf4Walk::show(std::uint64_t first, std::size_t count,
   }
   for (; next_ < first + count; ++next_) {
     const std::uint64_t at = next_own();
-    const std::uint8_t* const content = bytes(at, group_->record_bytes);
+    const std::uint8_t* content = bytes_.from(at, group_->record_bytes);
+    if (group_->apart_bytes > 0) {
+      joined_.assign(content, content + group_->record_bytes);
+      const std::uint8_t* const apart = apart_.from(next_ * group_->apart_bytes, group_->apart_bytes);
+      joined_.insert(joined_.end(), apart, apart + group_->apart_bytes);
+      content = joined_.data();
+    }
     if (next_ >= first) record(content, next_);
     at_ = at + group_->record_bytes;
   }

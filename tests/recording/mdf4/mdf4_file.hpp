@@ -1,5 +1,5 @@
 #pragma once
-/// The smallest MDF 4 files, block by block (ASAM MDF 4.1).
+/// The smallest MDF 4 files, block by block (ASAM MDF 4.1; by columns: 4.2).
 #include <string>
 #include <vector>
 #include <zlib.h>
@@ -59,19 +59,21 @@ class Mdf4File {
     }
     return next;
   }
-  /// A channel group with records of that many bytes.
+  /// A channel group with records of that many bytes. `master`: the group that holds its time; 0: itself.
   std::uint64_t group(std::uint64_t next, std::uint64_t first_channel, const std::string& name, std::uint64_t number,
                       std::uint64_t count, std::uint32_t bytes, std::uint32_t invalid_bytes = 0,
-                      std::uint16_t flags = 0) {
+                      std::uint16_t flags = 0, std::uint64_t master = 0) {
     WrittenBytes data;
-    data.u64(number).u64(count).u16(flags).u16(0).u32(0).u32(bytes).u32(invalid_bytes);
-    return block("##CG", {next, first_channel, text(name), 0, 0, 0}, data.content());
+    data.u64(number).u64(count).u16(master == 0 ? flags : flags | 8).u16(0).u32(0).u32(bytes).u32(invalid_bytes);
+    std::vector<std::uint64_t> links{next, first_channel, text(name), 0, 0, 0};
+    if (master != 0) links.push_back(master);
+    return block("##CG", links, data.content());
   }
   std::uint64_t data_group(std::uint64_t next, std::uint64_t group, std::uint64_t data, std::uint8_t number_bytes = 0) {
     return block("##DG", {next, group, data, 0}, WrittenBytes().u8(number_bytes).zeros(7).content());
   }
   /// Packed; `row` > 0: transposed before.
-  std::uint64_t packed(const std::string& data, std::uint32_t row = 0) {
+  std::uint64_t packed(const std::string& data, std::uint32_t row = 0, const std::string& of = "DT") {
     std::string turned = data;
     const std::size_t rows = row == 0 ? 0 : data.size() / row;
     for (std::size_t r = 0; r < rows; ++r) {
@@ -82,13 +84,22 @@ class Mdf4File {
     compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(turned.data()), turned.size());
     out.resize(size);
     WrittenBytes head;
-    head.raw("DT").u8(row > 0 ? 1 : 0).u8(0).u32(row).u64(data.size()).u64(size);
+    head.raw(of).u8(row > 0 ? 1 : 0).u8(0).u32(row).u64(data.size()).u64(size);
     return block("##DZ", {}, head.content() + out);
   }
   std::uint64_t list(const std::vector<std::uint64_t>& data) {
     std::vector<std::uint64_t> links{0};
     links.insert(links.end(), data.begin(), data.end());
     return block("##DL", links, WrittenBytes().u32(0).u32(static_cast<std::uint32_t>(data.size())).content());
+  }
+  /// Blocks of values by columns, and as many of what is invalid, or none.
+  std::uint64_t columns(const std::vector<std::uint64_t>& values, const std::vector<std::uint64_t>& invalid = {}) {
+    std::vector<std::uint64_t> links{0};
+    links.insert(links.end(), values.begin(), values.end());
+    links.insert(links.end(), invalid.begin(), invalid.end());
+    WrittenBytes data;
+    data.u32(invalid.empty() ? 0 : std::uint32_t{1} << 31U).u32(static_cast<std::uint32_t>(values.size()));
+    return block("##LD", links, data.zeros(8 * values.size()).content());
   }
   /// The file, whose first data group that is.
   std::string content(std::uint64_t first_data_group) {

@@ -1,11 +1,13 @@
 /// MDF 4 files made by hand, read as any recording is: by the child of few rights.
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "tests/recording/column_of.hpp"
@@ -124,6 +126,61 @@ TEST(Mdf4Table, GroupsOfOtherRatesComeOntoTheTimeOfTheCurrent) {
   EXPECT_THAT(run.resampled, HasSubstr("'oil/pressure_difference_bar' from 10 Hz by linear interpolation"));
 }
 
+/// By columns: a group with the time, two with a channel each and their time in the first, a slow one with its own.
+std::string by_columns() {
+  Mdf4File file;
+  WrittenBytes time, current, position, position_tail, slow;
+  for (int k = 0; k < 20; ++k) {
+    time.f64(1e-3 * k);
+    current.put(static_cast<float>(500 + k));
+    (k < 8 ? position : position_tail).f64(0.1 + 1e-3 * k);
+  }
+  slow.f64(0).f64(60).f64(0.019).f64(62);
+  const auto timed = file.group(0, file.channels({{"t", "s", 2, 1, 4, 0, 64}}), "rig", 0, 20, 8);
+  const auto coil = file.group(0, file.channels({{"current", "mA", 0, 0, 4, 0, 32}}), "", 0, 20, 4, 0, 0, timed);
+  Mdf4File::Channel spool{"position", "mm", 0, 0, 4, 0, 64};
+  spool.invalid_bit = 1;
+  const auto place = file.group(0, file.channels({spool}), "", 0, 20, 8, 1, 0, timed);
+  const auto oil = file.group(
+      0, file.channels({{"t", "s", 2, 1, 4, 0, 64}, {"pressure_difference", "bar", 0, 0, 4, 8, 64}}), "oil", 0, 2, 16);
+  const std::string doubt = std::string(12, '\0') + "\1\2" + std::string(6, '\0');
+  const auto spread =
+      file.columns({file.block("##DV", {}, position.content()), file.packed(position_tail.content(), 8, "DV")},
+                   {file.block("##DI", {}, doubt.substr(0, 8)), file.packed(doubt.substr(8), 0, "DI")});
+  std::uint64_t last = file.data_group(0, oil, file.block("##DV", {}, slow.content()));
+  last = file.data_group(last, place, spread);
+  last = file.data_group(last, coil, file.columns({file.block("##DV", {}, current.content())}));
+  return file.content(file.data_group(last, timed, file.block("##DV", {}, time.content())));
+}
+
+TEST(Mdf4Table, ColumnsHaveTheTimeOfTheGroupThatHoldsIt) {
+  const TemporaryFile file("run.mf4", by_columns());
+  const Recording run =
+      read_recording(file.path(), {.channels = {},
+                                   .required = {Channel::current, Channel::position, Channel::pressure_difference},
+                                   .optional = {},
+                                   .stroke_m = {}});
+  ASSERT_EQ(run.size(), 20U);
+  EXPECT_NEAR(run[Channel::time][7], 0.007, 1e-12);
+  EXPECT_NEAR(run[Channel::current][19], 0.519, 1e-7);
+  EXPECT_NEAR(run[Channel::position][7], 0.107e-3, 1e-12);
+  EXPECT_NEAR(run[Channel::position][12], 0.112e-3, 1e-12);  // bit 0 says nothing of this channel
+  EXPECT_TRUE(std::isnan(run[Channel::position][13]));
+  EXPECT_NEAR(run[Channel::pressure_difference][19], 62e5, 1);
+  EXPECT_THAT(run.resampled, HasSubstr("'oil/pressure_difference' from"));
+}
+
+TEST(Mdf4Table, TheChannelsAreLookedThroughWhereTheirUnitsTellThem) {
+  const TemporaryFile file("run.mf4", by_columns());
+  const Inspection found = inspect(file.path(), {}, [](std::optional<double>, std::uint64_t) {});
+  EXPECT_EQ(found.samples, 20U);
+  EXPECT_NEAR(found.rate_Hz, 1000, 1e-6);
+  const auto position = std::ranges::find(found.channels, Channel::position, &ChannelSummary::channel);
+  ASSERT_NE(position, found.channels.end());
+  EXPECT_EQ(position->missing, 1U);
+  EXPECT_NEAR(position->highest, 0.119e-3, 1e-12);
+}
+
 TEST(Mdf4Table, WhatIsNoNumberIsTold) {
   Mdf4File file;
   const std::uint64_t texts = file.conversion(7, {});
@@ -153,6 +210,18 @@ TEST(Mdf4Table, OtherVersionsAndDamagedFilesAreRefused) {
   Mdf4File too_many;
   EXPECT_THAT(refused_mdf4(one_group(too_many, {{"x", "", 0, 0, 0, 0, 16}}, "xx", 2, 2)),
               HasSubstr("2 records of 2 bytes in 2 bytes of data"));
+  Mdf4File unlike;
+  const auto timed = unlike.group(0, unlike.channels({{"t", "s", 2, 1, 4, 0, 64}}), "rig", 0, 1, 8);
+  const auto other = unlike.group(0, unlike.channels({{"x", "", 0, 0, 0, 0, 16}}), "more", 0, 2, 2, 0, 0, timed);
+  const auto values = unlike.block("##DV", {}, "abcd"), time = unlike.block("##DV", {}, std::string(8, '\0'));
+  const auto last = unlike.data_group(0, other, values);
+  EXPECT_THAT(refused_mdf4(unlike.content(unlike.data_group(last, timed, time))),
+              HasSubstr("group 'more': 2 records, where the group that holds its time has 1"));
+  Mdf4File lists;
+  const auto few = lists.group(0, lists.channels({{"x", "", 0, 0, 0, 0, 16}}), "rig", 0, 1, 2);
+  const auto ld = lists.block("##LD", {0}, WrittenBytes().u32(0).u32(1).content());
+  EXPECT_THAT(refused_mdf4(lists.content(lists.data_group(0, few, ld))),
+              HasSubstr("1 blocks are said to be listed by 0 links"));
   Mdf4File cut;
   const std::string whole = one_group(cut, {{"x", "", 0, 0, 0, 0, 16}}, "xx", 1, 2);
   EXPECT_THAT(refused_mdf4(whole.substr(0, whole.size() - 40)), HasSubstr("is cut short or damaged"));
