@@ -4,6 +4,9 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-ffp-contract=off) # products and sums are rounded one by one, as they are there: the same answers everywhere
+endif()
 
 add_library(spoolflow_settings INTERFACE)
 target_include_directories(spoolflow_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)

@@ -2,7 +2,11 @@
 # library for programs that run with it (runtime), and what other programs build against (development).
 include(CMakePackageConfigHelpers)
 
-# Manual page and completion are made from the built command's own help.
+# Manual page and completion are made from the built command's own help; where it cannot run here, from that of this machine.
+set(page_command $<TARGET_FILE:spoolflow>)
+if(CMAKE_CROSSCOMPILING)
+  set(page_command ${SPOOLFLOW_PLAIN_BUILD}/bin/spoolflow)
+endif()
 set(made ${PROJECT_BINARY_DIR}/package)
 foreach(page IN ITEMS man_page:spoolflow.1 completion:spoolflow.bash)
   string(REGEX MATCH "^[^:]+" script ${page})
@@ -10,7 +14,7 @@ foreach(page IN ITEMS man_page:spoolflow.1 completion:spoolflow.bash)
   add_custom_command(
     OUTPUT ${made}/${file}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${made}
-    COMMAND ${PROJECT_SOURCE_DIR}/ci/${script}.sh $<TARGET_FILE:spoolflow> > ${made}/${file}
+    COMMAND ${PROJECT_SOURCE_DIR}/ci/${script}.sh ${page_command} > ${made}/${file}
     DEPENDS spoolflow ${PROJECT_SOURCE_DIR}/ci/${script}.sh)
 endforeach()
 add_custom_command(OUTPUT ${made}/spoolflow.1.gz COMMAND gzip -9n < spoolflow.1 > spoolflow.1.gz DEPENDS ${made}/spoolflow.1

@@ -54,15 +54,16 @@ std::string fmu_archive(FmuContent content, const FmuParts& parts, FmiVersion ve
   const std::string win64 = fmi2 ? "binaries/win64/" : "binaries/x86_64-windows/";
   std::vector<ArchiveMember> members{
       {"modelDescription.xml", fmi2 ? model_description_fmi2(content) : model_description_fmi3(content)},
-      {linux64 + content.identifier + ".so", std::string(parts.linux64)},
       {std::string("resources/") + fmu::resource_name, fmu::resource_bytes(content.resource)},
       {"documentation/index.html", fmu_documentation(content)},
       {"documentation/licenses/license.txt", asset("LICENSE")}};
-  if (!parts.win64.empty()) {
-    members.insert(members.begin() + 2, {win64 + content.identifier + ".dll", std::string(parts.win64)});
-  }
-  if (!fmi2 && !parts.aarch64.empty())
-    members.push_back({"binaries/aarch64-linux/" + content.identifier + ".so", std::string(parts.aarch64)});
+  // What could not be built where this program was is not there.
+  const auto library = [&](const std::string& place, std::string_view bytes) {
+    if (!bytes.empty()) members.push_back({place, std::string(bytes)});
+  };
+  library(linux64 + content.identifier + ".so", parts.linux64);
+  library(win64 + content.identifier + ".dll", parts.win64);
+  if (!fmi2) library("binaries/aarch64-linux/" + content.identifier + ".so", parts.aarch64);
   if (fmi2) {
     members.push_back({"model.png", asset("icon.png")});
   } else {

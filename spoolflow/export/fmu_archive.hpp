@@ -9,8 +9,8 @@ namespace spoolflow::exports {
 
 /// What travels inside the program for one FMU.
 struct FmuParts {
-  std::string_view linux64;  ///< shared library
-  std::string_view win64;    ///< the same; empty where this program was built without a compiler for Windows
+  std::string_view linux64;  ///< shared library; each empty where this program was built without a compiler for it
+  std::string_view win64;    ///< the same for Windows
   std::string_view aarch64;  ///< for Linux on 64-bit Arm, in FMI 3.0 alone: 2.0 has no name for that platform
   std::span<const EmbeddedFile> sources;  ///< everything in the FMU's folder sources, named by its path there
 };
