@@ -69,7 +69,7 @@ template <class T>
   if (!any(dither.present)) return;
   state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
   const Mask<T> moves = balance.freed || !is(position.motion, Motion::rest);
-  in_valves(dither.present && !position.busy, state.swing.excess_N, [&] {
+  in_valves(dither.present && position.turn.odd, state.swing.excess_N, [&] {
     state.swing.excess_N = slips_excess_N(valve, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s);
   });
   const FrictionBounds<T> bounds =

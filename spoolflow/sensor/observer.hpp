@@ -48,12 +48,10 @@ constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, M
   state.oil_temperature_K = select(lasted, oil_temperature_K, state.oil_temperature_K);
 }
 
-/// Once after every other block of positions. A missing oil temperature is held, and one that no oil has, too.
+/// `since_s` after the last time; 0: not in this sample. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
-constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K) {
-  const Mask<T> due = state.position.velocity_due && (state.position.newest & 1) == 0;
-  in_valves(due && is_number(oil_temperature_K), state, [&] {
-    const T since_s = T(2) * state.position.block_s;
+constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, T since_s) {
+  in_valves(since_s > T(0) && is_number(oil_temperature_K), state, [&] {
     const T change_K = oil_temperature_K - state.oil_temperature_K;
     const Mask<T> odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
     const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
@@ -86,14 +84,17 @@ template <class T>
   return out;
 }
 
-/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3.
+/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3. How far the pressure
+/// difference may lie from the believed one is reckoned where it is its turn.
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, T velocity_m_per_s) {
-  const PressureBand<T> band =
-      pressure_band(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
-                    valve.edge.highest_pressure_difference_Pa(),
-                    displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
+                                             const ForceBalance<T>& balance, T velocity_m_per_s, Mask<T> reach_due) {
+  in_valves(reach_due, state.pressure.reach, [&] {
+    state.pressure.reach =
+        pressure_reach(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
+                       displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
+  });
+  const PressureBand<T> band = pressure_band(state.pressure, valve.edge.highest_pressure_difference_Pa());
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));
@@ -158,13 +159,12 @@ template <class T>
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
-  // In those samples in which the oil temperature is not.
-  in_valves(!position.busy && !((state.position.newest & 1) == 0), state.pressure,
+  in_valves(position.turn.even, state.pressure,
             [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  has_time = has_time && !balance.sliding && !position.busy && !dither.begins && is_zero(balance.resting.breakaway_N);
+  has_time = has_time && !balance.sliding && !position.turn.busy && !dither.begins && is_zero(balance.resting.breakaway_N);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
-  answer(valve, state, balance, position.velocity_m_per_s);
+  answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
   state.last.status = status(valve, state, sample, balance);
 }
 
@@ -246,11 +246,10 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
     begins = begins || time_leapt(sample.time_step_s);
   }
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
-  detail::follow_temperature(state, sample.oil_temperature_K);
-
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
+  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_s);
   detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
   detail::admit_other_direction(valve, state, position.position_m);
   if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);

@@ -7,6 +7,7 @@
 #include "spoolflow/sensor/dither.hpp"
 #include "spoolflow/sensor/sample.hpp"
 #include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::sensor {
 
@@ -81,16 +82,6 @@ using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
 
 inline constexpr int position_blocks = 32;
 
-/// One number of a ring; a pack takes each valve's own.
-template <class T>
-constexpr T in_ring(const std::array<T, position_blocks>& ring, int place) {
-  return ring[static_cast<unsigned>(place)];
-}
-template <class T>
-constexpr void put_in_ring(std::array<T, position_blocks>& ring, int place, T value) {
-  ring[static_cast<unsigned>(place)] = value;
-}
-
 /// Trivially copyable memory of a track. The ring holds means over blocks of some milliseconds, newest at `newest`.
 template <class T>
 struct PositionState {
@@ -111,11 +102,22 @@ struct PositionState {
   T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
   T velocity_m_per_s{};       ///< smoothed
   T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
-  Mask<T> velocity_due{};     ///< with the next sample, which has less else to do
+  Mask<T> velocity_due{};     ///< with the next sample that is not busy
   Index<T> samples{};
   Index<T> newest{};
   Index<T> blocks{};
   MotionOf<T> motion{};  ///< at rest
+};
+
+/// Whose turn it is: what the answer can do without for some samples is not done in all of them, so that no sample has
+/// everything to do. Where a block is one sample, and at the first, all is done.
+template <class T>
+struct Turn {
+  Mask<T> closed{};  ///< this sample closed a block of positions
+  Mask<T> busy{};    ///< a block of several: what can wait for the next sample does
+  Mask<T> even{};    ///< every second of those that are not busy ...
+  Mask<T> odd{};     ///< ... and every other
+  T slow_s{};        ///< > 0 in one odd one of two blocks: the time since it was so, for what changes in seconds; else 0
 };
 
 template <class T>
@@ -127,7 +129,8 @@ struct PositionPoint {
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};
   T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
-  Mask<T> busy{};   ///< this sample closed a block of several: what can wait for the next does
+  T block_s{};      ///< length of the last block
+  Turn<T> turn{};
 };
 
 namespace detail {
@@ -174,6 +177,7 @@ template <class T>
               T(0.25) * (block(state, state.block_m, 0) + block(state, state.block_m, 1) +
                          block(state, state.block_m, 2) + block(state, state.block_m, 3)));
   state.block_s = state.sum_s;
+  state.velocity_due = Mask<T>(true);
   state.blocks = select(state.blocks < position_blocks, state.blocks + 1, Index<T>(position_blocks));
   state.sum_m = state.sum_s = T(0);
   state.samples = Index<T>(0);
@@ -197,7 +201,7 @@ template <class T>
   return motion;
 }
 
-/// Velocity and acceleration over three short windows, after each block.
+/// Velocity and acceleration over three short windows.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
   constexpr int window = short_window_blocks;
@@ -212,6 +216,7 @@ template <class T>
   const T fastest = T(fastest_m_per_s);
   state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
                             (T(velocity_smoothing_s) + state.block_s);
+  state.velocity_due = Mask<T>(false);
 }
 
 /// What the spool does, after each block.
@@ -310,9 +315,24 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
   state.fault_s = T(0);
   state.velocity_due = Mask<T>(false);
+  state.per_block_samples = T(1);
   state.samples = state.blocks = Index<T>(0);
   state.motion = MotionOf<T>(Motion::rest);
 }
+
+namespace detail {
+
+template <class T>
+constexpr Turn<T> turn_of(const PositionState<T>& state, Mask<T> closed) {
+  const Mask<T> several = state.per_block_samples < T(1);
+  const Mask<T> busy = closed && several;
+  const Mask<T> even = ((state.newest + state.samples) & 1) == 0;
+  const Mask<T> odd = !several || (!busy && !even);
+  const T slow_s = state.block_s * select(several, T(2), T(1));
+  return {closed, busy, !several || (!busy && even), odd, select(odd && state.velocity_due, slow_s, T(0))};
+}
+
+}  // namespace detail
 
 /// One sample.
 template <class T>
@@ -320,11 +340,6 @@ template <class T>
                                                         const Sample<T>& sample, const QuietCoil<T>& coil,
                                                         T oil_temperature_K, const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
-  const Mask<T> due = state.velocity_due;
-  in_valves(due, state, [&] {
-    detail::follow_velocity(sensor, state);
-    state.velocity_due = Mask<T>(false);
-  });
   const T position_m =
       detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
@@ -332,16 +347,23 @@ template <class T>
   state.samples = state.samples + 1;
   const Mask<T> whole = state.sum_s > T(block_length_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
   const Mask<T> trembles = freed && dither.present && state.sum_s < T(longest_tremble_block_s);
+  const Mask<T> closed = whole && (dither.begins || !trembles);
   in_valves(
-      whole && (dither.begins || !trembles), state, [&]() __attribute__((always_inline)) {
+      closed, state, [&]() __attribute__((always_inline)) {
         detail::close_block(state);
-        state.velocity_due = Mask<T>(true);
         detail::tell_motion(sensor, state);
       });
-  const Mask<T> busy = state.velocity_due && state.per_block_samples < T(1);
-  const T elsewhere_m = position_m + state.elsewhere_m, acceleration = state.acceleration_m_per_s2;
-  return {position_m,  state.motion, !is_zero(state.fault_s), state.travel_m, state.velocity_m_per_s, acceleration,
-          elsewhere_m, busy};
+  const Turn<T> turn = detail::turn_of(state, closed);
+  in_valves(!turn.busy && state.velocity_due, state, [&] { detail::follow_velocity(sensor, state); });
+  return {position_m,
+          state.motion,
+          !is_zero(state.fault_s),
+          state.travel_m,
+          state.velocity_m_per_s,
+          state.acceleration_m_per_s2,
+          position_m + state.elsewhere_m,
+          state.block_s,
+          turn};
 }
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

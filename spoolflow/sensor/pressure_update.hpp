@@ -70,13 +70,13 @@ template <class T>
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
-  predict(valve, state, balance, position.busy, time_step_s, highest_Pa);
+  predict(valve, state, balance, position.turn.busy, time_step_s, highest_Pa);
 
   in_valves(balance.settled && !balance.closed && balance.sliding, pressure, [&] {
     in_valves(time_step_s > T(0), pressure, [&] {
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s, highest_Pa);
     });
-    const Mask<T> has_time = !position.busy;
+    const Mask<T> has_time = !position.turn.busy;
     if (!any(has_time)) return;
     drop_covariance(pressure);
     in_valves(has_time && observed(pressure, slope, balance.noise_N), pressure,

@@ -136,6 +136,16 @@ constexpr Mask<T> is_near(T cells) {
   return cells < T(Cells + noise_cells) && cells > T(-noise_cells);
 }
 
+/// One number of a ring; a pack takes each valve's own.
+template <class T, std::size_t Size>
+constexpr T in_ring(const std::array<T, Size>& ring, int place) {
+  return ring[static_cast<unsigned>(place)];
+}
+template <class T, std::size_t Size>
+constexpr void put_in_ring(std::array<T, Size>& ring, int place, T value) {
+  ring[static_cast<unsigned>(place)] = value;
+}
+
 /// What a curve answers.
 template <class T>
 struct CurvePoint {

@@ -264,7 +264,6 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
-  detail::follow_temperature(state.open, own.oil_temperature_K);
 
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
@@ -275,6 +274,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const PositionPoint<T> position =
       track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
             state.open.oil_temperature_K, dither, state.open.swing.frees);
+  detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow_s);
   const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
   in_valves(from_centre_m < T(-centre_hysteresis_m), state, [&] { detail::change_sides(valve, state); });
 
