@@ -48,10 +48,11 @@ constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, M
   state.oil_temperature_K = select(lasted, oil_temperature_K, state.oil_temperature_K);
 }
 
-/// `since_s` after the last time; 0: not in this sample. A missing oil temperature is held, and one that no oil has, too.
+/// Where it is `due`. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
-constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, T since_s) {
-  in_valves(since_s > T(0) && is_number(oil_temperature_K), state, [&] {
+constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, Mask<T> due) {
+  in_valves(due && is_number(oil_temperature_K), state, [&] {
+    const T since_s = state.position.block_s * select(state.position.lone, T(1), T(2));
     const T change_K = oil_temperature_K - state.oil_temperature_K;
     const Mask<T> odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
     const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
@@ -177,7 +178,8 @@ template <class T>
   const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
   if constexpr (one_valve<T>) {
     if (unlikely(doubtful)) {
-      answer_in_doubt(state, valve, sample, position, opposing_N, begins);
+      const PositionPoint<T> copy = position;  // of which a call may take the address
+      answer_in_doubt(state, valve, sample, copy, opposing_N, begins);
       return;
     }
     observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time);
@@ -249,7 +251,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
-  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_s);
+  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow);
   detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
   detail::admit_other_direction(valve, state, position.position_m);
   if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);

@@ -23,6 +23,8 @@ inline constexpr int long_window_blocks = 8;
 inline constexpr double long_window_deviations = 1.5;
 /// Windows travel evenly where the longest is no more than so many times the shortest, and a threshold more.
 inline constexpr double even_travel_ratio = 4;
+/// They travel by this at least [m], however little the noise.
+inline constexpr double least_travel_of_windows_m = 1e-12;
 /// The newest is no less than one over this of the others, less a threshold: a spool that slows down more is about to
 /// stop, and friction to fall off its limit.
 inline constexpr double slowing_travel_ratio = 2;
@@ -80,12 +82,14 @@ constexpr Choice select(bool condition, Choice yes, Choice no) {
 template <class T>
 using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
 
-inline constexpr int position_blocks = 32;
+inline constexpr int position_blocks = 32;  ///< of means over four blocks, for the long windows
+inline constexpr int short_blocks = 8;      ///< of means over one, for the short ones
 
-/// Trivially copyable memory of a track. The ring holds means over blocks of some milliseconds, newest at `newest`.
+/// Trivially copyable memory of a track. The rings hold means over blocks of some milliseconds, newest at `newest`; each
+/// of the short one's stands twice, so that those before the newest lie in a row.
 template <class T>
 struct PositionState {
-  std::array<T, position_blocks> block_m{};
+  std::array<T, 2 * short_blocks> block_m{};
   std::array<T, position_blocks> four_blocks_m{};  ///< means of the block and the three before
   T sum_m{};
   T sum_s{};
@@ -103,6 +107,7 @@ struct PositionState {
   T velocity_m_per_s{};       ///< smoothed
   T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
   Mask<T> velocity_due{};     ///< with the next sample that is not busy
+  Mask<T> lone{};             ///< a block is one sample
   Index<T> samples{};
   Index<T> newest{};
   Index<T> blocks{};
@@ -117,7 +122,7 @@ struct Turn {
   Mask<T> busy{};    ///< a block of several: what can wait for the next sample does
   Mask<T> even{};    ///< every second of those that are not busy ...
   Mask<T> odd{};     ///< ... and every other
-  T slow_s{};        ///< > 0 in one odd one of two blocks: the time since it was so, for what changes in seconds; else 0
+  Mask<T> slow{};    ///< once in two blocks, in an odd one: for what changes in seconds
 };
 
 template <class T>
@@ -135,36 +140,42 @@ struct PositionPoint {
 
 namespace detail {
 
-/// The mean that is `back` blocks before the newest of a ring.
+/// The mean of the block that is `back` before the newest.
 template <class T>
-constexpr T block(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int back) {
-  return in_ring(ring, (state.newest - back) & (position_blocks - 1));
+constexpr T block(const PositionState<T>& state, int back) {
+  return in_ring(state.block_m, (state.newest & (short_blocks - 1)) + (short_blocks - back));
+}
+/// The mean over four blocks that ended `back` before the newest.
+template <class T>
+constexpr T four_blocks(const PositionState<T>& state, int back) {
+  return in_ring(state.four_blocks_m, (state.newest - back) & (position_blocks - 1));
 }
 
-/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `apart`
-/// blocks of the ring.
-template <class T>
-constexpr MotionOf<T> even_travel(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int apart,
-                                  T threshold_m) {
-  const T now = block(state, ring, 0);
-  const T before = block(state, ring, apart);
-  const T newest_m = now - before;
+/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. `mean_m(k)` is the mean
+/// at the end of the k-th window before now.
+template <class T, class Mean>
+[[gnu::always_inline]] constexpr MotionOf<T> even_travel(const Mean& mean_m, T threshold_m) {
+  const T before = mean_m(1);
+  const T newest_m = mean_m(0) - before;
   const T size_m = magnitude(newest_m);
   const MotionOf<T> rest = MotionOf<T>(Motion::rest);
-  Mask<T> even = !(size_m < threshold_m);
+  const T least_travel_m = larger(threshold_m, T(least_travel_of_windows_m));
+  Mask<T> even = !(size_m < least_travel_m);
   if (!any(even)) return rest;
-  const T direction = select(newest_m > T(0), T(1), T(-1));
-  const T earlier = block(state, ring, 2 * apart);
+  const Mask<T> opens = newest_m > T(0);
+  const T direction = select(opens, T(1), T(-1));
+  const T earlier = mean_m(2);
   const T middle_m = direction * (before - earlier);
-  even = even && middle_m > T(0) && !(middle_m < threshold_m);
+  even = even && !(middle_m < least_travel_m);
   if (!any(even)) return rest;
-  const T oldest_m = direction * (earlier - block(state, ring, 3 * apart));
-  even = even && oldest_m > T(0) && !(oldest_m < threshold_m);
+  const T oldest_m = direction * (earlier - mean_m(3));
+  even = even && !(oldest_m < least_travel_m);
   if (!any(even)) return rest;
   const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
-  even = even && !(larger(larger(size_m, middle_m), oldest_m) > T(even_travel_ratio) * least_m + threshold_m);
-  even = even && !(larger(middle_m, oldest_m) > T(slowing_travel_ratio) * size_m + threshold_m);
-  return select(even, select(newest_m > T(0), MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
+  const T longer_m = larger(middle_m, oldest_m);
+  even = even && !(larger(size_m, longer_m) > T(even_travel_ratio) * least_m + threshold_m);
+  even = even && !(longer_m > T(slowing_travel_ratio) * size_m + threshold_m);
+  return select(even, select(opens, MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
 }
 
 /// Puts the mean of the samples since the last block into the ring.
@@ -172,10 +183,12 @@ template <class T>
 [[gnu::always_inline]] constexpr void close_block(PositionState<T>& state) {
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
-  put_in_ring(state.block_m, state.newest, state.sum_m * state.per_block_samples);
+  state.lone = !(state.per_block_samples < T(1));
+  const T mean_m = state.sum_m * state.per_block_samples;
+  put_in_ring(state.block_m, state.newest & (short_blocks - 1), mean_m);
+  put_in_ring(state.block_m, (state.newest & (short_blocks - 1)) + short_blocks, mean_m);
   put_in_ring(state.four_blocks_m, state.newest,
-              T(0.25) * (block(state, state.block_m, 0) + block(state, state.block_m, 1) +
-                         block(state, state.block_m, 2) + block(state, state.block_m, 3)));
+              T(0.25) * (mean_m + block(state, 1) + block(state, 2) + block(state, 3)));
   state.block_s = state.sum_s;
   state.velocity_due = Mask<T>(true);
   state.blocks = select(state.blocks < position_blocks, state.blocks + 1, Index<T>(position_blocks));
@@ -190,13 +203,17 @@ template <class T>
   Motions motion = Motions(Motion::rest);
   const Mask<T> near = state.blocks > 3 * short_window_blocks;
   if (any(near)) {
-    motion = select(near, even_travel(state, state.block_m, short_window_blocks, T(short_window_deviations) * noise_m),
+    motion = select(near,
+                    even_travel([&](int k) { return block(state, k * short_window_blocks); },
+                                T(short_window_deviations) * noise_m),
                     motion);
   }
   const Mask<T> far = is(motion, Motion::rest) && state.blocks > 3 * long_window_blocks + 3;
   if (any(far)) {
-    motion = select(
-        far, even_travel(state, state.four_blocks_m, long_window_blocks, T(long_window_deviations) * noise_m), motion);
+    motion = select(far,
+                    even_travel([&](int k) { return four_blocks(state, k * long_window_blocks); },
+                                T(long_window_deviations) * noise_m),
+                    motion);
   }
   return motion;
 }
@@ -206,8 +223,8 @@ template <class T>
 [[gnu::always_inline]] constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
   constexpr int window = short_window_blocks;
   const Mask<T> whole = state.blocks > 3 * window;
-  const T now_m = block(state, state.block_m, 0), oldest_m = block(state, state.block_m, 3 * window);
-  const T change_m = now_m - block(state, state.block_m, window) - block(state, state.block_m, 2 * window) + oldest_m;
+  const T now_m = block(state, 0), oldest_m = block(state, 3 * window);
+  const T change_m = now_m - block(state, window) - block(state, 2 * window) + oldest_m;
   const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
   const T velocity_m_per_s = select(whole, (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window))), T(0));
   const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
@@ -227,7 +244,7 @@ template <class T>
   const Mask<T> even = !is(motion, Motion::rest);
   const Mask<T> uneven = !even && state.blocks > short_window_blocks;
   if (any(uneven)) {
-    const T signed_travel_m = block(state, state.block_m, 0) - block(state, state.block_m, short_window_blocks);
+    const T signed_travel_m = block(state, 0) - block(state, short_window_blocks);
     const T slow_m = T(slip_speed_m_per_s) * T(short_window_blocks) * state.block_s;
     const Mask<T> slips = uneven && magnitude(signed_travel_m) > larger(slow_m, T(slip_deviations) * noise_m);
     state.unsettled_s = select(slips, T(slip_settling_s), state.unsettled_s);
@@ -315,7 +332,7 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
   state.fault_s = T(0);
   state.velocity_due = Mask<T>(false);
-  state.per_block_samples = T(1);
+  state.lone = Mask<T>(true);
   state.samples = state.blocks = Index<T>(0);
   state.motion = MotionOf<T>(Motion::rest);
 }
@@ -324,12 +341,10 @@ namespace detail {
 
 template <class T>
 constexpr Turn<T> turn_of(const PositionState<T>& state, Mask<T> closed) {
-  const Mask<T> several = state.per_block_samples < T(1);
-  const Mask<T> busy = closed && several;
+  const Mask<T> busy = closed && !state.lone;
   const Mask<T> even = ((state.newest + state.samples) & 1) == 0;
-  const Mask<T> odd = !several || (!busy && !even);
-  const T slow_s = state.block_s * select(several, T(2), T(1));
-  return {closed, busy, !several || (!busy && even), odd, select(odd && state.velocity_due, slow_s, T(0))};
+  const Mask<T> odd = state.lone || (!busy && !even);
+  return {closed, busy, state.lone || (!busy && even), odd, odd && state.velocity_due};
 }
 
 }  // namespace detail
