@@ -114,6 +114,7 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
   state.ratio_variance = squared(pressure.ratio_deviation);
   state.innovation_squared = T(usual_innovation_squared);
   state.band_factor = T(1);
+  state.reach = {highest_Pa, highest_Pa, T(0)};
 }
 
 /// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a

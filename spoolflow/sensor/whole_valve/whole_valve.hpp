@@ -271,12 +271,14 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
   const Dither<T> dither =
       follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position =
+  PositionPoint<T> position =
       track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
             state.open.oil_temperature_K, dither, state.open.swing.frees);
   detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow);
   const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
-  in_valves(from_centre_m < T(-centre_hysteresis_m), state, [&] { detail::change_sides(valve, state); });
+  const Mask<T> changes = from_centre_m < T(-centre_hysteresis_m);
+  in_valves(changes, state, [&] { detail::change_sides(valve, state); });
+  position.turn.odd = position.turn.odd || changes;  // friction and uncertainty are those of the other solenoid
 
   const auto seen_from = [&](Mask<T> opens_a) __attribute__((always_inline)) {
     detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);
