@@ -52,7 +52,7 @@ constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, M
 template <class T>
 constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, Mask<T> due) {
   in_valves(due && is_number(oil_temperature_K), state, [&] {
-    const T since_s = state.position.block_s * select(state.position.lone, T(1), T(2));
+    const T since_s = slow_period_s(state.position);
     const T change_K = oil_temperature_K - state.oil_temperature_K;
     const Mask<T> odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
     const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
@@ -163,7 +163,7 @@ template <class T>
   in_valves(position.turn.even, state.pressure,
             [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  has_time = has_time && !balance.sliding && !position.turn.busy && !dither.begins && is_zero(balance.resting.breakaway_N);
+  has_time = has_time && !balance.sliding && position.turn.odd && !dither.begins && is_zero(balance.resting.breakaway_N);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
   answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
   state.last.status = status(valve, state, sample, balance);
@@ -251,7 +251,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
-  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow);
+  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_odd);
   detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
   detail::admit_other_direction(valve, state, position.position_m);
   if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);

@@ -122,7 +122,8 @@ struct Turn {
   Mask<T> busy{};    ///< a block of several: what can wait for the next sample does
   Mask<T> even{};    ///< every second of those that are not busy ...
   Mask<T> odd{};     ///< ... and every other
-  Mask<T> slow{};    ///< once in two blocks, in an odd one: for what changes in seconds
+  Mask<T> slow_even{};  ///< one of them in every two blocks, and ...
+  Mask<T> slow_odd{};   ///< ... one of those: for what changes in seconds
 };
 
 template <class T>
@@ -223,17 +224,18 @@ template <class T>
 [[gnu::always_inline]] constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
   constexpr int window = short_window_blocks;
   const Mask<T> whole = state.blocks > 3 * window;
-  const T now_m = block(state, 0), oldest_m = block(state, 3 * window);
-  const T change_m = now_m - block(state, window) - block(state, 2 * window) + oldest_m;
-  const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
-  const T velocity_m_per_s = select(whole, (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window))), T(0));
-  const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
-  const T hardest = sensor.hardest_acceleration_m_per_s2;
-  state.acceleration_m_per_s2 = select(whole, limited(acceleration, -hardest, hardest), T(0));
-  const T fastest = T(fastest_m_per_s);
-  state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
-                            (T(velocity_smoothing_s) + state.block_s);
   state.velocity_due = Mask<T>(false);
+  in_valves(whole, state, [&] {
+    const T now_m = block(state, 0), oldest_m = block(state, 3 * window);
+    const T change_m = now_m - block(state, window) - block(state, 2 * window) + oldest_m;
+    const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
+    const T velocity_m_per_s = (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window)));
+    const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
+    const T hardest = sensor.hardest_acceleration_m_per_s2, fastest = T(fastest_m_per_s);
+    state.acceleration_m_per_s2 = limited(acceleration, -hardest, hardest);
+    state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
+                              (T(velocity_smoothing_s) + state.block_s);
+  });
 }
 
 /// What the spool does, after each block.
@@ -330,6 +332,7 @@ template <class T>
 constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
+  state.acceleration_m_per_s2 = T(0);
   state.fault_s = T(0);
   state.velocity_due = Mask<T>(false);
   state.lone = Mask<T>(true);
@@ -337,14 +340,21 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.motion = MotionOf<T>(Motion::rest);
 }
 
+/// From one slow turn to the next [s].
+template <class T>
+constexpr T slow_period_s(const PositionState<T>& state) {
+  return state.block_s * select(state.lone, T(1), T(2));
+}
+
 namespace detail {
 
 template <class T>
 constexpr Turn<T> turn_of(const PositionState<T>& state, Mask<T> closed) {
   const Mask<T> busy = closed && !state.lone;
-  const Mask<T> even = ((state.newest + state.samples) & 1) == 0;
-  const Mask<T> odd = state.lone || (!busy && !even);
-  return {closed, busy, state.lone || (!busy && even), odd, odd && state.velocity_due};
+  const Mask<T> parity = ((state.newest + state.samples) & 1) == 0;
+  const Mask<T> odd = state.lone || (!busy && !parity);
+  const Mask<T> even = state.lone || (!busy && parity);
+  return {closed, busy, even, odd, even && state.velocity_due, odd && state.velocity_due};
 }
 
 }  // namespace detail
