@@ -49,10 +49,10 @@ static_assert(std::is_trivially_copyable_v<ActuatorState<float>>);
 
 /// Keeps the flux linkage's range since the first sample.
 template <class T>
-constexpr void widen_flux_range(ActuatorState<T>& state, Mask<T> begins) {
+constexpr void widen_flux_range(ActuatorState<T>& state) {
   const T flux_Wb = state.coil.hysteresis.flux;
-  state.lowest_flux_Wb = select(begins, flux_Wb, smaller(state.lowest_flux_Wb, flux_Wb));
-  state.highest_flux_Wb = select(begins, flux_Wb, larger(state.highest_flux_Wb, flux_Wb));
+  state.lowest_flux_Wb = smaller(state.lowest_flux_Wb, flux_Wb);
+  state.highest_flux_Wb = larger(state.highest_flux_Wb, flux_Wb);
 }
 
 /// What the unknown history before the first sample may still mean for the current [A], one standard deviation: a swing
@@ -86,7 +86,7 @@ template <class T>
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
-  widen_flux_range(state, begins);
+  in_valves(begins, state, [&] { state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux; });
 }
 
 /// What the magnetic force may be wrong by, and the armature's friction.
@@ -94,6 +94,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void judge_force(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
                                                   const Cell<T>& current, const Cell<T>& position,
                                                   T force_per_current_N_per_A, T eddy_A) {
+  widen_flux_range(state);
   const T current_variance_A2 = squared(actuator.current_uncertainty_A) + squared(actuator.eddy_uncertainty * eddy_A) +
                                 squared(unknown_memory_A(actuator, state));
   state.uncertainty_N =

@@ -200,9 +200,11 @@ template <class T>
   in_valves(rests, state,
             [&] { detail::follow_displacement(friction, state, contact, position.position_m, time_step_s); });
   in_valves(!rests, state, [&] {
-    const T direction = select(position.travel_m > T(0), T(1), T(-1));
-    breakaway_N = select(!rests && rested_s > T(0),
-                         direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
+    const Mask<T> breaks = !rests && rested_s > T(0);
+    if (any(breaks)) {
+      const T direction = select(position.travel_m > T(0), T(1), T(-1));
+      breakaway_N = select(breaks, direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
+    }
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   });
   in_valves(position.turn.closed, state, [&] { detail::hold(state, apparent_N, position.block_s); });

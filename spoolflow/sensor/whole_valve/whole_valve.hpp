@@ -109,6 +109,7 @@ template <class T>
         mean.time_step_s = idle.waiting_s;
         mean.current_A = select(idle.waiting_s > T(0), idle.charge_As / idle.waiting_s, sample.current_A);
         magnetise(valve.actuator, idle.actuator, mean, begins);
+        widen_flux_range(idle.actuator);
         idle.waiting_s = idle.charge_As = T(0);
       });
       in_valves(busy || begins, idle.magnetic_force_N, [&] {
