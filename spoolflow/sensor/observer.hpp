@@ -107,16 +107,24 @@ template <class T>
   out.friction_force_N = balance.friction_N;
 }
 
+/// Where a spool stands whose forces are not believed.
+template <class T>
+struct DoubtfulPlace {
+  T position_m;
+  T elsewhere_m;  ///< where it is instead, if it is not there
+  Mask<T> fault;  ///< of the position signal
+};
+
 /// While the position signal may be wrong, or the current is, forces tell nothing: the flow where the spool is believed
 /// to be, at the pressure difference last believed, and in the band what that may have become. It holds what flows at
 /// the other place where the spool may be, too; beyond the centre as much as through the direction's own edge.
 template <class T>
 [[gnu::noinline]] constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
-                                                 const Sample<T>& sample, const PositionPoint<T>& position,
+                                                 const Sample<T>& sample, const DoubtfulPlace<T>& position,
                                                  T opposing_N, Mask<T> begins) {
   const ActuatorEstimate<T> actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
-           begins);
+           begins, Mask<T>(false));
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, Mask<T>(true));
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
@@ -176,18 +184,32 @@ template <class T>
                                               const Sample<T>& sample, const PositionPoint<T>& position,
                                               const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
   const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
+  const auto doubt = [&]() __attribute__((always_inline)) {
+    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
+                    begins);
+  };
   if constexpr (one_valve<T>) {
     if (unlikely(doubtful)) {
-      const PositionPoint<T> copy = position;  // of which a call may take the address
-      answer_in_doubt(state, valve, sample, copy, opposing_N, begins);
+      doubt();
       return;
     }
     observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time);
   } else {
     in_valves(!doubtful, state,
               [&] { observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time); });
-    in_valves(doubtful, state, [&] { answer_in_doubt(state, valve, sample, position, opposing_N, begins); });
+    in_valves(doubtful, state, doubt);
   }
+}
+
+/// The band takes in all that may flow through the other direction's edge.
+template <class T>
+[[gnu::noinline]] constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
+                                           Mask<T> opens) {
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  Estimate<T>& out = state.last;
+  out.flow_lower_m3_per_s = select(opens, smaller(out.flow_lower_m3_per_s, -most), out.flow_lower_m3_per_s);
+  mark(out.status, opens, Status::other_direction);
 }
 
 /// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
@@ -195,12 +217,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                             T position_m) {
   const Mask<T> opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
-  if (!any(opens)) return;
-  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
-  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
-  Estimate<T>& out = state.last;
-  out.flow_lower_m3_per_s = select(opens, smaller(out.flow_lower_m3_per_s, -most), out.flow_lower_m3_per_s);
-  mark(out.status, opens, Status::other_direction);
+  if (unlikely(any(opens))) admit_all(valve, state, position_m, opens);
 }
 
 /// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
