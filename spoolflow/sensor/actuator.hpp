@@ -103,8 +103,8 @@ template <class T>
 }
 
 /// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
-/// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction, which
-/// are slow, may be those of an earlier sample where they are not `judged`.
+/// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction,
+/// which are slow, may be those of an earlier sample where they are not `judged`.
 template <class T>
 [[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
                                                           ActuatorState<T>& state, const Sample<T>& sample,

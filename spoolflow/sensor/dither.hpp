@@ -31,13 +31,13 @@ inline constexpr double unlike_weight = 1.5;
 /// Memory of the current's turning points; {} before `begin`.
 template <class T>
 struct DitherState {
-  T extreme_A{};  ///< furthest since the last turning point
-  T turned_A{};   ///< the last turning point
-  T swing_A{};    ///< between the last two, peak to peak
-  T since_s{};    ///< since the last period began
-  T period_s{};   ///< length of the last period
-  T alike{};      ///< periods that were alike, up to twice `periods_of_dither`
-  T direction{};  ///< of the current since the last turning point: 1 rises, -1 falls
+  T extreme_A{};          ///< furthest since the last turning point
+  T turned_A{};           ///< the last turning point
+  T swing_A{};            ///< between the last two, peak to peak
+  T since_s{};            ///< since the last period began
+  T period_s{};           ///< length of the last period
+  T alike{};              ///< periods that were alike, up to twice `periods_of_dither`
+  T direction{};          ///< of the current since the last turning point: 1 rises, -1 falls
   T sample_per_period{};  ///< time step over the last period, 0 to 1/2, at its end
 };
 

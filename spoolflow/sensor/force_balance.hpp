@@ -86,9 +86,9 @@ template <class T>
                                                                 const PositionPoint<T>& position,
                                                                 const Dither<T>& dither, T opposing_N, Mask<T> begins) {
   ForceBalance<T> out;
-  out.actuator = step(valve.actuator, state.actuator,
-                      Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}}, begins,
-                      position.turn.odd);
+  out.actuator =
+      step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
+           begins, position.turn.odd);
   out.actuator.magnetic_force_N -= opposing_N;
   out.spring_N = valve.spring.at(position.position_m).value;
   const T net_N = out.actuator.magnetic_force_N - out.spring_N;  // carries flow force and friction; paper (1)

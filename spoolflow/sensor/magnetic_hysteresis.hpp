@@ -73,7 +73,8 @@ constexpr StopSum<T> with_stop(const StopSum<T>& sum, const MagneticHysteresis<T
 /// What the stops before stop K answer where they yield. Of parameters that are compiled in these are numbers, too.
 template <unsigned K, class T>
 constexpr StopSum<T> yielded_before(const MagneticHysteresis<T>& hysteresis) {
-  if constexpr (K > 0) return with_stop<K - 1>(yielded_before<K - 1>(hysteresis), hysteresis, hysteresis.threshold[K - 1]);
+  if constexpr (K > 0)
+    return with_stop<K - 1>(yielded_before<K - 1>(hysteresis), hysteresis, hysteresis.threshold[K - 1]);
   return {};
 }
 

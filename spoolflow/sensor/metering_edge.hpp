@@ -53,8 +53,12 @@ struct MeteringEdge {
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
     const VolumePoint<T> force = flow_force_N.at(cell);
     const VolumePoint<T> friction = friction_N.at(cell);
-    return {force.value,        larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value,
-            friction.row_slope, conductance.at(cell).value,                                row.inside && column.inside,
+    return {force.value,
+            larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
+            friction.value,
+            friction.row_slope,
+            conductance.at(cell).value,
+            row.inside && column.inside,
             layer.inside};
   }
   [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {

@@ -168,10 +168,10 @@ template <class T>
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
-  in_valves(position.turn.even, state.pressure,
-            [&] { follow_agreement(state.pressure); });
+  in_valves(position.turn.even, state.pressure, [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  has_time = has_time && !balance.sliding && position.turn.odd && !dither.begins && is_zero(balance.resting.breakaway_N);
+  has_time =
+      has_time && !balance.sliding && position.turn.odd && !dither.begins && is_zero(balance.resting.breakaway_N);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
   answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
   state.last.status = status(valve, state, sample, balance);

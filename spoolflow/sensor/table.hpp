@@ -218,8 +218,8 @@ struct VolumePoint {
   T row_slope;
 };
 
-/// Where a point lies in volumes that share their axes: the cell, and in each of its planes of one row the shares of the
-/// four grid points around the line that is crossed.
+/// Where a point lies in volumes that share their axes: the cell, and in each of its planes of one row the shares of
+/// the four grid points around the line that is crossed.
 template <class T>
 struct VolumeCell {
   Index<T> layer;
@@ -234,14 +234,10 @@ constexpr VolumeCell<T> volume_cell(const Cell<T>& layer, const Cell<T>& row, co
                                     T per_row_spacing) {
   const T upper_right = layer.share * column.share;
   const T lower_right = column.share - upper_right;
-  return {layer.index,
-          row,
-          column.index,
-          T(1) - layer.share - lower_right,
-          lower_right,
-          layer.share - upper_right,
-          upper_right,
-          per_row_spacing};
+  return {layer.index,  row,
+          column.index, T(1) - layer.share - lower_right,
+          lower_right,  layer.share - upper_right,
+          upper_right,  per_row_spacing};
 }
 
 /// z(layer, row, column), trilinear in each cell. The three axes stand beside it, for volumes that share them. All

@@ -272,9 +272,8 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
   const Dither<T> dither =
       follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
-  PositionPoint<T> position =
-      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
-            state.open.oil_temperature_K, dither, state.open.swing.frees);
+  PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
+                                    state.open.oil_temperature_K, dither, state.open.swing.frees);
   detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow_odd);
   const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
   const Mask<T> changes = from_centre_m < T(-centre_hysteresis_m);
