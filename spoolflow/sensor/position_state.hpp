@@ -103,7 +103,7 @@ struct PositionState {
   T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
   T velocity_m_per_s{};       ///< smoothed
   T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
-  Mask<T> velocity_due{};     ///< with the next sample that is not busy
+  Mask<T> velocity_due{};     ///< with the next sample, which has less else to do
   Mask<T> lone{};             ///< a block is one sample
   Index<T> samples{};
   Index<T> newest{};

@@ -217,12 +217,12 @@ constexpr T slow_period_s(const PositionState<T>& state) {
 namespace detail {
 
 template <class T>
-constexpr Turn<T> turn_of(const PositionState<T>& state, Mask<T> closed) {
+constexpr Turn<T> turn_of(const PositionState<T>& state, Mask<T> closed, Mask<T> follows_a_block) {
   const Mask<T> busy = closed && !state.lone;
   const Mask<T> parity = ((state.newest + state.samples) & 1) == 0;
   const Mask<T> odd = state.lone || (!busy && !parity);
   const Mask<T> even = state.lone || (!busy && parity);
-  return {closed, busy, even, odd, even && state.velocity_due, odd && state.velocity_due};
+  return {closed, busy, even, odd, even && follows_a_block, odd && follows_a_block};
 }
 
 }  // namespace detail
@@ -233,6 +233,8 @@ template <class T>
                                                         const Sample<T>& sample, const QuietCoil<T>& coil,
                                                         T oil_temperature_K, const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
+  const Mask<T> due = state.velocity_due;
+  in_valves(due, state, [&] { detail::follow_velocity(sensor, state); });
   const T position_m =
       detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
@@ -246,8 +248,7 @@ template <class T>
         detail::close_block(state);
         detail::tell_motion(sensor, state);
       });
-  const Turn<T> turn = detail::turn_of(state, closed);
-  in_valves(!turn.busy && state.velocity_due, state, [&] { detail::follow_velocity(sensor, state); });
+  const Turn<T> turn = detail::turn_of(state, closed, due);
   return {position_m,
           state.motion,
           !is_zero(state.fault_s),
