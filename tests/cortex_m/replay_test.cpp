@@ -60,7 +60,7 @@ model::Model whole(model::Model model) {
 
 TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
   const Replay valve = replay(whole(model), Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(valve, {1720, 9, 98304});
+  expect_fit_for_a_valve(valve, {1680, 9, 98304});
   EXPECT_LE(valve.state_bytes, 1536U);
   for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_temperature,
                               Status::position_fault, Status::sample_missing, Status::dithered}) {
