@@ -43,9 +43,9 @@ class NumberGroups {
   }
   template <int Layers, int Rows, int Columns>
   void volume(const model::TableParameter& about, const sensor::Volume<double, Layers, Rows, Columns>& volume) {
-    add(volume.values, Columns,
-        std::string(about.key) + ": " + std::to_string(Layers) + " layers of " + std::to_string(Rows) +
-            " lines, by the axes above");
+    add(volume.values, Columns * Layers,
+        std::string(about.key) + ": a line each of " + std::to_string(Rows) + " rows, in it " +
+            std::to_string(Columns) + " columns of " + std::to_string(Layers) + " layers, by the axes above");
   }
   void axis(const model::AxisParameter& about, const sensor::Axis<double>& axis, int points) {
     add(axis, 3,

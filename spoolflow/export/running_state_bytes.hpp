@@ -14,7 +14,8 @@ inline bool may_be_track(const sensor::PositionState<double>& state) {
   std::memcpy(&motion, &state.motion, 1);
   constexpr int most_samples = 1 << 20;
   const auto counts = [](int count, int most) { return count >= 0 && count <= most; };
-  return is_bool(state.velocity_due) && motion <= static_cast<unsigned char>(sensor::Motion::closing) &&
+  return is_bool(state.velocity_due) && is_bool(state.lone) &&
+         motion <= static_cast<unsigned char>(sensor::Motion::closing) &&
          counts(state.newest, sensor::position_blocks - 1) && counts(state.blocks, sensor::position_blocks) &&
          counts(state.samples, most_samples);
 }

@@ -30,6 +30,8 @@ struct ActuatorState {
   CoilResistanceState<T> coil_resistance{};
   T lowest_flux_Wb{};  ///< since the first sample
   T highest_flux_Wb{};
+  T uncertainty_N{};          ///< of the magnetic force and ...
+  T friction_half_width_N{};  ///< ... the armature's friction, as they were when they were last reckoned
 };
 
 /// What the solenoid answers.
@@ -47,10 +49,10 @@ static_assert(std::is_trivially_copyable_v<ActuatorState<float>>);
 
 /// Keeps the flux linkage's range since the first sample.
 template <class T>
-constexpr void widen_flux_range(ActuatorState<T>& state, Mask<T> begins) {
+constexpr void widen_flux_range(ActuatorState<T>& state) {
   const T flux_Wb = state.coil.hysteresis.flux;
-  state.lowest_flux_Wb = select(begins, flux_Wb, smaller(state.lowest_flux_Wb, flux_Wb));
-  state.highest_flux_Wb = select(begins, flux_Wb, larger(state.highest_flux_Wb, flux_Wb));
+  state.lowest_flux_Wb = smaller(state.lowest_flux_Wb, flux_Wb);
+  state.highest_flux_Wb = larger(state.highest_flux_Wb, flux_Wb);
 }
 
 /// What the unknown history before the first sample may still mean for the current [A], one standard deviation: a swing
@@ -84,25 +86,38 @@ template <class T>
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
-  widen_flux_range(state, begins);
+  in_valves(begins, state, [&] { state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux; });
+}
+
+/// What the magnetic force may be wrong by, and the armature's friction.
+template <class T>
+[[gnu::always_inline]] constexpr void judge_force(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                                  const Cell<T>& current, const Cell<T>& position,
+                                                  T force_per_current_N_per_A, T eddy_A) {
+  widen_flux_range(state);
+  const T current_variance_A2 = squared(actuator.current_uncertainty_A) + squared(actuator.eddy_uncertainty * eddy_A) +
+                                squared(unknown_memory_A(actuator, state));
+  state.uncertainty_N =
+      sqrt(squared(actuator.force_uncertainty_N) + squared(force_per_current_N_per_A) * current_variance_A2);
+  state.friction_half_width_N = actuator.friction_N.at(current, position).value;
 }
 
 /// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
-/// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms.
+/// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction,
+/// which are slow, may be those of an earlier sample where they are not `judged`.
 template <class T>
 [[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
                                                           ActuatorState<T>& state, const Sample<T>& sample,
-                                                          Mask<T> first) {
+                                                          Mask<T> first, Mask<T> judged = Mask<T>(true)) {
   magnetise(actuator, state, sample, first);
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
   const MapPoint<T> force = force_map.at(current, position);
-  const T eddy_A = actuator.eddy_uncertainty * (sample.current_A - state.coil.static_current_A);
-  const T current_variance_A2 =
-      squared(actuator.current_uncertainty_A) + squared(eddy_A) + squared(unknown_memory_A(actuator, state));
-  return {force.value, sqrt(squared(actuator.force_uncertainty_N) + squared(force.row_slope) * current_variance_A2),
-          actuator.friction_N.at(current, position).value, force.row_slope, force.inside};
+  in_valves(judged, state, [&] {
+    judge_force(actuator, state, current, position, force.row_slope, sample.current_A - state.coil.static_current_A);
+  });
+  return {force.value, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.inside};
 }
 
 }  // namespace spoolflow::sensor

@@ -54,23 +54,17 @@ struct PressureBand {
   T most_Pa;      ///< hardly above the highest that was calibrated
 };
 
-/// The pressure difference to answer with [Pa], from 0 to the highest that was calibrated: the believed one,
-/// `further_Pa` to the side to which more is left open, and beyond it what may have gone on unseen.
+/// By how much the pressure difference at rest is expected beyond the believed one, as what may have gone on unseen: in
+/// the way in which it yielded.
 template <class T>
-[[gnu::always_inline]] constexpr T expected_pressure_Pa(const PressureState<T>& pressure,
-                                                        const ForceBalance<T>& balance, T further_Pa, T highest_Pa) {
-  T expected_Pa = pressure.pressure_difference_Pa + further_Pa;
+[[gnu::always_inline]] constexpr T unseen_Pa(const PressureState<T>& pressure, const ForceBalance<T>& balance) {
   const T yielded_Pa = pressure.yielded_Pa;
-  const Mask<T> yielded = !is_zero(yielded_Pa) && !balance.sliding && !balance.closed;
-  if (any(yielded)) {
-    const Mask<T> rises = yielded_Pa > T(0);
-    const T room_N = select(rises, balance.apparent_friction_N - balance.resting.lower_N,
-                            balance.resting.upper_N - balance.apparent_friction_N);
-    const T room_Pa = T(unseen_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
-    const T unseen_Pa = smaller(magnitude(yielded_Pa), room_Pa);
-    expected_Pa += select(yielded, select(rises, unseen_Pa, -unseen_Pa), T(0));
-  }
-  return limited(expected_Pa, T(0), highest_Pa);
+  const Mask<T> rises = yielded_Pa > T(0);
+  const T room_N = select(rises, balance.apparent_friction_N - balance.resting.lower_N,
+                          balance.resting.upper_N - balance.apparent_friction_N);
+  const T room_Pa = T(unseen_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
+  const T gone_Pa = smaller(magnitude(yielded_Pa), room_Pa);
+  return select(rises, gone_Pa, -gone_Pa);
 }
 
 /// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, friction that
@@ -95,10 +89,10 @@ template <class T>
 /// After the pressure difference was believed; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
 /// open and how far friction's bounds and their uncertainty reach limit the error: each side lies below either.
 template <class T>
-[[gnu::always_inline]] constexpr PressureBand<T> pressure_band(const BandParameters<T>& band,
-                                                               const PressureState<T>& pressure,
-                                                               const ForceBalance<T>& balance, T rest_s,
-                                                               T velocity_m_per_s, T highest_Pa, T displaced_ratio) {
+[[gnu::always_inline]] constexpr PressureReach<T> pressure_reach(const BandParameters<T>& band,
+                                                                 const PressureState<T>& pressure,
+                                                                 const ForceBalance<T>& balance, T rest_s,
+                                                                 T velocity_m_per_s, T displaced_ratio) {
   const T share = select(balance.sliding, band.force_share, band.rest_share);
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T unobserved_N2 =
@@ -107,9 +101,8 @@ template <class T>
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
   if (any(balance.sliding || balance.dithered))
     open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s, displaced_ratio));
-  const T believed_Pa = pressure.pressure_difference_Pa;
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
-  T below_Pa = open_Pa, above_Pa = open_Pa, further_Pa = T(0);
+  PressureReach<T> reach{open_Pa, open_Pa, T(0)};
   const Mask<T> bounded = !balance.sliding && !balance.slips && !balance.closed;
   if (any(bounded)) {
     open_N2 += squared(T(yielded_factor) * slope * pressure.yielded_Pa);
@@ -117,12 +110,22 @@ template <class T>
     const T to_upper_N = larger(balance.resting.upper_N - balance.apparent_friction_N, T(0)) + certain_N;
     const T to_lower_N = larger(balance.apparent_friction_N - balance.resting.lower_N, T(0)) + certain_N;
     const T per_open_1_N2 = T(1) / open_N2;
-    below_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_upper_N), open_Pa);
-    above_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_lower_N), open_Pa);
-    further_Pa = T(lopsided_share) * (above_Pa - below_Pa);
+    reach.below_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_upper_N), open_Pa);
+    reach.above_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_lower_N), open_Pa);
+    reach.ahead_Pa = select(bounded, T(lopsided_share) * (reach.above_Pa - reach.below_Pa), T(0));
   }
-  return {larger(believed_Pa - below_Pa, T(0)), expected_pressure_Pa(pressure, balance, further_Pa, highest_Pa),
-          smaller(believed_Pa + above_Pa, T(1 + ripple_share) * highest_Pa)};
+  const Mask<T> yielded = !is_zero(pressure.yielded_Pa) && !balance.sliding && !balance.closed;
+  if (any(yielded)) reach.ahead_Pa += select(yielded, unseen_Pa(pressure, balance), T(0));
+  return reach;
+}
+
+/// The pressure difference to answer with, from 0 to the highest that was calibrated, and what is left open of it.
+template <class T>
+[[gnu::always_inline]] constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure, T highest_Pa) {
+  const T believed_Pa = pressure.pressure_difference_Pa;
+  return {larger(believed_Pa - pressure.reach.below_Pa, T(0)),
+          limited(believed_Pa + pressure.reach.ahead_Pa, T(0), highest_Pa),
+          smaller(believed_Pa + pressure.reach.above_Pa, T(1 + ripple_share) * highest_Pa)};
 }
 
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the

@@ -31,13 +31,14 @@ inline constexpr double unlike_weight = 1.5;
 /// Memory of the current's turning points; {} before `begin`.
 template <class T>
 struct DitherState {
-  T extreme_A{};  ///< furthest since the last turning point
-  T turned_A{};   ///< the last turning point
-  T swing_A{};    ///< between the last two, peak to peak
-  T since_s{};    ///< since the last period began
-  T period_s{};   ///< length of the last period
-  T alike{};      ///< periods that were alike, up to twice `periods_of_dither`
-  T direction{};  ///< of the current since the last turning point: 1 rises, -1 falls
+  T extreme_A{};          ///< furthest since the last turning point
+  T turned_A{};           ///< the last turning point
+  T swing_A{};            ///< between the last two, peak to peak
+  T since_s{};            ///< since the last period began
+  T period_s{};           ///< length of the last period
+  T alike{};              ///< periods that were alike, up to twice `periods_of_dither`
+  T direction{};          ///< of the current since the last turning point: 1 rises, -1 falls
+  T sample_per_period{};  ///< time step over the last period, 0 to 1/2, at its end
 };
 
 static_assert(std::is_trivially_copyable_v<DitherState<float>>);
@@ -47,7 +48,7 @@ struct Dither {
   Mask<T> present;
   Mask<T> begins;         ///< one of its periods, with this sample
   Mask<T> began;          ///< with the sample before
-  T sample_per_period{};  ///< time step over the last period, 0 to 1/2; where dither is present
+  T sample_per_period{};  ///< time step over the last period, 0 to 1/2, as it was at its end
 };
 
 /// Amplitude of the current's dither [A], half of peak to peak, and its frequency [Hz]; where no dither is present,
@@ -86,7 +87,7 @@ constexpr void turn(DitherState<T>& state, T swing_A, Mask<T> regular, T current
 template <class T>
 constexpr void begin(DitherState<T>& state, T current_A) {
   state.extreme_A = state.turned_A = current_A;
-  state.since_s = state.alike = T(0);
+  state.since_s = state.alike = state.sample_per_period = T(0);
   state.direction = T(1);
 }
 
@@ -95,6 +96,10 @@ template <class T>
 [[gnu::always_inline]] constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
                                                          T time_step_s) {
   const Mask<T> began = is_zero(state.since_s);
+  in_valves(began, state, [&] {
+    const T period_s = larger(state.period_s, T(shortest_dither_period_s));
+    state.sample_per_period = smaller(time_step_s / period_s, T(0.5));
+  });
   state.since_s += time_step_s;
   const T back_A = state.direction * (state.extreme_A - current_A);
   state.extreme_A = select(back_A < T(0), current_A, state.extreme_A);
@@ -110,12 +115,7 @@ template <class T>
     state.since_s = select(begins, T(0), state.since_s);
   });
   in_valves(state.since_s > T(longest_dither_period_s), state, [&] { state.alike = state.swing_A = T(0); });
-  Dither<T> out{!(state.alike < T(periods_of_dither)), begins, began};
-  if (any(out.present)) {
-    const T period_s = larger(state.period_s, T(shortest_dither_period_s));
-    out.sample_per_period = smaller(time_step_s / period_s, T(0.5));
-  }
-  return out;
+  return {!(state.alike < T(periods_of_dither)), begins, began, state.sample_per_period};
 }
 
 /// Half the swing follows that of each period by this share of it at most: samples seldom meet the peaks, and a change

@@ -69,7 +69,7 @@ template <class T>
   if (!any(dither.present)) return;
   state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
   const Mask<T> moves = balance.freed || !is(position.motion, Motion::rest);
-  in_valves(dither.present && !position.busy, state.swing.excess_N, [&] {
+  in_valves(dither.present && position.turn.odd, state.swing.excess_N, [&] {
     state.swing.excess_N = slips_excess_N(valve, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s);
   });
   const FrictionBounds<T> bounds =
@@ -86,8 +86,9 @@ template <class T>
                                                                 const PositionPoint<T>& position,
                                                                 const Dither<T>& dither, T opposing_N, Mask<T> begins) {
   ForceBalance<T> out;
-  out.actuator = step(valve.actuator, state.actuator,
-                      Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}}, begins);
+  out.actuator =
+      step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
+           begins, position.turn.odd);
   out.actuator.magnetic_force_N -= opposing_N;
   out.spring_N = valve.spring.at(position.position_m).value;
   const T net_N = out.actuator.magnetic_force_N - out.spring_N;  // carries flow force and friction; paper (1)

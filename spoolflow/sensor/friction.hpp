@@ -31,6 +31,7 @@ struct FrictionState {
   T held_N{};      ///< friction as it was some milliseconds ago
   T earlier_N{};   ///< and some before
   T held_s{};
+  T slack_m{};  ///< what noise may fake of a displacement
 };
 
 /// Friction lies between these; > 0 hinders opening.
@@ -188,7 +189,8 @@ template <class T>
                                                           const PositionSensor<T>& sensor,
                                                           const PositionPoint<T>& position, T apparent_N,
                                                           Mask<T> creeps, T time_step_s) {
-  const T slack_m = gauge_slack_m(sensor, time_step_s);
+  in_valves(position.turn.closed, state, [&] { state.slack_m = gauge_slack_m(sensor, time_step_s); });
+  const T slack_m = state.slack_m;
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;
   const detail::Contact<T> contact{apparent_N, bounds.sticking_N, holds_N, slack_m, reach_N, creeps};
@@ -198,12 +200,14 @@ template <class T>
   in_valves(rests, state,
             [&] { detail::follow_displacement(friction, state, contact, position.position_m, time_step_s); });
   in_valves(!rests, state, [&] {
-    const T direction = select(position.travel_m > T(0), T(1), T(-1));
-    breakaway_N = select(!rests && rested_s > T(0),
-                         direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
+    const Mask<T> breaks = !rests && rested_s > T(0);
+    if (any(breaks)) {
+      const T direction = select(position.travel_m > T(0), T(1), T(-1));
+      breakaway_N = select(breaks, direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
+    }
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   });
-  detail::hold(state, apparent_N, time_step_s);
+  in_valves(position.turn.closed, state, [&] { detail::hold(state, apparent_N, position.block_s); });
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
   if (!any(!creeps)) return out;
   // Friction lies on the side of the gauge to which the sensor is dragged.

@@ -55,24 +55,58 @@ constexpr T elastic(T centre, T flux) {
   return centre - flux;
 }
 
-/// Adds what stop K and those after it answer. Where one holds, all with higher thresholds hold: two stops never lie
-/// further apart than their thresholds do.
-template <bool Rising, unsigned K, bool Holds, class T>
-[[gnu::always_inline]] constexpr void add_stops(const MagneticHysteresis<T>& hysteresis,
-                                                const HysteresisState<T>& state, T flux, T share,
-                                                HysteresisPoint<T>& point) {
+/// A sum over stops, linear in the share 0 to 1 of full flux as their stiffness is.
+template <class T>
+struct StopSum {
+  T without_flux{};
+  T increase{};
+
+  [[nodiscard]] constexpr T at(T share) const { return without_flux + share * increase; }
+};
+
+/// Adds `times` the stiffness of stop K.
+template <unsigned K, class T>
+constexpr StopSum<T> with_stop(const StopSum<T>& sum, const MagneticHysteresis<T>& hysteresis, T times) {
+  return {sum.without_flux + hysteresis.stiffness[K] * times, sum.increase + hysteresis.stiffness_increase[K] * times};
+}
+
+/// What the stops before stop K answer where they yield. Of parameters that are compiled in these are numbers, too.
+template <unsigned K, class T>
+constexpr StopSum<T> yielded_before(const MagneticHysteresis<T>& hysteresis) {
+  if constexpr (K > 0)
+    return with_stop<K - 1>(yielded_before<K - 1>(hysteresis), hysteresis, hysteresis.threshold[K - 1]);
+  return {};
+}
+
+/// Stiffness of stop K and those after it together.
+template <unsigned K, class T>
+constexpr StopSum<T> stiffness_from(const MagneticHysteresis<T>& hysteresis) {
+  if constexpr (K < hysteresis_elements) return with_stop<K>(stiffness_from<K + 1>(hysteresis), hysteresis, T(1));
+  return {};
+}
+
+/// Adds what stop K and those after it answer, which hold.
+template <bool Rising, unsigned K, class T>
+[[gnu::always_inline]] constexpr StopSum<T> with_held(const StopSum<T>& sum, const MagneticHysteresis<T>& hysteresis,
+                                                      const HysteresisState<T>& state, T flux) {
   if constexpr (K < hysteresis_elements) {
-    const T stiffness = hysteresis.stiffness[K] + share * hysteresis.stiffness_increase[K];
-    const T deflection = elastic<Rising>(state.centre[K], flux);
-    if (!Holds && lies_below(hysteresis.threshold[K], deflection)) {
-      point.value += stiffness * hysteresis.threshold[K];
-      add_stops<Rising, K + 1, false>(hysteresis, state, flux, share, point);
-    } else {
-      point.value += stiffness * deflection;
-      point.slope += stiffness;
-      add_stops<Rising, K + 1, true>(hysteresis, state, flux, share, point);
-    }
+    return with_held<Rising, K + 1>(with_stop<K>(sum, hysteresis, elastic<Rising>(state.centre[K], flux)), hysteresis,
+                                    state, flux);
   }
+  return sum;
+}
+
+/// What all stops answer on this way, those before stop K yielding. Where one holds, all with higher thresholds hold:
+/// two stops never lie further apart than their thresholds do.
+template <bool Rising, unsigned K, class T>
+[[gnu::always_inline]] constexpr HysteresisPoint<T> answer_of_stops(const MagneticHysteresis<T>& hysteresis,
+                                                                    const HysteresisState<T>& state, T flux, T share) {
+  if constexpr (K < hysteresis_elements) {
+    if (lies_below(hysteresis.threshold[K], elastic<Rising>(state.centre[K], flux)))
+      return answer_of_stops<Rising, K + 1>(hysteresis, state, flux, share);
+  }
+  const StopSum<T> sum = with_held<Rising, K>(yielded_before<K>(hysteresis), hysteresis, state, flux);
+  return {sum.at(share), stiffness_from<K>(hysteresis).at(share)};
 }
 
 /// Moves stop K and those after it, up to the first that holds.
@@ -92,8 +126,12 @@ template <class T>
 constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state,
                                            T flux) {
   const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
-  HysteresisPoint<T> point{T(0), T(0)};
-  if constexpr (!one_valve<T>) {
+  if constexpr (one_valve<T>) {
+    if (!(flux < state.flux)) return detail::answer_of_stops<true, 0>(hysteresis, state, flux, share);
+    const HysteresisPoint<T> falling = detail::answer_of_stops<false, 0>(hysteresis, state, flux, share);
+    return {-falling.value, falling.slope};
+  } else {
+    HysteresisPoint<T> point{T(0), T(0)};
     for (unsigned k = 0; k < hysteresis_elements; ++k) {
       const T stiffness = hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k];
       const T deflection = flux - state.centre[k];
@@ -101,13 +139,8 @@ constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteres
       point.value += stiffness * kept;
       point.slope += select(magnitude(deflection) <= hysteresis.threshold[k], stiffness, T(0));
     }
-  } else if (flux < state.flux) {
-    detail::add_stops<false, 0, false>(hysteresis, state, flux, share, point);
-    point.value = -point.value;
-  } else {
-    detail::add_stops<true, 0, false>(hysteresis, state, flux, share, point);
+    return point;
   }
-  return point;
 }
 
 /// How far a stop stands off its centre, within plus or minus its threshold.

@@ -43,16 +43,26 @@ struct MeteringEdge {
     return pressure_difference_Pa.at(edge_pressures - 1);
   }
 
-  [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
-    const Cell<T> layer = locate<edge_temperatures>(temperature_K, temperature);
+  [[nodiscard]] constexpr Cell<T> layer_at(T temperature) const {
+    return locate<edge_temperatures>(temperature_K, temperature);
+  }
+  [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference,
+                                                              T position) const {
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
     const Cell<T> column = locate<edge_positions>(position_m, position);
-    const T per_Pa = pressure_difference_Pa.per_spacing;
-    const VolumePoint<T> force = flow_force_N.at(layer, row, column, per_Pa);
-    const VolumePoint<T> friction = friction_N.at(layer, row, column, per_Pa);
-    return {force.value,        larger(force.row_slope, T(least_force_per_pressure_N_Pa)), friction.value,
-            friction.row_slope, conductance.at(layer, row, column, per_Pa).value,          row.inside && column.inside,
+    const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
+    const VolumePoint<T> force = flow_force_N.at(cell);
+    const VolumePoint<T> friction = friction_N.at(cell);
+    return {force.value,
+            larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
+            friction.value,
+            friction.row_slope,
+            conductance.at(cell).value,
+            row.inside && column.inside,
             layer.inside};
+  }
+  [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
+    return at(layer_at(temperature), pressure_difference, position);
   }
 };
 

@@ -48,12 +48,11 @@ constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, M
   state.oil_temperature_K = select(lasted, oil_temperature_K, state.oil_temperature_K);
 }
 
-/// Once after every other block of positions. A missing oil temperature is held, and one that no oil has, too.
+/// Where it is `due`. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
-constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K) {
-  const Mask<T> due = state.position.velocity_due && (state.position.newest & 1) == 0;
+constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, Mask<T> due) {
   in_valves(due && is_number(oil_temperature_K), state, [&] {
-    const T since_s = T(2) * state.position.block_s;
+    const T since_s = slow_period_s(state.position);
     const T change_K = oil_temperature_K - state.oil_temperature_K;
     const Mask<T> odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
     const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
@@ -86,14 +85,17 @@ template <class T>
   return out;
 }
 
-/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3.
+/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3. How far the pressure
+/// difference may lie from the believed one is reckoned where it is its turn.
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, T velocity_m_per_s) {
-  const PressureBand<T> band =
-      pressure_band(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
-                    valve.edge.highest_pressure_difference_Pa(),
-                    displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
+                                             const ForceBalance<T>& balance, T velocity_m_per_s, Mask<T> reach_due) {
+  in_valves(reach_due, state.pressure.reach, [&] {
+    state.pressure.reach =
+        pressure_reach(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
+                       displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
+  });
+  const PressureBand<T> band = pressure_band(state.pressure, valve.edge.highest_pressure_difference_Pa());
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));
@@ -105,16 +107,24 @@ template <class T>
   out.friction_force_N = balance.friction_N;
 }
 
+/// Where a spool stands whose forces are not believed.
+template <class T>
+struct DoubtfulPlace {
+  T position_m;
+  T elsewhere_m;  ///< where it is instead, if it is not there
+  Mask<T> fault;  ///< of the position signal
+};
+
 /// While the position signal may be wrong, or the current is, forces tell nothing: the flow where the spool is believed
 /// to be, at the pressure difference last believed, and in the band what that may have become. It holds what flows at
 /// the other place where the spool may be, too; beyond the centre as much as through the direction's own edge.
 template <class T>
 [[gnu::noinline]] constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
-                                                 const Sample<T>& sample, const PositionPoint<T>& position,
+                                                 const Sample<T>& sample, const DoubtfulPlace<T>& position,
                                                  T opposing_N, Mask<T> begins) {
   const ActuatorEstimate<T> actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
-           begins);
+           begins, Mask<T>(false));
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, Mask<T>(true));
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
@@ -158,13 +168,12 @@ template <class T>
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
-  // In those samples in which the oil temperature is not.
-  in_valves(!position.busy && !((state.position.newest & 1) == 0), state.pressure,
-            [&] { follow_agreement(state.pressure); });
+  in_valves(position.turn.even, state.pressure, [&] { follow_agreement(state.pressure); });
   // The coil is slow enough to be followed in those samples that have least else to do.
-  has_time = has_time && !balance.sliding && !position.busy && !dither.begins && is_zero(balance.resting.breakaway_N);
+  has_time =
+      has_time && !balance.sliding && position.turn.odd && !dither.begins && is_zero(balance.resting.breakaway_N);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
-  answer(valve, state, balance, position.velocity_m_per_s);
+  answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
   state.last.status = status(valve, state, sample, balance);
 }
 
@@ -175,17 +184,32 @@ template <class T>
                                               const Sample<T>& sample, const PositionPoint<T>& position,
                                               const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
   const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
+  const auto doubt = [&]() __attribute__((always_inline)) {
+    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
+                    begins);
+  };
   if constexpr (one_valve<T>) {
     if (unlikely(doubtful)) {
-      answer_in_doubt(state, valve, sample, position, opposing_N, begins);
+      doubt();
       return;
     }
     observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time);
   } else {
     in_valves(!doubtful, state,
               [&] { observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time); });
-    in_valves(doubtful, state, [&] { answer_in_doubt(state, valve, sample, position, opposing_N, begins); });
+    in_valves(doubtful, state, doubt);
   }
+}
+
+/// The band takes in all that may flow through the other direction's edge.
+template <class T>
+[[gnu::noinline]] constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
+                                           Mask<T> opens) {
+  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  Estimate<T>& out = state.last;
+  out.flow_lower_m3_per_s = select(opens, smaller(out.flow_lower_m3_per_s, -most), out.flow_lower_m3_per_s);
+  mark(out.status, opens, Status::other_direction);
 }
 
 /// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
@@ -193,12 +217,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                             T position_m) {
   const Mask<T> opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
-  if (!any(opens)) return;
-  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
-  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
-  Estimate<T>& out = state.last;
-  out.flow_lower_m3_per_s = select(opens, smaller(out.flow_lower_m3_per_s, -most), out.flow_lower_m3_per_s);
-  mark(out.status, opens, Status::other_direction);
+  if (unlikely(any(opens))) admit_all(valve, state, position_m, opens);
 }
 
 /// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
@@ -246,11 +265,10 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
     begins = begins || time_leapt(sample.time_step_s);
   }
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
-  detail::follow_temperature(state, sample.oil_temperature_K);
-
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
+  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_odd);
   detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
   detail::admit_other_direction(valve, state, position.position_m);
   if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);

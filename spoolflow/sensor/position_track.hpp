@@ -1,167 +1,50 @@
 #pragma once
 /// What the spool does, from a position signal with noise, drift and acquisition faults.
-#include <array>
-#include <cstdint>
-#include <type_traits>
-
 #include "spoolflow/sensor/dither.hpp"
+#include "spoolflow/sensor/position_state.hpp"
 #include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::sensor {
 
-/// Length of the blocks over which the position is averaged [s]: 20 samples at 10 kHz, 2 at 1 kHz, one at 500 Hz. Where
-/// dither frees the spool a block is a period, in which the spool's tremble cancels.
-inline constexpr double block_length_s = 2e-3;
-/// Sliding is told from windows of so many blocks, three in a row: short ones at the pace of a duty cycle ...
-inline constexpr int short_window_blocks = 2;
-/// ... which must travel further than so many standard deviations of the noise, ...
-inline constexpr double short_window_deviations = 3;
-/// ... or long ones, of means over four blocks, for a spool that creeps.
-inline constexpr int long_window_blocks = 8;
-inline constexpr double long_window_deviations = 1.5;
-/// Windows travel evenly where the longest is no more than so many times the shortest, and a threshold more.
-inline constexpr double even_travel_ratio = 4;
-/// The newest is no less than one over this of the others, less a threshold: a spool that slows down more is about to
-/// stop, and friction to fall off its limit.
-inline constexpr double slowing_travel_ratio = 2;
-/// A slip is faster than this [m/s] ...
-inline constexpr double slip_speed_m_per_s = 0.5e-3;
-/// ... and moves by more than so many standard deviations of the noise; ...
-inline constexpr double slip_deviations = 5;
-/// ... friction and inertia are in motion for so long [s] after it.
-inline constexpr double slip_settling_s = 0.03;
-/// A change of the signal is credible up to so many standard deviations of the noise and this much more [m], besides
-/// what the hardest acceleration allows.
-inline constexpr double credible_jump_deviations = 20;
-inline constexpr double credible_jump_m = 20e-6;
-/// An armature that moves changes current or voltage of its coil, by more than this share of the largest current, and
-/// of the voltage that holds it: where neither changed, ...
-inline constexpr double quiet_current_share = 0.005;
-inline constexpr double quiet_voltage_share = 0.03;
-/// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
-inline constexpr double quiet_jump_m = 60e-6;
-/// A jump that lasts longer than this [s] is believed, but doubted until that [s]: where the signal jumps back
-/// meanwhile, it was the jump that was wrong.
-inline constexpr double longest_position_fault_s = 0.25;
-inline constexpr double longest_position_doubt_s = 2.5;
-/// A period of dither that is longer [s] is none any more: the block ends.
-inline constexpr double longest_tremble_block_s = 0.015;
-/// A block is taken for no shorter [s]: velocities divide by it.
-inline constexpr double shortest_block_s = 1e-6;
-inline constexpr double fastest_m_per_s = 10;         ///< no spool moves faster
-inline constexpr double velocity_smoothing_s = 0.03;  ///< of the velocity
-inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that tells a direction and nothing else
-
-/// Changes of the coil's current and voltage from one sample to the next, >= 0, that tell of no motion.
-template <class T>
-struct QuietCoil {
-  T current_A;
-  T voltage_V;
-};
-
-enum class Motion : std::uint8_t {
-  rest,       ///< nothing moves by more than noise
-  transient,  ///< a slip, or the end of one: friction and inertia are in motion
-  opening,    ///< slides evenly: friction has its full size and its sign is known
-  closing,
-};
-
-constexpr bool is(Motion motion, Motion which) {
-  return motion == which;
-}
-template <class Choice, std::enable_if_t<std::is_same_v<Choice, Motion> || std::is_same_v<Choice, int>, int> = 0>
-constexpr Choice select(bool condition, Choice yes, Choice no) {
-  return condition ? yes : no;
-}
-
-/// What a spool does; of several, what each of them does.
-template <class T>
-using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
-
-inline constexpr int position_blocks = 32;
-
-/// One number of a ring; a pack takes each valve's own.
-template <class T>
-constexpr T in_ring(const std::array<T, position_blocks>& ring, int place) {
-  return ring[static_cast<unsigned>(place)];
-}
-template <class T>
-constexpr void put_in_ring(std::array<T, position_blocks>& ring, int place, T value) {
-  ring[static_cast<unsigned>(place)] = value;
-}
-
-/// Trivially copyable memory of a track. The ring holds means over blocks of some milliseconds, newest at `newest`.
-template <class T>
-struct PositionState {
-  std::array<T, position_blocks> block_m{};
-  std::array<T, position_blocks> four_blocks_m{};  ///< means of the block and the three before
-  T sum_m{};
-  T sum_s{};
-  T block_s{};
-  T per_block_samples{};  ///< 1 / samples in a block
-  T last_m{};
-  T step_m{};     ///< last believed change
-  T current_A{};  ///< of the coil, in the last sample
-  T voltage_V{};
-  T offset_m{};               ///< what an acquisition fault adds to the signal
-  T elsewhere_m{};            ///< where the spool is, from there, if the jump is the other way about than believed
-  T fault_s{};                ///< how long ago the fault began; 0: there is none
-  T unsettled_s{};            ///< time until a slip counts as over
-  T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
-  T velocity_m_per_s{};       ///< smoothed
-  T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
-  Mask<T> velocity_due{};     ///< with the next sample, which has less else to do
-  Index<T> samples{};
-  Index<T> newest{};
-  Index<T> blocks{};
-  MotionOf<T> motion{};  ///< at rest
-};
-
-template <class T>
-struct PositionPoint {
-  T position_m;  ///< free of drift and faults
-  MotionOf<T> motion;
-  Mask<T> fault;         ///< a jump of the signal is taken out of it, or doubted
-  T travel_m;            ///< sign of the velocity of what `motion` tells
-  T velocity_m_per_s{};  ///< smoothed
-  T acceleration_m_per_s2{};
-  T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
-  Mask<T> busy{};   ///< this sample closed a block of several: what can wait for the next does
-};
-
 namespace detail {
 
-/// The mean that is `back` blocks before the newest of a ring.
+/// The mean of the block that is `back` before the newest.
 template <class T>
-constexpr T block(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int back) {
-  return in_ring(ring, (state.newest - back) & (position_blocks - 1));
+constexpr T block(const PositionState<T>& state, int back) {
+  return in_ring(state.block_m, (state.newest & (short_blocks - 1)) + (short_blocks - back));
+}
+/// The mean over four blocks that ended `back` before the newest.
+template <class T>
+constexpr T four_blocks(const PositionState<T>& state, int back) {
+  return in_ring(state.four_blocks_m, (state.newest - back) & (position_blocks - 1));
 }
 
-/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. Windows are `apart`
-/// blocks of the ring.
-template <class T>
-constexpr MotionOf<T> even_travel(const PositionState<T>& state, const std::array<T, position_blocks>& ring, int apart,
-                                  T threshold_m) {
-  const T now = block(state, ring, 0);
-  const T before = block(state, ring, apart);
-  const T newest_m = now - before;
+/// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. `mean_m(k)` is the mean
+/// at the end of the k-th window before now.
+template <class T, class Mean>
+[[gnu::always_inline]] constexpr MotionOf<T> even_travel(const Mean& mean_m, T threshold_m) {
+  const T before = mean_m(1);
+  const T newest_m = mean_m(0) - before;
   const T size_m = magnitude(newest_m);
   const MotionOf<T> rest = MotionOf<T>(Motion::rest);
-  Mask<T> even = !(size_m < threshold_m);
+  const T least_travel_m = larger(threshold_m, T(least_travel_of_windows_m));
+  Mask<T> even = !(size_m < least_travel_m);
   if (!any(even)) return rest;
-  const T direction = select(newest_m > T(0), T(1), T(-1));
-  const T earlier = block(state, ring, 2 * apart);
+  const Mask<T> opens = newest_m > T(0);
+  const T direction = select(opens, T(1), T(-1));
+  const T earlier = mean_m(2);
   const T middle_m = direction * (before - earlier);
-  even = even && middle_m > T(0) && !(middle_m < threshold_m);
+  even = even && !(middle_m < least_travel_m);
   if (!any(even)) return rest;
-  const T oldest_m = direction * (earlier - block(state, ring, 3 * apart));
-  even = even && oldest_m > T(0) && !(oldest_m < threshold_m);
+  const T oldest_m = direction * (earlier - mean_m(3));
+  even = even && !(oldest_m < least_travel_m);
   if (!any(even)) return rest;
   const T least_m = smaller(smaller(size_m, middle_m), oldest_m);
-  even = even && !(larger(larger(size_m, middle_m), oldest_m) > T(even_travel_ratio) * least_m + threshold_m);
-  even = even && !(larger(middle_m, oldest_m) > T(slowing_travel_ratio) * size_m + threshold_m);
-  return select(even, select(newest_m > T(0), MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
+  const T longer_m = larger(middle_m, oldest_m);
+  even = even && !(larger(size_m, longer_m) > T(even_travel_ratio) * least_m + threshold_m);
+  even = even && !(longer_m > T(slowing_travel_ratio) * size_m + threshold_m);
+  return select(even, select(opens, MotionOf<T>(Motion::opening), MotionOf<T>(Motion::closing)), rest);
 }
 
 /// Puts the mean of the samples since the last block into the ring.
@@ -169,11 +52,14 @@ template <class T>
 [[gnu::always_inline]] constexpr void close_block(PositionState<T>& state) {
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
-  put_in_ring(state.block_m, state.newest, state.sum_m * state.per_block_samples);
+  state.lone = !(state.per_block_samples < T(1));
+  const T mean_m = state.sum_m * state.per_block_samples;
+  put_in_ring(state.block_m, state.newest & (short_blocks - 1), mean_m);
+  put_in_ring(state.block_m, (state.newest & (short_blocks - 1)) + short_blocks, mean_m);
   put_in_ring(state.four_blocks_m, state.newest,
-              T(0.25) * (block(state, state.block_m, 0) + block(state, state.block_m, 1) +
-                         block(state, state.block_m, 2) + block(state, state.block_m, 3)));
+              T(0.25) * (mean_m + block(state, 1) + block(state, 2) + block(state, 3)));
   state.block_s = state.sum_s;
+  state.velocity_due = Mask<T>(true);
   state.blocks = select(state.blocks < position_blocks, state.blocks + 1, Index<T>(position_blocks));
   state.sum_m = state.sum_s = T(0);
   state.samples = Index<T>(0);
@@ -186,32 +72,38 @@ template <class T>
   Motions motion = Motions(Motion::rest);
   const Mask<T> near = state.blocks > 3 * short_window_blocks;
   if (any(near)) {
-    motion = select(near, even_travel(state, state.block_m, short_window_blocks, T(short_window_deviations) * noise_m),
-                    motion);
+    motion = select(
+        near,
+        even_travel([&](int k) { return block(state, k * short_window_blocks); }, T(short_window_deviations) * noise_m),
+        motion);
   }
   const Mask<T> far = is(motion, Motion::rest) && state.blocks > 3 * long_window_blocks + 3;
   if (any(far)) {
-    motion = select(
-        far, even_travel(state, state.four_blocks_m, long_window_blocks, T(long_window_deviations) * noise_m), motion);
+    motion = select(far,
+                    even_travel([&](int k) { return four_blocks(state, k * long_window_blocks); },
+                                T(long_window_deviations) * noise_m),
+                    motion);
   }
   return motion;
 }
 
-/// Velocity and acceleration over three short windows, after each block.
+/// Velocity and acceleration over three short windows.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
   constexpr int window = short_window_blocks;
   const Mask<T> whole = state.blocks > 3 * window;
-  const T now_m = block(state, state.block_m, 0), oldest_m = block(state, state.block_m, 3 * window);
-  const T change_m = now_m - block(state, state.block_m, window) - block(state, state.block_m, 2 * window) + oldest_m;
-  const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
-  const T velocity_m_per_s = select(whole, (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window))), T(0));
-  const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
-  const T hardest = sensor.hardest_acceleration_m_per_s2;
-  state.acceleration_m_per_s2 = select(whole, limited(acceleration, -hardest, hardest), T(0));
-  const T fastest = T(fastest_m_per_s);
-  state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
-                            (T(velocity_smoothing_s) + state.block_s);
+  state.velocity_due = Mask<T>(false);
+  in_valves(whole, state, [&] {
+    const T now_m = block(state, 0), oldest_m = block(state, 3 * window);
+    const T change_m = now_m - block(state, window) - block(state, 2 * window) + oldest_m;
+    const T per_block_s = T(1) / larger(state.block_s, T(shortest_block_s));
+    const T velocity_m_per_s = (now_m - oldest_m) * (per_block_s * T(1.0 / (3 * window)));
+    const T acceleration = change_m * (per_block_s * per_block_s * T(1.0 / (2 * window * window)));
+    const T hardest = sensor.hardest_acceleration_m_per_s2, fastest = T(fastest_m_per_s);
+    state.acceleration_m_per_s2 = limited(acceleration, -hardest, hardest);
+    state.velocity_m_per_s += (limited(velocity_m_per_s, -fastest, fastest) - state.velocity_m_per_s) * state.block_s /
+                              (T(velocity_smoothing_s) + state.block_s);
+  });
 }
 
 /// What the spool does, after each block.
@@ -222,7 +114,7 @@ template <class T>
   const Mask<T> even = !is(motion, Motion::rest);
   const Mask<T> uneven = !even && state.blocks > short_window_blocks;
   if (any(uneven)) {
-    const T signed_travel_m = block(state, state.block_m, 0) - block(state, state.block_m, short_window_blocks);
+    const T signed_travel_m = block(state, 0) - block(state, short_window_blocks);
     const T slow_m = T(slip_speed_m_per_s) * T(short_window_blocks) * state.block_s;
     const Mask<T> slips = uneven && magnitude(signed_travel_m) > larger(slow_m, T(slip_deviations) * noise_m);
     state.unsettled_s = select(slips, T(slip_settling_s), state.unsettled_s);
@@ -308,11 +200,32 @@ template <class T>
 constexpr void begin(PositionState<T>& state, T position_m) {
   state.last_m = position_m;
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
+  state.acceleration_m_per_s2 = T(0);
   state.fault_s = T(0);
   state.velocity_due = Mask<T>(false);
+  state.lone = Mask<T>(true);
   state.samples = state.blocks = Index<T>(0);
   state.motion = MotionOf<T>(Motion::rest);
 }
+
+/// From one slow turn to the next [s].
+template <class T>
+constexpr T slow_period_s(const PositionState<T>& state) {
+  return state.block_s * select(state.lone, T(1), T(2));
+}
+
+namespace detail {
+
+template <class T>
+constexpr Turn<T> turn_of(const PositionState<T>& state, Mask<T> closed, Mask<T> follows_a_block) {
+  const Mask<T> busy = closed && !state.lone;
+  const Mask<T> parity = ((state.newest + state.samples) & 1) == 0;
+  const Mask<T> odd = state.lone || (!busy && !parity);
+  const Mask<T> even = state.lone || (!busy && parity);
+  return {closed, busy, even, odd, even && follows_a_block, odd && follows_a_block};
+}
+
+}  // namespace detail
 
 /// One sample.
 template <class T>
@@ -321,10 +234,7 @@ template <class T>
                                                         T oil_temperature_K, const Dither<T>& dither, Mask<T> freed) {
   const T time_step_s = sample.time_step_s;
   const Mask<T> due = state.velocity_due;
-  in_valves(due, state, [&] {
-    detail::follow_velocity(sensor, state);
-    state.velocity_due = Mask<T>(false);
-  });
+  in_valves(due, state, [&] { detail::follow_velocity(sensor, state); });
   const T position_m =
       detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
@@ -332,18 +242,22 @@ template <class T>
   state.samples = state.samples + 1;
   const Mask<T> whole = state.sum_s > T(block_length_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
   const Mask<T> trembles = freed && dither.present && state.sum_s < T(longest_tremble_block_s);
+  const Mask<T> closed = whole && (dither.begins || !trembles);
   in_valves(
-      whole && (dither.begins || !trembles), state, [&]() __attribute__((always_inline)) {
+      closed, state, [&]() __attribute__((always_inline)) {
         detail::close_block(state);
-        state.velocity_due = Mask<T>(true);
         detail::tell_motion(sensor, state);
       });
-  const Mask<T> busy = state.velocity_due && state.per_block_samples < T(1);
-  const T elsewhere_m = position_m + state.elsewhere_m, acceleration = state.acceleration_m_per_s2;
-  return {position_m,  state.motion, !is_zero(state.fault_s), state.travel_m, state.velocity_m_per_s, acceleration,
-          elsewhere_m, busy};
+  const Turn<T> turn = detail::turn_of(state, closed, due);
+  return {position_m,
+          state.motion,
+          !is_zero(state.fault_s),
+          state.travel_m,
+          state.velocity_m_per_s,
+          state.acceleration_m_per_s2,
+          position_m + state.elsewhere_m,
+          state.block_s,
+          turn};
 }
-
-static_assert(std::is_trivially_copyable_v<PositionState<float>>);
 
 }  // namespace spoolflow::sensor

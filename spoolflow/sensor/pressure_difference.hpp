@@ -61,6 +61,14 @@ struct PressureParameters {
   T ratio_memory_s{};       ///< of sliding, in which it forgets what it has learnt
 };
 
+/// How far the pressure difference may lie from the believed one [Pa].
+template <class T>
+struct PressureReach {
+  T below_Pa{};  ///< >= 0
+  T above_Pa{};  ///< >= 0
+  T ahead_Pa{};  ///< so far above it is expected; below it where < 0
+};
+
 template <class T>
 struct PressureState {
   T pressure_difference_Pa{};
@@ -75,6 +83,7 @@ struct PressureState {
   T yielded_Pa{};               ///< to forces that friction at rest cannot explain, one way, since last seen
   T innovation_squared{};       ///< normalised, averaged over the last seconds of sliding
   T band_factor{};              ///< how much wider than its parts tell the band must be
+  PressureReach<T> reach{};     ///< as it was when it was last reckoned
 };
 
 static_assert(std::is_trivially_copyable_v<PressureState<float>>);
@@ -105,6 +114,7 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
   state.ratio_variance = squared(pressure.ratio_deviation);
   state.innovation_squared = T(usual_innovation_squared);
   state.band_factor = T(1);
+  state.reach = {highest_Pa, highest_Pa, T(0)};
 }
 
 /// How much wider than its parts tell the band must be, as the forces have been agreeing: wider under dither or on a

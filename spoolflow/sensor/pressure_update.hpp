@@ -50,14 +50,14 @@ template <class T>
 /// Prediction over one sample: the supply may have moved.
 template <class T>
 [[gnu::always_inline]] constexpr void predict(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                              const ForceBalance<T>& balance, Mask<T> busy, T time_step_s,
+                                              const ForceBalance<T>& balance, Mask<T> slow, T time_step_s,
                                               T highest_Pa) {
   PressureState<T>& pressure = state.pressure;
   in_valves(balance.closed, pressure, [&] { expect_change(valve.pressure, pressure); });
   in_valves(balance.sliding, pressure, [&] { drift(valve.pressure, pressure, time_step_s, highest_Pa); });
-  // Once a block of positions, in its first sample.
-  in_valves(balance.sliding && !busy && state.position.samples < 2, pressure,
-            [&] { forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, state.position.block_s); });
+  in_valves(balance.sliding && slow, pressure, [&] {
+    forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, slow_period_s(state.position));
+  });
   in_valves(!balance.sliding, pressure, [&] { drift_unseen(valve.pressure, pressure, time_step_s, highest_Pa); });
 }
 
@@ -70,16 +70,15 @@ template <class T>
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
-  predict(valve, state, balance, position.busy, time_step_s, highest_Pa);
+  predict(valve, state, balance, position.turn.slow_even, time_step_s, highest_Pa);
 
   in_valves(balance.settled && !balance.closed && balance.sliding, pressure, [&] {
     in_valves(time_step_s > T(0), pressure, [&] {
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s, highest_Pa);
     });
-    const Mask<T> has_time = !position.busy;
-    if (!any(has_time)) return;
+    if (!any(position.turn.even)) return;
     drop_covariance(pressure);
-    in_valves(has_time && observed(pressure, slope, balance.noise_N), pressure,
+    in_valves(position.turn.even && observed(pressure, slope, balance.noise_N), pressure,
               [&] { learn_process_noise(valve.pressure, pressure, balance.noise_N / slope); });
   });
   const Mask<T> breaks = !balance.closed && !balance.sliding && !is_zero(balance.resting.breakaway_N) &&

@@ -136,6 +136,16 @@ constexpr Mask<T> is_near(T cells) {
   return cells < T(Cells + noise_cells) && cells > T(-noise_cells);
 }
 
+/// One number of a ring; a pack takes each valve's own.
+template <class T, std::size_t Size>
+constexpr T in_ring(const std::array<T, Size>& ring, int place) {
+  return ring[static_cast<unsigned>(place)];
+}
+template <class T, std::size_t Size>
+constexpr void put_in_ring(std::array<T, Size>& ring, int place, T value) {
+  ring[static_cast<unsigned>(place)] = value;
+}
+
 /// What a curve answers.
 template <class T>
 struct CurvePoint {
@@ -208,34 +218,52 @@ struct VolumePoint {
   T row_slope;
 };
 
-/// z(layer, row, column), trilinear in each cell. The three axes stand beside it, for volumes that share them.
+/// Where a point lies in volumes that share their axes: the cell, and in each of its planes of one row the shares of
+/// the four grid points around the line that is crossed.
+template <class T>
+struct VolumeCell {
+  Index<T> layer;
+  Cell<T> row;
+  Index<T> column;
+  T lower_left, lower_right, upper_left, upper_right;  ///< of the layer below and above, the column left and right
+  T per_row_spacing;
+};
+
+template <class T>
+constexpr VolumeCell<T> volume_cell(const Cell<T>& layer, const Cell<T>& row, const Cell<T>& column,
+                                    T per_row_spacing) {
+  const T upper_right = layer.share * column.share;
+  const T lower_right = column.share - upper_right;
+  return {layer.index,  row,
+          column.index, T(1) - layer.share - lower_right,
+          lower_right,  layer.share - upper_right,
+          upper_right,  per_row_spacing};
+}
+
+/// z(layer, row, column), trilinear in each cell. The three axes stand beside it, for volumes that share them. All
+/// layers of a grid point lie together, so that one address reaches the whole cell.
 template <class T, int Layers, int Rows, int Columns>
 struct Volume {
   static_assert(Layers >= 2 && Rows >= 2 && Columns >= 2);
-  Numbers<T, Layers * Rows * Columns> values;  ///< layer after layer, row after row
+  Numbers<T, Layers * Rows * Columns> values;  ///< row after row, column after column, layer after layer
 
   [[nodiscard]] constexpr T& node(int layer, int row, int column) {
-    return values[static_cast<unsigned>((layer * Rows + row) * Columns + column)];
+    return values[static_cast<unsigned>((row * Columns + column) * Layers + layer)];
   }
   [[nodiscard]] constexpr const T& node(int layer, int row, int column) const {
-    return values[static_cast<unsigned>((layer * Rows + row) * Columns + column)];
+    return values[static_cast<unsigned>((row * Columns + column) * Layers + layer)];
   }
-  [[nodiscard]] constexpr VolumePoint<T> at(const Cell<T>& layer, const Cell<T>& row, const Cell<T>& column,
-                                            T per_row_spacing) const {
-    // Shares of the four grid points around the line that is crossed; the same for all volumes over the same axes.
-    const T upper_right = layer.share * column.share;
-    const T upper_left = layer.share - upper_right;
-    const T lower_right = column.share - upper_right;
-    const T lower_left = T(1) - layer.share - lower_right;
-    const auto place = corner(values.data(), (layer.index * Rows + row.index) * Columns + column.index);
+  [[nodiscard]] constexpr VolumePoint<T> at(const VolumeCell<T>& cell) const {
+    const auto place = corner(values.data(), (cell.row.index * Columns + cell.column) * Layers + cell.layer);
     const auto between = [&](int from) {
-      const auto [low_left, low_right] = two(place, from);
-      const auto [high_left, high_right] = two(place, from + Rows * Columns);
-      return lower_left * low_left + lower_right * low_right + upper_left * high_left + upper_right * high_right;
+      const auto [low_left, high_left] = two(place, from);
+      const auto [low_right, high_right] = two(place, from + Layers);
+      return cell.lower_left * low_left + cell.lower_right * low_right + cell.upper_left * high_left +
+             cell.upper_right * high_right;
     };
     const T low = between(0);
-    const T rise = between(Columns) - low;
-    return {low + row.share * rise, rise * per_row_spacing};
+    const T rise = between(Layers * Columns) - low;
+    return {low + cell.row.share * rise, rise * cell.per_row_spacing};
   }
 };
 

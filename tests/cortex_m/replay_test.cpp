@@ -39,7 +39,7 @@ class CortexM : public ::testing::TestWithParam<Core> {
 
 TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   const Replay observer = replay(model, Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(observer, {1500, 9});
+  expect_fit_for_a_valve(observer, {1350, 9});
   for (const Status status :
        {Status::closed, Status::spool_at_rest, Status::outside_force_map, Status::outside_temperature,
         Status::position_fault, Status::sample_missing, Status::dithered, Status::temperature_fault}) {
@@ -60,7 +60,7 @@ model::Model whole(model::Model model) {
 
 TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
   const Replay valve = replay(whole(model), Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(valve, {1875, 9, 98304});
+  expect_fit_for_a_valve(valve, {1680, 9, 98304});
   EXPECT_LE(valve.state_bytes, 1536U);
   for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_temperature,
                               Status::position_fault, Status::sample_missing, Status::dithered}) {
@@ -78,7 +78,7 @@ class SoftFloat : public CortexM {};
 /// Minutes; run by the long tests. There is no unit that would tell of a NaN it made.
 TEST_P(SoftFloat, DISABLED_BothSensorsAnswerAsTheHostWithoutAFloatingPointUnit) {
   const bool m0plus = GetParam().name == std::string("Cortex-M0+");
-  expect_fit_for_a_valve(replay(model, Estimator::observer, minute, GetParam()), {m0plus ? 61000U : 33000U, 9, 98304});
+  expect_fit_for_a_valve(replay(model, Estimator::observer, minute, GetParam()), {m0plus ? 51500U : 27600U, 9, 98304});
   expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()), {m0plus ? 5500U : 3100U, 4, 98304});
 }
 

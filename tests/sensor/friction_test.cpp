@@ -29,7 +29,9 @@ class Friction : public testing::TestWithParam<double> {
   FrictionInterval<double> sample(Motion motion, double position_m, double apparent_N, double direction = 1) {
     const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
     dragged_m_ = std::clamp(dragged_m_, position_m - fine_lvdt.backlash_m, position_m + fine_lvdt.backlash_m);
-    const PositionPoint<double> point{dragged_m_ + noise_(generator_), motion, false, direction * 1e-6};
+    PositionPoint<double> point{dragged_m_ + noise_(generator_), motion, false, direction * 1e-6};
+    point.turn.closed = true;  // a block of one sample
+    point.block_s = GetParam();
     return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, GetParam());
   }
   /// Slides, opening or closing, then stops at 1 mm.

@@ -109,6 +109,7 @@ template <class T>
         mean.time_step_s = idle.waiting_s;
         mean.current_A = select(idle.waiting_s > T(0), idle.charge_As / idle.waiting_s, sample.current_A);
         magnetise(valve.actuator, idle.actuator, mean, begins);
+        widen_flux_range(idle.actuator);
         idle.waiting_s = idle.charge_As = T(0);
       });
       in_valves(busy || begins, idle.magnetic_force_N, [&] {
@@ -264,7 +265,6 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
-  detail::follow_temperature(state.open, own.oil_temperature_K);
 
   // Where the spool is, in the valve's signs, and on which side of the centre.
   Sample<T> signed_sample = own;
@@ -272,11 +272,13 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
   const Dither<T> dither =
       follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
-  const PositionPoint<T> position =
-      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
-            state.open.oil_temperature_K, dither, state.open.swing.frees);
+  PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
+                                    state.open.oil_temperature_K, dither, state.open.swing.frees);
+  detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow_odd);
   const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
-  in_valves(from_centre_m < T(-centre_hysteresis_m), state, [&] { detail::change_sides(valve, state); });
+  const Mask<T> changes = from_centre_m < T(-centre_hysteresis_m);
+  in_valves(changes, state, [&] { detail::change_sides(valve, state); });
+  position.turn.odd = position.turn.odd || changes;  // friction and uncertainty are those of the other solenoid
 
   const auto seen_from = [&](Mask<T> opens_a) __attribute__((always_inline)) {
     detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);

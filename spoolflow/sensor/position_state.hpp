@@ -1,0 +1,141 @@
+#pragma once
+/// What a position track keeps, and what it tells of a sample; position_track.hpp says how it is told.
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "spoolflow/sensor/scalar.hpp"
+
+namespace spoolflow::sensor {
+
+/// Length of the blocks over which the position is averaged [s]: 20 samples at 10 kHz, 2 at 1 kHz, one at 500 Hz. Where
+/// dither frees the spool a block is a period, in which the spool's tremble cancels.
+inline constexpr double block_length_s = 2e-3;
+/// Sliding is told from windows of so many blocks, three in a row: short ones at the pace of a duty cycle ...
+inline constexpr int short_window_blocks = 2;
+/// ... which must travel further than so many standard deviations of the noise, ...
+inline constexpr double short_window_deviations = 3;
+/// ... or long ones, of means over four blocks, for a spool that creeps.
+inline constexpr int long_window_blocks = 8;
+inline constexpr double long_window_deviations = 1.5;
+/// Windows travel evenly where the longest is no more than so many times the shortest, and a threshold more.
+inline constexpr double even_travel_ratio = 4;
+/// They travel by this at least [m], however little the noise.
+inline constexpr double least_travel_of_windows_m = 1e-12;
+/// The newest is no less than one over this of the others, less a threshold: a spool that slows down more is about to
+/// stop, and friction to fall off its limit.
+inline constexpr double slowing_travel_ratio = 2;
+/// A slip is faster than this [m/s] ...
+inline constexpr double slip_speed_m_per_s = 0.5e-3;
+/// ... and moves by more than so many standard deviations of the noise; ...
+inline constexpr double slip_deviations = 5;
+/// ... friction and inertia are in motion for so long [s] after it.
+inline constexpr double slip_settling_s = 0.03;
+/// A change of the signal is credible up to so many standard deviations of the noise and this much more [m], besides
+/// what the hardest acceleration allows.
+inline constexpr double credible_jump_deviations = 20;
+inline constexpr double credible_jump_m = 20e-6;
+/// An armature that moves changes current or voltage of its coil, by more than this share of the largest current, and
+/// of the voltage that holds it: where neither changed, ...
+inline constexpr double quiet_current_share = 0.005;
+inline constexpr double quiet_voltage_share = 0.03;
+/// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
+inline constexpr double quiet_jump_m = 60e-6;
+/// A jump that lasts longer than this [s] is believed, but doubted until that [s]: where the signal jumps back
+/// meanwhile, it was the jump that was wrong.
+inline constexpr double longest_position_fault_s = 0.25;
+inline constexpr double longest_position_doubt_s = 2.5;
+/// A period of dither that is longer [s] is none any more: the block ends.
+inline constexpr double longest_tremble_block_s = 0.015;
+/// A block is taken for no shorter [s]: velocities divide by it.
+inline constexpr double shortest_block_s = 1e-6;
+inline constexpr double fastest_m_per_s = 10;         ///< no spool moves faster
+inline constexpr double velocity_smoothing_s = 0.03;  ///< of the velocity
+inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that tells a direction and nothing else
+
+/// Changes of the coil's current and voltage from one sample to the next, >= 0, that tell of no motion.
+template <class T>
+struct QuietCoil {
+  T current_A;
+  T voltage_V;
+};
+
+enum class Motion : std::uint8_t {
+  rest,       ///< nothing moves by more than noise
+  transient,  ///< a slip, or the end of one: friction and inertia are in motion
+  opening,    ///< slides evenly: friction has its full size and its sign is known
+  closing,
+};
+
+constexpr bool is(Motion motion, Motion which) {
+  return motion == which;
+}
+template <class Choice, std::enable_if_t<std::is_same_v<Choice, Motion> || std::is_same_v<Choice, int>, int> = 0>
+constexpr Choice select(bool condition, Choice yes, Choice no) {
+  return condition ? yes : no;
+}
+
+/// What a spool does; of several, what each of them does.
+template <class T>
+using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
+
+inline constexpr int position_blocks = 32;  ///< of means over four blocks, for the long windows
+inline constexpr int short_blocks = 8;      ///< of means over one, for the short ones
+
+/// Trivially copyable memory of a track. The rings hold means over blocks of some milliseconds, newest at `newest`;
+/// each of the short one's stands twice, so that those before the newest lie in a row.
+template <class T>
+struct PositionState {
+  std::array<T, 2 * short_blocks> block_m{};
+  std::array<T, position_blocks> four_blocks_m{};  ///< means of the block and the three before
+  T sum_m{};
+  T sum_s{};
+  T block_s{};
+  T per_block_samples{};  ///< 1 / samples in a block
+  T last_m{};
+  T step_m{};     ///< last believed change
+  T current_A{};  ///< of the coil, in the last sample
+  T voltage_V{};
+  T offset_m{};               ///< what an acquisition fault adds to the signal
+  T elsewhere_m{};            ///< where the spool is, from there, if the jump is the other way about than believed
+  T fault_s{};                ///< how long ago the fault began; 0: there is none
+  T unsettled_s{};            ///< time until a slip counts as over
+  T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
+  T velocity_m_per_s{};       ///< smoothed
+  T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
+  Mask<T> velocity_due{};     ///< with the next sample, which has less else to do
+  Mask<T> lone{};             ///< a block is one sample
+  Index<T> samples{};
+  Index<T> newest{};
+  Index<T> blocks{};
+  MotionOf<T> motion{};  ///< at rest
+};
+
+/// Whose turn it is: what the answer can do without for some samples is not done in all of them, so that no sample has
+/// everything to do. Where a block is one sample, and at the first, all is done.
+template <class T>
+struct Turn {
+  Mask<T> closed{};     ///< this sample closed a block of positions
+  Mask<T> busy{};       ///< a block of several: what can wait for the next sample does
+  Mask<T> even{};       ///< every second of those that are not busy ...
+  Mask<T> odd{};        ///< ... and every other
+  Mask<T> slow_even{};  ///< one of them in every two blocks, and ...
+  Mask<T> slow_odd{};   ///< ... one of those: for what changes in seconds
+};
+
+template <class T>
+struct PositionPoint {
+  T position_m;  ///< free of drift and faults
+  MotionOf<T> motion;
+  Mask<T> fault;         ///< a jump of the signal is taken out of it, or doubted
+  T travel_m;            ///< sign of the velocity of what `motion` tells
+  T velocity_m_per_s{};  ///< smoothed
+  T acceleration_m_per_s2{};
+  T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
+  T block_s{};      ///< length of the last block
+  Turn<T> turn{};
+};
+
+static_assert(std::is_trivially_copyable_v<PositionState<float>>);
+
+}  // namespace spoolflow::sensor
