@@ -80,7 +80,7 @@ class Recording(Mapping[str, NDArray[Any]]):
 
 def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
                    stroke_m: Optional[float] = None) -> Recording:
-    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, told apart by content.
+    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, TDMS, MDF 4, Excel (.xlsx), told apart by content.
 
     path: the file. Columns named `<channel>_<unit>`, such as `current_A` or `position_mm`, need nothing more.
     channels: a channel map of a file with other column names or units: a file (TOML, docs/formats/channels.md), or a
