@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return part;
   };
   const std::string sheet = next(), styles = next(), texts = next();
-  workbook.sheet("Sheet1", sheet).styles_part(styles).texts_part(texts);
+  workbook.sheet("Sheet1", sheet).styles_part(styles).texts_part(texts).stored();
   const std::string bytes = workbook.content();
   fuzz::read_vectors(file, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
                      recording::open_xlsx_table);

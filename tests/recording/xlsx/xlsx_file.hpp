@@ -98,13 +98,18 @@ class XlsxFile {
     how_ = how;
     return *this;
   }
+  /// No part is deflated.
+  XlsxFile& stored() {
+    how_.deflated = others_.deflated = false;
+    return *this;
+  }
   [[nodiscard]] std::string content() const {
     constexpr const char* relations = "http://schemas.openxmlformats.org/officeDocument/2006/relationships/";
     const auto relationship = [&](const std::string& id, const std::string& kind, const std::string& target) {
       return "<Relationship Id=\"" + id + "\" Type=\"" + relations + kind + "\" Target=\"" + target + "\"/>";
     };
     ZipFile zip;
-    zip.add("_rels/.rels", part("Relationships", relationship("rId1", "officeDocument", "xl/workbook.xml")));
+    zip.add("_rels/.rels", part("Relationships", relationship("rId1", "officeDocument", "xl/workbook.xml")), others_);
     std::string list, parts;
     for (std::size_t k = 0; k < sheets_.size(); ++k) {
       const std::string number = std::to_string(k + 1);
@@ -119,11 +124,13 @@ class XlsxFile {
     }
     parts += relationship("rId98", "sharedStrings", "/xl/sharedStrings.xml");
     parts += relationship("rId99", "styles", "../xl/styles.xml");
-    zip.add("xl/workbook.xml", part("workbook xmlns:r=\"" + std::string(relations, 67) + "\"",
-                                    properties_ + "<sheets>" + list + "</sheets>", "workbook"));
-    zip.add("xl/_rels/workbook.xml.rels", part("Relationships", parts));
+    zip.add("xl/workbook.xml",
+            part("workbook xmlns:r=\"" + std::string(relations, 67) + "\"",
+                 properties_ + "<sheets>" + list + "</sheets>", "workbook"),
+            others_);
+    zip.add("xl/_rels/workbook.xml.rels", part("Relationships", parts), others_);
     zip.add("xl/sharedStrings.xml", texts_.starts_with("<?") ? texts_ : part("sst", texts_), ZipFile::How{false});
-    zip.add("xl/styles.xml", styles_.starts_with("<?") ? styles_ : part("styleSheet", styles_));
+    zip.add("xl/styles.xml", styles_.starts_with("<?") ? styles_ : part("styleSheet", styles_), others_);
     return zip.content();
   }
 
@@ -137,7 +144,8 @@ class XlsxFile {
   }
   std::vector<Sheet> sheets_;
   std::string texts_, styles_, properties_;
-  ZipFile::How how_;
+  ZipFile::How how_;     ///< of sheets
+  ZipFile::How others_;  ///< of the other parts
 };
 
 /// "<row><c>…": numbers, texts in quotes ("'name"), or a cell as it stands ("<c …").
