@@ -20,6 +20,16 @@ def write_whole(path: PathLike, text: str) -> None:
     make_whole(path, write)
 
 
+def write_bytes(path: PathLike, content: bytes) -> None:
+    """The same with bytes."""
+
+    def write(descriptor: int, beside: int) -> None:
+        with os.fdopen(os.dup(descriptor), "wb") as out:
+            out.write(content)
+
+    make_whole(path, write)
+
+
 def make_whole(path: PathLike, write: Callable[[int, int], None]) -> None:
     """Calls `write` with the descriptor of an empty file and that of another beside it, which goes afterwards; then puts the
     first under that name at once, in place of what was there. Where `write` fails nothing is left."""

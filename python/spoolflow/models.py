@@ -142,6 +142,15 @@ class Model:
             del samples[name]
         return Sensor(self, estimator).estimate(run, **samples)
 
+    def doubts_about(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> List[str]:
+        """What speaks against a run being of this valve, a sentence each, with the usual slip that explains it (other units, a
+        sign turned round, a gap in time): what `spoolflow estimate` tells about its recording. Empty where nothing does.
+
+        run: a recording, or any mapping with the names of `estimate`; or arrays by these names.
+        """
+        columns = sample_columns(run, samples, self.direction)
+        return _native.doubts_about(self._kept, columns, getattr(run, "file", "the run"))
+
     def __repr__(self) -> str:
         return (f"<Model {self.name}: direction {self.direction}, rated flow {self.rated_flow_L_min:g} L/min, "
                 f"stroke {1e3 * self.stroke_m:g} mm, {' and '.join(self.estimators)}>")

@@ -1,6 +1,7 @@
 """Recordings in memory: a column a channel, in SI units."""
 from __future__ import annotations
 
+import json
 import os
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional
 
@@ -80,7 +81,7 @@ class Recording(Mapping[str, NDArray[Any]]):
 
 def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
                    stroke_m: Optional[float] = None) -> Recording:
-    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, told apart by content.
+    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, TDMS, MDF 4, Excel (.xlsx), told apart by content.
 
     path: the file. Columns named `<channel>_<unit>`, such as `current_A` or `position_mm`, need nothing more.
     channels: a channel map of a file with other column names or units: a file (TOML, docs/formats/channels.md), or a
@@ -96,18 +97,19 @@ def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
 
 
 def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Optional[float] = None) -> Dict[str, Any]:
-    """What a recording holds, before anything is made of it; under the names of `spoolflow inspect --json`, in SI units.
+    """What a recording holds, before anything is made of it: what `spoolflow inspect --json` writes, as a dict.
 
     path, channels, stroke_m: as of `read_recording`.
 
     `format`, `columns`, `samples`, `begin_s`, `end_s`, `rate_Hz`, `time_step_jitter` (share of the step), `duplicate_times`,
-    `gap_count`, `gaps_s`; `channels`: lowest, highest and mean [SI], missing samples, the share that stands at an end; of
+    `gap_count`, `gaps_s`; `channels`: lowest, highest and mean in `unit`, missing samples, the share that stands at an end; of
     `raw_columns` the range in the file's unit and what each is taken for; `times`, where columns have several; what is
-    `missing` and `helpful`; `proposed_map`, a dict for `channels` once its units are filled in, and `proposed_text`, as TOML.
+    `missing` and `helpful`; `proposed_map`, a dict for `channels` once its units are filled in, and `proposed_channel_map`, the
+    same as TOML. A number that is not known is None.
 
     Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
     """
     file = os.fspath(path)
     with as_file(channels) as map_file:
-        seen: Dict[str, Any] = apart.call("inspect", [file], file, map_file, stroke_m)
+        seen: Dict[str, Any] = json.loads(apart.call("inspect", [file], file, map_file, stroke_m))
     return seen

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Literal, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,8 @@ Progress = Callable[[float], None]
 StepProgress = Callable[[str, float], None]
 
 
-def _model(model: AnyModel) -> Model:
+def as_model(model: AnyModel) -> Model:
+    """A model, read where its file is given."""
     return model if isinstance(model, Model) else load_model(model)
 
 
@@ -117,8 +118,8 @@ class Validation(JudgedFigures):
 
 def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, channels: Optional[Channels] = None,
              estimator: str = "both", requirements: Optional[PathLike] = None, reference_lag_s: Optional[float] = None,
-             apply_reference_lag: bool = True, report: Optional[PathLike] = None, units: Sequence[str] = (),
-             progress: Optional[Progress] = None) -> Validation:
+             apply_reference_lag: bool = True, compare: Union[PathLike, Iterable[PathLike]] = (),
+             report: Optional[PathLike] = None, units: Sequence[str] = (), progress: Optional[Progress] = None) -> Validation:
     """Compares the estimate with a reference flow meter: the figures of `spoolflow validate`.
 
     model: a model or its file. recordings: one file or several, which also hold `flow_reference`.
@@ -127,15 +128,20 @@ def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *
     requirements: limits (TOML, docs/formats/requirements.md) against which the figures are judged.
     reference_lag_s: lag of the reference meter [s], 0 to 10; None: lag and dead time are found in each run.
     apply_reference_lag: delay and lag the estimate as the meter does before comparing.
+    compare: figures of other valves or models to show beside these in the report, which it needs: what `Validation.save` or
+        `validate --json` wrote.
     report: an HTML page to write; `units` are its reader's. progress: called with the share done, 0 to 1.
     """
     if reference_lag_s is not None and not 0 <= reference_lag_s <= 10:
         raise _native.Error(f"reference_lag_s: Value {reference_lag_s} not in range 0 to 10")
     files = _paths(recordings)
+    others = [os.fspath(compare)] if isinstance(compare, (str, os.PathLike)) else [os.fspath(each) for each in compare]
+    if others and report is None:
+        raise _native.Error("compare: others are shown in the report, and none is asked for; give report=..., too")
     with as_file(channels) as map_file:
-        figures, page = apart.call(
-            "validate", files, _model(model)._kept, files, map_file, estimator, _path(requirements), reference_lag_s,
-            apply_reference_lag, _units(report, units), telling=progress)
+        figures, page, _ = apart.call(
+            "validate", files, as_model(model)._kept, files, map_file, estimator, _path(requirements), reference_lag_s,
+            apply_reference_lag, others, _units(report, units), telling=progress)
     if report is not None and page is not None:
         write_whole(report, page)
     return Validation(figures)
@@ -170,12 +176,15 @@ class Condition(JudgedFigures):
 
 
 def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, baseline: Optional[PathLike] = None,
-            channels: Optional[Channels] = None, false_alarms_per_year: float = 1.0, report: Optional[PathLike] = None,
-            units: Sequence[str] = (), progress: Optional[Progress] = None) -> Condition:
+            adapt: Optional[PathLike] = None, channels: Optional[Channels] = None, false_alarms_per_year: float = 1.0,
+            report: Optional[PathLike] = None, units: Sequence[str] = (),
+            progress: Optional[Progress] = None) -> Condition:
     """Judges the condition of a valve from recordings of its operation: the figures of `spoolflow monitor`.
 
     model: a model with an observer, or its file. recordings: in the order in which they were made.
     baseline: what `Condition.save` or `monitor --json` wrote of healthy runs; None: the model is the reference.
+    adapt: a model file to write: the model with what is raised put right as it was found (docs/monitoring.md). Raises Error
+        where nothing is raised, or what cannot be corrected.
     false_alarms_per_year: wanted at most over all indicators, of a valve at work day and night, 1e-6 to 1e4.
     channels, report, units, progress: as of `validate`.
     """
@@ -183,8 +192,11 @@ def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *,
         raise _native.Error(f"false_alarms_per_year: Value {false_alarms_per_year} not in range 1e-06 to 10000")
     files = _paths(recordings)
     with as_file(channels) as map_file:
-        figures, page = apart.call("monitor", files, _model(model)._kept, files, map_file, _path(baseline) or "",
-                                   false_alarms_per_year, _units(report, units), telling=progress)
+        figures, page, corrected = apart.call(
+            "monitor", files, as_model(model)._kept, files, map_file, _path(baseline) or "", false_alarms_per_year,
+            adapt is not None, _units(report, units), telling=progress)
+    if adapt is not None:
+        write_whole(adapt, corrected)
     if report is not None and page is not None:
         write_whole(report, page)
     return Condition(figures)
@@ -208,29 +220,87 @@ class Analysis(JudgedFigures):
         return f"<Analysis: {self.verdict}>"
 
 
-def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, samples: Optional[int] = None,
-            seed: Optional[int] = None, study: Optional[bool] = None, workers: int = 0, direction: str = "b",
-            report: Optional[PathLike] = None, units: Sequence[str] = (),
-            progress: Optional[StepProgress] = None) -> Analysis:
+class DitherAdvice(JudgedFigures):
+    """How to dither a valve: the figures of `analyse --dither --json` (docs/formats/analysis.md) by attributes; `verdict` says
+    in one sentence what to set."""
+
+    def __init__(self, text: str, verdict: str) -> None:
+        super().__init__(text)
+        #: what to set, and what it brings
+        self.verdict = verdict
+
+    def __repr__(self) -> str:
+        return f"<DitherAdvice: {self.verdict}>"
+
+
+@overload
+def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: Optional[PathLike] = None,
+            channels: Optional[Channels] = None, dither: Literal[False] = False, dither_shape: str = "sine",
+            ripple_limit_percent: float = 0.5, samples: Optional[int] = None, seed: Optional[int] = None,
+            study: Optional[bool] = None, workers: int = 0, direction: str = "b", report: Optional[PathLike] = None,
+            units: Sequence[str] = (), progress: Optional[StepProgress] = None) -> Analysis: ...
+
+
+@overload
+def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, dither: Literal[True], dither_shape: str = "sine",
+            ripple_limit_percent: float = 0.5, workers: int = 0, direction: str = "b", report: Optional[PathLike] = None,
+            units: Sequence[str] = ()) -> DitherAdvice: ...
+
+
+def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: Optional[PathLike] = None,
+            channels: Optional[Channels] = None, dither: bool = False, dither_shape: str = "sine",
+            ripple_limit_percent: float = 0.5, samples: Optional[int] = None, seed: Optional[int] = None,
+            study: Optional[bool] = None, workers: int = 0, direction: str = "b", report: Optional[PathLike] = None,
+            units: Sequence[str] = (), progress: Optional[StepProgress] = None) -> Union[Analysis, DitherAdvice]:
     """How uncertain the flow rate is, why, and what to improve next: the figures of `spoolflow analyse`.
 
     scenario: what to analyse (TOML); `spoolflow analyse --print-scenario` prints one with every key at its default.
+    recording: a run of one direction along which the budget is made up as well; channels: its channel map.
     samples: base samples of the global study, 2 to 65536; seed: of all random numbers, > 0.
     study: whether there is a global study on the virtual rig, which takes minutes; None: as the scenario says.
     workers: threads, 0 for all cores. direction: "a" or "b", of a model of a whole valve.
     report, units: as of `validate`. progress: called with the task and the share done, 0 to 1.
+
+    dither: how to dither instead: which amplitude [A] and frequency [Hz] of the coil current narrow the band at rest most,
+        as a `DitherAdvice`. Needs a model with an observer; `recording`, `samples`, `seed` and `study` have no meaning beside it.
+    dither_shape: course of the dither's current, "sine" or "square".
+    ripple_limit_percent: of the flow that dither may make, half of peak to peak in % of full scale, 0.001 to 100.
     """
-    kept = _model(model)._kept
+    kept = as_model(model)._kept
     for name, value, least, most in (("samples", samples, 2, 65536), ("seed", seed, 1, 2**64 - 1), ("workers", workers, 0, 1024)):
         if value is not None and not least <= value <= most:
             raise _native.Error(f"{name}: Value {value} not in range {least} to {most}")
     if direction not in ("a", "b"):
         raise _native.Error(f"direction: {direction} not in {{a,b}}")
-    figures, page = _native.analyse(kept, _path(scenario), samples, seed, study, workers, direction,
-                                    _units(report, units), progress)
+    if dither:
+        advice = _advise_dither(kept, _path(scenario), dither_shape, ripple_limit_percent, workers, direction,
+                                _units(report, units), {"recording": recording, "samples": samples, "study": study})
+        if report is not None and advice[1] is not None:
+            write_whole(report, advice[1])
+        return DitherAdvice(advice[0], advice[2] or "")
+    run = [] if recording is None else [os.fspath(recording)]
+    with as_file(channels) as map_file:
+        figures, page, resampled = apart.call(
+            "analyse", run, kept, _path(scenario), samples, seed, study, workers, direction, _path(recording), map_file,
+            _units(report, units), telling=progress)
+    if resampled:
+        warnings.warn(f"{run[0]}: {resampled}", stacklevel=2)
     if report is not None and page is not None:
         write_whole(report, page)
     return Analysis(figures)
+
+
+def _advise_dither(kept: "_native.Model", scenario: Optional[str], shape: str, ripple_limit_percent: float, workers: int,
+                   direction: str, units: Optional[List[str]],
+                   others: Mapping[str, Any]) -> "tuple[str, Optional[str], Optional[str]]":
+    for name, value in others.items():
+        if value is not None:
+            raise _native.Error(f"{name}: has no meaning beside dither; leave one of them away")
+    if shape not in ("sine", "square"):
+        raise _native.Error(f"dither_shape: {shape} not in {{sine,square}}")
+    if not 0.001 <= ripple_limit_percent <= 100:
+        raise _native.Error(f"ripple_limit_percent: Value {ripple_limit_percent} not in range 0.001 to 100")
+    return _native.dither(kept, scenario, workers, direction, shape, ripple_limit_percent / 100, units)
 
 
 class Simulation(Recording):

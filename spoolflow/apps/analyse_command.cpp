@@ -16,14 +16,13 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/analysed_run.hpp"
 #include "spoolflow/parallel/for_each.hpp"
-#include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/analysis_verdict.hpp"
 #include "spoolflow/report/analysis/dither_report.hpp"
 #include "spoolflow/report/json/analysis_json.hpp"
 #include "spoolflow/report/json/dither_json.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -125,28 +124,12 @@ model::Model model_of(const AnalyseArguments& arguments) {
   return model;
 }
 
-/// A budget along a run is that of one direction: a run of a whole valve goes through both.
-void refuse_whole_valve(const recording::Recording& run, const std::string& file) {
-  using recording::Channel;
-  if (run.column(Channel::current_a).empty() && run.column(Channel::current_b).empty()) return;
-  throw recording::RecordingError(fmt::format(
-      "{}: is a run of a whole valve (current_a, current_b); a budget is made up along a run of one direction, "
-      "with one current and positions >= 0. Give such a run, or leave --recording out",
-      file));
-}
-
 analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& arguments) {
   recording::ChannelMap channels;
   if (!arguments.channels.empty()) channels = recording::read_channel_map(arguments.channels);
-  recording::ReadOptions options = validation::sensor_channels(model, std::move(channels));
-  using recording::Channel;
-  for (const Channel channel : {Channel::flow_reference, Channel::flow, Channel::current_a, Channel::current_b})
-    options.optional.push_back(channel);
-  options.stands_in = {{Channel::current, Channel::current_b}};  // so that a whole valve's run is told as such
-  const recording::Recording run = recording::read_recording(arguments.recording, options);
+  AnalysedRun run = read_analysed_run(model, arguments.recording, std::move(channels));
   if (!run.resampled.empty()) say("{}: {}\n", arguments.recording, run.resampled);
-  refuse_whole_valve(run, arguments.recording);
-  return analysis::run_samples(run);
+  return std::move(run.samples);
 }
 
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,

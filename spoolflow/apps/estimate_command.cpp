@@ -298,7 +298,7 @@ void add_estimate_command(CLI::App& program) {
       program,
       {"estimate",
        "estimate the flow rate of a recording, with its 95 % band",
-       "MODEL.json from `spoolflow calibrate`, and a recording (CSV, MATLAB, HDF5, TDMS, MDF 4; - for CSV from "
+       "MODEL.json from `spoolflow calibrate`, and a recording (CSV, MATLAB, HDF5, TDMS, MDF 4, Excel; - for CSV from "
        "standard input) "
        "with time, current and position, better also voltage and oil temperature; nothing else of it is read",
        "one row a sample: time, flow with its band, pressure difference, forces, status; CSV, Parquet, MCAP, HDF5 or "

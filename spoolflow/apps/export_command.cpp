@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -39,42 +38,6 @@ struct ExportArguments {
   std::string sensors;    ///< of parameters: "observer", "condensed"; empty: both
 };
 
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// SHA-256 by name of what the last export into a folder wrote; empty where there was none.
-std::map<std::string, std::string> record_of(const fs::path& folder) {
-  std::map<std::string, std::string> out;
-  std::ifstream in(folder / exports::cpp_record_name);
-  for (std::string sum, name; in >> sum >> name;) out[name] = sum;
-  return out;
-}
-
-/// Files of an earlier export may be replaced as long as nobody changed them; whatever else bears a name that is needed
-/// is somebody's work.
-void refuse_to_overwrite(const fs::path& folder, const std::vector<exports::ExportedFile>& files) {
-  const std::map<std::string, std::string> record = record_of(folder);
-  for (const exports::ExportedFile& file : files) {
-    const fs::path target = folder / file.name;
-    std::error_code unreadable;
-    if (file.name == exports::cpp_record_name && !record.empty()) continue;
-    if (!fs::exists(target, unreadable) || content_of(target) == file.content) continue;
-    const auto exported = record.find(file.name);
-    if (exported == record.end()) {
-      throw OutputError(
-          fmt::format("cannot write {}: it is there already and comes from no earlier export; name another folder",
-                      target.string()));
-    }
-    if (model::sha256_of_file(target) != exported->second) {
-      throw OutputError(fmt::format(
-          "cannot write {}: it was changed since it was exported; keep it under another name, or name another folder",
-          target.string()));
-    }
-  }
-}
-
 /// What is asked for of the model. Throws ModelError where it does not know that direction.
 model::Model asked_model(const ExportArguments& arguments) {
   model::Model model = model::read_model(arguments.model);
@@ -91,7 +54,8 @@ void export_cpp(const ExportArguments& arguments) {
   const std::vector<exports::ExportedFile> files = exports::cpp_folder(model);
   const fs::path folder(arguments.output);
   if (folder.empty() || folder == "-") throw OutputError("an export needs a folder: name one after -o");
-  refuse_to_overwrite(folder, files);
+  const std::string refused = exports::why_not_to_overwrite(folder, files);
+  if (!refused.empty()) throw OutputError(refused);
   std::vector<std::unique_ptr<OutputFile>> outputs;
   for (const exports::ExportedFile& file : files) {
     make_output_folder((folder / file.name).parent_path());

@@ -53,7 +53,7 @@ void add_inspect_command(CLI::App& program) {
       {"inspect",
        "show what a recording, or a flash page of parameters, holds",
        "a recording: CSV (comma, semicolon or tab; decimal comma; - for CSV from standard input), MATLAB v5 or v7.3, "
-       "HDF5, TDMS, MDF 4; or parameters from `spoolflow export parameters`",
+       "HDF5, TDMS, MDF 4, Excel (.xlsx); or parameters from `spoolflow export parameters`",
        "on standard output: channels, units, rate, gaps, clipping, what each column could be by its name and its "
        "numbers, what is missing, and a channel map to paste. Of parameters: valve, model, versions, tables, whether "
        "the "

@@ -19,6 +19,7 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/corrected_model.hpp"
 #include "spoolflow/apps/work/monitored_recording.hpp"
 #include "spoolflow/fleet/jobs/contents.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
@@ -91,19 +92,12 @@ fleet::Outcome do_monitor_piece(const fleet::Piece& piece) {
   return {.files = {{output}}};
 }
 
-/// The model with what was found put right, and from which recordings.
-void write_corrected(std::ostream& out, const MonitorArguments& arguments, const model::Model& model,
-                     const monitor::Watch& watch, const std::vector<std::uint64_t>& samples) {
-  model::Adaptation how{
-      std::string(tool_version()), model::creation_time(), model::sha256_of_file(arguments.model), {}, {}};
-  model::Model from = model;
-  for (std::size_t k = 0; k < arguments.recordings.size(); ++k) {
-    const std::filesystem::path recording = arguments.recordings[k];
-    how.files.push_back(recording.filename().string());
-    from.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.filename().string(),
-                                      model::sha256_of_file(recording), samples[k]});
-  }
-  model::write_model(out, monitor::adapted(from, watch.findings(), std::move(how)));
+void write_corrected(std::ostream& out, const MonitorArguments& arguments, Monitored from,
+                     const monitor::Watch& watch) {
+  from.model_sha256 = model::sha256_of_file(arguments.model);
+  from.recordings.assign(arguments.recordings.begin(), arguments.recordings.end());
+  from.tool_version = std::string(tool_version());
+  model::write_model(out, corrected_model(from, watch));
 }
 
 void print_condition(const monitor::Watch& watch) {
@@ -179,7 +173,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
       samples.push_back(watch.usage().samples - std::accumulate(samples.begin(), samples.end(), std::uint64_t{0}));
     }
   }
-  if (corrected) write_corrected(corrected->stream(), arguments, model, watch, samples);
+  if (corrected) write_corrected(corrected->stream(), arguments, {model, {}, {}, samples, {}}, watch);
   if (page) report::write_monitor_report(page->stream(), model, watch, runs, trend, units);
   if (json) report::write_monitor_json(json->stream(), model, watch, runs, band.figures());
   commit_together({page ? &*page : nullptr, json ? &*json : nullptr, corrected ? &*corrected : nullptr});

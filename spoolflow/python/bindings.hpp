@@ -18,5 +18,11 @@ void add_sensors(pybind11::module_& module);
 void add_batches(pybind11::module_& module);
 /// What commands do: calibrate, validate, monitor, analyse.
 void add_work(pybind11::module_& module);
+/// Whole measuring campaigns of the virtual rig.
+void add_campaigns(pybind11::module_& module);
+/// Models as C++, FMUs and flash pages.
+void add_exports(pybind11::module_& module);
+/// What physics says against a run of a calibrated valve.
+void add_doubts(pybind11::module_& module);
 
 }  // namespace spoolflow::python

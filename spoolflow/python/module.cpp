@@ -11,4 +11,7 @@ PYBIND11_MODULE(_native, module) {
   spoolflow::python::add_sensors(module);
   spoolflow::python::add_batches(module);
   spoolflow::python::add_work(module);
+  spoolflow::python::add_campaigns(module);
+  spoolflow::python::add_exports(module);
+  spoolflow::python::add_doubts(module);
 }

@@ -7,11 +7,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "spoolflow/python/bindings.hpp"
+#include "spoolflow/python/read_recording.hpp"
 #include "spoolflow/python/signal_check.hpp"
 #include "spoolflow/recording/open_table.hpp"
-#include "spoolflow/recording/reader.hpp"
 #include "spoolflow/rig/bench/scenario.hpp"
-#include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::python {
@@ -20,12 +19,6 @@ namespace {
 namespace py = pybind11;
 using recording::Channel;
 using recording::Recording;
-
-/// A recording in memory, and what was met while reading it.
-struct ReadRecording {
-  Recording recording;
-  recording::ReadNotes notes;
-};
 
 /// As arguments and attributes are called: name and SI unit.
 std::string column_name(Channel channel) {
@@ -103,26 +96,13 @@ py::dict notes_of(const ReadRecording& read) {
   return out;
 }
 
-/// The recording, and what really happened by the headers of the truth's file, in their units; None where not asked
-/// for.
 py::tuple simulate(const std::filesystem::path& scenario, bool with_truth, const py::object& tell) {
   const auto simulated = at_work([&](SignalCheck& check) {
     const rig::PlannedScenario planned = rig::plan(rig::read_scenario(scenario));
     return rig::simulate(planned.valve, planned.run, planned.valve.seed,
                          {.with_truth = with_truth, .progress = [&](double share) { check(tell, share); }});
   });
-  auto out = std::make_shared<ReadRecording>();
-  out->recording = simulated.recording;
-  out->recording.file = scenario;
-  out->notes.rows = out->recording.size();
-  if (!with_truth) return py::make_tuple(out, py::none());
-  py::dict truth;
-  for (std::size_t k = 0; k < simulated.truth.columns.size(); ++k) {
-    const std::vector<double>& column = simulated.truth.columns[k];
-    truth[py::str(std::string(simulated.truth.quantities[k].header))] =
-        py::array_t<double>(static_cast<py::ssize_t>(column.size()), column.data());
-  }
-  return py::make_tuple(out, truth);
+  return simulated_objects(simulated, scenario);
 }
 
 /// For another process.
@@ -153,6 +133,21 @@ std::shared_ptr<ReadRecording> unpacked(const py::tuple& state) {
 }
 
 }  // namespace
+
+py::tuple simulated_objects(const rig::Simulation& simulation, const std::filesystem::path& file) {
+  auto out = std::make_shared<ReadRecording>();
+  out->recording = simulation.recording;
+  out->recording.file = file;
+  out->notes.rows = out->recording.size();
+  if (simulation.truth.size() == 0) return py::make_tuple(out, py::none());
+  py::dict truth;
+  for (std::size_t k = 0; k < simulation.truth.columns.size(); ++k) {
+    const std::vector<double>& column = simulation.truth.columns[k];
+    truth[py::str(std::string(simulation.truth.quantities[k].header))] =
+        py::array_t<double>(static_cast<py::ssize_t>(column.size()), column.data());
+  }
+  return py::make_tuple(out, truth);
+}
 
 void add_recordings(py::module_& module) {
   py::class_<ReadRecording, std::shared_ptr<ReadRecording>>(module, "Recording")

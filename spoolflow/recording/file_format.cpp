@@ -15,8 +15,9 @@ struct UnreadFormat {
   std::string_view remedy;
 };
 constexpr std::array<UnreadFormat, 5> unread_formats{{
-    {"PK\x03\x04", "a zip file, such as an Excel workbook", "save the sheet as CSV"},
-    {"\xD0\xCF\x11\xE0", "an old Excel workbook", "save the sheet as CSV"},
+    {"PK\x05\x06", "an empty zip archive", "name the recording itself"},
+    {"\xD0\xCF\x11\xE0", "an Excel workbook of before 2007 (.xls), or one that a password protects",
+     "save it as .xlsx without a password, or the sheet as CSV"},
     {"TDSh", "the index that stands beside a TDMS file and holds no samples", "name the file that ends in .tdms"},
     {"\x1F\x8B", "compressed by gzip", "pipe it: gunzip -c FILE | spoolflow ... -"},
     {"%PDF", "a PDF document", "name the recording itself"},
@@ -35,7 +36,7 @@ bool has_mat_version(std::string_view beginning) {
 }  // namespace
 
 std::string_view name(FileFormat format) {
-  constexpr std::array<std::string_view, 5> names{"CSV", "MATLAB", "HDF5", "TDMS", "MDF 4"};
+  constexpr std::array<std::string_view, 6> names{"CSV", "MATLAB", "HDF5", "TDMS", "MDF 4", "Excel"};
   return names[static_cast<std::size_t>(format)];
 }
 
@@ -50,6 +51,7 @@ FileFormat format_of(std::string_view beginning, const std::filesystem::path& fi
   }
   if (beginning.starts_with("TDSm")) return FileFormat::tdms;
   if (beginning.starts_with("MDF     ") || beginning.starts_with("UnFinMF ")) return FileFormat::mdf4;
+  if (beginning.starts_with("PK\x03\x04")) return FileFormat::xlsx;  // or another zip archive: its reader tells
   for (const UnreadFormat& format : unread_formats) {
     if (!beginning.starts_with(format.mark)) continue;
     throw RecordingError(

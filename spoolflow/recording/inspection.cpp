@@ -93,11 +93,14 @@ class Steps {
 };
 
 bool has_own_names(const FileContents& contents) {
-  return std::any_of(contents.columns.begin(), contents.columns.end(), [&](const std::string& column) {
+  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
+    const std::string& column = contents.columns[k];
     const std::size_t last = column.find_last_of("./");
-    const auto header = channel_header({column, last == std::string::npos ? column : column.substr(last + 1), {}});
-    return header && !header->unit.empty();
-  });
+    const std::string leaf = last == std::string::npos ? column : column.substr(last + 1);
+    const auto header = channel_header({column, leaf, contents.units[k]});
+    if (header && !header->unit.empty()) return true;
+  }
+  return false;
 }
 
 /// A channel map can be read where it tells all units and no raw signal.

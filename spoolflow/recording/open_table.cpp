@@ -11,6 +11,7 @@
 #include "spoolflow/recording/files/mat_table.hpp"
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 #include "spoolflow/recording/tdms/tdms_table.hpp"
+#include "spoolflow/recording/xlsx/xlsx_table.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -24,6 +25,8 @@ OpenVectors opener(FileFormat format) {
       return open_mdf4_table;
     case FileFormat::tdms:
       return open_tdms_table;
+    case FileFormat::xlsx:
+      return open_xlsx_table;
     default:
       return open_hdf5_table;
   }
@@ -68,11 +71,11 @@ OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text te
   }
   if (!input->size()) {
     throw RecordingError(
-        fmt::format("{}: is a {} file, which can only be read from a file, not from a pipe; save it "
+        fmt::format("{}: is {} {} file, which can only be read from a file, not from a pipe; save it "
                     "and name it",
-                    input->name(), name(format)));
+                    input->name(), format == FileFormat::xlsx ? "an" : "a", name(format)));
   }
-  return {format, open_confined(input->name(), *input->size(), opener(format))};
+  return {format, open_confined(input->name(), *input->size(), opener(format), text != CsvTable::Text::refused)};
 }
 
 }  // namespace spoolflow::recording

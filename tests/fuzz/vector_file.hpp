@@ -17,12 +17,15 @@ inline void read_vectors(const InputFile& file, const std::uint8_t* data, std::s
   constexpr std::size_t most_columns = 16, room = 512, most_reads = 64;
   file.write(data, size);
   try {
-    const std::size_t columns = open(file.path())->columns().size();
+    const auto opened = open(file.path());
+    opened->look();
+    const std::size_t columns = opened->columns().size();
     std::vector<double> values(room);
     double* const out[1]{values.data()};
     for (std::size_t k = 0; k < std::min(columns, most_columns); ++k) {
       try {
         const auto table = open(file.path());
+        table->look();
         table->select({k});
         std::size_t rows = 1;
         for (std::size_t reads = 0; reads < most_reads && rows > 0; ++reads) {

@@ -64,16 +64,12 @@ class ChannelMaps(examples.InAFolder):
         seen = spoolflow.inspect(self.run_file, self.channels)
         self.assertEqual((seen["samples"], seen["end_s"]), (3, 0.02))
         current = {each["channel"]: each for each in seen["channels"]}["current"]
-        self.assertEqual((current["lowest"], current["highest"], current["missing"]), (1.5, 1.6, 0))
+        self.assertEqual((current["lowest"], current["highest"], current["unit"], current["missing"]), (1.5, 1.6, "A", 0))
 
     def test_seen_files_of_HDF5_tell_what_the_command_tells(self):
         import json
         told = json.loads(examples.command("inspect", "-q", "--json", examples.RAMP))
-        seen = spoolflow.inspect(examples.RAMP)
-        for key in ("format", "columns", "samples", "begin_s", "end_s", "gap_count", "missing", "helpful"):
-            self.assertEqual(seen[key], told[key], key)
-        self.assertEqual([each["channel"] for each in seen["channels"]], [each["channel"] for each in told["channels"]])
-        self.assertEqual(seen["proposed_text"], told["proposed_channel_map"])
+        self.assertEqual(spoolflow.inspect(examples.RAMP), told)
 
 
 if __name__ == "__main__":

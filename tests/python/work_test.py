@@ -63,6 +63,71 @@ class Work(examples.InAFolder):
         self.assertEqual(len(found.points), 6)  # three levels of pressure for each estimator
         self.assertIn("Improve", repr(found))
 
+    def test_validate_shows_others_beside_it(self):
+        page, figures = self.folder / "page.html", self.folder / "other.json"
+        other = examples.command("validate", "-q", examples.MODEL, examples.RAMP, "--json", "-")
+        figures.write_text(other)
+        spoolflow.validate(examples.model(), examples.RAMP, report=page, compare=figures)
+        examples.command("validate", "-q", examples.MODEL, examples.RAMP, "--report", self.folder / "its.html", "--compare", figures)
+        self.assertEqual(page.read_text(), (self.folder / "its.html").read_text())
+        with self.assertRaisesRegex(spoolflow.Error, "^compare: others are shown in the report"):
+            spoolflow.validate(examples.model(), examples.RAMP, compare=[figures])
+
+    def test_analyse_goes_along_a_run(self):
+        scenario, figures = self.written("scenario.toml", QUICK), self.folder / "figures.json"
+        head = examples.ramp()
+        run = self.folder / "run.csv"
+        columns = np.column_stack([head[name][:3000] for name in ("time_s", "current_A", "voltage_V", "position_m", "oil_temperature_K")])
+        np.savetxt(run, columns, "%.9g", ",", header="time_s,current_A,voltage_V,position_m,oil_temperature_K", comments="")
+        found = spoolflow.analyse(examples.model(), scenario, recording=run)
+        found.save(figures)
+        self.assertEqual(figures.read_text(), examples.command(
+            "analyse", "-q", examples.MODEL, "--scenario", scenario, "--recording", run, "--json", "-"))
+        self.assertIn("run", found)
+
+    def test_analyse_advises_how_to_dither(self):
+        scenario, figures = self.written("scenario.toml", QUICK), self.folder / "figures.json"
+        page = self.folder / "page.html"
+        advice = spoolflow.analyse(examples.model(), scenario, dither=True, ripple_limit_percent=0.3, report=page)
+        advice.save(figures)
+        told = ("analyse", "-q", examples.MODEL, "--scenario", scenario, "--dither", "--ripple-limit", "0.3")
+        self.assertEqual(figures.read_text(), examples.command(*told, "--json", "-"))
+        self.assertEqual(examples.command(*told).splitlines()[0], advice.verdict)
+        self.assertIn("</html>", page.read_text())
+        for words, more in (("dither_shape: saw not in", {"dither_shape": "saw"}), ("samples: has no meaning", {"samples": 8}),
+                            ("ripple_limit_percent: Value 0 not in", {"ripple_limit_percent": 0})):
+            with self.assertRaisesRegex(spoolflow.Error, "^" + words):
+                spoolflow.analyse(examples.model(), scenario, dither=True, **more)
+
+    def test_doubts_about_a_run_are_those_of_the_command(self):
+        self.assertEqual(examples.model().doubts_about(examples.ramp()), [])
+        columns = {name: examples.ramp()[name] for name in ("time_s", "current_A", "voltage_V", "position_m", "oil_temperature_K")}
+        columns["position_m"] = 2 * columns["position_m"]
+        run = self.folder / "run.csv"
+        np.savetxt(run, np.column_stack(list(columns.values())), "%.9g", ",", header=",".join(columns), comments="")
+        said = json.loads(examples.command("estimate", "-q", examples.MODEL, run, "-o", self.folder / "out.csv", "--json", "-"))
+        doubts = examples.model().doubts_about(spoolflow.read_recording(run))
+        self.assertEqual(doubts, said["recordings"][0]["doubts"])
+        self.assertEqual(len(doubts), 1)
+
+    def test_monitor_writes_the_model_of_a_worn_valve(self):
+        press = examples.EXAMPLES / "live" / "size_6.json"
+        worn = self.written("worn.toml", RAMP.replace("seed = 3", "seed = 101").replace("[60]", "[40, 60]").replace("100", "20")
+                            + "[wear]\nfriction_factor = 1.8\n")
+        run, mine, its = (self.folder / name for name in ("run.csv", "mine.json", "its.json"))
+        examples.command("simulate", "-q", worn, "-o", run)
+        found = spoolflow.monitor(press, run, adapt=mine)
+        self.assertIn("friction", [each.cause for each in found.causes])
+        examples.command("monitor", "-q", press, run, "--adapt", its, "--json", self.folder / "condition.json")
+        self.assertEqual([line for line in mine.read_text().splitlines() if "created" not in line],
+                         [line for line in its.read_text().splitlines() if "created" not in line])
+        self.assertEqual(spoolflow.load_model(mine).name, spoolflow.load_model(press).name)
+
+    def test_monitor_corrects_nothing_of_a_healthy_valve(self):
+        with self.assertRaisesRegex(spoolflow.Error, "nothing to correct"):
+            spoolflow.monitor(examples.MODEL, examples.RAMP, adapt=self.folder / "model.json")
+        self.assertFalse((self.folder / "model.json").exists())
+
     def test_simulate_makes_the_recording_of_the_command(self):
         scenario, written = self.written("ramp.toml", RAMP), self.folder / "ramp.csv"
         run = spoolflow.simulate(scenario, truth=True)

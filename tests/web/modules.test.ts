@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { numberText } from './src/number_text';
+import { mapOf, rowsOf } from './src/playground/channel_map';
 import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
 import { tickTexts } from './src/plot_options';
 import { choices, ReadersUnits } from './src/readers_units';
@@ -155,4 +156,17 @@ test('every unit of the table can be chosen, and a page made in it begins in it'
     });
   }
   assert.equal(Math.round(new ReadersUnits({ pressureUnit: '2' }).unitOf('pressure', 80).factor * 60), 870);
+});
+
+test('a channel map is the same as rows and as text, and its comments stay', () => {
+  const text = '# of the rig\n[channels]\ntime = { column = "t", unit = "ms" }\nposition = { column = "LVDT \\"2\\"", unit = "V", scale = 0.24, offset = -0.6, to = "mm" }\n';
+  const rows = rowsOf(text);
+  assert.deepEqual(rows.map((row) => row.channel), ['time', 'position']);
+  assert.deepEqual(rows[1], { channel: 'position', column: 'LVDT "2"', unit: 'V', scale: '0.24', offset: '-0.6', to: 'mm' });
+  assert.equal(mapOf(rows, text), text);
+  rows[0].unit = 's';
+  rows.push({ channel: 'current', column: 'I [mA]', unit: '', scale: '', offset: '', to: '' }, { channel: 'voltage', column: '', unit: 'V', scale: '', offset: '', to: '' });
+  assert.equal(mapOf(rows, text), text.replace('"ms"', '"s"') + 'current = { column = "I [mA]" }\n');
+  assert.deepEqual(rowsOf("current = { column = 'I', unit = \"?\" } # a guess\n")[0], { channel: 'current', column: 'I', unit: '?', scale: '', offset: '', to: '' });
+  assert.equal(mapOf([]), '[channels]\n');
 });

@@ -133,7 +133,8 @@ test('a foreign file is read by a map that is mended by hand; what cannot be rea
   writeFileSync(join(folder, 'foreign.csv'), [header.replace('current_A', 'Kanal 3'), ...rows].join('\n'));
   await give(page, join(folder, 'foreign.csv'));
   const text = page.locator('.map textarea');
-  if (!(await page.locator('.map').evaluate((each) => each.open))) await page.click('.map summary');
+  if (!(await page.locator('.map').evaluate((each) => each.open))) await page.click('.map > summary');
+  await page.click('.as-text > summary');
   await text.fill('[channels]\ntime = { column = "time_s", unit = "s" }\ncurrent = { column = "Kanal 9", unit = "A" }\n');
   await page.getByRole('button', { name: 'Read the recording' }).click();
   await page.waitForFunction(() => document.querySelector('.files .fault').textContent !== '');
@@ -147,6 +148,73 @@ test('a foreign file is read by a map that is mended by hand; what cannot be rea
   writeFileSync(join(folder, 'broken.csv'), 'time_s,current_A,position_mm\n0,1,2\n0.001,one,2\n');
   await page.setInputFiles('input[name=files]', [join(folder, 'broken.csv')]);
   await page.waitForFunction(() => document.querySelector('.files .fault').textContent !== '' || /broken/.test(document.querySelector('.said')?.textContent ?? ''));
+  await page.context().close();
+});
+
+test('a channel map is mended in a table, which writes the text', async () => {
+  for (const width of [1280, 390]) {
+    const { page, complaints } = await opened({ width, hash: '#files' });
+    const [header, ...rows] = readFileSync(join(folder, 'run.csv'), 'utf8').split('\n');
+    writeFileSync(join(folder, 'foreign.csv'), [header.replace('current_A', 'Kanal 3').replace('position_mm', 'Weg'), ...rows].join('\n'));
+    await give(page, join(folder, 'foreign.csv'));
+    if (!(await page.locator('.map').evaluate((each) => each.open))) await page.click('.map > summary');
+    await page.getByLabel('column of current').selectOption('Kanal 3');
+    await page.getByLabel('unit of current').fill('mA');
+    await page.getByLabel('scale of current').fill('one thousand');
+    assert.equal(await page.getByLabel('scale of current').getAttribute('aria-invalid'), 'true');
+    await page.getByLabel('scale of current').fill('1000');
+    await page.getByLabel('column of position', { exact: true }).selectOption('Weg');
+    await page.getByLabel('unit of position', { exact: true }).fill('mm');
+    const text = await page.inputValue('.map textarea');
+    assert.match(text, /^current = \{ column = "Kanal 3", unit = "mA", scale = 1000 \}$/m);
+    assert.match(text, /^position = \{ column = "Weg", unit = "mm" \}$/m);
+    await picture(page, `map_${width}`);
+    await page.getByRole('button', { name: 'Read the recording' }).click();
+    await idle(page);
+    assert.equal(await page.textContent('.files .fault'), '');
+    assert.match(await page.textContent('.said'), /current +A/);
+    assert.equal(await page.getByLabel('scale of current').inputValue(), '1000', 'the table is that of the map that was read');
+    assert.ok(await wide(page) <= 0);
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  }
+});
+
+/** Drops files and folders as a hand does: the browser itself opens them. */
+async function drop(page, ...files) {
+  const box = await page.locator('.drop').boundingBox();
+  const mouse = await page.context().newCDPSession(page);
+  const event = (type) => mouse.send('Input.dispatchDragEvent',
+    { type, x: box.x + box.width / 2, y: box.y + 8, data: { items: [], files, dragOperationsMask: 1 } });
+  await event('dragEnter');
+  await event('dragOver');
+  await page.waitForSelector('.drop.over');
+  await event('drop');
+  await page.waitForSelector('.drop:not(.over)');
+  await mouse.detach();
+}
+
+test('files and folders that are dropped are taken, and what is none of them is told', async () => {
+  const { page, complaints } = await opened({ hash: '#files' });
+  writeFileSync(join(folder, 'holiday.png'), 'no recording');
+  await drop(page, join(folder, 'holiday.png'));
+  await page.waitForFunction(() => document.querySelector('.files .fault').textContent !== '');
+  assert.match(await page.textContent('.files .fault'), /none of these is a recording/);
+  mkdirSync(join(folder, 'monday', 'hall_3'), { recursive: true });
+  for (const name of ['monday/run.csv', 'monday/hall_3/run.csv']) writeFileSync(join(folder, name), readFileSync(join(folder, 'run.csv')));
+  await drop(page, join(folder, 'monday'), model);
+  await page.waitForSelector('.said');
+  await idle(page);
+  assert.equal(await page.textContent('.files .fault'), '');
+  assert.match(await page.textContent('.said'), /run\.csv: CSV/);
+  assert.equal(await page.inputValue('select[name=model]'), 'size_6.json');
+  assert.deepEqual(await page.locator('.file').allTextContents(), ['size_6.json', 'monday/hall_3/run.csv', 'monday/run.csv']);
+  await page.getByRole('button', { name: 'monday/run.csv' }).click();
+  await idle(page);
+  await page.getByRole('button', { name: 'Estimate' }).click();
+  await page.waitForSelector('.sentence', { timeout: 60000 });
+  await idle(page);
+  assert.deepEqual(complaints.filter((each) => !/sandbox/.test(each)), []);
   await page.context().close();
 });
 

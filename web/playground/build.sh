@@ -1,5 +1,6 @@
 #!/bin/sh
-# web/playground/build.sh [OUT]: makes OUT/playground.html (out/playground otherwise), the page that works in a browser alone. Needs
+# web/playground/build.sh [OUT]: makes OUT/playground.html (out/playground otherwise), the page that works in a browser alone;
+# `web/playground/build.sh web/built` renews the one that is checked in. Needs
 # emscripten (Debian: emscripten), cmake, ninja, node and npm; its working files are in build/playground. No part of ./run or ./test.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -17,6 +18,7 @@ toolchain=$(dirname "$(readlink -f "$(command -v emcc)")")/cmake/Modules/Platfor
 mkdir -p "$work" "$out"
 cmake -S "$here" -B "$work/program" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$toolchain" -DCMAKE_BUILD_TYPE=None >"$work/configure.log"
 ninja -C "$work/program" playground
+ninja -C "$work/program" -t deps >"$work/program/deps.txt"
 "$root/tests/web/packages.sh" "$root/web" "$work/page"
 cp "$here/build.mjs" "$work/page/build_playground.mjs"
 (cd "$work/page" && node node_modules/typescript/bin/tsc --noEmit &&

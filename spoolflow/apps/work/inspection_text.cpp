@@ -1,6 +1,7 @@
 #include "spoolflow/apps/work/inspection_text.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -208,6 +209,21 @@ void add_clocks_json(std::string& out, const recording::Inspection& found) {
   add(out, "\n ],\n \"resampled\": {},\n", json_text(found.resampled));
 }
 
+/// The proposal as values; the same as TOML stands in proposed_channel_map.
+void add_map_json(std::string& out, const recording::ChannelMap& map) {
+  add(out, " \"proposed_map\": {{");
+  bool first = true;
+  for (const auto& [channel, source] : map.sources) {
+    add(out, "{}\n  {}: {{\"column\": {}, \"unit\": {}", std::exchange(first, false) ? "" : ",",
+        json_text(recording::name(channel)), json_text(source.column), json_text(source.unit));
+    if (source.scale != 1.0) add(out, ", \"scale\": {}", json_number(source.scale));
+    if (source.offset != 0.0) add(out, ", \"offset\": {}", json_number(source.offset));
+    if (source.to) add(out, ", \"to\": {}", json_text(*source.to));
+    add(out, "}}");
+  }
+  add(out, "\n }},\n");
+}
+
 void add_json(std::string& out, const recording::Inspection& found) {
   add(out, "{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
   for (const std::string& column : found.contents.columns) {
@@ -235,6 +251,7 @@ void add_json(std::string& out, const recording::Inspection& found) {
   add(out, "\n ],\n");
   add_clocks_json(out, found);
   add_column_json(out, found);
+  add_map_json(out, found.proposal);
   add(out, " \"proposed_channel_map\": {}\n}}\n",
       json_text(recording::written(found.proposal, found.remarks, found.missing)));
 }

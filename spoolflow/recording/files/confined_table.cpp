@@ -174,11 +174,14 @@ void read_in_child(const ReadingOrder& order, Connection& parent) {
   ReceivedText bytes(order.bytes);
   const auto open = reinterpret_cast<OpenVectors>(static_cast<std::uintptr_t>(bytes.number()));
   auto* const inherited = reinterpret_cast<double*>(static_cast<std::uintptr_t>(bytes.number()));
+  const bool text_is_missing = bytes.number() != 0;
   const std::filesystem::path file(bytes.text());
   try {
     double* const numbers = order.memory < 0 ? inherited : map_numbers(order.memory);
     const std::unique_ptr<VectorTable> table = open(file);
     give_up_opening();
+    table->look();
+    if (text_is_missing) table->take_text_as_missing();
     if (send(parent, Message::listing, listing_of(*table))) send_blocks(*table, numbers, parent);
   } catch (const RecordingError& error) {
     (void)send(parent, Message::refusal, error.what());
@@ -194,18 +197,19 @@ void read_in_child(const ReadingOrder& order, Connection& parent) {
 
 /// An order for the file: addresses, that of a function being the same in every forked process, and the path.
 ReadingOrder order_of(const std::filesystem::path& file, std::uint64_t file_bytes, OpenVectors open,
-                      const SharedNumbers& shared) {
+                      bool text_is_missing, const SharedNumbers& shared) {
   MessageText bytes;
   bytes.number(reinterpret_cast<std::uintptr_t>(open));
   bytes.number(reinterpret_cast<std::uintptr_t>(shared.numbers()));
+  bytes.number(text_is_missing ? 1 : 0);
   bytes.text(file.string());
   return {read_in_child, reading_limits(file_bytes), bytes.content(), shared.descriptor()};
 }
 
 class ConfinedTable final : public VectorTable {
  public:
-  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, OpenVectors open)
-      : VectorTable(path.string()), process_(order_of(path, file_bytes, open, shared_)) {
+  ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, OpenVectors open, bool text_is_missing)
+      : VectorTable(path.string()), process_(order_of(path, file_bytes, open, text_is_missing, shared_)) {
     ReceivedText content(expect(Message::listing));
     unread_ = content.text();
     lost_ = content.text();
@@ -287,9 +291,9 @@ class ConfinedTable final : public VectorTable {
 }  // namespace
 
 std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
-                                           OpenVectors open) {
+                                           OpenVectors open, bool text_is_missing) {
   try {
-    return std::make_unique<ConfinedTable>(file, file_bytes, open);
+    return std::make_unique<ConfinedTable>(file, file_bytes, open, text_is_missing);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
   }

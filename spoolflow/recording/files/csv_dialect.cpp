@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::size_t sampled_lines = 20;
 
-bool is_number(std::string_view cell) {
-  double value = 0.0;
-  return read_number(cell, '.', value) == Digits::number || read_number(cell, ',', value) == Digits::number;
-}
-
 bool is_blank(std::string_view text) {
   return text.find_first_not_of(" \t\r") == std::string_view::npos;
 }
@@ -61,17 +56,6 @@ char delimiter_of(std::string_view header, std::string_view lines) {
     if (everywhere) return candidate;
   }
   return present;
-}
-
-/// A row of units below the header: no numbers, and at least one unit that is known.
-bool is_units_row(const std::vector<std::string_view>& cells) {
-  bool known = false;
-  for (const std::string_view cell : cells) {
-    if (is_number(cell)) return false;
-    const std::string_view bracketed = split_brackets(cell).unit;
-    known = known || units::unit_named(bracketed.empty() ? cell : bracketed).has_value();
-  }
-  return known;
 }
 
 /// Cells of which most that say anything are numbers.

@@ -54,4 +54,9 @@ Digits read_number(std::string_view text, char point, double& value) {
   return Digits::number;
 }
 
+bool is_number(std::string_view text) {
+  double value = 0.0;
+  return read_number(text, '.', value) == Digits::number || read_number(text, ',', value) == Digits::number;
+}
+
 }  // namespace spoolflow::recording

@@ -19,6 +19,9 @@ enum class Digits : std::uint8_t {
 /// allowed. Numbers too small for a double are zero.
 [[nodiscard]] Digits read_number(std::string_view text, char point, double& value);
 
+/// Whether it is one, by point or comma.
+[[nodiscard]] bool is_number(std::string_view text);
+
 /// The common case, inline: sign, digits, at most one decimal sign, and then whatever ends the cell. Returns where the
 /// number ends, or nullptr where read_number() has to look (no digit, an exponent follows, more than 15 to 19 digits).
 /// Exact: a mantissa up to 2^53 divided by a power of ten up to 10^22 is rounded once (Clinger 1990).

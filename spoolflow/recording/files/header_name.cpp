@@ -1,5 +1,7 @@
 #include "spoolflow/recording/files/header_name.hpp"
 
+#include "spoolflow/recording/files/decimal_number.hpp"
+
 namespace spoolflow::recording {
 namespace {
 
@@ -26,6 +28,16 @@ BracketedName split_brackets(std::string_view name) {
   const std::size_t at = open == '\0' ? std::string_view::npos : name.rfind(open);
   if (at == std::string_view::npos) return {name, {}};
   return {trimmed(name.substr(0, at)), trimmed(name.substr(at + 1, name.size() - at - 2))};
+}
+
+bool is_units_row(const std::vector<std::string_view>& cells) {
+  bool known = false;
+  for (const std::string_view cell : cells) {
+    if (is_number(cell)) return false;
+    const std::string_view bracketed = split_brackets(cell).unit;
+    known = known || units::unit_named(bracketed.empty() ? cell : bracketed).has_value();
+  }
+  return known;
 }
 
 std::string stated_unit(const FileColumn& column) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
@@ -22,6 +23,9 @@ struct ChannelHeader {
   std::string unit;  ///< "1" for `test`; empty: the file does not say
 };
 [[nodiscard]] std::optional<ChannelHeader> channel_header(const FileColumn& column);
+
+/// A row of units below the names: no numbers, and at least one unit that is known.
+[[nodiscard]] bool is_units_row(const std::vector<std::string_view>& cells);
 
 /// The unit that the file itself states for a column, apart from a suffix of its name; empty where it does not.
 [[nodiscard]] std::string stated_unit(const FileColumn& column);

@@ -24,6 +24,11 @@ class VectorTable : public SampleTable {
   [[nodiscard]] std::optional<std::uint64_t> samples_of(std::size_t column) const final { return lengths_[column]; }
   /// Samples of the column.
   [[nodiscard]] std::uint64_t length(std::size_t column) const { return lengths_[column]; }
+  /// Reads what tells its columns, where the constructor only opens the file: a process of few rights opens nothing any
+  /// more then. Once, before all else. Throws RecordingError.
+  virtual void look() {}
+  /// Text in the place of a number is a missing sample from here on (to inspect), where else it is refused.
+  virtual void take_text_as_missing() {}
   /// Copies `count` numbers from `first` on; the format's own slab may be larger. Throws RecordingError.
   virtual void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) = 0;
 

@@ -50,6 +50,8 @@ class McapContent {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     return *this;
   }
+  /// Keeps the memory.
+  void clear() { bytes_.clear(); }
   [[nodiscard]] const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <iterator>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include "spoolflow/numerics/crc32.hpp"
@@ -29,6 +30,7 @@ class McapWriter final : public TableWriter {
   McapWriter(TableHead head, TableOutput& output) : head_(std::move(head)), out_(output.in_sequence()) {
     out_.write(mcap_magic.data(), mcap_magic.size());
     at_ = mcap_magic.size();
+    for (const NumberColumn& column : head_.numbers) keys_.push_back(fmt::format(R"("{}":)", column.name));
     put(McapRecord::header, McapContent().text("").text("spoolflow"));
   }
 
@@ -96,17 +98,20 @@ class McapWriter final : public TableWriter {
   void put_message(const TableRows& rows, std::size_t row) {
     text_.clear();
     text_.push_back('{');
-    for (std::size_t k = 0; k < head_.numbers.size(); ++k) {
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
       const double value = rows.numbers[k][row];
-      if (std::isfinite(value)) fmt::format_to(std::back_inserter(text_), R"("{}":{},)", head_.numbers[k].name, value);
+      if (!std::isfinite(value)) continue;
+      text_.append(keys_[k]);
+      fmt::format_to(fmt::appender(text_), FMT_COMPILE("{}"), value);
+      text_.push_back(',');
     }
-    fmt::format_to(std::back_inserter(text_), R"("{}":"{}"}})", head_.flags, head_.flag_text(rows.flags[row]));
+    fmt::format_to(fmt::appender(text_), FMT_COMPILE(R"("{}":"{}"}})"), head_.flags, head_.flag_text(rows.flags[row]));
     last_ns_ = nanoseconds(rows.numbers[0][row]);
     index_.number(last_ns_).number(static_cast<std::uint64_t>(chunk_.size()));
-    McapContent message;
-    message.number(channel_id).number(static_cast<std::uint32_t>(messages_++)).number(last_ns_).number(last_ns_);
-    message.bare({reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size()});
-    put_record(chunk_, McapRecord::message, message);
+    message_.clear();
+    message_.number(channel_id).number(static_cast<std::uint32_t>(messages_++)).number(last_ns_).number(last_ns_);
+    message_.bare({reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size()});
+    put_record(chunk_, McapRecord::message, message_);
     chunk_first_ns_ = std::min(chunk_first_ns_, last_ns_);
     chunk_last_ns_ = std::max(chunk_last_ns_, last_ns_);
   }
@@ -132,7 +137,7 @@ class McapWriter final : public TableWriter {
     longest_ns_ = std::max(longest_ns_, place.last_ns);
     chunks_.push_back(place);
     chunk_.clear();
-    index_ = {};
+    index_.clear();
     chunk_first_ns_ = UINT64_MAX;
     chunk_last_ns_ = 0;
   }
@@ -190,7 +195,9 @@ class McapWriter final : public TableWriter {
   McapContent index_;           ///< of the chunk's messages
   McapContent metadata_index_;  ///< of the one metadata record
   std::vector<ChunkPlace> chunks_;
-  fmt::memory_buffer text_;
+  std::vector<std::string> keys_;  ///< of the numbers, as a message has them: "flow_L_min":
+  fmt::memory_buffer text_;        ///< of the message at hand
+  McapContent message_;            ///< likewise
   double origin_s_ = 0;
   std::uint64_t messages_ = 0;
   std::uint64_t last_ns_ = 0;

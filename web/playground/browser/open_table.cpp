@@ -18,8 +18,8 @@ OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text te
   const FileFormat format = format_of({beginning.data(), beginning.size()}, input->name());
   if (format != FileFormat::csv) {
     throw RecordingError(fmt::format(
-        "{}: is a {} file, which this page does not read; save it as CSV, or give it to the spoolflow command",
-        input->name(), name(format)));
+        "{}: is {} {} file, which this page does not read; save it as CSV, or give it to the spoolflow command",
+        input->name(), format == FileFormat::xlsx ? "an" : "a", name(format)));
   }
   return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
 }

@@ -2,6 +2,7 @@
 import { button, element } from '../element';
 import { save } from '../saved_file';
 import type { Engine } from './engine';
+import { MapTable } from './map_table';
 import { chosen, dropped, type TakenFile } from './taken_files';
 
 type Kind = 'recording' | 'model' | 'campaign' | 'map' | 'other';
@@ -14,7 +15,7 @@ interface Known {
 }
 interface Inspected {
   text: string;
-  inspection: { channels: unknown[]; missing: string[]; proposed_channel_map: string };
+  inspection: { columns: string[]; channels: unknown[]; missing: string[]; helpful: string[]; proposed_channel_map: string };
 }
 interface Judged {
   sentence: string;
@@ -92,7 +93,11 @@ export class FilesView {
     place.addEventListener('drop', (event) => {
       event.preventDefault();
       place.classList.remove('over');
-      if (event.dataTransfer) void dropped(event.dataTransfer).then((taken) => this.take(taken));
+      if (event.dataTransfer) {
+        dropped(event.dataTransfer).then((taken) => this.take(taken), (error: Error) => {
+          this.fault.textContent = `the browser does not open what was dropped (${error.message}); choose it by the buttons`;
+        });
+      }
     });
     return place;
   }
@@ -226,7 +231,12 @@ export class FilesView {
     text.setAttribute('aria-label', 'channel map (TOML)');
     text.spellcheck = false;
     text.value = inspection.proposed_channel_map;
-    if (file.map !== '') void this.engine.then((engine) => engine.read(file.map)).then((bytes) => { text.value = new TextDecoder().decode(bytes); });
+    const table = new MapTable(inspection.columns, [...inspection.missing, ...inspection.helpful], text);
+    const put = (bytes: ArrayBuffer): void => {
+      text.value = new TextDecoder().decode(bytes);
+      table.read();
+    };
+    if (file.map !== '') void this.engine.then((engine) => engine.read(file.map)).then(put);
     text.rows = Math.min(18, text.value.split('\n').length + 1);
     const tools = element('div', 'tools');
     const read = button('Read with this map', 'Read the recording with this channel map', () => void this.working(async () => {
@@ -242,11 +252,15 @@ export class FilesView {
     }));
     tools.append(read, button('Save the map', 'Save the channel map as TOML', () => save(new Blob([text.value]), 'map.toml')));
     for (const map of [...this.known.values()].filter((each) => each.kind === 'map')) {
-      tools.append(button(`Take ${map.name}`, 'Take the map from this file', () => void this.engine.then((engine) => engine.read(map.name)).then((bytes) => {
-        text.value = new TextDecoder().decode(bytes);
-      })));
+      tools.append(button(`Take ${map.name}`, 'Take the map from this file', () => void this.engine.then((engine) => engine.read(map.name)).then(put)));
     }
-    out.append(title, text, tools);
+    const written = element('details', 'as-text');
+    const says = document.createElement('summary');
+    says.textContent = 'The same as text (TOML)';
+    written.append(says, text);
+    const wide = element('div', 'wide');
+    wide.append(table.root);
+    out.append(title, wide, written, tools);
     return out;
   }
 

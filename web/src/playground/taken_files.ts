@@ -19,9 +19,28 @@ async function ofEntry(entry: FileSystemEntry, folder: string): Promise<TakenFil
   }
 }
 
+/** Chromium's way to folders, the only one that it allows a page that was opened from a file. */
+async function ofHandle(handle: FileSystemHandle, folder: string): Promise<TakenFile[]> {
+  if (handle.kind === 'file') return [{ name: folder + handle.name, file: await (handle as FileSystemFileHandle).getFile() }];
+  const out: TakenFile[] = [];
+  const inside = (handle as unknown as { values(): AsyncIterable<FileSystemHandle> }).values();
+  for await (const each of inside) out.push(...await ofHandle(each, `${folder}${handle.name}/`));
+  return out;
+}
+
+/** What was dropped has to be asked for at once: once the event is over, its items are gone. */
 export async function dropped(data: DataTransfer): Promise<TakenFile[]> {
-  const entries = [...data.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
-  return (await Promise.all(entries.map((entry) => ofEntry(entry, '')))).flat();
+  const items = [...data.items].filter((item) => item.kind === 'file').map((item) => ({
+    entry: item.webkitGetAsEntry(),
+    file: item.getAsFile(),
+    handle: (item as unknown as { getAsFileSystemHandle?: () => Promise<FileSystemHandle | null> }).getAsFileSystemHandle?.(),
+  }));
+  const taken = await Promise.all(items.map(async ({ entry, file, handle }) => {
+    if (entry === null || entry.isFile) return file === null ? [] : [{ name: file.name, file }];
+    const opened = await handle?.catch(() => null);
+    return opened ? ofHandle(opened, '') : ofEntry(entry, '');
+  }));
+  return taken.flat();
 }
 
 export function chosen(files: FileList): TakenFile[] {

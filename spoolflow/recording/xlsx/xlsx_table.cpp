@@ -1,0 +1,259 @@
+#include "spoolflow/recording/xlsx/xlsx_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/clock_time.hpp"
+#include "spoolflow/recording/files/decimal_number.hpp"
+#include "spoolflow/recording/files/declared_size.hpp"
+#include "spoolflow/recording/xlsx/xlsx_header.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t shown = 40;
+  std::string out;
+  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  return text.size() > shown ? out + "..." : out;
+}
+
+/// The numbers of one column as rows bring them.
+class ColumnOfCells {
+ public:
+  ColumnOfCells(std::string sheet, bool from_1904) : sheet_(std::move(sheet)), from_1904_(from_1904) {}
+
+  /// The value of a cell, NaN where it has none.
+  double value(const XlsxCell& cell, std::uint64_t row) {
+    if (cell.kind == XlsxCell::Kind::number) return number(cell, row, cell.number);
+    if (cell.kind == XlsxCell::Kind::time) return since_first(cell, row, clock_of(cell.number));
+    if (cell.kind == XlsxCell::Kind::error) return missing;
+    if (cell.kind == XlsxCell::Kind::unreckoned) {
+      is_used_ = true;
+      return refuse(
+          cell, row,
+          "is a formula whose result the file does not hold; open the file in the program for sheets and save it "
+          "there, or write values");
+    }
+    double written = 0;
+    const Digits digits = read_number(cell.text, '.', written);
+    if (digits == Digits::number) return number(cell, row, written);
+    if (digits == Digits::empty) return missing;
+    if (const auto clock = read_clock_time(cell.text)) return since_first(cell, row, *clock);
+    has_text_ = true;
+    return refuse(cell, row,
+                  fmt::format("'{}' is not a number; correct it, or leave the cell empty where a sample is missing",
+                              shortened(cell.text)));
+  }
+
+  /// Whether there is anything in it but text.
+  [[nodiscard]] bool is_used() const { return is_used_ || !has_text_; }
+  [[nodiscard]] bool is_clock() const { return origin_.has_value(); }
+  /// Of the first cell that is not as it should be; empty where all are.
+  [[nodiscard]] const std::string& refusal() const { return refusal_; }
+
+ private:
+  double number(const XlsxCell& cell, std::uint64_t row, double value) {
+    if (origin_)
+      return refuse(cell, row, "is a number, where the cells above are dates or times; write one kind alone");
+    is_used_ = has_numbers_ = true;
+    return value;
+  }
+  double since_first(const XlsxCell& cell, std::uint64_t row, const ClockTime& clock) {
+    if (has_numbers_) {
+      return refuse(cell, row, "is a date or time, where the cells above are numbers; write one kind alone");
+    }
+    if (!origin_) origin_ = clock;
+    is_used_ = true;
+    const double since_s = clock.since(*origin_);
+    constexpr double per_s = 1e5;  // of a date of today 15 to 17 digits tell 9 to 0.6 us
+    return cell.kind == XlsxCell::Kind::time ? std::round(since_s * per_s) / per_s : since_s;
+  }
+  [[nodiscard]] ClockTime clock_of(double days) const {
+    constexpr double day_s = 86400;
+    constexpr std::int64_t of_1900 = -25569, of_1904 = -24107;  // since 1970-01-01
+    const double whole = std::floor(days);
+    if (!(std::abs(whole) < 1e9)) return {0, day_s * days};
+    return {static_cast<std::int64_t>(whole) + (from_1904_ ? of_1904 : of_1900), day_s * (days - whole)};
+  }
+  double refuse(const XlsxCell& cell, std::uint64_t row, std::string_view why) {
+    if (refusal_.empty()) refusal_ = fmt::format("{}{}: {}", sheet_, cell_name(cell.column, row), why);
+    return missing;
+  }
+
+  std::string sheet_;  ///< "run.xlsx, 'Sheet1'!"
+  bool from_1904_;
+  std::optional<ClockTime> origin_{};
+  bool is_used_ = false, has_numbers_ = false, has_text_ = false;
+  std::string refusal_{};
+};
+
+/// One sheet's table, if it holds one, in memory.
+class SheetTable {
+ public:
+  SheetTable(std::string file, const XlsxSheet& sheet, bool from_1904, std::uint64_t file_bytes)
+      : what_(fmt::format("{}, '{}'!", file, sheet.name)),
+        name_(sheet.name),
+        from_1904_(from_1904),
+        declared_(std::move(file), file_bytes) {}
+
+  /// Whether more rows are wanted.
+  bool take(const XlsxRow& row) {
+    if (header_.found()) {
+      take_samples(row.number, row.cells, [](const XlsxCell& cell) { return cell; });
+      return true;
+    }
+    if (!header_.take(row)) return true;
+    begin();
+    return header_.found();
+  }
+  /// There are no more rows.
+  void finish() {
+    if (header_.found()) return;
+    header_.finish();
+    begin();
+  }
+
+  [[nodiscard]] bool found() const { return header_.found(); }
+  [[nodiscard]] const std::vector<XlsxColumn>& columns() const { return header_.columns(); }
+  [[nodiscard]] const ColumnOfCells& cells(std::size_t column) const { return cells_[column]; }
+  [[nodiscard]] const std::vector<double>& values(std::size_t column) const { return values_[column]; }
+  [[nodiscard]] std::uint64_t rows() const { return rows_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  /// The table's first rows, which the header has kept.
+  void begin() {
+    if (!header_.found()) return;
+    const std::vector<XlsxColumn>& columns = header_.columns();
+    cells_.assign(columns.size(), ColumnOfCells(what_, from_1904_));
+    values_.resize(columns.size());
+    latest_.resize(columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      slot_of_.resize(std::max<std::size_t>(slot_of_.size(), columns[k].column + 1), -1);
+      slot_of_[columns[k].column] = static_cast<std::ptrdiff_t>(k);
+    }
+    for (const KeptRow& kept : header_.samples()) {
+      take_samples(kept.number, kept.cells, [](const KeptCell& each) {
+        XlsxCell cell = each.cell;
+        cell.text = each.text;
+        return cell;
+      });
+    }
+  }
+
+  template <class Cells, class CellOf>
+  void take_samples(std::uint64_t row, const Cells& cells, CellOf cell_of) {
+    std::ranges::fill(latest_, missing);
+    for (const auto& each : cells) {
+      const XlsxCell cell = cell_of(each);
+      const std::ptrdiff_t slot = cell.column < slot_of_.size() ? slot_of_[cell.column] : -1;
+      if (slot >= 0) latest_[static_cast<std::size_t>(slot)] = cells_[static_cast<std::size_t>(slot)].value(cell, row);
+    }
+    if (std::ranges::all_of(latest_, [](double value) { return std::isnan(value); })) return;
+    declared_.add(name_, 1, latest_.size(), sizeof(double));
+    for (std::size_t k = 0; k < latest_.size(); ++k) values_[k].push_back(latest_[k]);
+    ++rows_;
+  }
+
+  std::string what_, name_;
+  bool from_1904_;
+  DeclaredSize declared_;
+  XlsxHeader header_;
+  std::vector<ColumnOfCells> cells_;
+  std::vector<std::ptrdiff_t> slot_of_;  ///< of each of the sheet's columns among those that are named
+  std::vector<double> latest_;
+  std::vector<std::vector<double>> values_;
+  std::uint64_t rows_ = 0;
+};
+
+class XlsxTable final : public VectorTable {
+ public:
+  explicit XlsxTable(const std::filesystem::path& path) : VectorTable(path.string()), archive_(path) {}
+
+  void look() override {
+    const XlsxWorkbook workbook = read_xlsx_workbook(archive_);
+    const XlsxTexts texts(archive_, workbook.texts);
+    const XlsxStyles styles(archive_, workbook.styles);
+    for (const XlsxSheet& sheet : workbook.sheets) {
+      auto table = std::make_unique<SheetTable>(file(), sheet, workbook.from_1904, archive_.bytes());
+      read_xlsx_rows(archive_, sheet, texts, styles, [&](const XlsxRow& row) { return table->take(row); });
+      table->finish();
+      if (!table->found()) continue;
+      sheet_ = std::move(table);
+      break;
+    }
+    if (!sheet_) refuse_tableless(workbook);
+    list();
+    tell_unread(workbook);
+  }
+
+  [[nodiscard]] std::string unread() const override { return unread_; }
+  void take_text_as_missing() override { refuses_text_ = false; }
+
+  void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
+    const std::vector<double>& values = sheet_->values(listed_[column]);
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+  }
+
+ protected:
+  void chosen(const std::vector<std::size_t>& columns) override {
+    for (const std::size_t column : columns) {
+      const std::string& refusal = sheet_->cells(listed_[column]).refusal();
+      if (refuses_text_ && !refusal.empty()) throw RecordingError(refusal);
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse_tableless(const XlsxWorkbook& workbook) const {
+    std::string sheets;
+    for (const XlsxSheet& sheet : workbook.sheets)
+      sheets += fmt::format("{}'{}'", sheets.empty() ? "" : ", ", sheet.name);
+    throw RecordingError(
+        fmt::format("{}: no sheet holds a table of samples within its first {} rows: a row of names, such as time_s, "
+                    "current_A, position_mm, and numbers below (looked at {})",
+                    file(), XlsxHeader::most_rows, sheets));
+  }
+
+  void list() {
+    for (std::size_t k = 0; k < sheet_->columns().size(); ++k) {
+      const XlsxColumn& column = sheet_->columns()[k];
+      if (!sheet_->cells(k).is_used()) continue;
+      add({{column.name, column.name, sheet_->cells(k).is_clock() ? "s" : column.unit}, sheet_->rows()});
+      listed_.push_back(k);
+    }
+  }
+
+  void tell_unread(const XlsxWorkbook& workbook) {
+    for (std::size_t k = 0; k < sheet_->columns().size() && unread_.empty(); ++k) {
+      if (sheet_->cells(k).is_used()) continue;
+      unread_ = fmt::format("column '{}' holds text, which is not read; write it as numbers in its unit",
+                            sheet_->columns()[k].name);
+    }
+    if (!unread_.empty() || workbook.sheets.size() < 2) return;
+    unread_ = fmt::format(
+        "of its {} sheets '{}' is read, the first one that holds a table; move the one that is meant to the front",
+        workbook.sheets.size(), sheet_->name());
+  }
+
+  XlsxArchive archive_;
+  std::unique_ptr<SheetTable> sheet_;
+  std::vector<std::size_t> listed_;  ///< of each column of this table, which of the sheet's
+  std::string unread_;
+  bool refuses_text_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<VectorTable> open_xlsx_table(const std::filesystem::path& file) {
+  return std::make_unique<XlsxTable>(file);
+}
+
+}  // namespace spoolflow::recording
