@@ -17,6 +17,7 @@
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
+#include "spoolflow/rig/plants/plant_group.hpp"
 #include "tests/cvode/plant_cvode.hpp"
 #include "tests/rig/plant/smooth_plant.hpp"
 
@@ -58,6 +59,37 @@ bool against_real_time(int rounds) {
                run.duration_s(), took_s, times);
   }
   return fast_enough;
+}
+
+/// A series of valves, each with its own run and noise: alone one after the other, and stepped at once.
+void many_valves(int rounds) {
+  constexpr double seconds = 10;
+  fmt::print(
+      "\nThe same of a series of valves, one core: one after the other, and {} at once in the registers there are\n",
+      valves_at_once(plant_registers().back()));
+  for (const char* preset : {"size_6", "fast_dither", "whole_size_6"}) {
+    std::vector<ValveUnderTest> valves;
+    std::vector<BenchRun> runs;
+    std::vector<std::uint64_t> seeds;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      ValveUnderTest valve = valve_preset(preset);
+      valve.spread.amount = 1;
+      valve.seed = seed;
+      valves.push_back(as_built(valve));
+      DutyCycleProtocol duty{.conditions = {}, .duration_s = seconds};
+      if (valve.whole) duty.lowest_percent = -100;
+      runs.push_back(plan(duty, valves.back(), seed));
+      seeds.push_back(seed);
+    }
+    const double simulated_s = seconds * static_cast<double>(valves.size());
+    const double alone_s = shortest_s(rounds, [&] {
+      for (std::size_t k = 0; k < valves.size(); ++k) static_cast<void>(simulate(valves[k], runs[k], seeds[k]));
+    });
+    const double together_s = shortest_s(rounds, [&] { static_cast<void>(simulate_together(valves, runs, seeds)); });
+    fmt::print(
+        "  {:<14}duty cycle of {:.0f} s: alone {:4.0f}, at once {:4.0f} x real time a core: {:.2f} times as fast\n",
+        preset, seconds, simulated_s / alone_s, simulated_s / together_s, alone_s / together_s);
+  }
 }
 
 bool whole_campaign(const char* preset) {
@@ -166,6 +198,7 @@ int main(int argc, char** argv) {
   try {
     const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 5;
     const bool real_time = against_real_time(rounds);
+    many_valves(rounds);
     const bool one_direction = whole_campaign("size_6"), both = whole_campaign("whole_size_6");
     const bool campaign = one_direction && both;
     return against_cvode(rounds) && real_time && campaign ? 0 : 1;

@@ -13,6 +13,7 @@
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
+#include "spoolflow/rig/plants/plant_group.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/metrics.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
@@ -82,9 +83,7 @@ std::vector<unsigned> numbers_per_factor() {
 }
 
 /// The sensor over one simulated run, against the true flow of the plant.
-RunErrors run_errors(const model::Model& model, const DrawnValve& drawn, const Scenario& scenario) {
-  const rig::Simulation run = rig::simulate(drawn.valve, duty_cycle(drawn.valve, drawn.oil_temperature_C, scenario),
-                                            scenario.seed, {.with_truth = true});
+RunErrors run_errors(const model::Model& model, const rig::Simulation& run) {
   const std::vector<double>& flow_L_min = run.truth["flow_L_min"];
   const estimation::Columns columns = validation::sensor_columns(run.recording);
   constexpr double finding_s = 0.5;  // until then nothing moves and nothing is known
@@ -168,8 +167,27 @@ StudyRuns::StudyRuns(const model::Model& given, const Scenario& scenario, const 
       design_(numbers_per_factor(), static_cast<std::uint32_t>(scenario.study.base_samples), scenario.seed),
       fingerprint_(fingerprint_of(everything(given, scenario, nominal_, identity))) {}
 
-RunErrors StudyRuns::run(const model::Model& model, std::size_t number) const {
-  return run_errors(model, drawn_valve(nominal_, scenario_.study.spread, design_.point(number)), scenario_);
+std::vector<RunErrors> StudyRuns::run(const model::Model& model, std::span<const std::size_t> numbers) const {
+  std::vector<rig::ValveUnderTest> valves;
+  std::vector<rig::BenchRun> runs;
+  for (const std::size_t number : numbers) {
+    const DrawnValve drawn = drawn_valve(nominal_, scenario_.study.spread, design_.point(number));
+    valves.push_back(drawn.valve);
+    runs.push_back(duty_cycle(drawn.valve, drawn.oil_temperature_C, scenario_));
+  }
+  const std::vector<std::uint64_t> seeds(numbers.size(), scenario_.seed);
+  std::vector<RunErrors> out;
+  for (const rig::Simulation& run : rig::simulate_together(valves, runs, seeds, {.with_truth = true})) {
+    out.push_back(run_errors(model, run));
+  }
+  return out;
+}
+
+std::size_t StudyRuns::runs_at_once(std::size_t runs, unsigned workers) const {
+  constexpr double most_kept_s = 600;  // of recordings and truths in memory
+  const auto kept = static_cast<std::size_t>(most_kept_s / scenario_.study.run_s);
+  const std::size_t wanted = std::min(rig::valves_at_once(rig::plant_registers().back()), kept);
+  return std::clamp<std::size_t>(runs / std::max(1U, workers), 1, std::max<std::size_t>(1, wanted));
 }
 
 Study global_study(const model::Model& given, const Scenario& scenario, const rig::ValveAndCampaign& asked,
@@ -197,8 +215,13 @@ Study global_study(const model::Model& given, const Scenario& scenario, const ri
   if (work.elsewhere) {
     work.elsewhere(study, text, open, [&](std::size_t k, const RunErrors& errors) { ledger.finished(k, errors); });
   } else {
-    parallel::for_each(open.size(), work.workers,
-                       [&](std::size_t k) { ledger.finished(open[k], study.run(model, open[k])); });
+    const std::size_t at_once = study.runs_at_once(open.size(), work.workers);
+    parallel::for_each((open.size() + at_once - 1) / at_once, work.workers, [&](std::size_t piece) {
+      const std::size_t first = piece * at_once;
+      const auto numbers = std::span(open).subspan(first, std::min(at_once, open.size() - first));
+      const std::vector<RunErrors> errors = study.run(model, numbers);
+      for (std::size_t k = 0; k < numbers.size(); ++k) ledger.finished(numbers[k], errors[k]);
+    });
   }
 
   Study out{study.nominal().name, scenario.study.given_model, static_cast<std::uint32_t>(scenario.study.base_samples),

@@ -3,6 +3,7 @@
 /// from one valve of a series to the next.
 #include <array>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,11 @@ class StudyRuns {
   /// Of all that the results follow from.
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
   [[nodiscard]] const rig::ValveUnderTest& nominal() const { return nominal_; }
-  /// The sensor with `model`, given or made by virtual_model(), over the run of that number. From any thread.
-  [[nodiscard]] RunErrors run(const model::Model& model, std::size_t number) const;
+  /// The sensor with `model`, given or made by virtual_model(), over the runs of those numbers, which are simulated at
+  /// once; each as alone. From any thread.
+  [[nodiscard]] std::vector<RunErrors> run(const model::Model& model, std::span<const std::size_t> numbers) const;
+  /// How many of so many runs are best given to run(), that every worker has some.
+  [[nodiscard]] std::size_t runs_at_once(std::size_t runs, unsigned workers) const;
 
  private:
   Scenario scenario_;

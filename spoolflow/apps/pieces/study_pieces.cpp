@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -81,7 +83,14 @@ fleet::Outcome do_study_piece(const fleet::Piece& piece, const std::string& iden
   const analysis::StudyRuns runs(study.given, study.scenario, analysis::study_valve(study.given, study.scenario),
                                  identity);
   analysis::FinishedRuns done(runs.design().points());
-  for (std::size_t k = study.from; k < std::min(study.to, done.size()); ++k) done[k] = runs.run(study.with, k);
+  std::vector<std::size_t> numbers(std::min(study.to, done.size()) - study.from);
+  std::iota(numbers.begin(), numbers.end(), study.from);
+  const std::size_t at_once = runs.runs_at_once(numbers.size(), 1);
+  for (std::size_t first = 0; first < numbers.size(); first += at_once) {
+    const auto some = std::span(numbers).subspan(first, std::min(at_once, numbers.size() - first));
+    const std::vector<analysis::RunErrors> errors = runs.run(study.with, some);
+    for (std::size_t k = 0; k < some.size(); ++k) done[some[k]] = errors[k];
+  }
   return {.text = analysis::study_state(runs.fingerprint(), done)};
 }
 

@@ -8,9 +8,6 @@
 namespace spoolflow::rig {
 namespace {
 
-/// How often the slow instruments follow and the oil's temperature is set, between samples.
-constexpr std::int64_t ticks_per_slow_update = 10;
-
 /// Surroundings over the period that begins at `time_s`.
 void surround(PlantInput& input, const BenchRun& run, const Supply& supply, double time_s) {
   input.held_pressure_difference_Pa = run.pressure_difference_Pa.at(time_s);
@@ -116,31 +113,51 @@ void RunningBench::store_sample(recording::Recording& recording, const Simulatio
 }
 
 bool RunningBench::tick(recording::Recording& recording, const SimulationOptions& options) {
+  PlantOutput truth;
+  if (wants_truth()) truth = observe(tested_.plant, state_, input_);
+  const bool sampled = begin(wants_truth() ? &truth : nullptr, recording, options);
+  step(tested_.plant, state_, input_, electronics_period_s);
+  follow();
+  return sampled;
+}
+
+bool RunningBench::begin(const PlantOutput* truth, recording::Recording& recording, const SimulationOptions& options) {
   const double now_s = time_s();
-  const bool samples = tick_ == next_sample_;
-  if (samples || tick_ % ticks_per_slow_update == 0) {
-    truth_ = observe(tested_.plant, state_, input_);
+  if (truth != nullptr) {
+    truth_ = *truth;
     panel_.follow_plant(truth_, input_.oil_temperature_C,
                         static_cast<double>(tick_ - observed_) * electronics_period_s);
     observed_ = tick_;
     input_.oil_temperature_C = run_.oil_temperature_C.at(now_s);
   }
   surround(input_, run_, tested_.plant.supply, now_s);
-  if (samples) {
+  const bool sampled = samples();
+  if (sampled) {
     store_sample(recording, options, now_s);
     next_sample_ = tick_ + sample_ticks(sample_rate_.at(now_s, 1000));
   }
-  const SolenoidVoltages voltages = coil_supply_.next(now_s, panel_.lvdt, state_);
-  input_.voltage_a_V = voltages.a_V;
-  input_.voltage_b_V = voltages.b_V;
-  step(tested_.plant, state_, input_, electronics_period_s);
+  voltages_ = coil_supply_.next(now_s, panel_.lvdt, state_);
+  input_.voltage_a_V = voltages_.a_V;
+  input_.voltage_b_V = voltages_.b_V;
+  return sampled;
+}
+
+void RunningBench::end(const PlantState& state) {
+  state_.position_m = state.position_m;
+  state_.solenoid_a.flux_linkage_Wb = state.solenoid_a.flux_linkage_Wb;
+  state_.solenoid_a.flux_Wb = state.solenoid_a.flux_Wb;
+  state_.solenoid_b.flux_linkage_Wb = state.solenoid_b.flux_linkage_Wb;
+  state_.solenoid_b.flux_Wb = state.solenoid_b.flux_Wb;
+  follow();
+}
+
+void RunningBench::follow() {
   panel_.lvdt.follow(state_.position_m, input_.oil_temperature_C, electronics_period_s);
   panel_.follow_coils({.current_a_A = winding_current_A(tested_.plant.solenoid_a, state_.solenoid_a),
                        .current_b_A = winding_current_A(tested_.plant.solenoid_b, state_.solenoid_b),
-                       .voltage_a_V = voltages.a_V,
-                       .voltage_b_V = voltages.b_V});
+                       .voltage_a_V = voltages_.a_V,
+                       .voltage_b_V = voltages_.b_V});
   ++tick_;
-  return samples;
 }
 
 }  // namespace spoolflow::rig

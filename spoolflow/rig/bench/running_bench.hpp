@@ -47,12 +47,27 @@ class RunningBench {
   /// dither, age and each_sample, and keeps_recording. Throws as simulate().
   bool tick(recording::Recording& recording, const SimulationOptions& options);
 
+  /// The same in parts, for plants that are stepped together: `begin` with the truth of the period's first instant
+  /// where `wants_truth`, then the plant's step with `input`, then `end` with what it made of the state. Not with
+  /// options.age.
+  [[nodiscard]] bool wants_truth() const { return samples() || tick_ % ticks_per_slow_update == 0; }
+  bool begin(const PlantOutput* truth, recording::Recording& recording, const SimulationOptions& options);
+  void end(const PlantState& state);
+  [[nodiscard]] const PlantParameters& plant() const { return tested_.plant; }
+  [[nodiscard]] const PlantState& state() const { return state_; }
+  [[nodiscard]] const PlantInput& input() const { return input_; }
+
   /// Of the period that comes next.
   [[nodiscard]] double time_s() const;
   /// What really was at the last sample.
   [[nodiscard]] const PlantOutput& truth() const { return truth_; }
 
  private:
+  /// How often the slow instruments follow and the oil's temperature is set, between samples.
+  static constexpr std::int64_t ticks_per_slow_update = 10;
+
+  [[nodiscard]] bool samples() const { return tick_ == next_sample_; }
+  void follow();
   void store_sample(recording::Recording& recording, const SimulationOptions& options, double time_s);
 
   const BenchRun& run_;
@@ -65,6 +80,7 @@ class RunningBench {
   CoilSupply coil_supply_;
   SpanReader<double> sample_rate_;
   SpanReader<double> test_;
+  SolenoidVoltages voltages_;
   std::int64_t tick_ = 0, next_sample_ = 0, observed_ = 0;
 };
 

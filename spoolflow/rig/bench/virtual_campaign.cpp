@@ -11,6 +11,7 @@
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/campaign_loads.hpp"
 #include "spoolflow/rig/bench/whole_campaign.hpp"
+#include "spoolflow/rig/plants/plant_group.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
@@ -146,6 +147,39 @@ viscosity_100C_mm2_per_s = {viscosity_100:.1f}
   return text;
 }
 
+namespace {
+
+/// Items that are simulated at once, by number, longest runs first: no more than leaves work for every worker.
+std::vector<std::vector<std::size_t>> items_at_once(const std::vector<CampaignItem>& items,
+                                                    const std::vector<BenchRun>& runs, unsigned workers) {
+  std::vector<std::size_t> order(items.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t one, std::size_t two) { return runs[one].duration_s() > runs[two].duration_s(); });
+  const std::size_t most =
+      std::clamp<std::size_t>(items.size() / (2 * std::max(1U, workers)), 1, valves_at_once(plant_registers().back()));
+  std::vector<std::vector<std::size_t>> out;
+  const auto fits = [&](const std::vector<std::size_t>& group, std::size_t item) {
+    const BenchRun& first = runs[group.front()];
+    const LoadKind load = items[item].valve.plant.load.kind;
+    const LoadKind first_load = items[group.front()].valve.plant.load.kind;
+    return group.size() < most && runs[item].arrangement == first.arrangement &&
+           runs[item].load.value_or(load) == first.load.value_or(first_load) &&
+           runs[item].duration_s() > 0.7 * first.duration_s();
+  };
+  for (const std::size_t item : order) {
+    const auto group = std::find_if(out.begin(), out.end(), [&](const auto& g) { return fits(g, item); });
+    if (group != out.end()) {
+      group->push_back(item);
+    } else {
+      out.push_back({item});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 void run_campaign(const std::vector<CampaignItem>& items, const CampaignWork& work) {
   std::vector<BenchRun> runs;
   double total_s = 0;
@@ -153,18 +187,24 @@ void run_campaign(const std::vector<CampaignItem>& items, const CampaignWork& wo
     runs.push_back(plan(item.settings, item.valve, item.seed));
     total_s += runs.back().duration_s();
   }
-  std::vector<std::size_t> order(items.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t one, std::size_t two) { return runs[one].duration_s() > runs[two].duration_s(); });
+  const std::vector<std::vector<std::size_t>> groups = items_at_once(items, runs, work.workers);
 
   std::mutex mutex;  // guards progress and shares
-  std::vector<double> shares(items.size(), 0.0);
+  std::vector<double> shares(groups.size(), 0.0);
   std::atomic<bool> stop{false};
   struct Stopped {};
 
-  const auto simulate_item = [&](std::size_t index) {
-    const double weight = runs[index].duration_s() / total_s;
+  const auto simulate_group = [&](std::size_t index) {
+    double weight = 0;
+    std::vector<ValveUnderTest> valves;
+    std::vector<BenchRun> at_once;
+    std::vector<std::uint64_t> seeds;
+    for (const std::size_t item : groups[index]) {
+      weight += runs[item].duration_s() / total_s;
+      valves.push_back(items[item].valve);
+      at_once.push_back(runs[item]);
+      seeds.push_back(items[item].seed);
+    }
     const auto report = [&](double share) {
       if (stop) {
         throw Stopped{};
@@ -175,16 +215,17 @@ void run_campaign(const std::vector<CampaignItem>& items, const CampaignWork& wo
         work.progress(std::accumulate(shares.begin(), shares.end(), 0.0));
       }
     };
-    const CampaignItem& item = items[index];
-    const Simulation simulation =
-        simulate(item.valve, runs[index], item.seed, {.with_truth = work.with_truth, .progress = report});
-    work.store(item, runs[index], simulation);
+    const std::vector<Simulation> simulations =
+        simulate_together(valves, at_once, seeds, {.with_truth = work.with_truth, .progress = report});
+    for (std::size_t k = 0; k < simulations.size(); ++k) {
+      work.store(items[groups[index][k]], at_once[k], simulations[k]);
+    }
     const std::lock_guard lock(mutex);
     shares[index] = weight;
   };
-  parallel::for_each(order.size(), work.workers, [&](std::size_t k) {
+  parallel::for_each(groups.size(), work.workers, [&](std::size_t k) {
     try {
-      simulate_item(order[k]);
+      simulate_group(k);
     } catch (const Stopped&) {
     } catch (...) {
       stop = true;

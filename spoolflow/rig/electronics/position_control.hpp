@@ -43,6 +43,7 @@ struct PositionControl {
 struct PositionControlState {
   double integral_A = 0;
   double lagged_position_m = 0;
+  LagMemory lag{};
   bool on = false;
 };
 
@@ -50,7 +51,7 @@ struct PositionControlState {
 inline double step_of_both(const PositionControl& control, PositionControlState& state, double set_m, double measured_m,
                            double period_s) {
   const double before_m = state.lagged_position_m;
-  state.lagged_position_m = lagged(before_m, measured_m, period_s, control.derivative_time_s);
+  state.lagged_position_m = lagged(before_m, measured_m, period_s, control.derivative_time_s, state.lag);
   if (std::abs(set_m) <= control.off_below_m) {
     state.integral_A = 0;
     state.on = false;

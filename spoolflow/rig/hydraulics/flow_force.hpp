@@ -8,19 +8,19 @@
 /// layer, d = gain sqrt(nu o/u), so cold oil bends the jet towards the axis and closes harder. The lateral part rho Q u
 /// sin(e1) presses the spool to its bore by the share that the notches do not balance. Leakage carries no momentum
 /// here.
-#include <cmath>
-
 #include "spoolflow/rig/hydraulics/jet_angle.hpp"
 #include "spoolflow/rig/hydraulics/metering_edge.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
-struct FlowForce {
-  double jet_contraction = 0.75;
-  double boundary_layer_gain = 8.0;
-  double lateral_friction = 0.035;
-  double friction_per_pressure_N_per_Pa = 1.7e-7;
+template <class Scalar>
+struct FlowForceOf {
+  Scalar jet_contraction = 0.75;
+  Scalar boundary_layer_gain = 8.0;
+  Scalar lateral_friction = 0.035;
+  Scalar friction_per_pressure_N_per_Pa = 1.7e-7;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -39,33 +39,43 @@ struct FlowForce {
         self.friction_per_pressure_N_per_Pa);
   }
 };
+using FlowForce = FlowForceOf<double>;
 
 /// Transient force [N] -rho l dQ/dt, closing > 0. The oil in the chamber cannot be pushed harder than by the pressure
 /// difference on its cross-section, dp A_chamber, into which the force runs (hundreds of newtons at size 6).
-inline double transient_force_N(const EdgeConstants& constants, double density_kg_per_m3, double damping_length_m,
-                                double flow_rate_m3_per_s2, double pressure_difference_Pa) {
-  const double force = -density_kg_per_m3 * damping_length_m * flow_rate_m3_per_s2;
-  const double limit = std::abs(pressure_difference_Pa) * constants.chamber_area_m2 + 1.0;
-  return force * limit / std::sqrt(limit * limit + force * force);
+template <class Scalar>
+inline Scalar transient_force_N(const EdgeConstantsOf<Scalar>& constants, Scalar density_kg_per_m3,
+                                Scalar damping_length_m, Scalar flow_rate_m3_per_s2, Scalar pressure_difference_Pa) {
+  const Scalar force = -density_kg_per_m3 * damping_length_m * flow_rate_m3_per_s2;
+  const Scalar limit = magnitude(pressure_difference_Pa) * constants.chamber_area_m2 + 1.0;
+  return force * limit / square_root(limit * limit + force * force);
 }
 
-struct EdgeForce {
-  double steady_N;   ///< closing > 0, whichever way the oil flows
-  double lateral_N;  ///< magnitude
-  JetDirection jet;
+template <class Scalar>
+struct EdgeForceOf {
+  Scalar steady_N;   ///< closing > 0, whichever way the oil flows
+  Scalar lateral_N;  ///< magnitude
+  JetDirectionOf<Scalar> jet;
 };
+using EdgeForce = EdgeForceOf<double>;
 
-inline EdgeForce edge_force(const FlowForce& law, const EdgeConstants& constants, const EdgeFlow& edge,
-                            double viscosity_m2_per_s) {
-  if (edge.velocity_m_per_s == 0.0) return {0.0, 0.0, {1.0, 0.0}};
-  const double speed = std::abs(edge.velocity_m_per_s) + 1e-3;  // the boundary layer stays finite at no flow
-  const double boundary_layer = law.boundary_layer_gain * std::sqrt(viscosity_m2_per_s * edge.opening_m / speed);
-  const JetDirection jet = jet_direction(edge.opening_m, constants.clearance_m + boundary_layer);
-  const double momentum = 2.0 * constants.turbulent * edge.area_m2 * edge.velocity_m_per_s * edge.velocity_m_per_s;
-  const double jet_momentum = momentum / law.jet_contraction;
-  return {.steady_N = jet_momentum * jet.cosine - momentum * edge.area_m2 * constants.outlet_per_m2,
-          .lateral_N = jet_momentum * jet.sine,
-          .jet = jet};
+template <class Scalar>
+inline EdgeForceOf<Scalar> edge_force(const FlowForceOf<Scalar>& law, const EdgeConstantsOf<Scalar>& constants,
+                                      const EdgeFlowOf<Scalar>& edge, Scalar viscosity_m2_per_s) {
+  const EdgeForceOf<Scalar> none{0.0, 0.0, {1.0, 0.0}};
+  const Mask<Scalar> flows = !(edge.velocity_m_per_s == 0.0);
+  if (!any(flows)) return none;
+  const Scalar speed = magnitude(edge.velocity_m_per_s) + 1e-3;  // the boundary layer stays finite at no flow
+  const Scalar boundary_layer = law.boundary_layer_gain * square_root(viscosity_m2_per_s * edge.opening_m / speed);
+  const JetDirectionOf<Scalar> jet = jet_direction(edge.opening_m, constants.clearance_m + boundary_layer);
+  const Scalar momentum = 2.0 * constants.turbulent * edge.area_m2 * edge.velocity_m_per_s * edge.velocity_m_per_s;
+  const Scalar jet_momentum = momentum / law.jet_contraction;
+  return blended(
+      flows,
+      EdgeForceOf<Scalar>{.steady_N = jet_momentum * jet.cosine - momentum * edge.area_m2 * constants.outlet_per_m2,
+                          .lateral_N = jet_momentum * jet.sine,
+                          .jet = jet},
+      none);
 }
 
 }  // namespace spoolflow::rig

@@ -28,23 +28,24 @@ inline bool holds_difference(LoadKind kind) {
   return kind == LoadKind::held_difference || kind == LoadKind::held_path || kind == LoadKind::held_return;
 }
 
-struct Load {
+template <class Scalar>
+struct LoadOf {
   LoadKind kind = LoadKind::held_difference;
   bool ideal_hold = false;      ///< the held difference follows its set value at once; not of held_return
   bool return_to_tank = false;  ///< of orifice, cylinder and motor
-  double port_volume_m3 = 5.0e-5;
-  double orifice_area_m2 = 1.2e-5;
-  double piston_area_B_m2 = 1.26e-3;
-  double piston_area_A_m2 = 1.26e-3;
-  double cylinder_stroke_m = 0.4;
-  double cylinder_mass_kg = 200.0;
-  double cylinder_drag_N_s_per_m = 2000.0;
-  double cylinder_leakage_m3_per_s_Pa = 2.0e-13;
-  double motor_displacement_m3_per_rad = 1.3e-5;
-  double motor_inertia_kg_m2 = 0.05;
-  double motor_torque_N_m = 35.0;
-  double motor_drag_N_m_s = 0.05;
-  double motor_leakage_m3_per_s_Pa = 1.0e-12;
+  Scalar port_volume_m3 = 5.0e-5;
+  Scalar orifice_area_m2 = 1.2e-5;
+  Scalar piston_area_B_m2 = 1.26e-3;
+  Scalar piston_area_A_m2 = 1.26e-3;
+  Scalar cylinder_stroke_m = 0.4;
+  Scalar cylinder_mass_kg = 200.0;
+  Scalar cylinder_drag_N_s_per_m = 2000.0;
+  Scalar cylinder_leakage_m3_per_s_Pa = 2.0e-13;
+  Scalar motor_displacement_m3_per_rad = 1.3e-5;
+  Scalar motor_inertia_kg_m2 = 0.05;
+  Scalar motor_torque_N_m = 35.0;
+  Scalar motor_drag_N_m_s = 0.05;
+  Scalar motor_leakage_m3_per_s_Pa = 1.0e-12;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -70,5 +71,6 @@ struct Load {
           self.motor_leakage_m3_per_s_Pa);
   }
 };
+using Load = LoadOf<double>;
 
 }  // namespace spoolflow::rig

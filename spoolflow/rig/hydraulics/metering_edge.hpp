@@ -15,23 +15,25 @@
 #include <numbers>
 
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
-struct MeteringEdge {
-  double overlap_m = 0.15e-3;
-  double notches = 4.0;
-  double notch_width_m = 1.08e-3;
-  double notch_flank = 0.31;
-  double discharge_coefficient = 0.68;
-  double transition_reynolds = 60.0;
-  double sealing_length_m = 0.2e-3;
-  double channel_area_m2 = 2.6e-5;
-  double outlet_area_m2 = 1.2e-4;
-  double outlet_cotangent = 0.18;
-  double damping_length_m = 12.0e-3;
-  double edge_radius_m = 2.0e-6;
-  double clearance_eccentricity = 0.5;
+template <class Scalar>
+struct MeteringEdgeOf {
+  Scalar overlap_m = 0.15e-3;
+  Scalar notches = 4.0;
+  Scalar notch_width_m = 1.08e-3;
+  Scalar notch_flank = 0.31;
+  Scalar discharge_coefficient = 0.68;
+  Scalar transition_reynolds = 60.0;
+  Scalar sealing_length_m = 0.2e-3;
+  Scalar channel_area_m2 = 2.6e-5;
+  Scalar outlet_area_m2 = 1.2e-4;
+  Scalar outlet_cotangent = 0.18;
+  Scalar damping_length_m = 12.0e-3;
+  Scalar edge_radius_m = 2.0e-6;
+  Scalar clearance_eccentricity = 0.5;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -63,20 +65,24 @@ struct MeteringEdge {
           self.clearance_eccentricity);
   }
 };
+using MeteringEdge = MeteringEdgeOf<double>;
 
 /// What does not change within a step: the edge in its oil.
-struct EdgeConstants {
-  double clearance_m;          ///< c' of the opening
-  double turbulent;            ///< rho/2: dp = turbulent (1/Cd^2 + (A/A_channel)^2) u^2 ...
-  double laminar;              ///< ... + laminar/(Cd^2 o+) u, with u = Q_n/A
-  double leakage;              ///< Q_leak L/dp [m4/(s Pa)]
-  double outlet_per_m2;        ///< cot(e2)/A2
-  double per_channel_area_m2;  ///< 1/A_channel
-  double chamber_area_m2;      ///< ring between spool neck and bore, half the bore's cross-section
+template <class Scalar>
+struct EdgeConstantsOf {
+  Scalar clearance_m;          ///< c' of the opening
+  Scalar turbulent;            ///< rho/2: dp = turbulent (1/Cd^2 + (A/A_channel)^2) u^2 ...
+  Scalar laminar;              ///< ... + laminar/(Cd^2 o+) u, with u = Q_n/A
+  Scalar leakage;              ///< Q_leak L/dp [m4/(s Pa)]
+  Scalar outlet_per_m2;        ///< cot(e2)/A2
+  Scalar per_channel_area_m2;  ///< 1/A_channel
+  Scalar chamber_area_m2;      ///< ring between spool neck and bore, half the bore's cross-section
 };
+using EdgeConstants = EdgeConstantsOf<double>;
 
-inline EdgeConstants edge_constants(const MeteringEdge& edge, double bore_diameter_m, double clearance_m,
-                                    double density_kg_per_m3, double viscosity_m2_per_s) {
+template <class Scalar>
+inline EdgeConstantsOf<Scalar> edge_constants(const MeteringEdgeOf<Scalar>& edge, Scalar bore_diameter_m,
+                                              Scalar clearance_m, Scalar density_kg_per_m3, Scalar viscosity_m2_per_s) {
   return {.clearance_m = clearance_m + edge.edge_radius_m,
           .turbulent = 0.5 * density_kg_per_m3,
           .laminar = 0.25 * density_kg_per_m3 * viscosity_m2_per_s * edge.transition_reynolds,
@@ -89,60 +95,68 @@ inline EdgeConstants edge_constants(const MeteringEdge& edge, double bore_diamet
 }
 
 /// Flow through one edge and its slopes.
-struct EdgeFlow {
-  double opening_m;         ///< o+
-  double area_m2;           ///< A
-  double velocity_m_per_s;  ///< u = Q_n/A, with the sign of dp
-  double leakage_m3_per_s;
-  double flow_m3_per_s;            ///< Q_n + Q_leak
-  double conductance_m3_per_s_Pa;  ///< dQ/d(dp) > 0
-  double flow_gain_m2_per_s;       ///< dQ/ds
+template <class Scalar>
+struct EdgeFlowOf {
+  Scalar opening_m;         ///< o+
+  Scalar area_m2;           ///< A
+  Scalar velocity_m_per_s;  ///< u = Q_n/A, with the sign of dp
+  Scalar leakage_m3_per_s;
+  Scalar flow_m3_per_s;            ///< Q_n + Q_leak
+  Scalar conductance_m3_per_s_Pa;  ///< dQ/d(dp) > 0
+  Scalar flow_gain_m2_per_s;       ///< dQ/ds
 };
+using EdgeFlow = EdgeFlowOf<double>;
 
-inline EdgeFlow edge_flow(const MeteringEdge& edge, const EdgeConstants& constants, double travel_m,
-                          double pressure_difference_Pa) {
-  const double o = travel_m - edge.overlap_m;
-  const double per_length = 1.0 / (edge.sealing_length_m + std::max(0.0, -o));
-  const double leakage_conductance = constants.leakage * per_length;
-  const double leakage = leakage_conductance * pressure_difference_Pa;
-  const double leakage_gain = o < 0.0 ? leakage * per_length : 0.0;
-  const double c = constants.clearance_m;
-  if (o <= -c) return {0.0, 0.0, 0.0, leakage, leakage, leakage_conductance, leakage_gain};
+template <class Scalar>
+inline EdgeFlowOf<Scalar> edge_flow(const MeteringEdgeOf<Scalar>& edge, const EdgeConstantsOf<Scalar>& constants,
+                                    Scalar travel_m, Scalar pressure_difference_Pa) {
+  const Scalar o = travel_m - edge.overlap_m;
+  const Scalar per_length = 1.0 / (edge.sealing_length_m + larger(Scalar(0.0), -o));
+  const Scalar leakage_conductance = constants.leakage * per_length;
+  const Scalar leakage = leakage_conductance * pressure_difference_Pa;
+  const Scalar leakage_gain = select(o < 0.0, leakage * per_length, Scalar(0.0));
+  const Scalar c = constants.clearance_m;
+  const EdgeFlowOf<Scalar> closed{0.0, 0.0, 0.0, leakage, leakage, leakage_conductance, leakage_gain};
+  const Mask<Scalar> open = !(o <= -c);
+  if (!any(open)) return closed;
 
-  double opening = o;
-  double opening_slope = 1.0;
-  if (o < c) {
-    opening_slope = (o + c) / (2.0 * c);
-    opening = c * opening_slope * opening_slope;
+  Scalar opening = o;
+  Scalar opening_slope = 1.0;
+  if (const Mask<Scalar> barely = o < c; any(barely)) {
+    opening_slope = select(barely, (o + c) / (2.0 * c), opening_slope);
+    opening = select(barely, c * opening_slope * opening_slope, opening);
   }
-  const double width = edge.notches * (edge.notch_width_m + edge.notch_flank * opening);
-  const double area = opening * width;
-  const double area_slope = width + edge.notches * edge.notch_flank * opening;
+  const Scalar width = edge.notches * (edge.notch_width_m + edge.notch_flank * opening);
+  const Scalar area = opening * width;
+  const Scalar area_slope = width + edge.notches * edge.notch_flank * opening;
 
-  const double per_rounded = 1.0 / (edge.edge_radius_m + opening);
-  const double rounding = (0.95 - edge.discharge_coefficient) * edge.edge_radius_m * per_rounded;
-  const double per_discharge = 1.0 / (edge.discharge_coefficient + rounding);
-  const double loss = per_discharge * per_discharge;
-  const double loss_slope = 2.0 * loss * per_discharge * rounding * per_rounded;
-  const double channel = area * constants.per_channel_area_m2;
+  const Scalar per_rounded = 1.0 / (edge.edge_radius_m + opening);
+  const Scalar rounding = (0.95 - edge.discharge_coefficient) * edge.edge_radius_m * per_rounded;
+  const Scalar per_discharge = 1.0 / (edge.discharge_coefficient + rounding);
+  const Scalar loss = per_discharge * per_discharge;
+  const Scalar loss_slope = 2.0 * loss * per_discharge * rounding * per_rounded;
+  const Scalar channel = area * constants.per_channel_area_m2;
 
-  const double per_opening = 1.0 / opening;
-  const double quadratic = constants.turbulent * (loss + channel * channel);
-  const double linear = constants.laminar * loss * per_opening;
-  const double slope = std::sqrt(linear * linear + 4.0 * quadratic * std::abs(pressure_difference_Pa));
-  const double per_slope = 1.0 / slope;
-  const double u = 2.0 * pressure_difference_Pa / (linear + slope);
-  const double quadratic_slope =
+  const Scalar per_opening = 1.0 / opening;
+  const Scalar quadratic = constants.turbulent * (loss + channel * channel);
+  const Scalar linear = constants.laminar * loss * per_opening;
+  const Scalar slope = square_root(linear * linear + 4.0 * quadratic * magnitude(pressure_difference_Pa));
+  const Scalar per_slope = 1.0 / slope;
+  const Scalar u = 2.0 * pressure_difference_Pa / (linear + slope);
+  const Scalar quadratic_slope =
       constants.turbulent * (loss_slope + 2.0 * channel * area_slope * constants.per_channel_area_m2);
-  const double linear_slope = (constants.laminar * loss_slope - linear) * per_opening;
-  const double u_slope = -u * (quadratic_slope * std::abs(u) + linear_slope) * per_slope;
-  return {.opening_m = opening,
-          .area_m2 = area,
-          .velocity_m_per_s = u,
-          .leakage_m3_per_s = leakage,
-          .flow_m3_per_s = area * u + leakage,
-          .conductance_m3_per_s_Pa = area * per_slope + leakage_conductance,
-          .flow_gain_m2_per_s = opening_slope * (area_slope * u + area * u_slope) + leakage_gain};
+  const Scalar linear_slope = (constants.laminar * loss_slope - linear) * per_opening;
+  const Scalar u_slope = -u * (quadratic_slope * magnitude(u) + linear_slope) * per_slope;
+  return blended(
+      open,
+      EdgeFlowOf<Scalar>{.opening_m = opening,
+                         .area_m2 = area,
+                         .velocity_m_per_s = u,
+                         .leakage_m3_per_s = leakage,
+                         .flow_m3_per_s = area * u + leakage,
+                         .conductance_m3_per_s_Pa = area * per_slope + leakage_conductance,
+                         .flow_gain_m2_per_s = opening_slope * (area_slope * u + area * u_slope) + leakage_gain},
+      closed);
 }
 
 }  // namespace spoolflow::rig

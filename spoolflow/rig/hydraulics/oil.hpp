@@ -12,20 +12,22 @@
 
 #include "spoolflow/rig/numerics/elementary_functions.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::rig {
 
-struct Oil {
-  double density_15C_kg_per_m3 = 876.0;
-  double thermal_expansion_per_K = 7.0e-4;
-  double viscosity_40C_m2_per_s = 46.0e-6;
-  double viscosity_100C_m2_per_s = 6.8e-6;
-  double pressure_viscosity_per_Pa = 1.8e-8;
-  double bulk_modulus_20C_Pa = 1.75e9;
-  double bulk_modulus_per_K_Pa = -7.5e6;
-  double bulk_modulus_per_pressure = 9.0;
-  double entrained_air = 0.005;
+template <class Scalar>
+struct OilOf {
+  Scalar density_15C_kg_per_m3 = 876.0;
+  Scalar thermal_expansion_per_K = 7.0e-4;
+  Scalar viscosity_40C_m2_per_s = 46.0e-6;
+  Scalar viscosity_100C_m2_per_s = 6.8e-6;
+  Scalar pressure_viscosity_per_Pa = 1.8e-8;
+  Scalar bulk_modulus_20C_Pa = 1.75e9;
+  Scalar bulk_modulus_per_K_Pa = -7.5e6;
+  Scalar bulk_modulus_per_pressure = 9.0;
+  Scalar entrained_air = 0.005;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -48,14 +50,17 @@ struct Oil {
           self.entrained_air);
   }
 };
+using Oil = OilOf<double>;
 
 /// The oil at one temperature and ambient pressure; kept so that the logarithms are taken once a temperature.
-struct OilState {
-  double temperature_C = 50.0;
-  double density_kg_per_m3 = 0.0;
-  double viscosity_m2_per_s = 0.0;
-  double bulk_modulus_Pa = 0.0;  ///< without air
+template <class Scalar>
+struct OilStateOf {
+  Scalar temperature_C = 50.0;
+  Scalar density_kg_per_m3 = 0.0;
+  Scalar viscosity_m2_per_s = 0.0;
+  Scalar bulk_modulus_Pa = 0.0;  ///< without air
 };
+using OilState = OilStateOf<double>;
 
 /// Near the pour point Walther's line climbs without bound; the rig's oil gets no stiffer than this.
 inline constexpr double stiffest_oil_m2_per_s = 0.05;
@@ -76,12 +81,14 @@ inline OilState oil_at(const Oil& oil, double temperature_C) {
           .bulk_modulus_Pa = oil.bulk_modulus_20C_Pa + oil.bulk_modulus_per_K_Pa * (temperature_C - 20.0)};
 }
 
-inline double density_kg_per_m3(const Oil& oil, const OilState& state, double pressure_Pa) {
+template <class Scalar>
+inline Scalar density_kg_per_m3(const OilOf<Scalar>& oil, const OilStateOf<Scalar>& state, Scalar pressure_Pa) {
   return state.density_kg_per_m3 *
          (1.0 + pressure_Pa / (state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * pressure_Pa));
 }
 
-inline double viscosity_m2_per_s(const Oil& oil, const OilState& state, double pressure_Pa) {
+template <class Scalar>
+inline Scalar viscosity_m2_per_s(const OilOf<Scalar>& oil, const OilStateOf<Scalar>& state, Scalar pressure_Pa) {
   return state.viscosity_m2_per_s * exponential(oil.pressure_viscosity_per_Pa * pressure_Pa);
 }
 
@@ -90,10 +97,12 @@ inline constexpr double ambient_pressure_Pa = 1.013e5;
 inline constexpr double cavitation_pressure_Pa = -0.95 * ambient_pressure_Pa;
 
 /// 1/K_eff [1/Pa] of oil with entrained air at a gauge pressure.
-inline double compressibility_per_Pa(const Oil& oil, const OilState& state, double pressure_Pa) {
-  const double absolute = std::max(pressure_Pa, cavitation_pressure_Pa) + ambient_pressure_Pa;
-  const double bulk_modulus_Pa = state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * std::max(pressure_Pa, 0.0);
-  const double square = absolute * absolute;
+template <class Scalar>
+inline Scalar compressibility_per_Pa(const OilOf<Scalar>& oil, const OilStateOf<Scalar>& state, Scalar pressure_Pa) {
+  const Scalar absolute = larger(pressure_Pa, Scalar(cavitation_pressure_Pa)) + ambient_pressure_Pa;
+  const Scalar bulk_modulus_Pa =
+      state.bulk_modulus_Pa + oil.bulk_modulus_per_pressure * larger(pressure_Pa, Scalar(0.0));
+  const Scalar square = absolute * absolute;
   return (square + oil.entrained_air * ambient_pressure_Pa * bulk_modulus_Pa) / (bulk_modulus_Pa * square);
 }
 

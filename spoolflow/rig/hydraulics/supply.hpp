@@ -10,17 +10,19 @@
 ///
 /// or follows at once when `ideal` is asked for. Ripple is a parabolic wave at the pump's piston frequency.
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
-struct Supply {
-  double line_volume_m3 = 2.0e-4;
-  double source_conductance_m3_per_s_Pa = 2.0e-9;
-  double hold_integral_time_s = 0.02;
-  double ripple_Pa = 0.4e5;
-  double ripple_Hz = 225.0;
-  double tank_pressure_Pa = 1.0e5;
-  double back_pressure_Pa = 4.0e5;
+template <class Scalar>
+struct SupplyOf {
+  Scalar line_volume_m3 = 2.0e-4;
+  Scalar source_conductance_m3_per_s_Pa = 2.0e-9;
+  Scalar hold_integral_time_s = 0.02;
+  Scalar ripple_Pa = 0.4e5;
+  Scalar ripple_Hz = 225.0;
+  Scalar tank_pressure_Pa = 1.0e5;
+  Scalar back_pressure_Pa = 4.0e5;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -38,5 +40,6 @@ struct Supply {
           self.back_pressure_Pa);
   }
 };
+using Supply = SupplyOf<double>;
 
 }  // namespace spoolflow::rig

@@ -46,7 +46,7 @@ class FlowMeterReading {
     teeth_ += flow_m3_per_s * dt_s / meter_.tooth_volume_m3;
     teeth_ -= std::floor(teeth_);
     const double passing = flow_m3_per_s * (1 + meter_.pulsation * sine_of_turns(teeth_));
-    lagged_m3_per_s_ = lagged(lagged_m3_per_s_, passing, dt_s, meter_.time_constant_s);
+    lagged_m3_per_s_ = lagged(lagged_m3_per_s_, passing, dt_s, meter_.time_constant_s, lag_);
   }
   [[nodiscard]] double reading_m3_per_s() {
     const double signal = (1 + meter_.gain_error) * lagged_m3_per_s_ + meter_.offset_m3_per_s;
@@ -56,6 +56,7 @@ class FlowMeterReading {
  private:
   FlowMeter meter_;
   Noise noise_;
+  LagMemory lag_;
   double lagged_m3_per_s_;
   double teeth_ = 0;  ///< share of the tooth passing now
 };

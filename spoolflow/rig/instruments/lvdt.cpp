@@ -27,7 +27,7 @@ double LvdtReading::undelayed_m(double temperature_C) const {
 
 void LvdtReading::follow(double position_m, double temperature_C, double dt_s) {
   core_m_ = std::clamp(core_m_, position_m - lvdt_.backlash_m, position_m + lvdt_.backlash_m);
-  signal_m_ = lagged(signal_m_, undelayed_m(temperature_C), dt_s, lvdt_.time_constant_s);
+  signal_m_ = lagged(signal_m_, undelayed_m(temperature_C), dt_s, lvdt_.time_constant_s, lag_);
 }
 
 double LvdtReading::valve_signal_m() {

@@ -9,6 +9,7 @@
 /// for some milliseconds as the paper reports at 40 and 70 bar (section 4).
 #include <cstdint>
 
+#include "spoolflow/rig/numerics/acquisition.hpp"
 #include "spoolflow/rig/numerics/noise.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
 
@@ -70,6 +71,7 @@ class LvdtReading {
 
   Lvdt lvdt_;
   Noise valve_noise_, recorder_noise_, faults_;
+  LagMemory lag_;
   double core_m_;
   double signal_m_;
   double fault_begin_s_;

@@ -25,7 +25,7 @@ class Transducer {
       : errors_(errors), noise_(seed, name), lagged_(value) {}
 
   /// The signal follows the true value for `dt_s`.
-  void follow(double value, double dt_s) { lagged_ = lagged(lagged_, value, dt_s, errors_.time_constant_s); }
+  void follow(double value, double dt_s) { lagged_ = lagged(lagged_, value, dt_s, errors_.time_constant_s, lag_); }
   /// One reading; `noise_share` below 1 for a mean over several conversions.
   [[nodiscard]] double reading(double noise_share = 1.0) {
     const double signal = (1 + errors_.gain_error) * lagged_ + errors_.offset;
@@ -35,6 +35,7 @@ class Transducer {
  private:
   TransducerErrors errors_;
   Noise noise_;
+  LagMemory lag_;
   double lagged_;
 };
 

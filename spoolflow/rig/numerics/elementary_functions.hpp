@@ -9,8 +9,10 @@
 ///
 /// Within 2 units in the last place (sine: of its amplitude).
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace spoolflow::rig {
 
@@ -43,9 +45,9 @@ inline constexpr std::array<double, 12> artanh_series = [] {
   return terms;
 }();
 
-template <std::size_t count>
-double polynomial(const std::array<double, count>& terms, double x) {
-  double sum = terms[count - 1];
+template <std::size_t count, class Scalar>
+inline Scalar polynomial(const std::array<double, count>& terms, Scalar x) {
+  Scalar sum = terms[count - 1];
   for (std::size_t n = count - 1; n-- > 0;) sum = terms[n] + x * sum;
   return sum;
 }
@@ -58,7 +60,8 @@ inline double exponential(double x) {
   constexpr double per_ln_2 = 1.4426950408889634;
   const double k = std::nearbyint(x * per_ln_2);
   const double r = (x - k * elementary::ln_2_high) - k * elementary::ln_2_low;
-  return std::ldexp(elementary::polynomial(elementary::exponential_series, r), static_cast<int>(k));
+  const double power_of_two = std::bit_cast<double>((static_cast<std::int64_t>(k) + 1023) << 52);
+  return elementary::polynomial(elementary::exponential_series, r) * power_of_two;
 }
 
 /// ln x for finite x > 0.

@@ -6,15 +6,17 @@
 /// A shorted share s of the turns drops out of the winding and stays coupled to the flux as a closed secondary of s N
 /// turns and s R20; referred to one turn, its conductance is s N^2 / R20 (MagneticCircuit sees it as an eddy loop).
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
-struct Coil {
-  double turns = 700.0;
-  double resistance_20C_ohm = 2.7;
-  double temperature_coefficient_per_K = 3.93e-3;
-  double shorted_turns_fraction = 0.0;
-  double added_resistance_ohm = 0.0;
+template <class Scalar>
+struct CoilOf {
+  Scalar turns = 700.0;
+  Scalar resistance_20C_ohm = 2.7;
+  Scalar temperature_coefficient_per_K = 3.93e-3;
+  Scalar shorted_turns_fraction = 0.0;
+  Scalar added_resistance_ohm = 0.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -31,21 +33,25 @@ struct Coil {
           self.added_resistance_ohm);
   }
 };
+using Coil = CoilOf<double>;
 
 /// Turns that still carry the terminal current.
-inline double active_turns(const Coil& coil) {
+template <class Scalar>
+inline Scalar active_turns(const CoilOf<Scalar>& coil) {
   return coil.turns * (1.0 - coil.shorted_turns_fraction);
 }
 
 /// Resistance between the terminals [ohm] at the winding's temperature.
-inline double resistance_ohm(const Coil& coil, double temperature_C) {
+template <class Scalar>
+inline Scalar resistance_ohm(const CoilOf<Scalar>& coil, Scalar temperature_C) {
   return coil.resistance_20C_ohm * (1.0 - coil.shorted_turns_fraction) *
              (1.0 + coil.temperature_coefficient_per_K * (temperature_C - 20.0)) +
          coil.added_resistance_ohm;
 }
 
 /// One-turn conductance [1/ohm] of the shorted turns at the winding's temperature; 0 without the fault.
-inline double shorted_turns_conductance_S(const Coil& coil, double temperature_C) {
+template <class Scalar>
+inline Scalar shorted_turns_conductance_S(const CoilOf<Scalar>& coil, Scalar temperature_C) {
   return coil.shorted_turns_fraction * coil.turns * coil.turns /
          (coil.resistance_20C_ohm * (1.0 + coil.temperature_coefficient_per_K * (temperature_C - 20.0)));
 }

@@ -7,15 +7,17 @@
 /// Time constants are minutes, so the plant integrates it once a step, exactly enough by the explicit midpoint rule.
 /// Leaves out the temperature field inside the winding.
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
-struct CoilHeat {
-  double winding_heat_capacity_J_per_K = 130.0;
-  double housing_heat_capacity_J_per_K = 350.0;
-  double winding_to_housing_W_per_K = 1.2;
-  double housing_to_ambient_W_per_K = 0.35;
-  double housing_to_oil_W_per_K = 0.4;
+template <class Scalar>
+struct CoilHeatOf {
+  Scalar winding_heat_capacity_J_per_K = 130.0;
+  Scalar housing_heat_capacity_J_per_K = 350.0;
+  Scalar winding_to_housing_W_per_K = 1.2;
+  Scalar housing_to_ambient_W_per_K = 0.35;
+  Scalar housing_to_oil_W_per_K = 0.4;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -32,26 +34,31 @@ struct CoilHeat {
           self.housing_to_oil_W_per_K);
   }
 };
+using CoilHeat = CoilHeatOf<double>;
 
-struct CoilHeatState {
-  double winding_temperature_C = 25.0;
-  double housing_temperature_C = 25.0;
+template <class Scalar>
+struct CoilHeatStateOf {
+  Scalar winding_temperature_C = 25.0;
+  Scalar housing_temperature_C = 25.0;
 };
+using CoilHeatState = CoilHeatStateOf<double>;
 
 /// Advances both temperatures with the losses held; explicit midpoint.
-inline void heat_up(const CoilHeat& heat, CoilHeatState& state, double winding_loss_W, double iron_loss_W,
-                    double ambient_C, double oil_C, double dt_s) {
-  const auto rates = [&](const CoilHeatState& at) {
-    const double exchange_W = heat.winding_to_housing_W_per_K * (at.winding_temperature_C - at.housing_temperature_C);
-    return CoilHeatState{
+template <class Scalar>
+inline void heat_up(const CoilHeatOf<Scalar>& heat, CoilHeatStateOf<Scalar>& state, Scalar winding_loss_W,
+                    Scalar iron_loss_W, Scalar ambient_C, Scalar oil_C, Scalar dt_s) {
+  const auto rates = [&](const CoilHeatStateOf<Scalar>& at) {
+    const Scalar exchange_W = heat.winding_to_housing_W_per_K * (at.winding_temperature_C - at.housing_temperature_C);
+    return CoilHeatStateOf<Scalar>{
         (winding_loss_W - exchange_W) / heat.winding_heat_capacity_J_per_K,
         (iron_loss_W + exchange_W - heat.housing_to_ambient_W_per_K * (at.housing_temperature_C - ambient_C) -
          heat.housing_to_oil_W_per_K * (at.housing_temperature_C - oil_C)) /
             heat.housing_heat_capacity_J_per_K};
   };
-  const CoilHeatState first = rates(state);
-  const CoilHeatState second = rates({state.winding_temperature_C + 0.5 * dt_s * first.winding_temperature_C,
-                                      state.housing_temperature_C + 0.5 * dt_s * first.housing_temperature_C});
+  const CoilHeatStateOf<Scalar> first = rates(state);
+  const CoilHeatStateOf<Scalar> second =
+      rates({state.winding_temperature_C + 0.5 * dt_s * first.winding_temperature_C,
+             state.housing_temperature_C + 0.5 * dt_s * first.housing_temperature_C});
   state.winding_temperature_C += dt_s * second.winding_temperature_C;
   state.housing_temperature_C += dt_s * second.housing_temperature_C;
 }

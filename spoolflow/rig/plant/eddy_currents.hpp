@@ -10,10 +10,11 @@
 
 namespace spoolflow::rig {
 
-struct EddyCurrents {
-  double core_resistance_ohm = 1.0e-4;
-  double skin_resistance_ohm = 2.0e-4;
-  double skin_inductance_H = 1.5e-7;
+template <class Scalar>
+struct EddyCurrentsOf {
+  Scalar core_resistance_ohm = 1.0e-4;
+  Scalar skin_resistance_ohm = 2.0e-4;
+  Scalar skin_inductance_H = 1.5e-7;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -26,5 +27,6 @@ struct EddyCurrents {
           self.skin_inductance_H);
   }
 };
+using EddyCurrents = EddyCurrentsOf<double>;
 
 }  // namespace spoolflow::rig

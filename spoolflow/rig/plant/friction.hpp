@@ -8,25 +8,26 @@
 ///
 /// `level` [N] is the sliding friction from load (spool pressure and lateral flow force, armature side force).
 /// Al-Bender, Lampaert, Swevers 2005 (GMS); rest time: Armstrong-Helouvry 1994.
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 
 #include "spoolflow/rig/numerics/elementary_functions.hpp"
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
-struct Friction {
-  double base_N = 1.4;
-  double stiction_ratio = 1.25;
-  double ageing_gain = 3.0;
-  double ageing_time_s = 1.1;
-  double ageing_distance_m = 3.0e-5;
-  double stribeck_velocity_m_per_s = 4.0e-3;
-  double contact_stiffness_N_per_m = 4.0e6;
-  double viscosity_exponent = 0.12;
-  double wear_factor = 1.0;
+template <class Scalar>
+struct FrictionOf {
+  Scalar base_N = 1.4;
+  Scalar stiction_ratio = 1.25;
+  Scalar ageing_gain = 3.0;
+  Scalar ageing_time_s = 1.1;
+  Scalar ageing_distance_m = 3.0e-5;
+  Scalar stribeck_velocity_m_per_s = 4.0e-3;
+  Scalar contact_stiffness_N_per_m = 4.0e6;
+  Scalar viscosity_exponent = 0.12;
+  Scalar wear_factor = 1.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -51,32 +52,41 @@ struct Friction {
     visit(Parameter{"wear_factor", "1", 0.2, 5, "fault: scales all sliding friction; 1 is new"}, self.wear_factor);
   }
 };
+using Friction = FrictionOf<double>;
 
 inline constexpr std::size_t friction_elements = 4;
 
-struct FrictionState {
-  std::array<double, friction_elements> element_N{};  ///< force of each Maxwell-slip element
-  double age = 0.0;                                   ///< 0 freshly slid .. 1 long at rest
+template <class Scalar>
+struct FrictionStateOf {
+  std::array<Scalar, friction_elements> element_N{};  ///< force of each Maxwell-slip element
+  Scalar age = 0.0;                                   ///< 0 freshly slid .. 1 long at rest
 };
+using FrictionState = FrictionStateOf<double>;
 
 /// Share alpha_i of the break-away level that element i carries: 1, 2, 3, 4 tenths, at equal stiffness.
 inline constexpr std::array<double, friction_elements> friction_share{0.1, 0.2, 0.3, 0.4};
 
 /// What does not change within a step; `load_factor` scales the sliding friction by wear and viscosity.
-struct FrictionConstants {
-  double base_N;  ///< scaled
-  double load_factor;
-  double stiffness_N_per_m;  ///< of one element
-  double per_stiffness_m_per_N;
-  double stiction, ageing_gain;  ///< stiction ratio less 1
-  double stribeck2_m2_per_s2;
-  double per_ageing_time_s, per_ageing_distance_m;
+template <class Scalar>
+struct FrictionConstantsOf {
+  Scalar base_N;  ///< scaled
+  Scalar load_factor;
+  Scalar stiffness_N_per_m;  ///< of one element
+  Scalar per_stiffness_m_per_N;
+  Scalar stiction, ageing_gain;  ///< stiction ratio less 1
+  Scalar stribeck2_m2_per_s2;
+  Scalar per_ageing_time_s, per_ageing_distance_m;
 };
+using FrictionConstants = FrictionConstantsOf<double>;
 
-inline FrictionConstants friction_constants(const Friction& friction, double viscosity_m2_per_s) {
-  double factor = friction.wear_factor;
-  if (friction.viscosity_exponent > 0.0) factor *= power(viscosity_m2_per_s / 46e-6, friction.viscosity_exponent);
-  const double stiffness = friction.contact_stiffness_N_per_m / static_cast<double>(friction_elements);
+template <class Scalar>
+inline FrictionConstantsOf<Scalar> friction_constants(const FrictionOf<Scalar>& friction, Scalar viscosity_m2_per_s) {
+  Scalar factor = friction.wear_factor;
+  const Mask<Scalar> thickens = friction.viscosity_exponent > 0.0;
+  if (any(thickens)) {
+    factor = select(thickens, factor * power(viscosity_m2_per_s / 46e-6, friction.viscosity_exponent), factor);
+  }
+  const Scalar stiffness = friction.contact_stiffness_N_per_m / static_cast<Scalar>(friction_elements);
   return {.base_N = factor * friction.base_N,
           .load_factor = factor,
           .stiffness_N_per_m = stiffness,
@@ -89,54 +99,64 @@ inline FrictionConstants friction_constants(const Friction& friction, double vis
 }
 
 /// Level W [N] the set can carry at a velocity; `load_N` is the load's part of the sliding friction, unscaled.
-inline double breakaway_N(const FrictionConstants& friction, double load_N, double age, double velocity_m_per_s) {
-  const double v2 = velocity_m_per_s * velocity_m_per_s;
+template <class Scalar>
+inline Scalar breakaway_N(const FrictionConstantsOf<Scalar>& friction, Scalar load_N, Scalar age,
+                          Scalar velocity_m_per_s) {
+  const Scalar v2 = velocity_m_per_s * velocity_m_per_s;
   return (friction.base_N + friction.load_factor * load_N) *
          (1.0 + (friction.stiction + friction.ageing_gain * age) * friction.stribeck2_m2_per_s2 /
                     (friction.stribeck2_m2_per_s2 + v2));
 }
 
-struct FrictionForce {
-  double force_N;            ///< sign of the motion that it resists
-  double stiffness_N_per_m;  ///< of the elements that stick
+template <class Scalar>
+struct FrictionForceOf {
+  Scalar force_N;            ///< sign of the motion that it resists
+  Scalar stiffness_N_per_m;  ///< of the elements that stick
 };
+using FrictionForce = FrictionForceOf<double>;
 
 /// Force after a monotone displacement from the state; the velocity tells which elements at their limit go on slipping.
-inline FrictionForce friction_force(const FrictionConstants& friction, const FrictionState& state,
-                                    double displacement_m, double velocity_m_per_s, double breakaway_N) {
-  const double change = friction.stiffness_N_per_m * displacement_m;
-  const double towards = velocity_m_per_s > 0.0 ? 1.0 : -1.0;
-  FrictionForce sum{0.0, 0.0};
+template <class Scalar>
+inline FrictionForceOf<Scalar> friction_force(const FrictionConstantsOf<Scalar>& friction,
+                                              const FrictionStateOf<Scalar>& state, Scalar displacement_m,
+                                              Scalar velocity_m_per_s, Scalar breakaway_N) {
+  const Scalar change = friction.stiffness_N_per_m * displacement_m;
+  const Scalar towards = select(velocity_m_per_s > 0.0, Scalar(1.0), Scalar(-1.0));
+  FrictionForceOf<Scalar> sum{0.0, 0.0};
   for (std::size_t i = 0; i < friction_elements; ++i) {
-    const double limit = friction_share[i] * breakaway_N;
-    const double elastic = state.element_N[i] + change;
-    sum.force_N += std::min(std::max(elastic, -limit), limit);
-    sum.stiffness_N_per_m += towards * elastic < limit ? friction.stiffness_N_per_m : 0.0;
+    const Scalar limit = friction_share[i] * breakaway_N;
+    const Scalar elastic = state.element_N[i] + change;
+    sum.force_N += smaller(larger(elastic, -limit), limit);
+    sum.stiffness_N_per_m += select(towards * elastic < limit, friction.stiffness_N_per_m, Scalar(0.0));
   }
   return sum;
 }
 
 /// Distance the whole set slips over a displacement: what its last element to slip cannot follow.
-inline double slip_m(const FrictionConstants& friction, const FrictionState& state, double displacement_m,
-                     double breakaway_N) {
-  const double elastic = state.element_N.back() + friction.stiffness_N_per_m * displacement_m;
-  return std::max(0.0, std::abs(elastic) - friction_share.back() * breakaway_N) * friction.per_stiffness_m_per_N;
+template <class Scalar>
+inline Scalar slip_m(const FrictionConstantsOf<Scalar>& friction, const FrictionStateOf<Scalar>& state,
+                     Scalar displacement_m, Scalar breakaway_N) {
+  const Scalar elastic = state.element_N.back() + friction.stiffness_N_per_m * displacement_m;
+  return larger(Scalar(0.0), magnitude(elastic) - friction_share.back() * breakaway_N) * friction.per_stiffness_m_per_N;
 }
 
 /// The elements after a displacement.
-inline void slide(const FrictionConstants& friction, FrictionState& state, double displacement_m, double breakaway_N) {
-  const double change = friction.stiffness_N_per_m * displacement_m;
+template <class Scalar>
+inline void slide(const FrictionConstantsOf<Scalar>& friction, FrictionStateOf<Scalar>& state, Scalar displacement_m,
+                  Scalar breakaway_N) {
+  const Scalar change = friction.stiffness_N_per_m * displacement_m;
   for (std::size_t i = 0; i < friction_elements; ++i) {
-    const double limit = friction_share[i] * breakaway_N;
-    state.element_N[i] = std::clamp(state.element_N[i] + change, -limit, limit);
+    const Scalar limit = friction_share[i] * breakaway_N;
+    state.element_N[i] = clamped(state.element_N[i] + change, -limit, limit);
   }
 }
 
 /// Contact age after a time in which the set slipped over a distance, with z the sum of both over their scales:
 /// the L-stable second-order (a + (1 + z/2) dt/t_rest)/(1 + z + z^2/2), within 0 to 1. Pre-sliding renews nothing.
-inline double aged(const FrictionConstants& friction, double age, double slip_m, double dt_s) {
-  const double ageing = dt_s * friction.per_ageing_time_s;
-  const double z = ageing + slip_m * friction.per_ageing_distance_m;
+template <class Scalar>
+inline Scalar aged(const FrictionConstantsOf<Scalar>& friction, Scalar age, Scalar slip_m, Scalar dt_s) {
+  const Scalar ageing = dt_s * friction.per_ageing_time_s;
+  const Scalar z = ageing + slip_m * friction.per_ageing_distance_m;
   return (age + ageing * (1.0 + 0.5 * z)) / (1.0 + z + 0.5 * z * z);
 }
 

@@ -16,17 +16,18 @@
 /// for b, the lag J_an - J_irr in it by an L-stable rational of second order, under which J_irr never runs backwards.
 /// Passive: the lag stores energy and gives back no more. Minor loops creep towards the anhysteretic state instead of
 /// closing (accommodation). Rate-independent; leaves out the pinning's fall in saturation.
-#include <algorithm>
 #include <cmath>
 
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 #include "spoolflow/rig/plant/magnetic_material.hpp"
 
 namespace spoolflow::rig {
 
-struct JilesAtherton {
-  double reversible_share = 0.2;
-  double coupling = 1.0e-4;
+template <class Scalar>
+struct JilesAthertonOf {
+  Scalar reversible_share = 0.2;
+  Scalar coupling = 1.0e-4;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -36,128 +37,163 @@ struct JilesAtherton {
           self.coupling);
   }
 };
+using JilesAtherton = JilesAthertonOf<double>;
 
 /// The model's constants; the pinning k makes the given coercive field where the walls follow steadily: (1 - c) k.
-struct JilesAthertonIron {
-  AnhystereticCurve anhysteretic;
-  double per_pinning_m_per_A;  ///< 1/k; 0 stands for no pinning at all
-  double reversible;           ///< c
-  double coupling_m_per_H;     ///< alpha/mu0
-  double uncoupled;            ///< 1 - alpha
+template <class Scalar>
+struct JilesAthertonIronOf {
+  AnhystereticCurveOf<Scalar> anhysteretic;
+  Scalar per_pinning_m_per_A;  ///< 1/k; 0 stands for no pinning at all
+  Scalar reversible;           ///< c
+  Scalar coupling_m_per_H;     ///< alpha/mu0
+  Scalar uncoupled;            ///< 1 - alpha
 };
+using JilesAthertonIron = JilesAthertonIronOf<double>;
 
-inline JilesAthertonIron jiles_atherton_iron(const MagneticMaterial& material, const JilesAtherton& shape,
-                                             double coercive_field_A_per_m) {
-  const double pinning_A_per_m = coercive_field_A_per_m / (1.0 - shape.reversible_share);
+template <class Scalar>
+inline JilesAthertonIronOf<Scalar> jiles_atherton_iron(const MagneticMaterialOf<Scalar>& material,
+                                                       const JilesAthertonOf<Scalar>& shape,
+                                                       Scalar coercive_field_A_per_m) {
+  const Scalar pinning_A_per_m = coercive_field_A_per_m / (1.0 - shape.reversible_share);
   return {.anhysteretic = anhysteretic_curve(material),
-          .per_pinning_m_per_A = pinning_A_per_m > 0.0 ? 1.0 / pinning_A_per_m : 0.0,
+          .per_pinning_m_per_A = select(pinning_A_per_m > 0.0, 1.0 / pinning_A_per_m, Scalar(0.0)),
           .reversible = shape.reversible_share,
           .coupling_m_per_H = shape.coupling / vacuum_permeability_H_per_m,
           .uncoupled = 1.0 - shape.coupling};
 }
 
 /// What the iron remembers; {} is demagnetised.
-struct JilesAthertonMemory {
-  double anhysteretic_T = 0.0;  ///< b
-  double irreversible_T = 0.0;  ///< J_irr
+template <class Scalar>
+struct JilesAthertonMemoryOf {
+  Scalar anhysteretic_T = 0.0;  ///< b
+  Scalar irreversible_T = 0.0;  ///< J_irr
 };
+using JilesAthertonMemory = JilesAthertonMemoryOf<double>;
 
 namespace jiles_atherton {
 
 /// The anhysteretic state at b.
+template <class Scalar>
 struct Anhysteretic {
-  double effective_A_per_m, effective_slope_m_per_H;  ///< H_e and dH_e/db
-  double polarisation_T, polarisation_slope;          ///< J_an and dJ_an/db
+  Scalar effective_A_per_m, effective_slope_m_per_H;  ///< H_e and dH_e/db
+  Scalar polarisation_T, polarisation_slope;          ///< J_an and dJ_an/db
 };
 
-inline Anhysteretic anhysteretic_at(const JilesAthertonIron& iron, double b_T) {
-  const FieldPoint field = anhysteretic_field(iron.anhysteretic, b_T);
-  const double polarisation_T = b_T - vacuum_permeability_H_per_m * field.field_A_per_m;
-  const double slope = 1.0 - vacuum_permeability_H_per_m * field.slope_m_per_H;
+template <class Scalar>
+inline Anhysteretic<Scalar> anhysteretic_at(const JilesAthertonIronOf<Scalar>& iron, Scalar b_T) {
+  const FieldPointOf<Scalar> field = anhysteretic_field(iron.anhysteretic, b_T);
+  const Scalar polarisation_T = b_T - vacuum_permeability_H_per_m * field.field_A_per_m;
+  const Scalar slope = 1.0 - vacuum_permeability_H_per_m * field.slope_m_per_H;
   return {field.field_A_per_m + iron.coupling_m_per_H * polarisation_T,
           field.slope_m_per_H + iron.coupling_m_per_H * slope, polarisation_T, slope};
 }
 
 /// J_irr and its slope over b, driven monotonely from the memory's state `start` to `end`.
+template <class Scalar>
 struct Pinned {
-  double irreversible_T, slope;
+  Scalar irreversible_T, slope;
 };
 
-inline Pinned pinned(const JilesAthertonIron& iron, double irreversible_T, const Anhysteretic& start,
-                     const Anhysteretic& end) {
-  const double direction = end.effective_A_per_m < start.effective_A_per_m ? -1.0 : 1.0;
-  const double lag_T = direction * (start.polarisation_T - irreversible_T);
-  const double change_T = direction * (end.polarisation_T - start.polarisation_T);
-  const double driven_T = change_T + std::min(lag_T, 0.0);  // what comes behind the point where J_an passes the walls
-  if (driven_T <= 0.0) return {irreversible_T, 0.0};
-  const double share = lag_T < 0.0 ? driven_T / change_T : 1.0;
-  const double way = direction * (end.effective_A_per_m - start.effective_A_per_m) * iron.per_pinning_m_per_A;
-  const double z = way * share;
-  const double per_decay = 1.0 / (1.0 + z + 0.5 * z * z);
-  const double end_lag_T = (driven_T * (1.0 + 0.5 * z) + std::max(lag_T, 0.0)) * per_decay;
-  double z_slope = end.effective_slope_m_per_H * iron.per_pinning_m_per_A * share;
-  if (lag_T < 0.0) z_slope += way * end.polarisation_slope * (1.0 - share) / change_T;
-  const double lag_slope =
+template <class Scalar>
+inline Pinned<Scalar> pinned(const JilesAthertonIronOf<Scalar>& iron, Scalar irreversible_T,
+                             const Anhysteretic<Scalar>& start, const Anhysteretic<Scalar>& end) {
+  const Scalar direction = select(end.effective_A_per_m < start.effective_A_per_m, Scalar(-1.0), Scalar(1.0));
+  const Scalar lag_T = direction * (start.polarisation_T - irreversible_T);
+  const Scalar change_T = direction * (end.polarisation_T - start.polarisation_T);
+  // What comes behind the point where J_an passes the walls.
+  const Scalar driven_T = change_T + smaller(lag_T, Scalar(0.0));
+  const Mask<Scalar> driven = !(driven_T <= 0.0);
+  if (!any(driven)) return {irreversible_T, 0.0};
+  const Mask<Scalar> behind = lag_T < 0.0;
+  const Scalar share = any(behind) ? select(behind, driven_T / change_T, Scalar(1.0)) : Scalar(1.0);
+  const Scalar way = direction * (end.effective_A_per_m - start.effective_A_per_m) * iron.per_pinning_m_per_A;
+  const Scalar z = way * share;
+  const Scalar per_decay = 1.0 / (1.0 + z + 0.5 * z * z);
+  const Scalar end_lag_T = (driven_T * (1.0 + 0.5 * z) + larger(lag_T, Scalar(0.0))) * per_decay;
+  Scalar z_slope = end.effective_slope_m_per_H * iron.per_pinning_m_per_A * share;
+  if (any(behind)) {
+    z_slope = select(behind, z_slope + way * end.polarisation_slope * (1.0 - share) / change_T, z_slope);
+  }
+  const Scalar lag_slope =
       (end.polarisation_slope * (1.0 + 0.5 * z) + 0.5 * driven_T * z_slope - end_lag_T * (1.0 + z) * z_slope) *
       per_decay;
-  return {end.polarisation_T - direction * end_lag_T, end.polarisation_slope - lag_slope};
+  return blended(driven, Pinned<Scalar>{end.polarisation_T - direction * end_lag_T, end.polarisation_slope - lag_slope},
+                 Pinned<Scalar>{irreversible_T, 0.0});
 }
 
 /// The iron at one flux density.
+template <class Scalar>
 struct Point {
-  FieldPoint field;
-  JilesAthertonMemory memory;
+  FieldPointOf<Scalar> field;
+  JilesAthertonMemoryOf<Scalar> memory;
 };
 
 /// After a monotone change to that flux density.
-inline Point at(const JilesAthertonIron& iron, const JilesAthertonMemory& memory, double flux_density_T) {
-  if (iron.per_pinning_m_per_A == 0.0) {
-    const Anhysteretic free = anhysteretic_at(iron, flux_density_T);
-    return {anhysteretic_field(iron.anhysteretic, flux_density_T), {flux_density_T, free.polarisation_T}};
+template <class Scalar>
+inline Point<Scalar> at(const JilesAthertonIronOf<Scalar>& iron, const JilesAthertonMemoryOf<Scalar>& memory,
+                        Scalar flux_density_T) {
+  const Mask<Scalar> unpinned = iron.per_pinning_m_per_A == 0.0;
+  Point<Scalar> free{};
+  if (any(unpinned)) {
+    free = {anhysteretic_field(iron.anhysteretic, flux_density_T),
+            {flux_density_T, anhysteretic_at(iron, flux_density_T).polarisation_T}};
+    if (all(unpinned)) return free;
   }
-  const Anhysteretic start = anhysteretic_at(iron, memory.anhysteretic_T);
+  const Anhysteretic<Scalar> start = anhysteretic_at(iron, memory.anhysteretic_T);
   constexpr double nearly_T = 1e-7;  // from there Newton's next step is exact to rounding
-  const double start_T =
+  const Scalar start_T =
       vacuum_permeability_H_per_m * start.effective_A_per_m +
       iron.uncoupled * ((1.0 - iron.reversible) * memory.irreversible_T + iron.reversible * start.polarisation_T);
-  double b = memory.anhysteretic_T + (flux_density_T - start_T);
-  double below = -HUGE_VAL, above = HUGE_VAL;  // between which b lies
-  Point point{};
+  Scalar b = memory.anhysteretic_T + (flux_density_T - start_T);
+  Scalar below = -HUGE_VAL, above = HUGE_VAL;  // between which b lies
+  Point<Scalar> point{};
+  Mask<Scalar> open = !unpinned;
   for (int tries = 0; tries < 60; ++tries) {
-    const Anhysteretic end = anhysteretic_at(iron, b);
-    const Pinned walls = pinned(iron, memory.irreversible_T, start, end);
-    const double polarisation_T = (1.0 - iron.reversible) * walls.irreversible_T + iron.reversible * end.polarisation_T;
-    const double slope = (1.0 - iron.reversible) * walls.slope + iron.reversible * end.polarisation_slope;
-    const double flux_slope = vacuum_permeability_H_per_m * end.effective_slope_m_per_H + iron.uncoupled * slope;
-    const double missing_T =
+    const Anhysteretic<Scalar> end = anhysteretic_at(iron, b);
+    const Pinned<Scalar> walls = pinned(iron, memory.irreversible_T, start, end);
+    const Scalar polarisation_T = (1.0 - iron.reversible) * walls.irreversible_T + iron.reversible * end.polarisation_T;
+    const Scalar slope = (1.0 - iron.reversible) * walls.slope + iron.reversible * end.polarisation_slope;
+    const Scalar flux_slope = vacuum_permeability_H_per_m * end.effective_slope_m_per_H + iron.uncoupled * slope;
+    const Scalar missing_T =
         flux_density_T - vacuum_permeability_H_per_m * end.effective_A_per_m - iron.uncoupled * polarisation_T;
-    point = {{end.effective_A_per_m - iron.coupling_m_per_H * polarisation_T,
-              (end.effective_slope_m_per_H - iron.coupling_m_per_H * slope) / flux_slope},
-             {b, walls.irreversible_T}};
-    (missing_T > 0.0 ? below : above) = b;
-    const double left = missing_T / flux_slope;
-    b += left;
-    if (std::abs(missing_T) <= nearly_T) {
-      point.field.field_A_per_m += point.field.slope_m_per_H * missing_T;
-      point.memory = {b, walls.irreversible_T + walls.slope * left};
-      break;
+    const Point<Scalar> here{{end.effective_A_per_m - iron.coupling_m_per_H * polarisation_T,
+                              (end.effective_slope_m_per_H - iron.coupling_m_per_H * slope) / flux_slope},
+                             {b, walls.irreversible_T}};
+    point = blended(open, here, point);
+    const Mask<Scalar> short_of = missing_T > 0.0;
+    below = select(open && short_of, b, below);
+    above = select(open && !short_of, b, above);
+    const Scalar left = missing_T / flux_slope;
+    b = select(open, b + left, b);
+    if (const Mask<Scalar> found = open && magnitude(missing_T) <= nearly_T; any(found)) {
+      const Point<Scalar> there{
+          {point.field.field_A_per_m + point.field.slope_m_per_H * missing_T, point.field.slope_m_per_H},
+          {b, walls.irreversible_T + walls.slope * left}};
+      point = blended(found, there, point);
+      open = open && !found;
+      if (!any(open)) break;
     }
-    if (!(b > below && b < above)) b = 0.5 * (below + above);
+    const Mask<Scalar> outside = open && !(b > below && b < above);
+    if (any(outside)) b = select(outside, 0.5 * (below + above), b);
   }
-  return point;
+  return any(unpinned) ? blended(unpinned, free, point) : point;
 }
 
 }  // namespace jiles_atherton
 
 /// The field at a flux density reached monotonely.
-inline FieldPoint field_at(const JilesAthertonIron& iron, const JilesAthertonMemory& memory, double flux_density_T) {
+template <class Scalar>
+inline FieldPointOf<Scalar> field_at(const JilesAthertonIronOf<Scalar>& iron,
+                                     const JilesAthertonMemoryOf<Scalar>& memory, Scalar flux_density_T) {
   return jiles_atherton::at(iron, memory, flux_density_T).field;
 }
 
 /// Moves the memory to a flux density reached monotonely; returns the field [A/m].
-inline double magnetise(const JilesAthertonIron& iron, JilesAthertonMemory& memory, double flux_density_T) {
-  const jiles_atherton::Point point = jiles_atherton::at(iron, memory, flux_density_T);
-  memory = point.memory;
+template <class Scalar>
+inline Scalar magnetise(const JilesAthertonIronOf<Scalar>& iron, JilesAthertonMemoryOf<Scalar>& memory,
+                        Scalar flux_density_T, const Given<Mask<Scalar>>& taken = true) {
+  const jiles_atherton::Point<Scalar> point = jiles_atherton::at(iron, memory, flux_density_T);
+  take(taken, memory, point.memory);
   return point.field.field_A_per_m;
 }
 

@@ -19,24 +19,26 @@
 #include <numbers>
 
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 #include "spoolflow/rig/plant/magnetic_material.hpp"
 
 namespace spoolflow::rig {
 
-struct MagneticCircuit {
-  double iron_area_m2 = 3.1e-4;
-  double iron_length_m = 0.08;
-  double armature_radius_m = 10.5e-3;
-  double radial_gap_m = 0.20e-3;
-  double radial_gap_length_m = 18.0e-3;
-  double cone_clearance_m = 0.78e-3;
-  double cone_slope = 0.03;
-  double plunge_at_rest_m = 0.8e-3;
-  double fringe_length_m = 1.0e-3;
-  double face_area_m2 = 6.0e-5;
-  double face_gap_at_rest_m = 5.0e-3;
-  double leakage_permeance_H = 3.0e-8;
-  double eccentricity = 0.2;
+template <class Scalar>
+struct MagneticCircuitOf {
+  Scalar iron_area_m2 = 3.1e-4;
+  Scalar iron_length_m = 0.08;
+  Scalar armature_radius_m = 10.5e-3;
+  Scalar radial_gap_m = 0.20e-3;
+  Scalar radial_gap_length_m = 18.0e-3;
+  Scalar cone_clearance_m = 0.78e-3;
+  Scalar cone_slope = 0.03;
+  Scalar plunge_at_rest_m = 0.8e-3;
+  Scalar fringe_length_m = 1.0e-3;
+  Scalar face_area_m2 = 6.0e-5;
+  Scalar face_gap_at_rest_m = 5.0e-3;
+  Scalar leakage_permeance_H = 3.0e-8;
+  Scalar eccentricity = 0.2;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -67,24 +69,30 @@ struct MagneticCircuit {
           self.eccentricity);
   }
 };
+using MagneticCircuit = MagneticCircuitOf<double>;
 
 /// Permeance of the working gap and its slope.
-struct GapPermeance {
-  double permeance_H;
-  double slope_H_per_m;  ///< dP/ds, >= 0
+template <class Scalar>
+struct GapPermeanceOf {
+  Scalar permeance_H;
+  Scalar slope_H_per_m;  ///< dP/ds, >= 0
 };
+using GapPermeance = GapPermeanceOf<double>;
 
 /// The gap's constants.
-struct WorkingGap {
-  double plunge_m, fringe_m2;
-  double rim_H;        ///< mu0 2 pi r
-  double clearance_m;  ///< c
-  double half_slope;   ///< tan(beta)/2
-  double face_H_m;     ///< mu0 A_face
-  double face_gap_m;
+template <class Scalar>
+struct WorkingGapOf {
+  Scalar plunge_m, fringe_m2;
+  Scalar rim_H;        ///< mu0 2 pi r
+  Scalar clearance_m;  ///< c
+  Scalar half_slope;   ///< tan(beta)/2
+  Scalar face_H_m;     ///< mu0 A_face
+  Scalar face_gap_m;
 };
+using WorkingGap = WorkingGapOf<double>;
 
-inline WorkingGap working_gap(const MagneticCircuit& circuit) {
+template <class Scalar>
+inline WorkingGapOf<Scalar> working_gap(const MagneticCircuitOf<Scalar>& circuit) {
   return {circuit.plunge_at_rest_m,
           circuit.fringe_length_m * circuit.fringe_length_m,
           vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m,
@@ -98,28 +106,31 @@ inline WorkingGap working_gap(const MagneticCircuit& circuit) {
 inline constexpr double anti_stick_m = 5e-5;
 
 /// At the armature's travel s towards its pole, counted from spool centre.
-inline GapPermeance gap_permeance(const WorkingGap& gap, double travel_m) {
-  const double depth = travel_m + gap.plunge_m;
-  const double root = std::sqrt(depth * depth + gap.fringe_m2);
-  const double plunge = 0.5 * (depth + root);
-  const double per_cone = 1.0 / (gap.clearance_m + gap.half_slope * plunge);
-  const double cone = gap.rim_H * per_cone * plunge;
-  const double per_face = 1.0 / std::max(gap.face_gap_m - travel_m, anti_stick_m);
-  const double face = gap.face_H_m * per_face;
+template <class Scalar>
+inline GapPermeanceOf<Scalar> gap_permeance(const WorkingGapOf<Scalar>& gap, Scalar travel_m) {
+  const Scalar depth = travel_m + gap.plunge_m;
+  const Scalar root = square_root(depth * depth + gap.fringe_m2);
+  const Scalar plunge = 0.5 * (depth + root);
+  const Scalar per_cone = 1.0 / (gap.clearance_m + gap.half_slope * plunge);
+  const Scalar cone = gap.rim_H * per_cone * plunge;
+  const Scalar per_face = 1.0 / larger(gap.face_gap_m - travel_m, anti_stick_m);
+  const Scalar face = gap.face_H_m * per_face;
   return {cone + face, cone * gap.clearance_m * per_cone / root + face * per_face};
 }
 
 /// Reluctance [1/H] of the radial gap with the armature off centre: R0 sqrt(1 - eccentricity^2).
-inline double radial_reluctance_per_H(const MagneticCircuit& circuit) {
+template <class Scalar>
+inline Scalar radial_reluctance_per_H(const MagneticCircuitOf<Scalar>& circuit) {
   return circuit.radial_gap_m /
          (vacuum_permeability_H_per_m * 2.0 * std::numbers::pi * circuit.armature_radius_m *
           circuit.radial_gap_length_m) *
-         std::sqrt(1.0 - circuit.eccentricity * circuit.eccentricity);
+         square_root(1.0 - circuit.eccentricity * circuit.eccentricity);
 }
 
 /// Side force over flux squared [N/Wb2]: -dR/de/2 of the radial gap over its width, F = Phi^2 R0 ecc/(2 g
 /// sqrt(1-ecc^2)).
-inline double side_force_per_flux_squared(const MagneticCircuit& circuit) {
+template <class Scalar>
+inline Scalar side_force_per_flux_squared(const MagneticCircuitOf<Scalar>& circuit) {
   return 0.5 * radial_reluctance_per_H(circuit) * circuit.eccentricity /
          (circuit.radial_gap_m * (1.0 - circuit.eccentricity * circuit.eccentricity));
 }

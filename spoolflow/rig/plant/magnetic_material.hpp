@@ -10,15 +10,17 @@
 #include <numbers>
 
 #include "spoolflow/rig/numerics/parameter.hpp"
+#include "spoolflow/rig/numerics/scalar.hpp"
 
 namespace spoolflow::rig {
 
 inline constexpr double vacuum_permeability_H_per_m = 4e-7 * std::numbers::pi;
 
-struct MagneticMaterial {
-  double relative_permeability = 2000.0;
-  double saturation_T = 2.0;
-  double knee_width_T = 0.06;
+template <class Scalar>
+struct MagneticMaterialOf {
+  Scalar relative_permeability = 2000.0;
+  Scalar saturation_T = 2.0;
+  Scalar knee_width_T = 0.06;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -32,30 +34,37 @@ struct MagneticMaterial {
           self.knee_width_T);
   }
 };
+using MagneticMaterial = MagneticMaterialOf<double>;
 
 /// The curve's constants.
-struct AnhystereticCurve {
-  double saturation_T, knee_T2;
-  double linear_m_per_H;     ///< 1/(mu0 mu_r)
-  double saturated_m_per_H;  ///< 1/mu0 - 1/(mu0 mu_r)
+template <class Scalar>
+struct AnhystereticCurveOf {
+  Scalar saturation_T, knee_T2;
+  Scalar linear_m_per_H;     ///< 1/(mu0 mu_r)
+  Scalar saturated_m_per_H;  ///< 1/mu0 - 1/(mu0 mu_r)
 };
+using AnhystereticCurve = AnhystereticCurveOf<double>;
 
-inline AnhystereticCurve anhysteretic_curve(const MagneticMaterial& iron) {
-  const double linear = 1.0 / (vacuum_permeability_H_per_m * iron.relative_permeability);
+template <class Scalar = double>
+inline AnhystereticCurveOf<Scalar> anhysteretic_curve(const MagneticMaterialOf<Scalar>& iron) {
+  const Scalar linear = 1.0 / (vacuum_permeability_H_per_m * iron.relative_permeability);
   return {iron.saturation_T, iron.knee_width_T * iron.knee_width_T, linear, 1.0 / vacuum_permeability_H_per_m - linear};
 }
 
 /// A curve's value and slope at one point.
-struct FieldPoint {
-  double field_A_per_m;
-  double slope_m_per_H;  ///< dH/dB, > 0
+template <class Scalar>
+struct FieldPointOf {
+  Scalar field_A_per_m;
+  Scalar slope_m_per_H;  ///< dH/dB, > 0
 };
+using FieldPoint = FieldPointOf<double>;
 
-inline FieldPoint anhysteretic_field(const AnhystereticCurve& curve, double flux_density_T) {
-  const double below = flux_density_T - curve.saturation_T;
-  const double above = flux_density_T + curve.saturation_T;
-  const double root_below = std::sqrt(below * below + curve.knee_T2);
-  const double root_above = std::sqrt(above * above + curve.knee_T2);
+template <class Scalar>
+inline FieldPointOf<Scalar> anhysteretic_field(const AnhystereticCurveOf<Scalar>& curve, Scalar flux_density_T) {
+  const Scalar below = flux_density_T - curve.saturation_T;
+  const Scalar above = flux_density_T + curve.saturation_T;
+  const Scalar root_below = square_root(below * below + curve.knee_T2);
+  const Scalar root_above = square_root(above * above + curve.knee_T2);
   return {curve.linear_m_per_H * flux_density_T +
               curve.saturated_m_per_H * (flux_density_T + 0.5 * (root_below - root_above)),
           curve.linear_m_per_H + curve.saturated_m_per_H * (1.0 + 0.5 * (below / root_below - above / root_above))};

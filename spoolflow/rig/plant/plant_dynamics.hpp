@@ -4,34 +4,10 @@
 /// Differential states are {x, v}, three of each solenoid, six of the hydraulics. The memories (iron hysteresis,
 /// friction elements, contact ages) are functions of flux and displacement since the step's start; temperatures move
 /// once a step.
-#include "spoolflow/rig/hydraulics/hydraulic_circuit.hpp"
 #include "spoolflow/rig/plant/end_stop.hpp"
-#include "spoolflow/rig/plant/plant_parameters.hpp"
-#include "spoolflow/rig/plant/plant_state.hpp"
-#include "spoolflow/rig/plant/solenoid_dynamics.hpp"
+#include "spoolflow/rig/plant/plant_constants.hpp"
 
 namespace spoolflow::rig {
-
-/// What does not change within one call of `step`.
-struct PlantConstants {
-  bool solenoid_a, solenoid_b, hydraulics;  ///< present in the arrangement
-  bool magnetic_a, magnetic_b;              ///< solenoid under voltage or magnetised; else its rates are zero
-  double armatures;                         ///< number of armatures on the body
-  double mass_kg;
-  double spool_drag_N_s_per_m;
-  double armature_drag_N_s_per_m;  ///< all armatures
-  FrictionConstants spool_friction, armature_a_friction, armature_b_friction;
-  double density_kg_per_m3;
-  double viscosity_m2_per_s;
-  OilState oil;
-  SolenoidConstants solenoid_a_constants;
-  SolenoidConstants solenoid_b_constants;
-  std::array<const MeteringEdge*, 4> edges;
-  std::array<EdgeConstants, 4> edge_constants;
-};
-
-/// `state.oil` is at the input's oil temperature.
-PlantConstants plant_constants(const PlantParameters& parameters, const PlantState& state, const PlantInput& input);
 
 /// The differential states, as the integrator sees them, in this order.
 enum PlantIndex {
@@ -42,7 +18,9 @@ enum PlantIndex {
   state_hydraulics = state_solenoid_b + solenoid_states,
   plant_states = state_hydraulics + hydraulic_states
 };
-using PlantVector = std::array<double, plant_states>;
+template <class Scalar>
+using PlantVectorOf = std::array<Scalar, plant_states>;
+using PlantVector = PlantVectorOf<double>;
 
 template <std::size_t offset, std::size_t count, class Vector>
 auto block(Vector& u) {
@@ -61,11 +39,14 @@ auto hydraulics_of(Vector& u) {
   return block<state_hydraulics, hydraulic_states>(u);
 }
 
-struct ContactAges {
-  double spool, armature_a, armature_b;
+template <class Scalar>
+struct ContactAgesOf {
+  Scalar spool, armature_a, armature_b;
 };
+using ContactAges = ContactAgesOf<double>;
 
-inline PlantVector differential_states(const PlantState& s) {
+template <class Scalar>
+inline PlantVectorOf<Scalar> differential_states(const PlantStateOf<Scalar>& s) {
   return {s.position_m,
           s.velocity_m_per_s,
           s.solenoid_a.flux_linkage_Wb,
@@ -83,30 +64,34 @@ inline PlantVector differential_states(const PlantState& s) {
 }
 
 /// What acts at one instant; forces towards -x but for the magnetic ones.
-struct PlantRates {
-  SolenoidRates solenoid_a{}, solenoid_b{};
-  HydraulicRates hydraulics;
-  std::array<EdgeForce, 4> edge_forces;
-  std::array<double, 4> transient_N;  ///< of each edge
-  double spool_breakaway_N, armature_a_breakaway_N, armature_b_breakaway_N;
-  FrictionForce spool_friction{}, armature_a_friction{}, armature_b_friction{};
-  SpringForce spring{};
-  EndStopForce end_stop;
-  double flow_force_N = 0.0;
-  double drag_N;
-  PlantVector rate{};  ///< of the free body
+template <class Scalar>
+struct PlantRatesOf {
+  SolenoidRatesOf<Scalar> solenoid_a{}, solenoid_b{};
+  HydraulicRatesOf<Scalar> hydraulics;
+  std::array<EdgeForceOf<Scalar>, 4> edge_forces;
+  std::array<Scalar, 4> transient_N;  ///< of each edge
+  Scalar spool_breakaway_N, armature_a_breakaway_N, armature_b_breakaway_N;
+  FrictionForceOf<Scalar> spool_friction{}, armature_a_friction{}, armature_b_friction{};
+  SpringForceOf<Scalar> spring{};
+  EndStopForceOf<Scalar> end_stop;
+  Scalar flow_force_N = 0.0;
+  Scalar drag_N;
+  PlantVectorOf<Scalar> rate{};  ///< of the free body
 };
+using PlantRates = PlantRatesOf<double>;
 
 /// `start` holds the memories and the states they count from; `time_s` is for the ripple. Fills what the arrangement
 /// has of `out` and leaves the rest as it is.
+template <class Scalar>
 // long: the whole right-hand side of the equations of motion, in the order of its states
-inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const PlantState& start,
-                        const PlantInput& input, const PlantVector& u, const ContactAges& ages, double time_s,
-                        PlantRates& out) {
-  const double x = u[state_x];
-  const double v = u[state_v];
-  const double displacement = x - start.position_m;
-  double force = 0.0;  // towards +x
+inline void plant_rates(const PlantParametersOf<Scalar>& p, const PlantConstantsOf<Scalar>& c,
+                        const PlantStateOf<Scalar>& start, const PlantInputOf<Scalar>& input,
+                        const PlantVectorOf<Scalar>& u, const ContactAgesOf<Scalar>& ages, Given<Scalar> time_s,
+                        PlantRatesOf<Scalar>& out) {
+  const Scalar x = u[state_x];
+  const Scalar v = u[state_v];
+  const Scalar displacement = x - start.position_m;
+  Scalar force = 0.0;  // towards +x
   if (c.solenoid_a) {
     if (c.magnetic_a)
       out.solenoid_a = solenoid_rates(c.solenoid_a_constants, start.solenoid_a, solenoid_a_of(u), -x, input.voltage_a_V,
@@ -130,27 +115,27 @@ inline void plant_rates(const PlantParameters& p, const PlantConstants& c, const
     force += out.solenoid_b.magnetic_force_N - out.armature_b_friction.force_N;
   }
   if (c.hydraulics) {
-    const HydraulicBoundary boundary = hydraulic_boundary(
+    const HydraulicBoundaryOf<Scalar> boundary = hydraulic_boundary(
         p.supply, p.load, input.supply_pressure_Pa, input.held_pressure_difference_Pa, input.load_force_N, time_s);
     hydraulic_rates(c.edges, c.edge_constants, p.supply, p.load, p.oil, c.oil, c.density_kg_per_m3, boundary,
                     hydraulics_of(u), x, out.hydraulics, hydraulics_of(out.rate));
-    double pressure_sum = 0.0;
-    double lateral = 0.0;
-    double flow_force = 0.0;
+    Scalar pressure_sum = 0.0;
+    Scalar lateral = 0.0;
+    Scalar flow_force = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const EdgeFlow& edge = out.hydraulics.edges[i];
+      const EdgeFlowOf<Scalar>& edge = out.hydraulics.edges[i];
       out.edge_forces[i] = edge_force(p.flow_force, c.edge_constants[i], edge, c.viscosity_m2_per_s);
-      const double flow_rate = edge.flow_gain_m2_per_s * edge_side[i] * v +
+      const Scalar flow_rate = edge.flow_gain_m2_per_s * edge_side[i] * v +
                                edge.conductance_m3_per_s_Pa * out.hydraulics.difference_rate_Pa_per_s[i];
       out.transient_N[i] =
           edge_side[i] * transient_force_N(c.edge_constants[i], c.density_kg_per_m3, c.edges[i]->damping_length_m,
                                            flow_rate, out.hydraulics.difference_Pa[i]);
       flow_force += edge_side[i] * out.edge_forces[i].steady_N + out.transient_N[i];
-      pressure_sum += std::abs(out.hydraulics.difference_Pa[i]);
+      pressure_sum += magnitude(out.hydraulics.difference_Pa[i]);
       lateral += out.edge_forces[i].lateral_N;
     }
     out.flow_force_N = flow_force;
-    const double load =
+    const Scalar load =
         0.5 * p.flow_force.friction_per_pressure_N_per_Pa * pressure_sum + p.flow_force.lateral_friction * lateral;
     out.spool_breakaway_N = breakaway_N(c.spool_friction, load, ages.spool, v);
     out.spool_friction = friction_force(c.spool_friction, start.spool_friction, displacement, v, out.spool_breakaway_N);

@@ -8,25 +8,29 @@
 /// couples the blocks is slow against a step and enters explicitly. An embedded second-order result estimates the
 /// error; a step that is too long is not taken, and its half is tried. Four evaluations a step, no iteration, no
 /// allocation.
+#include <cstdint>
+
 #include "spoolflow/rig/plant/plant_memory.hpp"
 #include "spoolflow/rig/plant/plant_solver.hpp"
 
 namespace spoolflow::rig {
 
 /// Position and velocity an external drive imposes at a time after the call's start.
-struct ImposedPath {
-  double start_m, start_m_per_s, end_m, end_m_per_s, duration_s;
+template <class Scalar>
+struct ImposedPathOf {
+  Scalar start_m, start_m_per_s, end_m, end_m_per_s, duration_s;
 
-  [[nodiscard]] std::array<double, 2> at(double time_s) const {
-    const double s = time_s / duration_s;
-    const double chord = (end_m - start_m) / duration_s;
-    const double a = start_m_per_s - chord;
-    const double b = end_m_per_s - chord;
+  [[nodiscard]] std::array<Scalar, 2> at(Scalar time_s) const {
+    const Scalar s = time_s / duration_s;
+    const Scalar chord = (end_m - start_m) / duration_s;
+    const Scalar a = start_m_per_s - chord;
+    const Scalar b = end_m_per_s - chord;
     // Cubic through both ends: chord plus s (1 - s) [a (1 - s) - b s].
     return {start_m + duration_s * s * (chord + (1.0 - s) * (a * (1.0 - s) - b * s)),
             chord + a * (1.0 - s) * (1.0 - 3.0 * s) + b * s * (3.0 * s - 2.0)};
   }
 };
+using ImposedPath = ImposedPathOf<double>;
 
 /// Method coefficients in the form above, from gamma, alpha_ij, gamma_ij of the paper: a = alpha Gamma^-1,
 /// c = diag(1/gamma) - Gamma^-1, m = b Gamma^-1 (the fourth stage's argument plus U_4), e = (b - b^) Gamma^-1.
@@ -45,59 +49,76 @@ struct Ros34pw2 {
 };
 
 /// Error of a step over full scale: stroke, the stroke in 5 ms, saturation flux and linkage, 100 bar.
-struct ErrorScale {
-  double per_stroke, per_flux_a, per_linkage_a, per_flux_b, per_linkage_b;
+template <class Scalar>
+struct ErrorScaleOf {
+  Scalar per_stroke, per_flux_a, per_linkage_a, per_flux_b, per_linkage_b;
   static constexpr double per_pressure = 1e-7;
 
-  ErrorScale(const PlantParameters& p, const PlantConstants& c)
+  ErrorScaleOf(const PlantParametersOf<Scalar>& p, const PlantConstantsOf<Scalar>& c)
       : per_stroke(1.0 / p.spool.stroke_m),
         per_flux_a(c.solenoid_a_constants.per_iron_area_m2 / p.solenoid_a.iron.saturation_T),
         per_linkage_a(per_flux_a / c.solenoid_a_constants.turns),
         per_flux_b(c.solenoid_b_constants.per_iron_area_m2 / p.solenoid_b.iron.saturation_T),
         per_linkage_b(per_flux_b / c.solenoid_b_constants.turns) {}
 
-  [[nodiscard]] double operator()(const PlantVector& error) const {
-    double largest = per_stroke * std::max(std::abs(error[state_x]), 5e-3 * std::abs(error[state_v]));
-    largest = std::max(largest, std::abs(solenoid_a_of(error)[state_linkage]) * per_linkage_a);
-    largest = std::max(largest, std::abs(solenoid_a_of(error)[state_flux]) * per_flux_a);
-    largest = std::max(largest, std::abs(solenoid_b_of(error)[state_linkage]) * per_linkage_b);
-    largest = std::max(largest, std::abs(solenoid_b_of(error)[state_flux]) * per_flux_b);
+  [[nodiscard]] Scalar operator()(const PlantVectorOf<Scalar>& error) const {
+    Scalar largest = per_stroke * larger(magnitude(error[state_x]), 5e-3 * magnitude(error[state_v]));
+    largest = larger(largest, magnitude(solenoid_a_of(error)[state_linkage]) * per_linkage_a);
+    largest = larger(largest, magnitude(solenoid_a_of(error)[state_flux]) * per_flux_a);
+    largest = larger(largest, magnitude(solenoid_b_of(error)[state_linkage]) * per_linkage_b);
+    largest = larger(largest, magnitude(solenoid_b_of(error)[state_flux]) * per_flux_b);
     for (const auto pressure : {state_p_P, state_p_A, state_p_B}) {
-      largest = std::max(largest, std::abs(hydraulics_of(error)[pressure]) * per_pressure);
+      largest = larger(largest, magnitude(hydraulics_of(error)[pressure]) * per_pressure);
     }
     return largest;
   }
 };
+using ErrorScale = ErrorScaleOf<double>;
 
-/// What stays the same over the internal steps of one call.
-struct StepContext {
-  const PlantParameters& parameters;
-  const PlantConstants& constants;
-  const PlantInput& input;
-  const ErrorScale& scale;
-  const ImposedPath* path;  ///< null when the body moves freely
-  double start_s;           ///< plant time at which the call began
+/// How long the steps may be within a period: on a grid of ticks, in strides of powers of two.
+struct StrideGrid {
+  double finest_s;
+  std::int64_t ticks_per_longest, end;  ///< [ticks]
 };
 
-/// Takes one step of length h unless its error exceeds `tolerance`; the state is untouched then. Returns the error.
-inline double internal_step(const StepContext& context, PlantState& state, double h, double tolerance,
-                            PlantLosses& losses) {
-  using Method = Ros34pw2;
-  const PlantParameters& p = context.parameters;
-  const PlantConstants& c = context.constants;
-  const PlantVector u0 = differential_states(state);
-  PlantRates first, last;
-  plant_rates(p, c, state, context.input, u0, contact_ages(state), state.time_s, first);
-  const PlantSolver solve(p, c, first, Method::gamma * h);
+[[nodiscard]] StrideGrid stride_grid(const Integration& integration, double dt_s);
 
-  PlantVector stage[4] = {};
-  PlantVector u = u0;
-  ContactAges ages{};
+/// Throws std::runtime_error: the state has no finite successor after a time h.
+[[noreturn]] void diverged(const PlantState& state, double h);
+
+/// What stays the same over the internal steps of one call.
+template <class Scalar>
+struct StepContextOf {
+  const PlantParametersOf<Scalar>& parameters;
+  const PlantConstantsOf<Scalar>& constants;
+  const PlantInputOf<Scalar>& input;
+  const ErrorScaleOf<Scalar>& scale;
+  const ImposedPathOf<Scalar>* path;  ///< null when the body moves freely
+  Scalar start_s;                     ///< plant time at which the call began
+};
+using StepContext = StepContextOf<double>;
+
+/// Takes one step of length h unless its error exceeds `tolerance`; the state is untouched then. Returns the error. Of
+/// several valves, those that are `moving`.
+template <class Scalar>
+inline Scalar internal_step(const StepContextOf<Scalar>& context, PlantStateOf<Scalar>& state, Scalar h,
+                            Scalar tolerance, PlantLossesOf<Scalar>& losses, const Given<Mask<Scalar>>& moving = true) {
+  using Method = Ros34pw2;
+  const PlantParametersOf<Scalar>& p = context.parameters;
+  const PlantConstantsOf<Scalar>& c = context.constants;
+  const PlantVectorOf<Scalar> u0 = differential_states(state);
+  PlantRatesOf<Scalar> first, last;
+  plant_rates(p, c, state, context.input, u0, contact_ages(state), state.time_s, first);
+  const PlantSolver<Scalar> solve(p, c, first, Method::gamma * h);
+
+  PlantVectorOf<Scalar> stage[4] = {};
+  PlantVectorOf<Scalar> u = u0;
+  ContactAgesOf<Scalar> ages{};
   solve(c, first.rate, stage[0]);
-  for (double& value : stage[0]) value *= Method::gamma * h;
+  for (Scalar& value : stage[0]) value *= Method::gamma * h;
   for (std::size_t s = 1; s < 4; ++s) {
-    const double elapsed = Method::alpha[s] * h;
-    PlantVector right{};
+    const Scalar elapsed = Method::alpha[s] * h;
+    PlantVectorOf<Scalar> right{};
     u = u0;
     for (std::size_t j = 0; j < s; ++j) {
       for (std::size_t i = 0; i < plant_states; ++i) {
@@ -114,24 +135,25 @@ inline double internal_step(const StepContext& context, PlantState& state, doubl
     plant_rates(p, c, state, context.input, u, ages, state.time_s + elapsed, last);
     for (std::size_t i = 0; i < plant_states; ++i) right[i] += h * last.rate[i];
     solve(c, right, stage[s]);
-    for (double& value : stage[s]) value *= Method::gamma;
+    for (Scalar& value : stage[s]) value *= Method::gamma;
   }
-  PlantVector difference;
+  PlantVectorOf<Scalar> difference;
   for (std::size_t i = 0; i < plant_states; ++i) {
     difference[i] = Method::e[0] * stage[0][i] + Method::e[1] * stage[1][i] + Method::e[2] * stage[2][i] +
                     Method::e[3] * stage[3][i];
   }
   if (context.path != nullptr) difference[state_x] = difference[state_v] = 0.0;
-  const double error = context.scale(difference);
-  if (!(error <= tolerance)) return error;
+  const Scalar error = context.scale(difference);
+  const Mask<Scalar> taken = moving && error <= tolerance;
+  if (!any(taken)) return error;
 
-  PlantVector end = u;
+  PlantVectorOf<Scalar> end = u;
   for (std::size_t i = 0; i < plant_states; ++i) end[i] += stage[3][i];
   if (context.path != nullptr) {  // the fourth stage stands at the step's end
     end[state_x] = u[state_x];
     end[state_v] = u[state_v];
   }
-  commit(p, c, state, end, first, last, ages, h, losses);
+  commit(p, c, state, end, first, last, ages, h, losses, taken);
   return error;
 }
 

@@ -7,49 +7,43 @@
 namespace spoolflow::rig {
 
 /// Losses of a solenoid summed over the internal steps [J].
-struct SolenoidLosses {
-  double winding_J = 0.0;
-  double iron_J = 0.0;
+template <class Scalar>
+struct SolenoidLossesOf {
+  Scalar winding_J = 0.0;
+  Scalar iron_J = 0.0;
 };
+using SolenoidLosses = SolenoidLossesOf<double>;
 
-struct PlantLosses {
-  SolenoidLosses solenoid_a, solenoid_b;
+template <class Scalar>
+struct PlantLossesOf {
+  SolenoidLossesOf<Scalar> solenoid_a, solenoid_b;
 };
+using PlantLosses = PlantLossesOf<double>;
 
 /// `iron_J_per_m3` is the work done on the iron; what of it is stored comes back within a cycle, some millijoules that
 /// move no temperature.
-inline void add_losses(const Solenoid& solenoid, const SolenoidConstants& constants, const SolenoidState& state,
-                       const SolenoidRates& rates, double iron_J_per_m3, double h, SolenoidLosses& losses) {
-  const double skin = rates.eddy_current_A - state.skin_current_A;
+template <class Scalar>
+inline void add_losses(const SolenoidOf<Scalar>& solenoid, const SolenoidConstantsOf<Scalar>& constants,
+                       const SolenoidStateOf<Scalar>& state, const SolenoidRatesOf<Scalar>& rates, Scalar iron_J_per_m3,
+                       Scalar h, SolenoidLossesOf<Scalar>& losses) {
+  const Scalar skin = rates.eddy_current_A - state.skin_current_A;
   losses.winding_J += h * constants.resistance_ohm * rates.current_A * rates.current_A;
   losses.iron_J += h * (solenoid.eddy.core_resistance_ohm * rates.eddy_current_A * rates.eddy_current_A +
                         solenoid.eddy.skin_resistance_ohm * skin * skin) +
                    constants.iron_length_m / constants.per_iron_area_m2 * iron_J_per_m3;
 }
 
-inline void commit(SolenoidState& state, SolenoidVector states) {
-  state.flux_linkage_Wb = states[state_linkage];
-  state.flux_Wb = states[state_flux];
-  state.skin_current_A = states[state_skin];
-}
-
-inline void commit(PlantState& state, HydraulicVector states) {
-  state.pressure_P_Pa = std::max(states[state_p_P], cavitation_pressure_Pa);
-  state.pressure_A_Pa = std::max(states[state_p_A], cavitation_pressure_Pa);
-  state.pressure_B_Pa = std::max(states[state_p_B], cavitation_pressure_Pa);
-  state.hold_flow_m3_per_s = states[state_Q_i];
-  state.cylinder_position_m = states[state_x_c];
-  state.cylinder_velocity_m_per_s = states[state_v_c];
-}
-
 /// Contact ages at states reached `elapsed_s` after the state; `first` are the rates at the state.
-inline ContactAges contact_ages(const PlantConstants& c, const PlantState& state, const PlantRates& first,
-                                const PlantVector& reached, double elapsed_s) {
-  const double displacement = reached[state_x] - state.position_m;
-  const auto age_of = [&](const FrictionConstants& friction, const FrictionState& memory, double breakaway_N) {
-    return aged(friction, memory.age, slip_m(friction, memory, displacement, breakaway_N), elapsed_s);
+template <class Scalar>
+inline ContactAgesOf<Scalar> contact_ages(const PlantConstantsOf<Scalar>& c, const PlantStateOf<Scalar>& state,
+                                          const PlantRatesOf<Scalar>& first, const PlantVectorOf<Scalar>& reached,
+                                          Given<Scalar> elapsed_s) {
+  const Scalar displacement = reached[state_x] - state.position_m;
+  const auto age_of = [&](const FrictionConstantsOf<Scalar>& friction, const FrictionStateOf<Scalar>& memory,
+                          Scalar breakaway_N) {
+    return aged(friction, memory.age, slip_m(friction, memory, displacement, breakaway_N), Scalar(elapsed_s));
   };
-  ContactAges ages{};
+  ContactAgesOf<Scalar> ages{};
   if (c.hydraulics) ages.spool = age_of(c.spool_friction, state.spool_friction, first.spool_breakaway_N);
   if (c.solenoid_a) {
     ages.armature_a = age_of(c.armature_a_friction, state.solenoid_a.friction, first.armature_a_breakaway_N);
@@ -60,21 +54,37 @@ inline ContactAges contact_ages(const PlantConstants& c, const PlantState& state
   return ages;
 }
 
-inline ContactAges contact_ages(const PlantState& state) {
+template <class Scalar>
+inline ContactAgesOf<Scalar> contact_ages(const PlantStateOf<Scalar>& state) {
   return {state.spool_friction.age, state.solenoid_a.friction.age, state.solenoid_b.friction.age};
 }
 
-/// Moves the state to `reached` after a time h: `first` and `last` are the rates at the step's start and end.
-inline void commit(const PlantParameters& p, const PlantConstants& c, PlantState& state, const PlantVector& reached,
-                   const PlantRates& first, const PlantRates& last, const ContactAges& ages, double h,
-                   PlantLosses& losses) {
-  const double displacement = reached[state_x] - state.position_m;
-  const auto commit_flux = [&](const Solenoid& solenoid, const SolenoidConstants& constants, SolenoidState& memory,
-                               SolenoidVector states, const SolenoidRates& rates, SolenoidLosses& loss) {
-    const double iron_J_per_m3 =
-        magnetise(constants.iron, memory.iron, states[state_flux] * constants.per_iron_area_m2);
-    add_losses(solenoid, constants, memory, rates, iron_J_per_m3, h, loss);
-    commit(memory, states);
+/// Moves the state to `reached` after a time h: `first` and `last` are the rates at the step's start and end. Of
+/// several valves, those that take it.
+template <class Scalar>
+inline void commit(const PlantParametersOf<Scalar>& p, const PlantConstantsOf<Scalar>& c, PlantStateOf<Scalar>& state,
+                   const PlantVectorOf<Scalar>& reached, const PlantRatesOf<Scalar>& first,
+                   const PlantRatesOf<Scalar>& last, const ContactAgesOf<Scalar>& ages, Given<Scalar> h,
+                   PlantLossesOf<Scalar>& losses, const Given<Mask<Scalar>>& taken = true) {
+  const Scalar displacement = reached[state_x] - state.position_m;
+  const auto commit_flux = [&](const SolenoidOf<Scalar>& solenoid, const SolenoidConstantsOf<Scalar>& constants,
+                               SolenoidStateOf<Scalar>& memory, SolenoidVectorOf<Scalar> states,
+                               const SolenoidRatesOf<Scalar>& rates, SolenoidLossesOf<Scalar>& loss) {
+    const Scalar iron_J_per_m3 =
+        magnetise(constants.iron, memory.iron, states[state_flux] * constants.per_iron_area_m2, taken);
+    SolenoidLossesOf<Scalar> sum = loss;
+    add_losses(solenoid, constants, memory, rates, iron_J_per_m3, Scalar(h), sum);
+    take(taken, loss, sum);
+    take(taken, memory.flux_linkage_Wb, states[state_linkage]);
+    take(taken, memory.flux_Wb, states[state_flux]);
+    take(taken, memory.skin_current_A, states[state_skin]);
+  };
+  const auto commit_contact = [&](const FrictionConstantsOf<Scalar>& friction, FrictionStateOf<Scalar>& memory,
+                                  Scalar breakaway_N, Scalar age) {
+    FrictionStateOf<Scalar> moved = memory;
+    slide(friction, moved, displacement, breakaway_N);
+    moved.age = age;
+    take(taken, memory, moved);
   };
   if (c.magnetic_a) {
     commit_flux(p.solenoid_a, c.solenoid_a_constants, state.solenoid_a, solenoid_a_of(reached), first.solenoid_a,
@@ -85,21 +95,24 @@ inline void commit(const PlantParameters& p, const PlantConstants& c, PlantState
                 losses.solenoid_b);
   }
   if (c.solenoid_a) {
-    slide(c.armature_a_friction, state.solenoid_a.friction, displacement, last.armature_a_breakaway_N);
-    state.solenoid_a.friction.age = ages.armature_a;
+    commit_contact(c.armature_a_friction, state.solenoid_a.friction, last.armature_a_breakaway_N, ages.armature_a);
   }
   if (c.solenoid_b) {
-    slide(c.armature_b_friction, state.solenoid_b.friction, displacement, last.armature_b_breakaway_N);
-    state.solenoid_b.friction.age = ages.armature_b;
+    commit_contact(c.armature_b_friction, state.solenoid_b.friction, last.armature_b_breakaway_N, ages.armature_b);
   }
   if (c.hydraulics) {
-    slide(c.spool_friction, state.spool_friction, displacement, last.spool_breakaway_N);
-    state.spool_friction.age = ages.spool;
-    commit(state, hydraulics_of(reached));
+    commit_contact(c.spool_friction, state.spool_friction, last.spool_breakaway_N, ages.spool);
+    const HydraulicVectorOf<Scalar> states = hydraulics_of(reached);
+    take(taken, state.pressure_P_Pa, larger(states[state_p_P], Scalar(cavitation_pressure_Pa)));
+    take(taken, state.pressure_A_Pa, larger(states[state_p_A], Scalar(cavitation_pressure_Pa)));
+    take(taken, state.pressure_B_Pa, larger(states[state_p_B], Scalar(cavitation_pressure_Pa)));
+    take(taken, state.hold_flow_m3_per_s, states[state_Q_i]);
+    take(taken, state.cylinder_position_m, states[state_x_c]);
+    take(taken, state.cylinder_velocity_m_per_s, states[state_v_c]);
   }
-  state.position_m = reached[state_x];
-  state.velocity_m_per_s = reached[state_v];
-  state.time_s += h;
+  take(taken, state.position_m, reached[state_x]);
+  take(taken, state.velocity_m_per_s, reached[state_v]);
+  take(taken, state.time_s, state.time_s + h);
 }
 
 }  // namespace spoolflow::rig

@@ -20,10 +20,11 @@ enum class Arrangement {
 };
 
 /// Internal steps (plant_integrator.hpp): halved until the estimated error of each is within the tolerance.
-struct Integration {
-  double longest_step_s = 1e-4;
-  double shortest_step_s = 1.5e-6;
-  double tolerance = 5e-5;
+template <class Scalar>
+struct IntegrationOf {
+  Scalar longest_step_s = 1e-4;
+  Scalar shortest_step_s = 1.5e-6;
+  Scalar tolerance = 5e-5;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -34,24 +35,26 @@ struct Integration {
           self.tolerance);
   }
 };
+using Integration = IntegrationOf<double>;
 
-struct PlantParameters {
+template <class Scalar>
+struct PlantParametersOf {
   Arrangement arrangement = Arrangement::valve;
-  Solenoid solenoid_a;
-  Solenoid solenoid_b;
-  Spool spool;
-  Spring spring_a;  ///< compressed for x < 0
-  Spring spring_b;  ///< compressed for x > 0
-  Friction spool_friction;
-  MeteringEdge edge_PA;
-  MeteringEdge edge_PB;
-  MeteringEdge edge_AT;
-  MeteringEdge edge_BT;
-  FlowForce flow_force;
-  Oil oil;
-  Supply supply;
-  Load load;
-  Integration integration;
+  SolenoidOf<Scalar> solenoid_a;
+  SolenoidOf<Scalar> solenoid_b;
+  SpoolOf<Scalar> spool;
+  SpringOf<Scalar> spring_a;  ///< compressed for x < 0
+  SpringOf<Scalar> spring_b;  ///< compressed for x > 0
+  FrictionOf<Scalar> spool_friction;
+  MeteringEdgeOf<Scalar> edge_PA;
+  MeteringEdgeOf<Scalar> edge_PB;
+  MeteringEdgeOf<Scalar> edge_AT;
+  MeteringEdgeOf<Scalar> edge_BT;
+  FlowForceOf<Scalar> flow_force;
+  OilOf<Scalar> oil;
+  SupplyOf<Scalar> supply;
+  LoadOf<Scalar> load;
+  IntegrationOf<Scalar> integration;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -72,5 +75,6 @@ struct PlantParameters {
     visit("integration", self.integration);
   }
 };
+using PlantParameters = PlantParametersOf<double>;
 
 }  // namespace spoolflow::rig

@@ -17,21 +17,22 @@
 
 namespace spoolflow::rig {
 
-struct Solenoid {
-  Coil coil;
-  CoilHeat heat;
-  MagneticCircuit circuit;
-  MagneticMaterial iron;
-  MagneticHysteresis hysteresis;
-  EddyCurrents eddy;
-  Friction friction{.base_N = 0.3,
-                    .stiction_ratio = 1.2,
-                    .ageing_gain = 0.2,
-                    .ageing_time_s = 10.0,
-                    .ageing_distance_m = 3e-5,
-                    .contact_stiffness_N_per_m = 1.0e6,
-                    .viscosity_exponent = 0.0};
-  double side_friction_coefficient = 0.06;
+template <class Scalar>
+struct SolenoidOf {
+  CoilOf<Scalar> coil;
+  CoilHeatOf<Scalar> heat;
+  MagneticCircuitOf<Scalar> circuit;
+  MagneticMaterialOf<Scalar> iron;
+  MagneticHysteresisOf<Scalar> hysteresis;
+  EddyCurrentsOf<Scalar> eddy;
+  FrictionOf<Scalar> friction{.base_N = 0.3,
+                              .stiction_ratio = 1.2,
+                              .ageing_gain = 0.2,
+                              .ageing_time_s = 10.0,
+                              .ageing_distance_m = 3e-5,
+                              .contact_stiffness_N_per_m = 1.0e6,
+                              .viscosity_exponent = 0.0};
+  Scalar side_friction_coefficient = 0.06;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -46,14 +47,17 @@ struct Solenoid {
           self.side_friction_coefficient);
   }
 };
+using Solenoid = SolenoidOf<double>;
 
-struct SolenoidState {
-  double flux_linkage_Wb = 0.0;  ///< of the winding
-  double flux_Wb = 0.0;          ///< through iron and working gap
-  double skin_current_A = 0.0;   ///< j_2 of the eddy ladder
-  IronMemory iron;
-  CoilHeatState heat;
-  FrictionState friction;
+template <class Scalar>
+struct SolenoidStateOf {
+  Scalar flux_linkage_Wb = 0.0;  ///< of the winding
+  Scalar flux_Wb = 0.0;          ///< through iron and working gap
+  Scalar skin_current_A = 0.0;   ///< j_2 of the eddy ladder
+  IronMemoryOf<Scalar> iron;
+  CoilHeatStateOf<Scalar> heat;
+  FrictionStateOf<Scalar> friction;
 };
+using SolenoidState = SolenoidStateOf<double>;
 
 }  // namespace spoolflow::rig

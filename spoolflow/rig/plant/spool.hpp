@@ -9,18 +9,19 @@
 
 namespace spoolflow::rig {
 
-struct Spool {
-  double spool_mass_kg = 0.060;
-  double armature_mass_kg = 0.055;
-  double stroke_m = 2.4e-3;
-  double end_stop_m = 2.5e-3;
-  double end_stop_stiffness_N_per_m = 2.0e7;
-  double end_stop_damping_s_per_m = 1.5;
-  double washer_play_m = 15.0e-6;
-  double diameter_m = 12.0e-3;
-  double land_length_m = 28.0e-3;
-  double clearance_m = 5.0e-6;
-  double armature_drag_m = 250.0;
+template <class Scalar>
+struct SpoolOf {
+  Scalar spool_mass_kg = 0.060;
+  Scalar armature_mass_kg = 0.055;
+  Scalar stroke_m = 2.4e-3;
+  Scalar end_stop_m = 2.5e-3;
+  Scalar end_stop_stiffness_N_per_m = 2.0e7;
+  Scalar end_stop_damping_s_per_m = 1.5;
+  Scalar washer_play_m = 15.0e-6;
+  Scalar diameter_m = 12.0e-3;
+  Scalar land_length_m = 28.0e-3;
+  Scalar clearance_m = 5.0e-6;
+  Scalar armature_drag_m = 250.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -45,5 +46,6 @@ struct Spool {
           self.armature_drag_m);
   }
 };
+using Spool = SpoolOf<double>;
 
 }  // namespace spoolflow::rig

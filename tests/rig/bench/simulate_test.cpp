@@ -45,6 +45,35 @@ TEST(Simulate, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
   EXPECT_NE(bytes_of(8), first);
 }
 
+TEST(Simulate, ValvesTogetherGiveTheBytesThatEachGivesAlone) {
+  std::vector<ValveUnderTest> valves;
+  std::vector<BenchRun> runs;
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ValveUnderTest valve;
+    valve.spread.amount = 1;
+    valve.seed = seed;
+    valves.push_back(as_built(valve));
+    const char* const protocol = seed == 4 ? "steps" : "duty_cycle";
+    runs.push_back(beginning(plan(protocol_named(protocol), valves.back(), seed), seed == 2 ? 0.8 : 1.2));
+    runs.back().position_faults_per_s = 5;
+    seeds.push_back(seed);
+  }
+  const auto text_of = [](const Simulation& simulation, const BenchRun& run) {
+    std::ostringstream text;
+    write_recording(text, simulation.recording, run);
+    write_truth(text, simulation.truth);
+    return text.str();
+  };
+  const std::vector<Simulation> together = simulate_together(valves, runs, seeds, {.with_truth = true});
+  ASSERT_EQ(together.size(), valves.size());
+  for (std::size_t k = 0; k < valves.size(); ++k) {
+    EXPECT_EQ(text_of(together[k], runs[k]),
+              text_of(simulate(valves[k], runs[k], seeds[k], {.with_truth = true}), runs[k]))
+        << "valve " << k;
+  }
+}
+
 class EveryProtocol : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(EveryProtocol, FillsItsChannelsAndItsTruthAtTheSameTimes) {
