@@ -20,8 +20,6 @@ inline constexpr int long_window_blocks = 8;
 inline constexpr double long_window_deviations = 1.5;
 /// Windows travel evenly where the longest is no more than so many times the shortest, and a threshold more.
 inline constexpr double even_travel_ratio = 4;
-/// They travel by this at least [m], however little the noise.
-inline constexpr double least_travel_of_windows_m = 1e-12;
 /// The newest is no less than one over this of the others, less a threshold: a spool that slows down more is about to
 /// stop, and friction to fall off its limit.
 inline constexpr double slowing_travel_ratio = 2;

@@ -28,7 +28,7 @@ template <class T, class Mean>
   const T newest_m = mean_m(0) - before;
   const T size_m = magnitude(newest_m);
   const MotionOf<T> rest = MotionOf<T>(Motion::rest);
-  const T least_travel_m = larger(threshold_m, T(least_travel_of_windows_m));
+  const T least_travel_m = larger(threshold_m, T(1e-12));  // more than none, without noise, too
   Mask<T> even = !(size_m < least_travel_m);
   if (!any(even)) return rest;
   const Mask<T> opens = newest_m > T(0);
