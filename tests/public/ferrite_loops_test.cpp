@@ -16,11 +16,12 @@ struct FerriteLoop {
 };
 
 Iron ferrite() {
-  return iron_of({.relative_permeability = 2000, .saturation_T = 1.10, .knee_width_T = 0.06},
-                 {.kind = HysteresisKind::preisach,
-                  .coercive_field_A_per_m = 37.4,
-                  .jiles_atherton = {},
-                  .preisach = {.reversible_share = 0.228, .coercive_spread = 1.0, .interaction_field_A_per_m = 19.5}});
+  return iron_of<double>(
+      {.relative_permeability = 2000, .saturation_T = 1.10, .knee_width_T = 0.06},
+      {.kind = HysteresisKind::preisach,
+       .coercive_field_A_per_m = 37.4,
+       .jiles_atherton = {},
+       .preisach = {.reversible_share = 0.228, .coercive_spread = 1.0, .interaction_field_A_per_m = 19.5}});
 }
 
 /// RMS deviation over the loop's peak. The flux density is told; the measured slope turns a deviation of the field
