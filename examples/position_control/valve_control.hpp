@@ -20,7 +20,7 @@ struct ControlSettings {
 
   float most_flow_m3_per_s = 5.5e-4F;  ///< that the machine can bear: 33 L/min
   float limit_per_s = 40;              ///< m/s of opening for each m3/s above or below it
-  float limit_lead_m = 0.2e-3F;        ///< so far the limit goes ahead of the spool: it is near when it is needed
+  float limit_lead_m = 0.1e-3F;        ///< so far the limit goes ahead of the spool: it is near when it is needed
   float cautious_m = 0.9e-3F;          ///< the most opening while the flow is not known
   float longest_doubt_s = 0.05F;       ///< that the flow limit waits for a fault to pass
   float longest_hold_s = 0.02F;        ///< that the currents stay where the position is missing

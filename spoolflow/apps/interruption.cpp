@@ -120,6 +120,8 @@ int wait_for_the_end() {
   const sigset_t ends = interruptions();
   int number = 0;
   sigwait(&ends, &number);
+  // The end is under way: another signal, as `timeout` sends to the whole group, would only turn it into a failure.
+  for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_IGN);
   return number;
 }
 

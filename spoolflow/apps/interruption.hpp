@@ -41,7 +41,7 @@ class InterruptionPause {
   InterruptionPause& operator=(const InterruptionPause&) = delete;
 };
 
-/// Until one comes; which it was. They must be held back in every thread.
+/// Until one comes; which it was. They must be held back in every thread; more of them change nothing from then on.
 int wait_for_the_end();
 
 }  // namespace spoolflow::apps

@@ -253,9 +253,10 @@ TEST(BudgetAlongARun, PredictsTheShareInTheBandThatAReferenceShowsWhoseErrorsAre
     const BandShares shares = *beside(model, of_the_sensor_alone(), [&](std::size_t k) {
                                  return says.flow_m3_per_s[k] + error(random) * says.combined_m3_per_s[k];
                                }).shares;
-    // 134 references know a share to 4 % at worst (one standard deviation), and so do 60 trials at each of them.
-    EXPECT_NEAR(shares.in_band_by_budget, shares.in_band, 0.06) << width;
-    EXPECT_NEAR(shares.in_band_by_trials, shares.in_band, 0.07) << width;
+    // 134 references know a share to 4 % at worst (one standard deviation), and so do 60 trials at each of them: their
+    // difference is known to 6 %.
+    EXPECT_NEAR(shares.in_band_by_budget, shares.in_band, 0.08) << width;
+    EXPECT_NEAR(shares.in_band_by_trials, shares.in_band, 0.1) << width;
     EXPECT_NEAR(shares.in_budget_interval, 0.95, 0.04) << width;
     held.push_back(shares.in_band);
   }

@@ -26,6 +26,8 @@ TEST_F(Live, RunsUntilItIsEnded) {
     RunningCommand live(folder, {"live", "--listen", "127.0.0.1:0", "--store", "s.sqlite"});
     EXPECT_THAT(live.message_line(), StartsWith("8 valves; page at http://127.0.0.1:"));
     live.signal(ended_by);
+    ::usleep(20000);
+    live.signal(SIGTERM);  // as `timeout` does: to the program, and to its group
     EXPECT_EQ(live.wait(), 0);
     EXPECT_THAT(live.message_line(), HasSubstr("what came until now is kept"));
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// What of C++20 the standard library of emscripten 3.1.6 (libc++ 13) lacks and this project uses: algorithms over
-/// ranges, and numbers in their shortest text. Included before every source of the playground's build and of no other.
+/// ranges, bits taken for another type, and numbers in their shortest text. Included before every source of the
+/// playground's build and of no other.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -43,6 +44,13 @@ to_chars_result to_chars(char* first, char* last, Number value) {
   }
   if (last - first < static_cast<ptrdiff_t>(text.size())) return {last, errc::value_too_large};
   return {std::copy(text.begin(), text.end(), first), errc()};
+}
+
+/// The compiler knows it, the library's header does not yet.
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From));
+  return __builtin_bit_cast(To, from);
 }
 
 /// Memory that nobody reads before it is written; zeros are as good.
