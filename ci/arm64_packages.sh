@@ -2,6 +2,7 @@
 # arm64_packages.sh FOLDER: the Debian packages of the command and the libraries for 64-bit Arm, cross-compiled here, in FOLDER/packages.
 # FOLDER also keeps what that takes (libraries of Debian's arm64 packages, the build), so that a second call is quick. Needs Debian's package
 # archive, g++-aarch64-linux-gnu, dpkg-dev, a built release of this machine's own (pages and libraries for other platforms come from it).
+# Not yet run to its end: it configures and compiles the first folders.
 set -eu
 folder=$(mkdir -p "$1" && realpath "$1")
 root=$(cd "$(dirname "$0")/.." && pwd)
