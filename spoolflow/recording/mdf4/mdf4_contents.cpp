@@ -65,7 +65,7 @@ class Groups {
       const auto master = std::ranges::find(out_.groups, group.master, &Mdf4Group::at);
       const bool known = group.master != 0 && master != out_.groups.end();
       if (known && master->count != group.count) {
-        refuse_mdf4(fmt::format("{}: group '{}'", file_.name(), group.name),
+        refuse_mdf4(group.what(),
                     fmt::format("{} records, where the group that holds its time has {}", group.count, master->count));
       }
       out_.time_group.push_back(known ? static_cast<std::size_t>(master - out_.groups.begin()) : g);

@@ -39,6 +39,9 @@ struct Mdf4Group {
   std::vector<Mdf4Channel> channels;
   std::uint64_t at = 0;      ///< byte of the file
   std::uint64_t master = 0;  ///< byte of the group that holds its time (MDF 4.2); 0: itself
+
+  /// "run.mf4: group 'rig'", for messages.
+  [[nodiscard]] std::string what() const { return records->stream.file() + ": group '" + name + "'"; }
 };
 
 struct Mdf4Contents {

@@ -12,6 +12,11 @@ namespace {
 constexpr std::uint64_t packed_head_bytes = 24;
 constexpr std::uint64_t largest_unpacked = std::uint64_t{64} << 20U;  // the standard recommends 4 MiB
 
+/// Data of records, of values by columns, or of what is invalid of these; `kind` without the block's ##.
+bool holds_data(std::string_view kind) {
+  return kind == "DT" || kind == "DV" || kind == "DI";
+}
+
 }  // namespace
 
 Mdf4Stream::Mdf4Stream(const FileBytes& file, std::uint64_t at, DeclaredSize& declared, Mdf4Part part) : file_(file) {
@@ -73,7 +78,7 @@ void Mdf4Stream::add_list(std::uint64_t at, DeclaredSize& declared) {
 void Mdf4Stream::add(std::uint64_t at, DeclaredSize& declared) {
   const Mdf4Head head = read_head(file_, at);
   if (head.id == "##DZ") return add_packed(head, declared);
-  if (head.id != "##DT" && head.id != "##DV" && head.id != "##DI") {
+  if (!holds_data(std::string_view(head.id).substr(2))) {
     refuse_mdf4(fmt::format("{}: the block {} at byte {}", file_.name(), head.id.substr(2), at),
                 "samples are said to stand there, which it does not hold");
   }
@@ -94,7 +99,7 @@ void Mdf4Stream::add_packed(const Mdf4Head& head, DeclaredSize& declared) {
   bytes.skip(1);
   const std::uint32_t row_bytes = bytes.u32();
   const std::uint64_t unpacked = bytes.u64(), packed = bytes.u64();
-  if (of != "DT" && of != "DV" && of != "DI") {
+  if (!holds_data(of)) {
     refuse_mdf4(what, fmt::format("it holds a block {}, where DT, DV or DI is wanted", of));
   }
   if (kind > 1) refuse_mdf4(what, fmt::format("it is packed in way {}, where 0 and 1 are known", kind));

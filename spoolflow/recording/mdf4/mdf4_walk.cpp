@@ -29,9 +29,7 @@ const std::uint8_t* Mdf4Bytes::from(std::uint64_t at, std::uint64_t count) {
 }
 
 Mdf4Walk::Mdf4Walk(const Mdf4Group& group)
-    : group_(&group),
-      bytes_(group.records->stream, fmt::format("{}: group '{}'", group.records->stream.file(), group.name)),
-      apart_(group.records->invalid, fmt::format("{}: group '{}'", group.records->stream.file(), group.name)) {}
+    : group_(&group), bytes_(group.records->stream, group.what()), apart_(group.records->invalid, group.what()) {}
 
 std::uint64_t Mdf4Walk::next_own() {
   const Mdf4Records& records = *group_->records;
@@ -43,8 +41,7 @@ std::uint64_t Mdf4Walk::next_own() {
     if (number == group_->number || records.bytes.size() == 1) return at_;
     const auto kind = records.bytes.find(number);
     if (kind == records.bytes.end()) {
-      refuse_mdf4(fmt::format("{}: group '{}'", group_->records->stream.file(), group_->name),
-                  fmt::format("records of the number {}, which no group has", number));
+      refuse_mdf4(group_->what(), fmt::format("records of the number {}, which no group has", number));
     }
     at_ += records.of_any_length.at(number) ? length_bytes + whole(bytes_.from(at_, length_bytes), length_bytes)
                                             : kind->second;
