@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/live/event_text.hpp"
+#include "spoolflow/live/work_together.hpp"
 #include "spoolflow/parallel/pace.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -17,6 +18,9 @@ struct Engine::Worker {
   std::mutex mutex;
   std::condition_variable_any arrived;
   std::vector<Place*> pending;
+  WorkTogether together;
+  std::vector<std::vector<SampleBlock>> blocks;  ///< of each valve that is worked on now
+  std::vector<ValveTurn> turns;
   std::jthread thread;  ///< last: it uses the others
 
   void tell(Place& place) {
@@ -28,7 +32,6 @@ struct Engine::Worker {
   }
   void run(const std::stop_token& stop) {
     std::vector<Place*> now;
-    std::vector<SampleBlock> blocks;
     while (!stop.stop_requested()) {
       {
         std::unique_lock lock(mutex);
@@ -36,10 +39,25 @@ struct Engine::Worker {
         now.clear();
         std::swap(now, pending);
       }
-      for (Place* place : now) {
-        place->intake->take(blocks);
-        for (const SampleBlock& block : blocks) place->valve->work(block);
+      for (std::span<Place* const> left = now; !left.empty();) {
+        const std::size_t count = std::min(left.size(), WorkTogether::most_turns);
+        work_on(left.first(count));
+        left = left.subspan(count);
       }
+    }
+  }
+
+  /// All that waits for these valves, the next block of each at once. Valves whose samples have not come yet are not
+  /// waited for.
+  void work_on(std::span<Place* const> places) {
+    blocks.resize(std::max(blocks.size(), places.size()));
+    for (std::size_t k = 0; k < places.size(); ++k) places[k]->intake->take(blocks[k]);
+    for (std::size_t number = 0;; ++number) {
+      turns.clear();
+      for (std::size_t k = 0; k < places.size(); ++k)
+        if (number < blocks[k].size()) turns.push_back({places[k]->valve.get(), &blocks[k][number]});
+      if (turns.empty()) return;
+      together.work(turns);
     }
   }
 };

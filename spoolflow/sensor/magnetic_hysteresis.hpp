@@ -120,6 +120,20 @@ template <bool Rising, unsigned K, class T>
   }
 }
 
+/// Which stops yield on the way to a flux, of several valves.
+template <class T>
+[[gnu::always_inline]] constexpr std::array<Mask<T>, hysteresis_elements> yielding_stops(
+    const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state, T flux) {
+  const Mask<T> falls = flux < state.flux;
+  std::array<Mask<T>, hysteresis_elements> yields;
+  Mask<T> before(true);
+  for (unsigned k = 0; k < hysteresis_elements; ++k) {
+    const T held = select(falls, elastic<false>(state.centre[k], flux), elastic<true>(state.centre[k], flux));
+    yields[k] = before = before && hysteresis.threshold[k] < held;
+  }
+  return yields;
+}
+
 }  // namespace detail
 
 template <class T>
@@ -131,15 +145,22 @@ constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteres
     const HysteresisPoint<T> falling = detail::answer_of_stops<false, 0>(hysteresis, state, flux, share);
     return {-falling.value, falling.slope};
   } else {
-    HysteresisPoint<T> point{T(0), T(0)};
+    // The same sums in the same order, stop by stop.
+    const Mask<T> falls = flux < state.flux;
+    const std::array<Mask<T>, hysteresis_elements> yields = detail::yielding_stops(hysteresis, state, flux);
+    T without_flux(0), increase(0), slope_without_flux(0), slope_increase(0);
     for (unsigned k = 0; k < hysteresis_elements; ++k) {
-      const T stiffness = hysteresis.stiffness[k] + share * hysteresis.stiffness_increase[k];
-      const T deflection = flux - state.centre[k];
-      const T kept = limited(deflection, -hysteresis.threshold[k], hysteresis.threshold[k]);
-      point.value += stiffness * kept;
-      point.slope += select(magnitude(deflection) <= hysteresis.threshold[k], stiffness, T(0));
+      const T held = select(falls, state.centre[k] - flux, flux - state.centre[k]);
+      const T times = select(yields[k], hysteresis.threshold[k], held);
+      without_flux += hysteresis.stiffness[k] * times;
+      increase += hysteresis.stiffness_increase[k] * times;
     }
-    return point;
+    for (unsigned k = hysteresis_elements; k-- > 0;) {
+      slope_without_flux += select(yields[k], T(0), hysteresis.stiffness[k]);
+      slope_increase += select(yields[k], T(0), hysteresis.stiffness_increase[k]);
+    }
+    const T value = without_flux + share * increase;
+    return {select(falls, -value, value), slope_without_flux + share * slope_increase};
   }
 }
 
@@ -153,8 +174,12 @@ constexpr T deflection(const HysteresisState<T>& state, unsigned k) {
 template <class T>
 constexpr void advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
   if constexpr (!one_valve<T>) {
-    for (unsigned k = 0; k < hysteresis_elements; ++k)
-      state.centre[k] = limited(state.centre[k], flux - hysteresis.threshold[k], flux + hysteresis.threshold[k]);
+    const Mask<T> falls = flux < state.flux;
+    const std::array<Mask<T>, hysteresis_elements> yields = detail::yielding_stops(hysteresis, state, flux);
+    for (unsigned k = 0; k < hysteresis_elements; ++k) {
+      const T moved = select(falls, flux + hysteresis.threshold[k], flux - hysteresis.threshold[k]);
+      state.centre[k] = select(yields[k], moved, state.centre[k]);
+    }
   } else if (flux < state.flux) {
     detail::move_stops<false, 0>(hysteresis, state, flux);
   } else {
