@@ -1,6 +1,7 @@
 #include "spoolflow/estimation/running_group.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <new>
 #include <stdexcept>
@@ -15,8 +16,10 @@ using batch::NumberKind;
 
 /// So many samples of all valves are brought side by side at a time.
 constexpr std::size_t rows_at_once = 32;
-/// Fewer valves are stepped one after the other (bench/valve_batch).
+/// Fewer valves are stepped one after the other (bench/running_group).
 constexpr std::size_t least_together = 3;
+/// In the widest registers.
+constexpr std::size_t most_valves = 8;
 
 const batch::GroupSteps* observer_steps(GroupRegisters registers) {
   if (registers == GroupRegisters::avx512) return &batch::observer_group_avx512;
@@ -104,7 +107,7 @@ std::vector<GroupRegisters> group_registers() {
   return out;
 }
 
-void RunningGroup::Kind::Free::operator()(void* memory) const {
+void RunningGroup::Lanes::Free::operator()(void* memory) const {
   ::operator delete(memory, std::align_val_t(alignment));
 }
 
@@ -112,18 +115,23 @@ RunningGroup::RunningGroup(GroupRegisters registers) {
   const auto known = group_registers();
   if (std::find(known.begin(), known.end(), registers) == known.end())
     throw std::invalid_argument("this processor or build has no registers of " + std::string(name(registers)));
-  if (registers == GroupRegisters::one_valve) return;
-  const auto begin = [](Kind& kind, const batch::GroupSteps* steps, std::span<const batch::NumberRun> runs) {
-    kind.steps = steps;
-    kind.state_runs = runs;
-    kind.lanes = {::operator new(steps->bytes, std::align_val_t(steps->alignment)), {steps->alignment}};
-  };
-  begin(observers_, observer_steps(registers), runs_of_numbers<sensor::ObserverState<double>>());
-  begin(whole_valves_, whole_valve_steps(registers), runs_of_numbers<sensor::WholeValveState<double>>());
-  const std::size_t valves = observers_.steps->valves;
-  samples_.resize(rows_at_once * valves * whole_valves_.steps->channels);
-  answers_.resize(rows_at_once * valves * batch::numbers_of_an_answer);
-  given_.resize(rows_at_once * valves);
+  for (const GroupRegisters of : known) {
+    if (of == GroupRegisters::one_valve || of > registers) continue;
+    begin(observers_, *observer_steps(of));
+    begin(whole_valves_, *whole_valve_steps(of));
+  }
+  observers_.state_runs = runs_of_numbers<sensor::ObserverState<double>>();
+  whole_valves_.state_runs = runs_of_numbers<sensor::WholeValveState<double>>();
+}
+
+/// Where others have less than half of the room, as many fill narrower registers better.
+void RunningGroup::begin(Kind& kind, const batch::GroupSteps& steps) {
+  const std::size_t least = kind.lanes.empty() ? least_together : steps.valves / 2 + 1;
+  kind.lanes.push_back(
+      {&steps, least, {::operator new(steps.bytes, std::align_val_t(steps.alignment)), {steps.alignment}}});
+  samples_.resize(std::max(samples_.size(), rows_at_once * steps.valves * steps.channels));
+  answers_.resize(std::max(answers_.size(), rows_at_once * steps.valves * batch::numbers_of_an_answer));
+  given_.resize(std::max(given_.size(), rows_at_once * steps.valves));
 }
 
 void RunningGroup::step(std::span<const GroupedRun> runs) {
@@ -132,14 +140,14 @@ void RunningGroup::step(std::span<const GroupedRun> runs) {
       throw std::invalid_argument("a run of " + std::to_string(run.samples.size()) + " samples has room for " +
                                   std::to_string(run.answers.size()) + " answers");
     }
-    Kind& kind = run.sensor->runs_whole() ? whole_valves_ : observers_;
+  }
+  for (const GroupedRun& run : runs) {
     const auto has_ports = [](const TimedSample& sample) { return measured(sample.ports); };
-    const bool alone = kind.steps == nullptr || run.sensor->runs_condensed() ||
-                       (run.sensor->runs_whole() && std::any_of(run.samples.begin(), run.samples.end(), has_ports));
-    if (alone) {
+    const bool whole = run.sensor->runs_whole();
+    if (run.sensor->runs_condensed() || (whole && std::any_of(run.samples.begin(), run.samples.end(), has_ports))) {
       step_alone(run, 0);
     } else {
-      kind.runs.push_back(&run);
+      (whole ? whole_valves_ : observers_).runs.push_back(&run);
     }
   }
   for (Kind* const kind : {&observers_, &whole_valves_}) step(*kind);
@@ -150,52 +158,58 @@ void RunningGroup::step(Kind& kind) {
   std::stable_sort(kind.runs.begin(), kind.runs.end(), [](const GroupedRun* one, const GroupedRun* other) {
     return one->samples.size() > other->samples.size();
   });
-  for (std::span<const GroupedRun* const> left = kind.runs; !left.empty();) {
-    const std::size_t count = std::min(left.size(), kind.steps->valves);
-    step_together(kind, left.first(count));
+  const std::size_t most = kind.lanes.empty() ? 1 : kind.lanes.back().steps->valves;
+  for (Runs left = kind.runs; !left.empty();) {
+    const std::size_t count = std::min(left.size(), most);
+    step_some(kind, left.first(count));
     left = left.subspan(count);
   }
   kind.runs.clear();
 }
 
-/// The longest first. Lanes that are left over, or whose samples are over, do as the first one does.
-void RunningGroup::step_together(Kind& kind, std::span<const GroupedRun* const> runs) {
-  const batch::GroupSteps& steps = *kind.steps;
+/// In the widest registers for which there are enough of them; as samples of some are over, in narrower ones.
+void RunningGroup::step_some(Kind& kind, Runs runs) {
   std::size_t done = 0;
-  if (runs.size() >= least_together) {
-    std::vector<const void*> models(2 * steps.valves);
-    for (std::size_t lane = 0; lane < steps.valves; ++lane) {
-      const auto [b, a] = models_of(*runs[lane < runs.size() ? lane : 0]->sensor);
-      models[lane] = b;
-      models[lane + steps.valves] = a;
-    }
-    if (!steps.begin(kind.lanes.get(), models.data())) throw std::logic_error("a model has more numbers than a group");
-    for (std::size_t lane = 0; lane < steps.valves; ++lane)
-      steps.load(kind.lanes.get(), lane, state_of(*runs[lane < runs.size() ? lane : 0]->sensor), kind.state_runs);
-    while (runs.size() >= least_together) {
-      const std::size_t until = runs.back()->samples.size();
-      for (; done < until; done += std::min(rows_at_once, until - done))
-        step_rows(kind, runs, done, std::min(rows_at_once, until - done));
-      while (!runs.empty() && runs.back()->samples.size() == until) {
-        steps.store(kind.lanes.get(), runs.size() - 1, state_of(*runs.back()->sensor), kind.state_runs);
-        runs = runs.first(runs.size() - 1);
-      }
-    }
-    for (std::size_t lane = 0; lane < runs.size(); ++lane)
-      steps.store(kind.lanes.get(), lane, state_of(*runs[lane]->sensor), kind.state_runs);
-  }
+  for (auto lanes = kind.lanes.rbegin(); lanes != kind.lanes.rend(); ++lanes)
+    if (runs.size() >= lanes->least) runs = step_together(kind, *lanes, runs, done);
   for (const GroupedRun* const run : runs) step_alone(*run, done);
 }
 
-void RunningGroup::put_sample(const Kind& kind, std::size_t row, std::size_t lane, const GroupedRun& run,
+/// The longest first. Lanes that are left over, or whose samples are over, do as the first one does. Returns the runs
+/// of which samples are left when they are too few, each with its first `done` samples done.
+RunningGroup::Runs RunningGroup::step_together(const Kind& kind, Lanes& lanes, Runs runs, std::size_t& done) {
+  const batch::GroupSteps& steps = *lanes.steps;
+  void* const memory = lanes.memory.get();
+  const auto in_lane = [&](std::size_t lane) -> RunningSensor& { return *runs[lane < runs.size() ? lane : 0]->sensor; };
+  std::array<const void*, 2 * most_valves> models{};
+  for (std::size_t lane = 0; lane < steps.valves; ++lane) {
+    const auto [b, a] = models_of(in_lane(lane));
+    models[lane] = b;
+    models[lane + steps.valves] = a;
+  }
+  if (!steps.begin(memory, models.data())) throw std::logic_error("a model has more numbers than there is room for");
+  for (std::size_t lane = 0; lane < steps.valves; ++lane)
+    steps.load(memory, lane, state_of(in_lane(lane)), kind.state_runs);
+  while (runs.size() >= lanes.least) {
+    const std::size_t until = runs.back()->samples.size();
+    while (done < until) {
+      const std::size_t count = std::min(rows_at_once, until - done);
+      step_rows(lanes, runs, done, count);
+      done += count;
+    }
+    for (; !runs.empty() && runs.back()->samples.size() == until; runs = runs.first(runs.size() - 1))
+      steps.store(memory, runs.size() - 1, state_of(*runs.back()->sensor), kind.state_runs);
+  }
+  for (std::size_t lane = 0; lane < runs.size(); ++lane)
+    steps.store(memory, lane, state_of(*runs[lane]->sensor), kind.state_runs);
+  return runs;
+}
+
+void RunningGroup::put_sample(const batch::GroupSteps& steps, std::size_t row, std::size_t lane, const GroupedRun& run,
                               TimedSample sample) {
-  const std::size_t valves = kind.steps->valves;
-  SteppedSample<double>& given = given_[row * valves + lane] = run.sensor->take(sample);
-  double* const at = samples_.data() + row * kind.steps->channels * valves + lane;
-  const auto put = [&](auto... numbers) {
-    std::size_t channel = 0;
-    ((at[valves * channel++] = numbers), ...);
-  };
+  SteppedSample<double>& given = given_[row * steps.valves + lane] = run.sensor->take(sample);
+  double* at = samples_.data() + row * steps.channels * steps.valves + lane;
+  const auto put = [&](auto... numbers) { ((*at = numbers, at += steps.valves), ...); };
   if (run.sensor->runs_whole()) {
     const auto whole = whole_valve_sample(given.sample, sample);
     put(whole.time_step_s, whole.current_a_A, whole.current_b_A, whole.voltage_a_V, whole.voltage_b_V, whole.position_m,
@@ -206,26 +220,25 @@ void RunningGroup::put_sample(const Kind& kind, std::size_t row, std::size_t lan
   }
 }
 
-void RunningGroup::step_rows(Kind& kind, std::span<const GroupedRun* const> runs, std::size_t from, std::size_t count) {
-  const std::size_t valves = kind.steps->valves, channels = kind.steps->channels;
+void RunningGroup::step_rows(const Lanes& lanes, Runs runs, std::size_t from, std::size_t count) {
+  const batch::GroupSteps& steps = *lanes.steps;
   for (std::size_t row = 0; row < count; ++row) {
     for (std::size_t lane = 0; lane < runs.size(); ++lane)
-      put_sample(kind, row, lane, *runs[lane], runs[lane]->samples[from + row]);
-    double* const first = samples_.data() + row * channels * valves;
-    for (std::size_t channel = 0; channel < channels; ++channel) {
-      double* const lanes = first + channel * valves;
-      std::fill(lanes + runs.size(), lanes + valves, lanes[0]);
-    }
+      put_sample(steps, row, lane, *runs[lane], runs[lane]->samples[from + row]);
+    double* numbers = samples_.data() + row * steps.channels * steps.valves;
+    for (std::size_t channel = 0; channel < steps.channels; ++channel, numbers += steps.valves)
+      std::fill(numbers + runs.size(), numbers + steps.valves, numbers[0]);
   }
-  kind.steps->step(kind.lanes.get(), samples_.data(), answers_.data(), count);
+  steps.step(lanes.memory.get(), samples_.data(), answers_.data(), count);
   for (std::size_t row = 0; row < count; ++row) {
     for (std::size_t lane = 0; lane < runs.size(); ++lane) {
-      const double* const at = answers_.data() + row * batch::numbers_of_an_answer * valves + lane;
-      const auto number = [&](std::size_t k) { return at[k * valves]; };
+      const double* const at = answers_.data() + row * batch::numbers_of_an_answer * steps.valves + lane;
+      const auto number = [&](std::size_t k) { return at[k * steps.valves]; };
       sensor::Estimate<double>& answer = runs[lane]->answers[from + row];
-      answer = {number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7),
-                static_cast<sensor::Status>(std::bit_cast<std::int64_t>(number(8)))};
-      runs[lane]->sensor->tell(answer, given_[row * valves + lane]);
+      answer = {number(0), number(1), number(2),
+                number(3), number(4), number(5),
+                number(6), number(7), static_cast<sensor::Status>(std::bit_cast<std::int64_t>(number(8)))};
+      runs[lane]->sensor->tell(answer, given_[row * steps.valves + lane]);
     }
   }
 }

@@ -16,8 +16,8 @@ namespace spoolflow::estimation {
 /// In what valves are stepped together.
 enum class GroupRegisters {
   one_valve,  ///< not at all: one after the other
-  avx2,       ///< eight valves in two registers
-  avx512,     ///< eight valves in one
+  avx2,       ///< four valves
+  avx512,     ///< eight, or four where there are no more
 };
 [[nodiscard]] std::string_view name(GroupRegisters registers);
 /// Those that this program has and this processor runs; the fastest is the last.
@@ -42,21 +42,30 @@ class RunningGroup {
   void step(std::span<const GroupedRun> runs);
 
  private:
-  /// The valves of one kind that are stepped at once, and the numbers of their states.
-  struct Kind {
-    const batch::GroupSteps* steps = nullptr;  ///< null: none
-    std::span<const batch::NumberRun> state_runs{};
+  using Runs = std::span<const GroupedRun* const>;
+  /// Valves side by side in one kind of registers.
+  struct Lanes {
     struct Free {
       std::size_t alignment;
       void operator()(void* memory) const;
     };
-    std::unique_ptr<void, Free> lanes{nullptr, {1}};
-    std::vector<const GroupedRun*> runs{};  ///< that are to be stepped
+    const batch::GroupSteps* steps;
+    std::size_t least;  ///< valves for which it pays
+    std::unique_ptr<void, Free> memory;
   };
+  /// Valves of one kind.
+  struct Kind {
+    std::vector<Lanes> lanes{};                      ///< the widest last
+    std::span<const batch::NumberRun> state_runs{};  ///< the numbers of their states
+    std::vector<const GroupedRun*> runs{};           ///< that are to be stepped
+  };
+  void begin(Kind& kind, const batch::GroupSteps& steps);
   void step(Kind& kind);
-  void step_together(Kind& kind, std::span<const GroupedRun* const> runs);
-  void step_rows(Kind& kind, std::span<const GroupedRun* const> runs, std::size_t from, std::size_t count);
-  void put_sample(const Kind& kind, std::size_t row, std::size_t lane, const GroupedRun& run, TimedSample sample);
+  void step_some(Kind& kind, Runs runs);
+  [[nodiscard]] Runs step_together(const Kind& kind, Lanes& lanes, Runs runs, std::size_t& done);
+  void step_rows(const Lanes& lanes, Runs runs, std::size_t from, std::size_t count);
+  void put_sample(const batch::GroupSteps& steps, std::size_t row, std::size_t lane, const GroupedRun& run,
+                  TimedSample sample);
 
   Kind observers_, whole_valves_;
   std::vector<double> samples_, answers_;     ///< row after row, in each the numbers, of each the valves side by side

@@ -1,5 +1,6 @@
 #pragma once
-/// Blocks of several valves worked on by one thread: their sensors are stepped together, all else is done valve by valve.
+/// Blocks of several valves worked on by one thread: their sensors are stepped together, all else is done valve by
+/// valve.
 #include <span>
 #include <vector>
 
@@ -30,7 +31,8 @@ class WorkTogether {
   void work_at_once(std::span<const ValveTurn> turns);
 
   estimation::RunningGroup group_;
-  std::vector<std::vector<estimation::TimedSample>> samples_;  ///< of each turn whose valve publishes, in the fleet's grid
+  std::vector<std::vector<estimation::TimedSample>>
+      samples_;  ///< of each turn whose valve publishes, in the fleet's grid
   std::vector<std::vector<sensor::Estimate<double>>> answers_;
   std::vector<estimation::GroupedRun> runs_;
 };

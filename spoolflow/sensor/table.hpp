@@ -51,8 +51,8 @@ constexpr const T* onward(const T* from, int index) {
   return from + index;
 }
 
-/// The share of the cell, at -0 with the sign that one valve has there. Floats tell places by their bits, and have none;
-/// a pack of double overloads it.
+/// The share of the cell, at -0 with the sign that one valve has there. Floats tell places by their bits, and have
+/// none; a pack of double overloads it.
 template <class T>
 constexpr T share_of_cell(T /*raw*/, T share) {
   return share;

@@ -176,9 +176,8 @@ TEST_P(RunningGroups, AnswerAndRememberWhatEachSensorOfOneDirectionDoesByItself)
     for (double& number : valve.edge.conductance.values) number /= scale;
     for (double& number : valve.spring.curve.values) number += 0.1 * static_cast<double>(m);
   }
-  auto valves = on_courses(13, false, [&](std::size_t v) {
-    return running_sensor(models[v % models.size()], Estimator::observer);
-  });
+  auto valves = on_courses(
+      13, false, [&](std::size_t v) { return running_sensor(models[v % models.size()], Estimator::observer); });
   const Met met = run(valves, 400, GetParam(), 1);
   EXPECT_EQ(met.apart, 0U);
   EXPECT_GT(met.sliding, 5000U);
@@ -192,8 +191,7 @@ TEST_P(RunningGroups, AnswerAndRememberWhatEachWholeValveDoesByItself) {
   std::vector<model::Model> models(3, model);
   models[1].observer->parameters.unsettled_load_share = 0.3;  // of some, a load that settles
   models[2].observer->parameters.closed_below_m = models[2].p_to_a->observer->parameters.closed_below_m = 0;
-  auto valves =
-      on_courses(11, true, [&](std::size_t v) { return running_sensor(models[v % 3], Estimator::observer); });
+  auto valves = on_courses(11, true, [&](std::size_t v) { return running_sensor(models[v % 3], Estimator::observer); });
   const Met met = run(valves, 400, GetParam(), 2);
   EXPECT_EQ(met.apart, 0U);
   EXPECT_GT(met.sliding, 5000U);

@@ -129,8 +129,9 @@ constexpr GroupSteps group_steps_of() {
 }
 
 template <class Register, int registers>
-using ObserversTogether = Together<ValvePack<Register, registers>, sensor::ObserverParameters<ValvePack<Register, registers>>,
-                                   sensor::ObserverState<ValvePack<Register, registers>>>;
+using ObserversTogether =
+    Together<ValvePack<Register, registers>, sensor::ObserverParameters<ValvePack<Register, registers>>,
+             sensor::ObserverState<ValvePack<Register, registers>>>;
 template <class Register, int registers>
 using WholeValvesTogether =
     WholeTogether<ValvePack<Register, registers>, sensor::WholeValveParameters<ValvePack<Register, registers>>,

@@ -63,8 +63,7 @@ class SideBySide {
   using Number = typename Pack::Number;
   static constexpr std::size_t valves_together = Pack::Lanes::valves;
   using Valves = std::array<Described<Number, Capacity>, valves_together>;
-  SideBySide(const Valves& valves, const Number* numbers)
-      : valves_(valves), numbers_(numbers) {}
+  SideBySide(const Valves& valves, const Number* numbers) : valves_(valves), numbers_(numbers) {}
 
   template <class Table>
   void table(const char* /*key*/, Table& table, int /*per_record*/) {
@@ -99,8 +98,7 @@ class SideBySide {
   void put(Table& table) {
     using Integer = typename Pack::Lanes::Integer;
     std::array<Integer, valves_together> first;
-    for (std::size_t k = 0; k < valves_together; ++k)
-      first[k] = static_cast<Integer>(valves_[k].at(next_) - numbers_);
+    for (std::size_t k = 0; k < valves_together; ++k) first[k] = static_cast<Integer>(valves_[k].at(next_) - numbers_);
     table.numbers = numbers_;
     table.first = std::bit_cast<typename Pack::Index>(first);
     ++next_;

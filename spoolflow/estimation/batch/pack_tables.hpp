@@ -101,7 +101,7 @@ template <class Register, class PairAt>
 
 /// Of two doubles a valve.
 template <class Register, class PairAt>
-  requires std::is_same_v<typename Register::value_type, double>
+requires std::is_same_v<typename Register::value_type, double>
 [[gnu::always_inline]] inline std::array<Register, 2> pairs_to_lanes(const PairAt& pair) {
   // What 128 bits hold of two valves is dealt out within them.
   const auto two = [&](std::size_t k) { return __builtin_shufflevector(pair(k), pair(k + 2), 0, 1, 2, 3); };

@@ -78,14 +78,15 @@ template <class Valves>
 }
 
 template <class Valves, class Describe>
-bool begin_valves(void* memory, const void* const* valves, const typename Valves::Pack::Number* numbers, const Describe& describe) {
+bool begin_valves(void* memory, const void* const* valves, const typename Valves::Pack::Number* numbers,
+                  const Describe& describe) {
   return put_together<typename Valves::Pack>((new (memory) Valves{})->parameters, valves, numbers, describe);
 }
 
 /// Flattened: a constructor of its own would be a function that others may share.
 template <class Valves, class Describe>
-[[gnu::flatten]] bool begin_whole_valves(void* memory, const void* const* valves, const typename Valves::Pack::Number* numbers,
-                                         const Describe& describe) {
+[[gnu::flatten]] bool begin_whole_valves(void* memory, const void* const* valves,
+                                         const typename Valves::Pack::Number* numbers, const Describe& describe) {
   auto& together = *new (memory) Valves{};
   auto& sides = together.sides;
   if (!put_together<typename Valves::Pack>(sides.b, valves, numbers, describe) ||

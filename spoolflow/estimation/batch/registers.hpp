@@ -105,10 +105,8 @@ template <class Register>
 }
 
 /// Of whole numbers that have room in 32 bits.
-template <class Register>
-[[gnu::always_inline]] inline typename Plain<Register>::Integers product(const typename Plain<Register>::Integers& a,
-                                                                         const typename Plain<Register>::Integers& b) {
-  using Integers = typename Plain<Register>::Integers;
+template <class Register, class Integers = typename Plain<Register>::Integers>
+[[gnu::always_inline]] inline Integers product(const Integers& a, const Integers& b) {
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Integers>(_mm512_maskz_mul_epi32(0xff, std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b)));

@@ -127,10 +127,8 @@ struct ValvePack {
   ValvePack() = default;
   explicit ValvePack(const std::array<Register, Count>& numbers) : lanes(numbers) {}
   template <class Value>
-    requires std::is_arithmetic_v<Value>
-  explicit ValvePack(Value value) {
-    lanes.fill(Register(static_cast<Number>(value)));
-  }
+  requires std::is_arithmetic_v<Value>
+  explicit ValvePack(Value value) { lanes.fill(Register(static_cast<Number>(value))); }
   explicit ValvePack(const Index& index)
       : ValvePack(each_register<ValvePack>([&](std::size_t r) { return numbers_of<Register>(index.lanes[r]); })) {}
 
@@ -209,8 +207,8 @@ PackMask<Register, Count> is_number(const ValvePack<Register, Count>& a) {
 }
 
 template <class Register, int Count>
-  requires std::is_same_v<typename Register::value_type, double>
-ValvePack<Register, Count> share_of_cell(const ValvePack<Register, Count>& raw, const ValvePack<Register, Count>& share) {
+requires std::is_same_v<typename Register::value_type, double> ValvePack<Register, Count> share_of_cell(
+    const ValvePack<Register, Count>& raw, const ValvePack<Register, Count>& share) {
   return select(raw == ValvePack<Register, Count>(0), raw, share);
 }
 
