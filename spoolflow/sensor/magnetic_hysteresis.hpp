@@ -120,18 +120,25 @@ template <bool Rising, unsigned K, class T>
   }
 }
 
-/// Which stops yield on the way to a flux, of several valves.
+/// Stops of several valves, each on its own way to a flux.
 template <class T>
-[[gnu::always_inline]] constexpr std::array<Mask<T>, hysteresis_elements> yielding_stops(
-    const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state, T flux) {
-  const Mask<T> falls = flux < state.flux;
+struct StopsOfValves {
+  T way;                                    ///< 1 rising, -1 falling
+  std::array<T, hysteresis_elements> held;  ///< how far each would stand, were it elastic
   std::array<Mask<T>, hysteresis_elements> yields;
+};
+
+template <class T>
+[[gnu::always_inline]] constexpr StopsOfValves<T> stops_of_valves(const MagneticHysteresis<T>& hysteresis,
+                                                                  const HysteresisState<T>& state, T flux) {
+  StopsOfValves<T> out;
+  out.way = select(flux < state.flux, T(-1), T(1));
   Mask<T> before(true);
   for (unsigned k = 0; k < hysteresis_elements; ++k) {
-    const T held = select(falls, elastic<false>(state.centre[k], flux), elastic<true>(state.centre[k], flux));
-    yields[k] = before = before && hysteresis.threshold[k] < held;
+    out.held[k] = out.way * elastic<true>(state.centre[k], flux);
+    out.yields[k] = before = before && hysteresis.threshold[k] < out.held[k];
   }
-  return yields;
+  return out;
 }
 
 }  // namespace detail
@@ -146,21 +153,18 @@ constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteres
     return {-falling.value, falling.slope};
   } else {
     // The same sums in the same order, stop by stop.
-    const Mask<T> falls = flux < state.flux;
-    const std::array<Mask<T>, hysteresis_elements> yields = detail::yielding_stops(hysteresis, state, flux);
-    T without_flux(0), increase(0), slope_without_flux(0), slope_increase(0);
+    const detail::StopsOfValves<T> stops = detail::stops_of_valves(hysteresis, state, flux);
+    detail::StopSum<T> answer, slope;
     for (unsigned k = 0; k < hysteresis_elements; ++k) {
-      const T held = select(falls, state.centre[k] - flux, flux - state.centre[k]);
-      const T times = select(yields[k], hysteresis.threshold[k], held);
-      without_flux += hysteresis.stiffness[k] * times;
-      increase += hysteresis.stiffness_increase[k] * times;
+      const T times = select(stops.yields[k], hysteresis.threshold[k], stops.held[k]);
+      answer.without_flux += hysteresis.stiffness[k] * times;
+      answer.increase += hysteresis.stiffness_increase[k] * times;
     }
     for (unsigned k = hysteresis_elements; k-- > 0;) {
-      slope_without_flux += select(yields[k], T(0), hysteresis.stiffness[k]);
-      slope_increase += select(yields[k], T(0), hysteresis.stiffness_increase[k]);
+      slope.without_flux += select(stops.yields[k], T(0), hysteresis.stiffness[k]);
+      slope.increase += select(stops.yields[k], T(0), hysteresis.stiffness_increase[k]);
     }
-    const T value = without_flux + share * increase;
-    return {select(falls, -value, value), slope_without_flux + share * slope_increase};
+    return {stops.way * answer.at(share), slope.at(share)};
   }
 }
 
@@ -174,12 +178,9 @@ constexpr T deflection(const HysteresisState<T>& state, unsigned k) {
 template <class T>
 constexpr void advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
   if constexpr (!one_valve<T>) {
-    const Mask<T> falls = flux < state.flux;
-    const std::array<Mask<T>, hysteresis_elements> yields = detail::yielding_stops(hysteresis, state, flux);
-    for (unsigned k = 0; k < hysteresis_elements; ++k) {
-      const T moved = select(falls, flux + hysteresis.threshold[k], flux - hysteresis.threshold[k]);
-      state.centre[k] = select(yields[k], moved, state.centre[k]);
-    }
+    const detail::StopsOfValves<T> stops = detail::stops_of_valves(hysteresis, state, flux);
+    for (unsigned k = 0; k < hysteresis_elements; ++k)
+      state.centre[k] = select(stops.yields[k], flux - stops.way * hysteresis.threshold[k], state.centre[k]);
   } else if (flux < state.flux) {
     detail::move_stops<false, 0>(hysteresis, state, flux);
   } else {
