@@ -55,7 +55,7 @@ struct Twins {
 /// What was met on the way.
 struct Met {
   std::uint32_t status = 0;
-  std::size_t apart = 0, sliding = 0, steps_together = 0;
+  std::size_t apart = 0, sliding = 0;
 };
 
 /// Round after round some of the valves get some samples, as many as chance has it, in blocks that differ in length.
