@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/fleet/blocks/block.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::live {
@@ -77,7 +78,9 @@ std::string all_of(ValveAtWork& valve, bool with_indicators) {
                      number(row.upper_max_m3_per_s), number(row.energy_J), row.status);
   for (const OutboxBlock& block : commit.blocks) {
     out += fmt::format("block {}:", block.number);
-    for (const std::uint8_t byte : block.bytes) out += fmt::format(" {}", byte);
+    fleet::Block written = std::get<fleet::Block>(fleet::read_block(block.bytes));
+    written.wall_ms = 0;  // when it was cut
+    for (const std::uint8_t byte : fleet::write_block(written)) out += fmt::format(" {}", byte);
     out += '\n';
   }
   for (const KeptIndicator& one : commit.indicators)
