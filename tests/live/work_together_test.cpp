@@ -21,8 +21,7 @@ SharedModel shared(const char* file) {
   return {std::make_shared<const model::Model>(model::read_model(std::string(SPOOLFLOW_EXAMPLES) + file)), file};
 }
 
-/// A valve that strokes slowly at its own pace; late in the run its friction grows, so that the monitor doubts the
-/// model, and now and then a sample is missing.
+/// A valve that strokes slowly at its own pace; now and then its position is missing.
 class Strokes {
  public:
   Strokes(unsigned seed, bool whole) : random_(seed), whole_(whole), period_s_(1.5 + 0.2 * seed) {}
@@ -40,7 +39,7 @@ class Strokes {
     const double time_s = 1e-3 * static_cast<double>(samples_++);
     const double phase = 2 * std::numbers::pi * time_s / period_s_;
     const double stroke = whole_ ? std::sin(phase) : 0.5 - 0.5 * std::cos(phase);
-    const double drag_A = (time_s > 4 ? 0.25 : 0.05) * (std::sin(phase) > 0 ? 1 : -1);
+    const double drag_A = 0.05 * (std::sin(phase) > 0 ? 1 : -1);
     const double size_A = 0.3 + 1.2 * std::abs(stroke) + drag_A + noise(1e-3);
     estimation::TimedSample out{time_s, size_A, 6 * size_A, 1.8e-3 * stroke + noise(1e-6), 313 + noise(0.1)};
     if (whole_) {
@@ -105,8 +104,7 @@ TEST(WorkTogether, KeepsTellsAndShowsOfEachValveWhatItDoesAlone) {
   }
   std::mt19937 random(5);
   WorkTogether work;
-  bool doubted = false;
-  std::size_t published = 0;
+  std::size_t published = 0, judged = 0;
   for (int round = 0; round < 300; ++round) {
     std::vector<SampleBlock> blocks(valves);
     std::vector<ValveTurn> turns;
@@ -122,12 +120,12 @@ TEST(WorkTogether, KeepsTellsAndShowsOfEachValveWhatItDoesAlone) {
     for (std::size_t v = 0; v < valves; ++v) {
       const std::string expected = all_of(*alone[v], round % 100 == 99);
       ASSERT_TRUE(all_of(*together[v], round % 100 == 99) == expected) << "valve " << v << " in round " << round;
-      doubted = doubted || alone[v]->view(false).doubted;
       published += expected.find("block ") != std::string::npos ? 1 : 0;
+      judged += expected.find("friction") != std::string::npos ? 1 : 0;
     }
   }
-  EXPECT_TRUE(doubted);
   EXPECT_GT(published, 5U);
+  EXPECT_GT(judged, 5U);
 }
 
 }  // namespace
