@@ -19,9 +19,8 @@ struct Engine::Worker {
   std::condition_variable_any arrived;
   std::vector<Place*> pending;
   WorkTogether together;
-  std::vector<std::vector<SampleBlock>> blocks;  ///< of each valve that is worked on now
-  std::vector<ValveTurn> turns;
-  std::jthread thread;  ///< last: it uses the others
+  std::array<ValveBlocks, WorkTogether::most_turns> waiting{};  ///< of the valves that are worked on now
+  std::jthread thread;                                          ///< last: it uses the others
 
   void tell(Place& place) {
     {
@@ -39,26 +38,18 @@ struct Engine::Worker {
         now.clear();
         std::swap(now, pending);
       }
-      for (std::span<Place* const> left = now; !left.empty();) {
-        const std::size_t count = std::min(left.size(), WorkTogether::most_turns);
-        work_on(left.first(count));
-        left = left.subspan(count);
-      }
+      for (std::size_t first = 0; first < now.size(); first += WorkTogether::most_turns)
+        work_on(std::span(now).subspan(first, std::min(now.size() - first, WorkTogether::most_turns)));
     }
   }
 
-  /// All that waits for these valves, the next block of each at once. Valves whose samples have not come yet are not
-  /// waited for.
+  /// All that waits for these valves; whatever has not come yet is not waited for.
   void work_on(std::span<Place* const> places) {
-    blocks.resize(std::max(blocks.size(), places.size()));
-    for (std::size_t k = 0; k < places.size(); ++k) places[k]->intake->take(blocks[k]);
-    for (std::size_t number = 0;; ++number) {
-      turns.clear();
-      for (std::size_t k = 0; k < places.size(); ++k)
-        if (number < blocks[k].size()) turns.push_back({places[k]->valve.get(), &blocks[k][number]});
-      if (turns.empty()) return;
-      together.work(turns);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      waiting[k].valve = places[k]->valve.get();
+      places[k]->intake->take(waiting[k].blocks);
     }
+    together.work(std::span(waiting).first(places.size()));
   }
 };
 

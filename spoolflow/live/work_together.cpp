@@ -14,6 +14,16 @@ void WorkTogether::work(std::span<const ValveTurn> turns) {
   }
 }
 
+void WorkTogether::work(std::span<const ValveBlocks> waiting) {
+  for (std::size_t number = 0;; ++number) {
+    turns_.clear();
+    for (const auto& [valve, blocks] : waiting)
+      if (number < blocks.size()) turns_.push_back({valve, &blocks[number]});
+    if (turns_.empty()) return;
+    work(turns_);
+  }
+}
+
 /// What a valve shows and what is kept of it is that before its block or that behind it, as it is alone.
 void WorkTogether::work_at_once(std::span<const ValveTurn> turns) {
   samples_.resize(most_turns);

@@ -15,6 +15,12 @@ struct ValveTurn {
   const SampleBlock* block;
 };
 
+/// A valve and all blocks that wait for it, in their order.
+struct ValveBlocks {
+  ValveAtWork* valve;
+  std::vector<SampleBlock> blocks;
+};
+
 /// Memory for that, to be used again and again by one thread, with valves on which no other thread works.
 class WorkTogether {
  public:
@@ -26,6 +32,8 @@ class WorkTogether {
 
   /// To the last bit as if each valve worked on its block by itself. No valve has two turns.
   void work(std::span<const ValveTurn> turns);
+  /// The same of several blocks of each, the next ones at once.
+  void work(std::span<const ValveBlocks> waiting);
 
  private:
   void work_at_once(std::span<const ValveTurn> turns);
@@ -35,6 +43,7 @@ class WorkTogether {
       samples_;  ///< of each turn whose valve publishes, in the fleet's grid
   std::vector<std::vector<sensor::Estimate<double>>> answers_;
   std::vector<estimation::GroupedRun> runs_;
+  std::vector<ValveTurn> turns_;
 };
 
 }  // namespace spoolflow::live
