@@ -172,15 +172,26 @@ class RunningSensor {
   /// the new time. Before the first complete sample the flow is zero with a band over the whole rated flow, of a whole
   /// valve to both sides.
   sensor::Estimate<double> step(TimedSample sample) {
+    const SteppedSample<double> given = take(sample);
+    sensor::Estimate<double> out = answer(given.sample, sample);
+    tell(out, given);
+    return out;
+  }
+
+  /// The beginning and the end of `step`, for whoever steps the estimators of several sensors together (RunningGroup):
+  /// how the estimator gets the sample, from which it takes out what is implausible, ...
+  SteppedSample<double> take(TimedSample& sample) {
     const sensor::Status fault =
         take_out_implausible(limits_, sample) | take_out_hanging(limits_, state_.position, sample);
     auto given = state_.times.next<double>(sample);
     given.fault = fault;
     if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
-    sensor::Estimate<double> out = answer(given.sample, sample);
-    state_.times.finish(out, given, rated_flow_m3_per_s_);
-    if (runs_whole() && !state_.times.answered) out.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
-    return out;
+    return given;
+  }
+  /// ... and what is told of its answer. Both in the order of the samples; either may be ahead of the other.
+  void tell(sensor::Estimate<double>& answer, const SteppedSample<double>& given) {
+    state_.times.finish(answer, given, rated_flow_m3_per_s_);
+    if (runs_whole() && !state_.times.answered) answer.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
   }
 
   /// As new.
@@ -195,6 +206,7 @@ class RunningSensor {
     return std::holds_alternative<WholeCondensed>(parameters_) ||
            std::holds_alternative<sensor::WholeValveParameters<double>>(parameters_);
   }
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] const RunningState& state() const { return state_; }
   [[nodiscard]] RunningState& state() { return state_; }
   void set_state(const RunningState& state) { state_ = state; }

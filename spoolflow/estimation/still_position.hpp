@@ -39,12 +39,12 @@ struct StillPosition {
       last_m = position_m;
       lowest_A = highest_A = current_A;
       ++changes;
-      lowest_m = std::fmin(lowest_m, position_m);
-      highest_m = std::fmax(highest_m, position_m);
+      lowest_m = lesser(lowest_m, position_m);
+      highest_m = greater(highest_m, position_m);
       return false;
     }
-    lowest_A = std::fmin(lowest_A, current_A);
-    highest_A = std::fmax(highest_A, current_A);
+    lowest_A = lesser(lowest_A, current_A);
+    highest_A = greater(highest_A, current_A);
     if (hanging == 0) ++repetitions;
     if (highest_A - lowest_A > current_share * largest_current_A) ++driven;
     const bool inside = position_m > lowest_m && position_m < highest_m;
@@ -52,6 +52,12 @@ struct StillPosition {
     if (inside && noisy && driven > least_repetitions + times_longest * longest_driven) hanging = 1;
     return hanging != 0;
   }
+
+ private:
+  /// What fmin and fmax say, which leave the sign of a zero to whoever compiles them: states have the same bytes
+  /// wherever they are made.
+  static double lesser(double kept, double value) { return value < kept || std::isnan(kept) ? value : kept; }
+  static double greater(double kept, double value) { return value > kept || std::isnan(kept) ? value : kept; }
 };
 static_assert(std::is_trivially_copyable_v<StillPosition>);
 

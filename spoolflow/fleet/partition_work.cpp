@@ -94,6 +94,7 @@ bool PartitionWork::fetch() {
   try {
     if (!puller_) open_stream();
     for (const Message& message : puller_->fetch(fetched_blocks, patience)) take(message);
+    work();
     return true;
   } catch (const TransportError&) {
     if (puller_) silent_readers_ = puller_->has_spoken() ? 0 : silent_readers_ + 1;
@@ -104,48 +105,67 @@ bool PartitionWork::fetch() {
 
 void PartitionWork::take(const Message& message) {
   stream_.sequence = message.sequence;
-  const auto read = read_block({reinterpret_cast<const std::uint8_t*>(message.bytes.data()), message.bytes.size()});
-  const Block* const block = std::get_if<Block>(&read);
+  auto read = read_block({reinterpret_cast<const std::uint8_t*>(message.bytes.data()), message.bytes.size()});
+  Block* const block = std::get_if<Block>(&read);
   // A site speaks for its own valves alone, which the server sees to by the subject.
   if (block == nullptr || message.subject != block_subject(claim_.partition, site_of(block->valve)) ||
       partition_of(block->valve) != claim_.partition) {
     return;
   }
   Place& at = place(block->valve);
+  if (at.gathered) work();  // whose turn it is depends on the block before
   switch (at.line.turn(*block)) {
     case ValveLine::Turn::next:
-      if (!work(at, *block)) {
-        if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, *block);
-        return;
-      }
-      work_on_early(at);
-      return;
+      if (gather(at, *block)) return;
+      [[fallthrough]];
     case ValveLine::Turn::early:
-      if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, *block);
+      if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, std::move(*block));
       return;
     case ValveLine::Turn::duplicate:
       to_tell_.insert(block->valve);  // its site seems not to have heard
   }
 }
 
-/// False where its model is not there yet.
-bool PartitionWork::work(Place& at, const Block& block) {
-  const auto its_model = model(block.model_sha256);
+/// False where its model is not there yet; the block is then left as it is.
+bool PartitionWork::gather(Place& at, Block& block) {
+  auto its_model = model(block.model_sha256);
   if (!its_model) {
     ask(block.valve, at, "model " + block.model_sha256);
     return false;
   }
-  at.line.work(block, *its_model);
-  ++uncommitted_;
+  at.gathered = true;
+  gathered_.push_back({&at, std::move(block), std::move(*its_model)});
   return true;
 }
 
-void PartitionWork::work_on_early(Place& at) {
-  for (auto next = at.early.begin(); next != at.early.end();) {
-    const ValveLine::Turn turn = at.line.turn(next->second);
+/// Of what came before its turn, the block that has it now.
+void PartitionWork::gather_early(Place& at) {
+  while (!at.early.empty() && !at.gathered) {
+    const auto first = at.early.begin();
+    const ValveLine::Turn turn = at.line.turn(first->second);
     if (turn == ValveLine::Turn::early) return;
-    if (turn == ValveLine::Turn::next && !work(at, next->second)) return;
-    next = at.early.erase(next);
+    if (turn == ValveLine::Turn::next && !gather(at, first->second)) return;
+    at.early.erase(first);
+  }
+}
+
+/// On all that is gathered, and on what has its turn then.
+void PartitionWork::work() {
+  while (!gathered_.empty()) {
+    const std::vector<Gathered> now = std::exchange(gathered_, {});
+    std::vector<live::SampleBlock> samples;
+    std::vector<live::ValveTurn> turns;
+    samples.reserve(now.size());
+    for (const auto& [at, block, its_model] : now) {
+      at->gathered = false;
+      if (live::ValveAtWork* const valve = at->line.begin_work(block, its_model))
+        turns.push_back({valve, &samples.emplace_back(ValveLine::samples(block))});
+    }
+    together_.work(turns);
+    for (const auto& [at, block, its_model] : now)
+      if (!block.report) at->line.end_work(block);
+    uncommitted_ += now.size();
+    for (const Gathered& one : now) gather_early(*one.at);
   }
 }
 
@@ -157,9 +177,9 @@ void PartitionWork::ask(const std::string& valve, Place& at, const std::string& 
 }
 
 void PartitionWork::ask_for_missing() {
+  for (auto& [valve, at] : places_) gather_early(at);  // a model may have come
+  work();
   for (auto& [valve, at] : places_) {
-    if (at.early.empty()) continue;
-    work_on_early(at);  // a model may have come
     if (at.early.empty() || at.line.turn(at.early.begin()->second) != ValveLine::Turn::early) continue;
     // Of another store of its site it misses the first.
     const bool same_store = at.early.begin()->second.session == at.line.last().session;
@@ -168,6 +188,7 @@ void PartitionWork::ask_for_missing() {
 }
 
 void PartitionWork::commit() {
+  work();  // where asking failed on the way: the place in the stream is behind what is gathered
   committed_ = Clock::now();
   std::vector<Acknowledgement> seen = store_.acknowledgements();
   for (Acknowledgement& one : seen) one.taken = place(one.valve).line.acknowledge(one);

@@ -7,12 +7,14 @@
 #include <set>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "spoolflow/fleet/models.hpp"
 #include "spoolflow/fleet/settings.hpp"
 #include "spoolflow/fleet/store/partition_store.hpp"
 #include "spoolflow/fleet/transport/nats.hpp"
 #include "spoolflow/fleet/valve_line.hpp"
+#include "spoolflow/live/work_together.hpp"
 
 namespace spoolflow::fleet {
 
@@ -41,14 +43,22 @@ class PartitionWork {
     ValveLine line;
     std::map<std::pair<std::uint64_t, std::uint64_t>, Block> early{};  ///< by session and number
     Clock::time_point asked{};                                         ///< for what is missing
+    bool gathered = false;                                             ///< its next block is
+  };
+  /// A block whose turn has come.
+  struct Gathered {
+    Place* at;
+    Block block;
+    live::SharedModel model;
   };
   Place& place(const std::string& valve);
   void restore();
   void open_stream();
   bool fetch();
   void take(const Message& message);
-  bool work(Place& place, const Block& block);
-  void work_on_early(Place& place);
+  bool gather(Place& place, Block& block);
+  void gather_early(Place& place);
+  void work();
   [[nodiscard]] std::optional<live::SharedModel> model(const std::string& sha256);
   void take_models();
   void ask(const std::string& valve, Place& place, const std::string& what);
@@ -61,6 +71,8 @@ class PartitionWork {
   Session session_;
   PartitionStore store_;
   std::map<std::string, Place> places_;
+  std::vector<Gathered> gathered_;  ///< of each valve one, to be worked on together
+  live::WorkTogether together_;
   std::set<std::string> to_tell_;  ///< valves whose coverage their sites should hear
   std::optional<Puller> puller_;
   int silent_readers_ = 0;  ///< in a row

@@ -86,6 +86,19 @@ void ValveLine::begin(const live::SharedModel& model) {
 }
 
 void ValveLine::work(const Block& block, const live::SharedModel& model) {
+  live::ValveAtWork* const valve = begin_work(block, model);
+  if (valve == nullptr) return;
+  valve->work(samples(block));
+  end_work(block);
+}
+
+live::SampleBlock ValveLine::samples(const Block& block) {
+  constexpr std::int64_t ns_per_ms = 1'000'000;
+  // Not zero, which means that nothing came.
+  return {block.samples, {block.session, block.number + 1}, block.wall_ms * ns_per_ms + 1};
+}
+
+live::ValveAtWork* ValveLine::begin_work(const Block& block, const live::SharedModel& model) {
   const BlockPlace before = position_.block;
   const BlockPlace now{block.session, block.number};
   if (before.session != 0 && block.session != before.session) {
@@ -102,7 +115,7 @@ void ValveLine::work(const Block& block, const live::SharedModel& model) {
     position_.wall_ms = block.wall_ms;
     take_report(*block.report);
     changed_ = true;
-    return;
+    return nullptr;
   }
   if (model.sha256 != position_.model_sha256 || !work_) {
     if (work_)
@@ -115,9 +128,10 @@ void ValveLine::work(const Block& block, const live::SharedModel& model) {
   }
   position_.block = now;
   position_.wall_ms = block.wall_ms;
-  constexpr std::int64_t ns_per_ms = 1'000'000;
-  // Not zero, which means that nothing came.
-  work_->work({block.samples, {block.session, block.number + 1}, block.wall_ms * ns_per_ms + 1});
+  return work_.get();
+}
+
+void ValveLine::end_work(const Block& block) {
   if (!block.samples.empty()) look(block);
   changed_ = true;
 }

@@ -33,6 +33,12 @@ class ValveLine {
 
   /// Works on the block whose turn has come, with the model that it names.
   void work(const Block& block, const live::SharedModel& model);
+  /// The same in two parts, between which the valve that is returned works on `samples`, together with others perhaps;
+  /// null: it has none, and the block is done.
+  [[nodiscard]] live::ValveAtWork* begin_work(const Block& block, const live::SharedModel& model);
+  void end_work(const Block& block);
+  /// The block's, as a valve works on them.
+  [[nodiscard]] static live::SampleBlock samples(const Block& block);
   /// Behind the last block, whose place it returns. An alarm that is not there, or was acknowledged, stays as it is.
   BlockPlace acknowledge(const Acknowledgement& seen);
   /// What is to be kept since the last time; nothing where nothing came.

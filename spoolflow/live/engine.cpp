@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/live/event_text.hpp"
+#include "spoolflow/live/work_together.hpp"
 #include "spoolflow/parallel/pace.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -17,7 +18,9 @@ struct Engine::Worker {
   std::mutex mutex;
   std::condition_variable_any arrived;
   std::vector<Place*> pending;
-  std::jthread thread;  ///< last: it uses the others
+  WorkTogether together;
+  std::array<ValveBlocks, WorkTogether::most_turns> waiting{};  ///< of the valves that are worked on now
+  std::jthread thread;                                          ///< last: it uses the others
 
   void tell(Place& place) {
     {
@@ -28,7 +31,6 @@ struct Engine::Worker {
   }
   void run(const std::stop_token& stop) {
     std::vector<Place*> now;
-    std::vector<SampleBlock> blocks;
     while (!stop.stop_requested()) {
       {
         std::unique_lock lock(mutex);
@@ -36,11 +38,18 @@ struct Engine::Worker {
         now.clear();
         std::swap(now, pending);
       }
-      for (Place* place : now) {
-        place->intake->take(blocks);
-        for (const SampleBlock& block : blocks) place->valve->work(block);
-      }
+      for (std::size_t first = 0; first < now.size(); first += WorkTogether::most_turns)
+        work_on(std::span(now).subspan(first, std::min(now.size() - first, WorkTogether::most_turns)));
     }
+  }
+
+  /// All that waits for these valves; whatever has not come yet is not waited for.
+  void work_on(std::span<Place* const> places) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      waiting[k].valve = places[k]->valve.get();
+      places[k]->intake->take(waiting[k].blocks);
+    }
+    together.work(std::span(waiting).first(places.size()));
   }
 };
 

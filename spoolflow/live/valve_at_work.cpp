@@ -117,21 +117,29 @@ void ValveAtWork::publish(std::string name, const OutboxPosition& after, double 
   cutter_.emplace(std::move(name), model_.sha256, after, longest_s);
 }
 
+void ValveAtWork::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer) {
+  if (cutter_) cutter_->add(sample);
+  if (watch_) ask_doubt(sample.time_s);
+  last_ = answer;
+  if (watch_) watch_->take(sample, last_);
+  if (doubt_.any()) {
+    last_ = monitor::widened(*model_.model, doubt_, sample, watch_->state().oil_temperature_K, last_);
+  }
+  add_to_summary(sample, last_);
+  raw_.add(sample);
+  if (std::isfinite(sample.time_s)) trace_.add(sample.time_s, sample.position_m, sample.current_A, last_);
+}
+
 void ValveAtWork::work(const SampleBlock& block) {
   const std::lock_guard lock(mutex_);
   for (const estimation::TimedSample& came : block.samples) {
     const estimation::TimedSample sample = cutter_ ? fleet::on_grid(came) : came;
-    if (cutter_) cutter_->add(sample);
-    if (watch_) ask_doubt(sample.time_s);
-    last_ = sensor_.step(sample);
-    if (watch_) watch_->take(sample, last_);
-    if (doubt_.any()) {
-      last_ = monitor::widened(*model_.model, doubt_, sample, watch_->state().oil_temperature_K, last_);
-    }
-    add_to_summary(sample, last_);
-    raw_.add(sample);
-    if (std::isfinite(sample.time_s)) trace_.add(sample.time_s, sample.position_m, sample.current_A, last_);
+    take(sample, sensor_.step(sample));
   }
+  end(block);
+}
+
+void ValveAtWork::end(const SampleBlock& block) {
   samples_ += block.samples.size();
   after_ = block.after;
   arrived_ns_ = block.arrived_ns;

@@ -115,7 +115,7 @@ template <class T>
     reach.ahead_Pa = select(bounded, T(lopsided_share) * (reach.above_Pa - reach.below_Pa), T(0));
   }
   const Mask<T> yielded = !is_zero(pressure.yielded_Pa) && !balance.sliding && !balance.closed;
-  if (any(yielded)) reach.ahead_Pa += select(yielded, unseen_Pa(pressure, balance), T(0));
+  if (any(yielded)) reach.ahead_Pa = select(yielded, reach.ahead_Pa + unseen_Pa(pressure, balance), reach.ahead_Pa);
   return reach;
 }
 

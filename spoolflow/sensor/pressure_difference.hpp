@@ -160,8 +160,9 @@ template <class T>
 
 /// Freed by dither the spool tells nothing of the friction ratio, and the covariance goes to zero by and by.
 template <class T>
-constexpr void drop_covariance(PressureState<T>& state) {
-  state.covariance_Pa = select(magnitude(state.covariance_Pa) < T(least_covariance_Pa), T(0), state.covariance_Pa);
+constexpr void drop_covariance(PressureState<T>& state, Mask<T> due) {
+  state.covariance_Pa =
+      select(due && magnitude(state.covariance_Pa) < T(least_covariance_Pa), T(0), state.covariance_Pa);
 }
 
 /// Prediction while nothing tells: as restless as the supply has shown itself.
@@ -236,10 +237,10 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
   if (any(exceeds)) {
     const T room_Pa2 = squared(T(most_deviation_share) * highest_Pa) - state.variance_Pa2;
     const T opened_N2 = excess2 * smaller(time_step_s / T(gate_opening_s), T(1));
-    const T opened_Pa2 = select(exceeds, smaller(opened_N2 / squared(slope), room_Pa2), T(0));
-    state.variance_Pa2 += opened_Pa2;
-    with_pressure += opened_Pa2 * slope;
-    believed2 += opened_Pa2 * squared(slope);
+    const T opened_Pa2 = smaller(opened_N2 / squared(slope), room_Pa2);
+    state.variance_Pa2 = select(exceeds, state.variance_Pa2 + opened_Pa2, state.variance_Pa2);
+    with_pressure = select(exceeds, with_pressure + opened_Pa2 * slope, with_pressure);
+    believed2 = select(exceeds, believed2 + opened_Pa2 * squared(slope), believed2);
   }
   const T variance2 = believed2 + noise_N2;
   const T gain_Pa_per_N = with_pressure / variance2;

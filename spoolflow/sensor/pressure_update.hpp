@@ -77,7 +77,7 @@ template <class T>
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s, highest_Pa);
     });
     if (!any(position.turn.even)) return;
-    drop_covariance(pressure);
+    drop_covariance(pressure, position.turn.even);
     in_valves(position.turn.even && observed(pressure, slope, balance.noise_N), pressure,
               [&] { learn_process_noise(valve.pressure, pressure, balance.noise_N / slope); });
   });
@@ -94,7 +94,8 @@ template <class T>
     const T left_N =
         yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s, highest_Pa);
     const Mask<T> holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
-    state.friction.gauge_N += select(yields && holds, left_N, T(0));
+    const T gauge_N = state.friction.gauge_N;
+    state.friction.gauge_N = select(yields, gauge_N + select(holds, left_N, T(0)), gauge_N);
   });
   in_valves(broken(pressure), pressure, [&] {
     begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unseen_factor);

@@ -51,6 +51,13 @@ constexpr const T* onward(const T* from, int index) {
   return from + index;
 }
 
+/// The share of the cell, at -0 with the sign that one valve has there. Floats tell places by their bits, and have
+/// none; a pack of double overloads it.
+template <class T>
+constexpr T share_of_cell(T /*raw*/, T share) {
+  return share;
+}
+
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
@@ -67,7 +74,7 @@ constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   } else {
     const T kept = smaller(larger(T(0), raw), T(Points - 1));
     const Index<T> index = table_index(smaller(kept, T(Points - 2)));
-    return {index, kept - T(index), below_end() && above_begin()};
+    return {index, share_of_cell(raw, kept - T(index)), below_end() && above_begin()};
   }
 }
 

@@ -18,14 +18,14 @@ struct PackStatus {
 /// Which valves have any bit.
 template <class Register, int Count>
 PackMask<Register, Count> is_any(const PackStatus<Register, Count>& status) {
-  return each_comparison<Register, Count>([&](std::size_t r) { return status.words.lanes[r] != 0; });
+  return !(status.words == 0);
 }
 
 template <class Register, int Count>
 PackStatus<Register, Count> when(const PackMask<Register, Count>& condition, sensor::Status bit) {
   using Index = PackIndex<Register, Count>;
-  return {each_register<Index>(
-      [&](std::size_t r) { return condition.lanes[r] & typename Index::Integers(static_cast<std::int32_t>(bit)); })};
+  const typename Index::Integers bits(typename Index::Integer{static_cast<std::int32_t>(bit)});
+  return {each_register<Index>([&](std::size_t r) { return condition.lanes[r] & bits; })};
 }
 
 template <class Register, int Count>

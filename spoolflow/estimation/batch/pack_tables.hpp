@@ -9,7 +9,7 @@ namespace spoolflow::estimation::batch {
 /// do, so that `keep` may take some valves' tables from here and others' from another PackTable of the same beginning.
 template <class Register, int Count>
 struct PackTable {
-  alignas(sizeof(PackIndex<Register, Count>)) const float* numbers = nullptr;
+  alignas(sizeof(PackIndex<Register, Count>)) const typename Lanes<Register, Count>::Number* numbers = nullptr;
   alignas(sizeof(PackIndex<Register, Count>)) PackIndex<Register, Count> first;
 
   [[nodiscard]] const PackTable& data() const { return *this; }
@@ -18,7 +18,7 @@ struct PackTable {
 /// Each valve's own place in its own table.
 template <class Register, int Count>
 struct PackCorner {
-  const float* numbers;
+  const typename Lanes<Register, Count>::Number* numbers;
   PackIndex<Register, Count> place;
 };
 
@@ -35,10 +35,14 @@ PackCorner<Register, Count> onward(const PackCorner<Register, Count>& from, cons
 namespace detail {
 
 using Row [[gnu::vector_size(16)]] = float;  ///< four numbers of one valve
-using Pair [[gnu::vector_size(8)]] = float;  ///< two
+/// Two.
+template <class Number>
+struct PairOf {
+  using Numbers [[gnu::vector_size(2 * sizeof(Number))]] = Number;
+};
 
-template <class Numbers>
-[[gnu::always_inline]] inline Numbers numbers_at(const float* from) {
+template <class Numbers, class Number>
+[[gnu::always_inline]] inline Numbers numbers_at(const Number* from) {
   Numbers out;
   std::memcpy(&out, from, sizeof out);
   return out;
@@ -79,8 +83,8 @@ template <class Register, class RowOf>
 }
 
 /// The same of two numbers a valve.
-template <class Register, class PairOf>
-[[gnu::always_inline]] inline std::array<Register, 2> pairs_to_lanes(const PairOf& pair) {
+template <class Register, class PairAt>
+[[gnu::always_inline]] inline std::array<Register, 2> pairs_to_lanes(const PairAt& pair) {
   const auto two = [&](std::size_t k) { return __builtin_shufflevector(pair(k), pair(k + 1), 0, 1, 2, 3); };
   if constexpr (Register::size() == 8) {
     const auto a = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
@@ -95,15 +99,36 @@ template <class Register, class PairOf>
   }
 }
 
+/// Of two doubles a valve.
+template <class Register, class PairAt>
+requires std::is_same_v<typename Register::value_type, double>
+[[gnu::always_inline]] inline std::array<Register, 2> pairs_to_lanes(const PairAt& pair) {
+  // What 128 bits hold of two valves is dealt out within them.
+  const auto two = [&](std::size_t k) { return __builtin_shufflevector(pair(k), pair(k + 2), 0, 1, 2, 3); };
+  if constexpr (Register::size() == 4) {
+    const auto even = two(0), odd = two(1);
+    return {std::bit_cast<Register>(__builtin_shufflevector(even, odd, 0, 4, 2, 6)),
+            std::bit_cast<Register>(__builtin_shufflevector(even, odd, 1, 5, 3, 7))};
+  } else {
+    static_assert(Register::size() == 8);
+    const auto even = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
+    const auto odd = __builtin_shufflevector(two(1), two(5), 0, 1, 2, 3, 4, 5, 6, 7);
+    return {std::bit_cast<Register>(__builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14)),
+            std::bit_cast<Register>(__builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15))};
+  }
+}
+
 /// Neighbours of every valve's place, `deal` making lanes of one register's.
 template <class Neighbours, class Register, int Count, class Deal>
 [[gnu::always_inline]] inline auto fetch(const PackCorner<Register, Count>& from, int number, const Deal& deal) {
   const auto lanes_of = [&](std::size_t r) {
-    // Two places a transfer: from vector to integer registers there is but a narrow path.
-    const auto places = std::bit_cast<std::array<std::uint64_t, Register::size() / 2>>(from.place.lanes[r]);
+    // Of 32 bits two places a transfer: from vector to integer registers there is but a narrow path.
+    const auto places = std::bit_cast<std::array<std::uint64_t, sizeof(Register) / 8>>(from.place.lanes[r]);
+    constexpr std::size_t at_once = Register::size() / places.size();
     return deal([&](std::size_t valve) {
-      const std::uint64_t both = places[valve / 2];
-      return numbers_at<Neighbours>(from.numbers + (valve % 2 == 0 ? both & 0xFFFFFFFFU : both >> 32U) + number);
+      const std::uint64_t both = places[valve / at_once];
+      const std::uint64_t place = at_once == 1 ? both : valve % 2 == 0 ? both & 0xFFFFFFFFU : both >> 32U;
+      return numbers_at<Neighbours>(from.numbers + static_cast<std::int64_t>(place) + number);
     });
   };
   const auto lanes = [&]<std::size_t... r>(std::index_sequence<r...>) __attribute__((always_inline)) {
@@ -114,7 +139,7 @@ template <class Neighbours, class Register, int Count, class Deal>
   return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
     return std::array{each_register<Pack>([&](std::size_t r) { return lanes[r][k]; })...};
   }
-  (std::make_index_sequence<sizeof(Neighbours) / sizeof(float)>());
+  (std::make_index_sequence<sizeof(Neighbours) / sizeof(typename Lanes<Register, Count>::Number)>());
 }
 
 }  // namespace detail
@@ -128,8 +153,8 @@ template <class Register, int Count>
 template <class Register, int Count>
 [[gnu::always_inline]] inline std::array<ValvePack<Register, Count>, 2> two(const PackCorner<Register, Count>& from,
                                                                             int number) {
-  return detail::fetch<detail::Pair>(from, number,
-                                     [](const auto& pair) { return detail::pairs_to_lanes<Register>(pair); });
+  using Pair = typename detail::PairOf<typename Lanes<Register, Count>::Number>::Numbers;
+  return detail::fetch<Pair>(from, number, [](const auto& pair) { return detail::pairs_to_lanes<Register>(pair); });
 }
 
 /// Each valve's own number of a ring.
@@ -137,9 +162,10 @@ template <class Register, int Count, std::size_t Size>
 ValvePack<Register, Count> in_ring(const std::array<ValvePack<Register, Count>, Size>& ring,
                                    const PackIndex<Register, Count>& place) {
   using Lanes = estimation::batch::Lanes<Register, Count>;
-  const auto places = std::bit_cast<std::array<std::int32_t, Lanes::valves>>(place.lanes);
-  static_assert(sizeof ring[0] == Lanes::valves * sizeof(float), "entry after entry, in each the valves side by side");
-  const auto* const numbers = reinterpret_cast<const float*>(ring.data());
+  using Number = typename Lanes::Number;
+  const auto places = std::bit_cast<std::array<typename Lanes::Integer, Lanes::valves>>(place.lanes);
+  static_assert(sizeof ring[0] == Lanes::valves * sizeof(Number), "entry after entry, in each the valves side by side");
+  const auto* const numbers = reinterpret_cast<const Number*>(ring.data());
   return each_register<ValvePack<Register, Count>>([&](std::size_t r) {
     return Register([&](auto k) {
       const std::size_t valve = r * Lanes::width + k;
@@ -151,9 +177,10 @@ template <class Register, int Count, std::size_t Size>
 void put_in_ring(std::array<ValvePack<Register, Count>, Size>& ring, const PackIndex<Register, Count>& place,
                  const ValvePack<Register, Count>& value) {
   using Lanes = estimation::batch::Lanes<Register, Count>;
-  const auto places = std::bit_cast<std::array<std::int32_t, Lanes::valves>>(place.lanes);
-  const auto values = std::bit_cast<std::array<float, Lanes::valves>>(value.lanes);
-  auto* const numbers = reinterpret_cast<float*>(ring.data());
+  using Number = typename Lanes::Number;
+  const auto places = std::bit_cast<std::array<typename Lanes::Integer, Lanes::valves>>(place.lanes);
+  const auto values = std::bit_cast<std::array<Number, Lanes::valves>>(value.lanes);
+  auto* const numbers = reinterpret_cast<Number*>(ring.data());
   for (std::size_t valve = 0; valve < Lanes::valves; ++valve)
     numbers[static_cast<std::size_t>(places[valve]) * Lanes::valves + valve] = values[valve];
 }

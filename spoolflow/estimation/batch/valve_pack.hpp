@@ -1,29 +1,29 @@
 #pragma once
 /// A scalar that stands for several valves at once: one number a valve, side by side in SIMD registers. The sensor's
-/// templates run on it as they run on float; where float branches, a pack blends. Types carry the register, so that
-/// translation units for different instruction sets share none.
+/// templates run on it as they run on float or double; where those branch, a pack blends. In packs of double every
+/// valve's numbers are to the last bit those of its sensor alone.
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <experimental/simd>
 #include <tuple>
 #include <utility>
 
+#include "spoolflow/estimation/batch/registers.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
 namespace spoolflow::estimation::batch {
 
-namespace simd = std::experimental;
-
-/// What the packs of `Count` registers are made of; each kind has one number of 32 bits a valve.
+/// What the packs of `Count` registers are made of; each kind has one number of the same size a valve.
 template <class Register, int Count>
 struct Lanes {
   static constexpr std::size_t registers = Count;
   static constexpr std::size_t width = Register::size();
   static constexpr std::size_t valves = registers * width;
-  using Integers = simd::rebind_simd_t<std::int32_t, Register>;
+  using Number = typename Plain<Register>::Number;
+  using Integer = typename Plain<Register>::Integer;
+  using Integers = typename Plain<Register>::Integers;
 };
 
 /// `of(register)` for each register.
@@ -43,7 +43,7 @@ struct PackMask {
 
   PackMask() = default;
   explicit PackMask(const std::array<Integers, Count>& all) : lanes(all) {}
-  explicit PackMask(bool value) { lanes.fill(Integers(value ? -1 : 0)); }
+  explicit PackMask(bool value) { lanes.fill(Integers(typename Lanes<Register, Count>::Integer{value ? -1 : 0})); }
 
   friend PackMask operator!(const PackMask& a) {
     return each_register<PackMask>([&](std::size_t r) { return ~a.lanes[r]; });
@@ -68,34 +68,36 @@ template <class Register, int Count>
 bool any(const PackMask<Register, Count>& mask) {
   auto joined = mask.lanes[0];
   for (std::size_t r = 1; r < Count; ++r) joined |= mask.lanes[r];
-  return any_of(std::bit_cast<typename Register::mask_type>(joined));
+  return any_lane<Register>(joined);
 }
 
 /// Whole numbers: places in tables, counts.
 template <class Register, int Count>
 struct PackIndex {
+  using Integer = typename Lanes<Register, Count>::Integer;
   using Integers = typename Lanes<Register, Count>::Integers;
+  using In = Plain<Register>;
   using Mask = PackMask<Register, Count>;
   std::array<Integers, Count> lanes{};
 
   PackIndex() = default;
   explicit PackIndex(const std::array<Integers, Count>& all) : lanes(all) {}
-  explicit PackIndex(int value) { lanes.fill(Integers(value)); }
+  explicit PackIndex(int value) { lanes.fill(whole(value)); }
   explicit PackIndex(sensor::Motion motion) : PackIndex(static_cast<int>(motion)) {}
 
   friend PackIndex operator+(const PackIndex& a, int b) { return a + PackIndex(b); }
   friend PackIndex operator-(const PackIndex& a, int b) { return a + PackIndex(-b); }
   friend PackIndex operator&(const PackIndex& a, int b) {
-    return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] & Integers(b); });
+    return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] & whole(b); });
   }
   friend Mask operator==(const PackIndex& a, int b) {
-    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] == Integers(b); });
+    return each_comparison<Register, Count>([&](std::size_t r) { return In::of(a.lanes[r]) == In::of(whole(b)); });
   }
   friend Mask operator>(const PackIndex& a, int b) {
-    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] > Integers(b); });
+    return each_comparison<Register, Count>([&](std::size_t r) { return In::of(a.lanes[r]) > In::of(whole(b)); });
   }
   friend Mask operator<(const PackIndex& a, int b) {
-    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] < Integers(b); });
+    return each_comparison<Register, Count>([&](std::size_t r) { return In::of(a.lanes[r]) < In::of(whole(b)); });
   }
   friend Mask is(const PackIndex& motion, sensor::Motion which) { return motion == static_cast<int>(which); }
   friend PackIndex select(const Mask& condition, const PackIndex& yes, const PackIndex& no) {
@@ -103,11 +105,14 @@ struct PackIndex {
         [&](std::size_t r) { return (yes.lanes[r] & condition.lanes[r]) | (no.lanes[r] & ~condition.lanes[r]); });
   }
   friend PackIndex operator*(const PackIndex& a, int factor) {
-    return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] * Integers(factor); });
+    return each_register<PackIndex>([&](std::size_t r) { return product<Register>(a.lanes[r], whole(factor)); });
   }
   friend PackIndex operator+(const PackIndex& a, const PackIndex& b) {
     return each_register<PackIndex>([&](std::size_t r) { return a.lanes[r] + b.lanes[r]; });
   }
+
+ private:
+  static Integers whole(int value) { return Integers(Integer{value}); }
 };
 
 template <class Register, int Count>
@@ -115,23 +120,23 @@ struct ValvePack {
   using Lanes = batch::Lanes<Register, Count>;
   using Mask = PackMask<Register, Count>;
   using Index = PackIndex<Register, Count>;
+  using Number = typename Lanes::Number;
+  using In = Plain<Register>;
   std::array<Register, Count> lanes{};
 
   ValvePack() = default;
   explicit ValvePack(const std::array<Register, Count>& numbers) : lanes(numbers) {}
-  explicit ValvePack(float value) { lanes.fill(Register(value)); }
-  explicit ValvePack(double value) : ValvePack(static_cast<float>(value)) {}
-  explicit ValvePack(int value) : ValvePack(static_cast<float>(value)) {}
+  template <class Value>
+  requires std::is_arithmetic_v<Value>
+  explicit ValvePack(Value value) { lanes.fill(Register(static_cast<Number>(value))); }
   explicit ValvePack(const Index& index)
-      : ValvePack(
-            each_register<ValvePack>([&](std::size_t r) { return simd::static_simd_cast<Register>(index.lanes[r]); })) {
-  }
+      : ValvePack(each_register<ValvePack>([&](std::size_t r) { return numbers_of<Register>(index.lanes[r]); })) {}
 
   /// A number a valve, from there on.
-  static ValvePack read(const float* from) {
+  static ValvePack read(const Number* from) {
     return each_register<ValvePack>([&](std::size_t r) { return Register(from + r * Lanes::width, unaligned); });
   }
-  void write(float* to) const {
+  void write(Number* to) const {
     for (std::size_t r = 0; r < lanes.size(); ++r) lanes[r].copy_to(to + r * Lanes::width, unaligned);
   }
 
@@ -153,14 +158,14 @@ struct ValvePack {
   ValvePack& operator+=(const ValvePack& b) { return *this = *this + b; }
   ValvePack& operator-=(const ValvePack& b) { return *this = *this - b; }
   friend Mask operator==(const ValvePack& a, const ValvePack& b) {
-    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] == b.lanes[r]; });
+    return each_comparison<Register, Count>([&](std::size_t r) { return In::of(a.lanes[r]) == In::of(b.lanes[r]); });
   }
   friend Mask operator!=(const ValvePack& a, const ValvePack& b) { return !(a == b); }
   friend Mask operator<(const ValvePack& a, const ValvePack& b) {
-    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] < b.lanes[r]; });
+    return each_comparison<Register, Count>([&](std::size_t r) { return In::of(a.lanes[r]) < In::of(b.lanes[r]); });
   }
   friend Mask operator<=(const ValvePack& a, const ValvePack& b) {
-    return each_comparison<Register, Count>([&](std::size_t r) { return a.lanes[r] <= b.lanes[r]; });
+    return each_comparison<Register, Count>([&](std::size_t r) { return In::of(a.lanes[r]) <= In::of(b.lanes[r]); });
   }
   friend Mask operator>(const ValvePack& a, const ValvePack& b) { return b < a; }
   friend Mask operator>=(const ValvePack& a, const ValvePack& b) { return b <= a; }
@@ -169,50 +174,11 @@ struct ValvePack {
   static constexpr simd::element_aligned_tag unaligned{};
 };
 
-/// A register in the compiler's own terms: its operators make smallest and largest numbers one instruction.
-template <class Register>
-struct Plain {
-  using Numbers [[gnu::vector_size(sizeof(Register))]] = float;
-  using Bits [[gnu::vector_size(sizeof(Register))]] = std::int32_t;
-};
-
-/// `yes` where the bits of `condition` are set, else `no`.
-template <class Register, class Integers>
-[[gnu::always_inline]] inline Register blended(const Integers& condition, const Register& yes, const Register& no) {
-  using Numbers = typename Plain<Register>::Numbers;
-  return std::bit_cast<Register>(std::bit_cast<typename Plain<Register>::Bits>(condition) ? std::bit_cast<Numbers>(yes)
-                                                                                          : std::bit_cast<Numbers>(no));
-}
-
 template <class Register, int Count>
 ValvePack<Register, Count> select(const PackMask<Register, Count>& condition, const ValvePack<Register, Count>& yes,
                                   const ValvePack<Register, Count>& no) {
   return each_register<ValvePack<Register, Count>>(
       [&](std::size_t r) { return blended(condition.lanes[r], yes.lanes[r], no.lanes[r]); });
-}
-
-/// `a < b ? a : b` and `a > b ? a : b`. The library's own would be a call, x86 has an instruction for just that.
-template <class Register>
-[[gnu::always_inline]] inline Register lesser(const Register& a, const Register& b) {
-#if defined(__AVX__)
-  if constexpr (Register::size() == 8)
-    return std::bit_cast<Register>(_mm256_min_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b)));
-#elif defined(__SSE__)
-  if constexpr (Register::size() == 4)
-    return std::bit_cast<Register>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
-#endif
-  return blended(a < b, a, b);
-}
-template <class Register>
-[[gnu::always_inline]] inline Register greater(const Register& a, const Register& b) {
-#if defined(__AVX__)
-  if constexpr (Register::size() == 8)
-    return std::bit_cast<Register>(_mm256_max_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b)));
-#elif defined(__SSE__)
-  if constexpr (Register::size() == 4)
-    return std::bit_cast<Register>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
-#endif
-  return blended(a > b, a, b);
 }
 
 template <class Register, int Count>
@@ -227,28 +193,33 @@ ValvePack<Register, Count> larger(const ValvePack<Register, Count>& a, const Val
 
 template <class Register, int Count>
 ValvePack<Register, Count> sqrt(const ValvePack<Register, Count>& a) {
-  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return simd::sqrt(a.lanes[r]); });
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return roots(a.lanes[r]); });
 }
 
 template <class Register, int Count>
 ValvePack<Register, Count> magnitude(const ValvePack<Register, Count>& a) {
-  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return simd::abs(a.lanes[r]); });
+  return each_register<ValvePack<Register, Count>>([&](std::size_t r) { return magnitudes(a.lanes[r]); });
 }
 
 template <class Register, int Count>
 PackMask<Register, Count> is_number(const ValvePack<Register, Count>& a) {
-  return magnitude(a) < ValvePack<Register, Count>(0x1p30F);
+  return magnitude(a) < ValvePack<Register, Count>(0x1p30);
+}
+
+template <class Register, int Count>
+requires std::is_same_v<typename Register::value_type, double> ValvePack<Register, Count> share_of_cell(
+    const ValvePack<Register, Count>& raw, const ValvePack<Register, Count>& share) {
+  return select(raw == ValvePack<Register, Count>(0), raw, share);
 }
 
 template <class Register, int Count>
 PackIndex<Register, Count> table_index(const ValvePack<Register, Count>& value) {
   using Index = PackIndex<Register, Count>;
-  return each_register<Index>(
-      [&](std::size_t r) { return simd::static_simd_cast<typename Index::Integers>(value.lanes[r]); });
+  return each_register<Index>([&](std::size_t r) { return integers_of(value.lanes[r]); });
 }
 
 /// Of `kept`, what belongs to the valves of `condition`, in place of what `out` has. Both are made of packs and nothing
-/// else, a number of 32 bits a valve each.
+/// else, one number a valve each.
 template <class Register, int Count, class Packs>
 void keep(const PackMask<Register, Count>& condition, const Packs& kept, Packs& out) {
   static_assert(sizeof(Packs) % sizeof(condition) == 0 && std::is_trivially_copyable_v<Packs>);

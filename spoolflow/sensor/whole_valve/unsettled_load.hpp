@@ -10,12 +10,15 @@ namespace spoolflow::sensor {
 /// A load settles to another flow at about this pace [s].
 inline constexpr double load_settling_s = 0.3;
 
-/// One more sample of `time_step_s` >= 0: `settled_m3_per_s` goes on towards the answer, both in the direction's sign,
-/// and the answer's band takes in `share` of what is between them.
+/// One more sample of `time_step_s` >= 0, where `share` > 0: `settled_m3_per_s` goes on towards the answer, both in the
+/// direction's sign, and the answer's band takes in `share` of what is between them.
 template <class T>
 constexpr void widen_unsettled(T share, T& settled_m3_per_s, T time_step_s, Estimate<T>& out) {
-  settled_m3_per_s += (out.flow_m3_per_s - settled_m3_per_s) * smaller(time_step_s / T(load_settling_s), T(1));
-  widen_band(out, squared(share * (out.flow_m3_per_s - settled_m3_per_s)));
+  const Mask<T> unsettled = share > T(0);
+  in_valves(unsettled, settled_m3_per_s, [&] {
+    settled_m3_per_s += (out.flow_m3_per_s - settled_m3_per_s) * smaller(time_step_s / T(load_settling_s), T(1));
+  });
+  in_valves(unsettled, out, [&] { widen_band(out, squared(share * (out.flow_m3_per_s - settled_m3_per_s))); });
 }
 
 }  // namespace spoolflow::sensor

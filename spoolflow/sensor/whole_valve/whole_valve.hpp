@@ -183,8 +183,7 @@ template <class T>
   }
   if (!ports_measured) {
     doubt_load(valve, state.open, position.position_m);
-    if (any(valve.unsettled_load_share > T(0)))
-      widen_unsettled(valve.unsettled_load_share, state.settled_m3_per_s, sample.time_step_s, state.open.last);
+    widen_unsettled(valve.unsettled_load_share, state.settled_m3_per_s, sample.time_step_s, state.open.last);
   }
 }
 

@@ -1,0 +1,150 @@
+#pragma once
+/// SIMD registers of float or double: what x86 does in one instruction and std::experimental::simd does not, or answers
+/// otherwise on AVX-512. Types carry the register, so that translation units for different instruction sets share none.
+#include <bit>
+#include <cstdint>
+#include <experimental/simd>
+#include <type_traits>
+
+namespace spoolflow::estimation::batch {
+
+namespace simd = std::experimental;
+
+/// A register in the compiler's own terms: comparisons answer in whole lanes on every instruction set.
+template <class Register>
+struct Plain {
+  using Number = typename Register::value_type;
+  using Integer = std::conditional_t<sizeof(Number) == sizeof(std::int32_t), std::int32_t, std::int64_t>;
+  using Integers = simd::rebind_simd_t<Integer, Register>;
+  using Numbers [[gnu::vector_size(sizeof(Register))]] = Number;
+  using Bits [[gnu::vector_size(sizeof(Register))]] = Integer;
+
+  [[gnu::always_inline]] static Numbers of(const Register& numbers) { return std::bit_cast<Numbers>(numbers); }
+  [[gnu::always_inline]] static Bits of(const Integers& integers) { return std::bit_cast<Bits>(integers); }
+};
+
+/// Of which kind a register is.
+template <class Register, class Number, std::size_t bytes>
+inline constexpr bool is_register = std::is_same_v<typename Register::value_type, Number> && sizeof(Register) == bytes;
+
+/// Whether a bit is set anywhere. Every lane has all bits set or none.
+template <class Register>
+[[gnu::always_inline]] inline bool any_lane(const typename Plain<Register>::Integers& lanes) {
+#if defined(__AVX512DQ__)
+  if constexpr (is_register<Register, double, 64>) return _mm512_movepi64_mask(std::bit_cast<__m512i>(lanes)) != 0;
+#endif
+  if constexpr (sizeof(typename Register::mask_type) == sizeof lanes)
+    return any_of(std::bit_cast<typename Register::mask_type>(lanes));
+}
+
+/// `yes` where the bits of `condition` are set, else `no`.
+template <class Register>
+[[gnu::always_inline]] inline Register blended(const typename Plain<Register>::Integers& condition, const Register& yes,
+                                               const Register& no) {
+  using In = Plain<Register>;
+  return std::bit_cast<Register>(In::of(condition) ? In::of(yes) : In::of(no));
+}
+
+/// `a < b ? a : b` and `a > b ? a : b`. The library's own would be a call, x86 has an instruction for just that.
+template <class Register>
+[[gnu::always_inline]] inline Register lesser(const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+  if constexpr (is_register<Register, double, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_min_pd(0xff, std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b)));
+#endif
+#if defined(__AVX__)
+  if constexpr (is_register<Register, double, 32>)
+    return std::bit_cast<Register>(_mm256_min_pd(std::bit_cast<__m256d>(a), std::bit_cast<__m256d>(b)));
+  if constexpr (is_register<Register, float, 32>)
+    return std::bit_cast<Register>(_mm256_min_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b)));
+#elif defined(__SSE__)
+  if constexpr (is_register<Register, float, 16>)
+    return std::bit_cast<Register>(_mm_min_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#endif
+  using In = Plain<Register>;
+  return std::bit_cast<Register>(In::of(a) < In::of(b) ? In::of(a) : In::of(b));
+}
+template <class Register>
+[[gnu::always_inline]] inline Register greater(const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+  if constexpr (is_register<Register, double, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_max_pd(0xff, std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b)));
+#endif
+#if defined(__AVX__)
+  if constexpr (is_register<Register, double, 32>)
+    return std::bit_cast<Register>(_mm256_max_pd(std::bit_cast<__m256d>(a), std::bit_cast<__m256d>(b)));
+  if constexpr (is_register<Register, float, 32>)
+    return std::bit_cast<Register>(_mm256_max_ps(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b)));
+#elif defined(__SSE__)
+  if constexpr (is_register<Register, float, 16>)
+    return std::bit_cast<Register>(_mm_max_ps(std::bit_cast<__m128>(a), std::bit_cast<__m128>(b)));
+#endif
+  using In = Plain<Register>;
+  return std::bit_cast<Register>(In::of(a) > In::of(b) ? In::of(a) : In::of(b));
+}
+
+/// Roots of numbers >= 0.
+template <class Register>
+[[gnu::always_inline]] inline Register roots(const Register& a) {
+#if defined(__AVX512F__)
+  if constexpr (is_register<Register, double, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_sqrt_pd(0xff, std::bit_cast<__m512d>(a)));
+#endif
+  return simd::sqrt(a);
+}
+
+/// Without their signs.
+template <class Register>
+[[gnu::always_inline]] inline Register magnitudes(const Register& a) {
+  if constexpr (std::is_same_v<typename Register::value_type, double>) {
+    using In = Plain<Register>;
+    return std::bit_cast<Register>(std::bit_cast<typename In::Bits>(In::of(a)) & INT64_MAX);
+  } else {
+    return simd::abs(a);
+  }
+}
+
+/// Of whole numbers that have room in 32 bits.
+template <class Register, class Integers = typename Plain<Register>::Integers>
+[[gnu::always_inline]] inline Integers product(const Integers& a, const Integers& b) {
+#if defined(__AVX512F__)
+  if constexpr (is_register<Register, double, 64>)
+    return std::bit_cast<Integers>(_mm512_maskz_mul_epi32(0xff, std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b)));
+#endif
+#if defined(__AVX2__)
+  if constexpr (is_register<Register, double, 32>)
+    return std::bit_cast<Integers>(_mm256_mul_epi32(std::bit_cast<__m256i>(a), std::bit_cast<__m256i>(b)));
+#endif
+  return a * b;
+}
+
+/// Whole numbers of 32 bits as numbers.
+template <class Register>
+[[gnu::always_inline]] inline Register numbers_of(const typename Plain<Register>::Integers& integers) {
+  if constexpr (std::is_same_v<typename Register::value_type, double>) {
+    // Added to the bits of 1.5 * 2^52 they are its last digits.
+    constexpr double carry = 0x1.8p52;
+    using In = Plain<Register>;
+    const auto bits = In::of(integers) + std::bit_cast<std::int64_t>(carry);
+    return std::bit_cast<Register>(std::bit_cast<typename In::Numbers>(bits) - carry);
+  } else {
+    return simd::static_simd_cast<Register>(integers);
+  }
+}
+
+/// The integer parts of numbers that have room in 32 bits.
+template <class Register>
+[[gnu::always_inline]] inline typename Plain<Register>::Integers integers_of(const Register& numbers) {
+  using Integers = typename Plain<Register>::Integers;
+#if defined(__AVX512DQ__)
+  if constexpr (is_register<Register, double, 64>)
+    return std::bit_cast<Integers>(_mm512_maskz_cvttpd_epi64(0xff, std::bit_cast<__m512d>(numbers)));
+#endif
+#if defined(__AVX2__)
+  if constexpr (is_register<Register, double, 32>)
+    return std::bit_cast<Integers>(_mm256_cvtepi32_epi64(_mm256_cvttpd_epi32(std::bit_cast<__m256d>(numbers))));
+#endif
+  return simd::static_simd_cast<Integers>(numbers);
+}
+
+}  // namespace spoolflow::estimation::batch
