@@ -171,16 +171,21 @@ class RunningSensor {
   /// instant, a time that runs backwards holds the last answer; both say time_fault, and the next time step counts from
   /// the new time. Before the first complete sample the flow is zero with a band over the whole rated flow, of a whole
   /// valve to both sides.
-  sensor::Estimate<double> step(TimedSample sample) {
+  sensor::Estimate<double> step(const TimedSample& sample) {
+    sensor::Estimate<double> out;
+    step(sample, out);
+    return out;
+  }
+  /// The same into where it is to stand.
+  void step(TimedSample sample, sensor::Estimate<double>& out) {
     const sensor::Status fault =
         take_out_implausible(limits_, sample) | take_out_hanging(limits_, state_.position, sample);
     auto given = state_.times.next<double>(sample);
     given.fault = fault;
     if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
-    sensor::Estimate<double> out = answer(given.sample, sample);
+    out = answer(given.sample, sample);
     state_.times.finish(out, given, rated_flow_m3_per_s_);
     if (runs_whole() && !state_.times.answered) out.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
-    return out;
   }
 
   /// As new.

@@ -39,12 +39,12 @@ struct StillPosition {
       last_m = position_m;
       lowest_A = highest_A = current_A;
       ++changes;
-      lowest_m = std::fmin(lowest_m, position_m);
-      highest_m = std::fmax(highest_m, position_m);
+      if (position_m < lowest_m) lowest_m = position_m;
+      if (position_m > highest_m) highest_m = position_m;
       return false;
     }
-    lowest_A = std::fmin(lowest_A, current_A);
-    highest_A = std::fmax(highest_A, current_A);
+    if (!(current_A >= lowest_A) && !std::isnan(current_A)) lowest_A = current_A;
+    if (!(current_A <= highest_A) && !std::isnan(current_A)) highest_A = current_A;
     if (hanging == 0) ++repetitions;
     if (highest_A - lowest_A > current_share * largest_current_A) ++driven;
     const bool inside = position_m > lowest_m && position_m < highest_m;
