@@ -14,7 +14,7 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 16;
+constexpr std::size_t buffer_size = std::size_t{1} << 17;
 constexpr std::array<double, 10> power{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 constexpr std::uint64_t eight_places = 100'000'000;
 constexpr std::size_t longest_number = 344;  // 309 digits before the point, sign, point, decimals, what else is written
@@ -65,7 +65,8 @@ inline char* put_number(char* at, double value, unsigned decimals) {
   if (scaled < 9e15 && decimals < 8) [[likely]] {
     const auto digits = static_cast<std::int64_t>(scaled + 0.5);
     *at = '-';
-    at += value < 0 && digits != 0 ? 1 : 0;
+    at += static_cast<int>(value < 0) &
+          static_cast<int>(digits != 0);  // without a branch: signs of noise come as they like
     return put_fixed(at, static_cast<std::uint64_t>(digits), decimals);
   }
   if (std::isnan(value)) return at;
