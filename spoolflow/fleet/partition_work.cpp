@@ -26,7 +26,7 @@ constexpr seconds ask_every{1}, tell_all_every{5};
 PartitionWork::PartitionWork(WorkerParts parts, const Claim& claim)
     : parts_(std::move(parts)),
       claim_(claim),
-      session_(parts_.settings.connection, fmt::format("spoolflow partition {}", claim.partition)),
+      session_(parts_.settings.connection, fmt::format("spoolflow partition {}", claim.partition), worker_patience),
       store_(session_, claim, parts_.settings.worker.lease_s),
       models_(parts_.nats.subscribe(model_subject("*"))) {
   restore();
@@ -195,9 +195,10 @@ void PartitionWork::tell_coverage(bool all) {
   for (const auto& [site, text] : lines) parts_.nats.publish(coverage_subject(site), text);
 }
 
-void PartitionWork::run(const std::stop_token& stop) {
+void PartitionWork::run(const std::stop_token& stop, const std::function<void()>& moved) {
   const auto commit_every = std::chrono::duration<double>(parts_.settings.worker.commit_s);
   while (!stop.stop_requested()) {
+    moved();
     if (!puller_ && uncommitted_ > 0) commit();  // what follows may wait for servers
     if (!fetch()) std::this_thread::sleep_for(retry);
     take_models();

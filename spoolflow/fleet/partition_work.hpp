@@ -2,6 +2,7 @@
 /// One partition at work: blocks from the stream, in their order through their valves, committed together, told to the
 /// sites as covered. Begins from what is kept, and ends by an exception where that is not its own any more.
 #include <chrono>
+#include <functional>
 #include <map>
 #include <set>
 #include <stop_token>
@@ -28,8 +29,9 @@ class PartitionWork {
  public:
   /// Reads what is kept. Throws ServerAway or ServerRefuses.
   PartitionWork(WorkerParts parts, const Claim& claim);
-  /// Until it is stopped; then all that came is committed. Throws Fenced, ServerAway, ServerRefuses, TransportError.
-  void run(const std::stop_token& stop);
+  /// Until it is stopped; then all that came is committed. `moved` is called again and again, as long as nothing hangs.
+  /// Throws Fenced, ServerAway, ServerRefuses, TransportError.
+  void run(const std::stop_token& stop, const std::function<void()>& moved);
 
  private:
   using Clock = std::chrono::steady_clock;

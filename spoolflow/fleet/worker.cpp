@@ -21,7 +21,11 @@ std::string owner_name(const std::string& name) {
   return fmt::format("{}-{}-{:08x}", name.empty() ? machine.c_str() : name.c_str(), ::getpid(), std::random_device{}());
 }
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::seconds spread_every{1};
+/// What a partition waits for, servers that do not answer among it, ends sooner, by itself and with a word.
+constexpr std::chrono::seconds stands_after{2 * worker_patience};
 
 }  // namespace
 
@@ -29,6 +33,8 @@ constexpr std::chrono::seconds spread_every{1};
 struct Worker::Task {
   Claim claim;
   std::atomic<bool> ended = false;
+  std::atomic<Clock::time_point> moved = Clock::now();
+  bool stands = false;
   bool is_given = false;  ///< to others, once it has ended
   std::jthread thread{};
 };
@@ -40,7 +46,7 @@ Worker::Worker(FleetSettings settings, std::string program, std::function<void(c
       tell_(std::move(tell)) {
   nats_ = std::make_unique<Connection>(access_of(settings_.servers, settings_.login), owner_);
   try {
-    Session session(settings_.connection, owner_);
+    Session session(settings_.connection, owner_, worker_patience);
     learn_settings(session);
   } catch (const ServerAway& error) {  // as later, too: it is waited for
     told_ = error.what();
@@ -69,7 +75,7 @@ void Worker::stop() {
   leaving_.clear();
   if (!has_partitions) return;
   try {
-    Session session(settings_.connection, owner_);
+    Session session(settings_.connection, owner_, worker_patience);
     leave(session, owner_);
   } catch (const std::exception&) {  // the lease ends by itself
   }
@@ -77,10 +83,10 @@ void Worker::stop() {
 
 void Worker::keep_share(const std::stop_token& stop) {
   std::optional<Session> session;
-  parallel::SteadyTime next = std::chrono::steady_clock::now();
+  parallel::SteadyTime next = Clock::now();
   do {
     try {
-      if (!session) session.emplace(settings_.connection, owner_);
+      if (!session) session.emplace(settings_.connection, owner_, worker_patience);
       if (shared_.partitions == 0) learn_settings(*session);
       spread(*session);
       tell_of_nats();
@@ -90,7 +96,7 @@ void Worker::keep_share(const std::stop_token& stop) {
       if (told_ != error.what()) tell_(error.what());
       told_ = error.what();
     }
-    next = std::max(next + spread_every, std::chrono::steady_clock::now());
+    next = std::max(next + spread_every, Clock::now());
   } while (parallel::wait_until(next, stop));
 }
 
@@ -102,8 +108,26 @@ void Worker::tell_of_nats() {
     tell_("NATS: no server can be reached, or none lets this user in; it is tried again and again");
 }
 
+/// Partitions whose thread hangs in something that has no end: their leases run out, and whoever takes them raises the
+/// epoch, so that the thread can keep nothing should it come back.
+std::vector<Claim> Worker::standing() {
+  std::vector<Claim> out;
+  const auto look = [&](Task& task) {
+    if (task.ended || Clock::now() - task.moved.load() < stands_after) return;
+    if (!task.stands) {
+      tell_(fmt::format("partition {}: has stood for {} s; it is left to whoever takes it, this thread is given up",
+                        task.claim.partition, stands_after.count()));
+    }
+    task.stands = true;
+    out.push_back(task.claim);
+  };
+  for (const auto& [partition, task] : tasks_) look(*task);
+  for (const auto& task : leaving_) look(*task);
+  return out;
+}
+
 void Worker::spread(Session& session) {
-  const Spread now = renew(session, owner_, settings_.worker.lease_s);
+  const Spread now = renew(session, owner_, settings_.worker.lease_s, standing());
   std::map<std::int64_t, std::int64_t> mine;  // epochs by partition
   for (const Claim& one : now.held) mine[one.partition] = one.epoch;
   for (auto task = tasks_.begin(); task != tasks_.end();) {
@@ -156,7 +180,9 @@ void Worker::begin(const Claim& claim) {
   task->claim = claim;
   task->thread = std::jthread([this, at = task.get()](const std::stop_token& stop) {
     try {
-      PartitionWork({settings_, shared_, program_, *nats_, models_}, at->claim).run(stop);
+      PartitionWork({settings_, shared_, program_, *nats_, models_}, at->claim).run(stop, [at] {
+        at->moved = Clock::now();
+      });
     } catch (const std::exception& error) {
       tell_(fmt::format("partition {}: {}", at->claim.partition, error.what()));
     }

@@ -32,6 +32,7 @@ class Worker {
   void keep_share(const std::stop_token& stop);
   void learn_settings(Session& session);
   void tell_of_nats();
+  [[nodiscard]] std::vector<Claim> standing();
   void spread(Session& session);
   void begin(const Claim& claim);
   void see_off(Session& session);

@@ -5,19 +5,18 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync }
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { chromium } from 'playwright-core';
+import { file, idle, opened as openedIn, started, wide } from './playground_page.mjs';
 
-const file = process.env.SPOOLFLOW_PAGE, command = process.env.SPOOLFLOW_COMMAND, examples = process.env.SPOOLFLOW_EXAMPLES;
+const command = process.env.SPOOLFLOW_COMMAND, examples = process.env.SPOOLFLOW_EXAMPLES;
 const pictures = process.env.SPOOLFLOW_PICTURES, recordings = process.env.SPOOLFLOW_RECORDINGS;
 const folder = mkdtempSync(join(tmpdir(), 'spoolflow-playground-'));
 const model = join(examples, 'live', 'size_6.json');
 let browser;
 
+const opened = (look) => openedIn(browser, look);
+
 before(async () => {
-  browser = await chromium.launch({
-    executablePath: process.env.SPOOLFLOW_BROWSER,
-    args: ['--no-sandbox', '--disable-background-networking', '--disable-gpu', '--disable-dev-shm-usage'],
-  });
+  browser = await started();
   if (pictures) mkdirSync(pictures, { recursive: true });
   writeFileSync(join(folder, 'run.toml'), 'protocol = "steps"\nvalve = "size_6"\n[run]\nhold_s = 0.4\n');
   const made = spawnSync(command, ['simulate', '-q', join(folder, 'run.toml'), '-o', join(folder, 'run.csv')]);
@@ -28,29 +27,14 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** The page, ready; whatever it asks of a network or complains of is collected. */
-async function opened({ width = 1280, colorScheme = 'light', hash = '' } = {}) {
-  const page = await (await browser.newContext({ viewport: { width, height: 900 }, colorScheme })).newPage();
-  const complaints = [];
-  page.on('console', (message) => complaints.push(`console: ${message.text()}`));
-  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
-  page.on('request', (request) => {
-    if (!/^(file|blob|data|about):/.test(request.url())) complaints.push(`asked for ${request.url()}`);
-  });
-  await page.goto(`file://${file}${hash}`);
-  await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined, undefined, { timeout: 60000 });
-  return { page, complaints };
-}
 const picture = async (page, name) => {
   if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
 };
-const idle = (page, timeout = 60000) => page.waitForFunction(() => document.querySelector('.files[aria-busy]') === null, undefined, { timeout });
 const give = async (page, ...files) => {
   await page.setInputFiles('input[name=files]', files);
   await page.waitForSelector(`.file[aria-current]`);
   await idle(page);
 };
-const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 
 test('the page weighs less than 3 MB and forbids every connection', async () => {
   assert.ok(statSync(file).size < 3_000_000, `${statSync(file).size} bytes`);

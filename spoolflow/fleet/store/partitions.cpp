@@ -1,5 +1,7 @@
 #include "spoolflow/fleet/store/partitions.hpp"
 
+#include <fmt/format.h>
+
 namespace spoolflow::fleet {
 namespace {
 
@@ -9,9 +11,16 @@ std::vector<Claim> claims(const Rows& rows) {
   return out;
 }
 
+/// Each as "partition:epoch", as an array of SQL.
+std::string names(const std::vector<Claim>& claims) {
+  std::string out;
+  for (const Claim& one : claims) out += fmt::format("{}{}:{}", out.empty() ? "" : ",", one.partition, one.epoch);
+  return '{' + out + '}';
+}
+
 }  // namespace
 
-Spread renew(Session& session, const std::string& owner, double lease_s) {
+Spread renew(Session& session, const std::string& owner, double lease_s, const std::vector<Claim>& standing) {
   session.run(
       "INSERT INTO worker(name, alive_until) VALUES($1, now() + $2::float8 * interval '1 s') "
       "ON CONFLICT(name) DO UPDATE SET alive_until = excluded.alive_until",
@@ -19,11 +28,13 @@ Spread renew(Session& session, const std::string& owner, double lease_s) {
   // A row that a commit holds is renewed by that commit: waiting for it, the other leases would run out.
   session.run(
       "UPDATE partition SET lease_until = now() + $2::float8 * interval '1 s' "
-      "WHERE number IN (SELECT number FROM partition WHERE owner = $1 FOR UPDATE SKIP LOCKED)",
-      Values().put(std::string_view(owner)).put(lease_s));
+      "WHERE number IN (SELECT number FROM partition WHERE owner = $1 AND number || ':' || epoch <> ALL($3::text[]) "
+      "FOR UPDATE SKIP LOCKED)",
+      Values().put(std::string_view(owner)).put(lease_s).put(std::string_view(names(standing))));
   Spread out;
   out.held = claims(
-      session.run("SELECT number, epoch FROM partition WHERE owner = $1", Values().put(std::string_view(owner))));
+      session.run("SELECT number, epoch FROM partition WHERE owner = $1 AND number || ':' || epoch <> ALL($2::text[])",
+                  Values().put(std::string_view(owner)).put(std::string_view(names(standing)))));
   out.workers = session.run("SELECT count(*) FROM worker WHERE alive_until > now()").integer(0, 0);
   session.run("DELETE FROM worker WHERE alive_until < now() - interval '1 hour'");
   return out;

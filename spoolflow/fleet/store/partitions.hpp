@@ -20,12 +20,18 @@ struct Fenced : std::runtime_error {
 };
 
 struct Spread {
-  std::vector<Claim> held;   ///< this worker's, the lease renewed here or by a commit that is under way
+  std::vector<Claim>
+      held;  ///< this worker's, the lease renewed here or by a commit that is under way; none that stands
   std::int64_t workers = 1;  ///< that are alive, this one included
 };
 
-/// This worker lives on for `lease_s`, and so do its leases. `owner` is of one start of one program.
-[[nodiscard]] Spread renew(Session& session, const std::string& owner, double lease_s);
+/// A server that takes longer for a statement of a worker has lost it: more than it may wait for a lock.
+inline constexpr std::chrono::seconds worker_patience{20};
+
+/// This worker lives on for `lease_s`, and so do its leases but those of partitions that stand. `owner` is of one start
+/// of one program.
+[[nodiscard]] Spread renew(Session& session, const std::string& owner, double lease_s,
+                           const std::vector<Claim>& standing = {});
 /// Up to so many that nobody holds.
 [[nodiscard]] std::vector<Claim> claim(Session& session, const std::string& owner, double lease_s, std::int64_t most);
 /// One of this worker's own, with another epoch: for who begins anew with it. Nothing where another has it by now.

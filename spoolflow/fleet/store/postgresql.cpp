@@ -128,7 +128,8 @@ void Session::Finish::operator()(pg_conn* handle) const {
   PQfinish(handle);
 }
 
-Session::Session(const std::string& connection, const std::string& name) {
+Session::Session(const std::string& connection, const std::string& name, std::chrono::seconds answers_within)
+    : answers_within_(answers_within) {
   // What is not said: how long a server that went away is waited for.
   const std::string all =
       "connect_timeout=3 keepalives_idle=2 keepalives_interval=1 keepalives_count=3 "
@@ -151,9 +152,41 @@ Session::Session(const std::string& connection, const std::string& name) {
   }
   PQsetNoticeProcessor(
       handle_.get(), [](void*, const char*) {}, nullptr);  // what matters comes as an error
+  (void)PQsetnonblocking(handle_.get(), 1);
   // A worker that is stopped in mid-transaction must not hold its partition's row for longer.
   run_script(
       "SET idle_in_transaction_session_timeout = '4s'; SET lock_timeout = '8s'; SET client_min_messages = warning");
+}
+
+/// Until there is something to read, or `to_write` room for more. Throws ServerAway once it takes too long.
+void Session::wait_for_server(bool to_write, std::chrono::steady_clock::time_point since) {
+  const bool for_ever = answers_within_.count() == 0;
+  const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(since + answers_within_ - std::chrono::steady_clock::now());
+  pollfd socket{PQsocket(handle_.get()), static_cast<short>(to_write ? POLLIN | POLLOUT : POLLIN), 0};
+  if (for_ever || left.count() > 0) (void)::poll(&socket, 1, for_ever ? -1 : static_cast<int>(left.count()));
+  if (for_ever || left.count() > 0) return;
+  stands_ = true;
+  throw ServerAway(fmt::format("PostgreSQL has not answered for {} s", answers_within_.count()));
+}
+
+/// The last result of what was handed to libpq, whose own waiting would last for as long as the server says nothing.
+Rows Session::answer(int was_sent, const char* sql) {
+  const auto since = std::chrono::steady_clock::now();
+  Rows last(nullptr);
+  while (was_sent != 0) {
+    int unsent = PQflush(handle_.get());
+    while (unsent == 1 || PQisBusy(handle_.get()) != 0) {
+      wait_for_server(unsent == 1, since);
+      if (PQconsumeInput(handle_.get()) == 0) break;  // the connection is over, as the result will tell
+      if (unsent == 1) unsent = PQflush(handle_.get());
+    }
+    pg_result* const next = PQgetResult(handle_.get());
+    if (next == nullptr) break;
+    last = Rows(next);
+  }
+  check(last.handle_.get(), sql);
+  return last;
 }
 
 void Session::check(pg_result* result, const char* sql) {
@@ -161,7 +194,7 @@ void Session::check(pg_result* result, const char* sql) {
   if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return;
   const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
   const std::string_view code = state == nullptr ? "08000" : state;
-  const std::string why = said(PQresultErrorMessage(result));
+  const std::string why = said(result == nullptr ? PQerrorMessage(handle_.get()) : PQresultErrorMessage(result));
   // Connection, resources, operator intervention, transactions that were rolled back, a server that became a standby,
   // a session that stood still, a lock that did not come.
   for (const char* passing : {"08", "53", "57", "40", "25006", "25P03", "55P03", "XX"}) {
@@ -171,13 +204,12 @@ void Session::check(pg_result* result, const char* sql) {
 }
 
 Rows Session::run(const char* sql, const Values& values) {
+  if (stands_) throw ServerAway("PostgreSQL has not answered");
   const auto count = static_cast<int>(values.texts_.size());
   std::string& name = prepared_[sql];
   if (name.empty()) {
     const std::string wanted = fmt::format("s{}", prepared_.size());
-    pg_result* const made = PQprepare(handle_.get(), wanted.c_str(), sql, 0, nullptr);
-    const Rows held(made);
-    check(made, sql);
+    answer(PQsendPrepare(handle_.get(), wanted.c_str(), sql, 0, nullptr), sql);
     name = wanted;
   }
   std::vector<const char*> texts;
@@ -187,17 +219,13 @@ Rows Session::run(const char* sql, const Values& values) {
     lengths.push_back(static_cast<int>(values.texts_[k].size()));
     forms.push_back(values.binary_[k] ? 1 : 0);
   }
-  pg_result* const result =
-      PQexecPrepared(handle_.get(), name.c_str(), count, texts.data(), lengths.data(), forms.data(), 0);
-  Rows rows(result);
-  check(result, sql);
-  return rows;
+  return answer(PQsendQueryPrepared(handle_.get(), name.c_str(), count, texts.data(), lengths.data(), forms.data(), 0),
+                sql);
 }
 
 void Session::run_script(const std::string& sql) {
-  pg_result* const result = PQexec(handle_.get(), sql.c_str());
-  const Rows rows(result);
-  check(result, sql.c_str());
+  if (stands_) throw ServerAway("PostgreSQL has not answered");
+  answer(PQsendQuery(handle_.get(), sql.c_str()), sql.c_str());
 }
 
 FleetTransaction::FleetTransaction(Session& session) : session_(session) {

@@ -1,5 +1,6 @@
 #pragma once
 /// libpq's handles, closed with their owners, prepared statements alone, and errors as exceptions.
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -52,6 +53,7 @@ class Rows {
   [[nodiscard]] std::int64_t affected() const;
 
  private:
+  friend class Session;
   struct Clear {
     void operator()(pg_result* handle) const;
   };
@@ -61,9 +63,11 @@ class Rows {
 /// One connection; of one thread at a time.
 class Session {
  public:
-  /// `connection` as libpq reads it: "host=a,b user=worker dbname=fleet target_session_attrs=read-write". Throws
-  /// ServerAway, or ServerRefuses where another try cannot help.
-  Session(const std::string& connection, const std::string& name);
+  /// `connection` as libpq reads it: "host=a,b user=worker dbname=fleet target_session_attrs=read-write".
+  /// `answers_within`: a server that takes longer for a statement counts as away, though its machine keeps the line
+  /// open; 0: statements take as long as they take. Throws ServerAway, or ServerRefuses where another try cannot help.
+  Session(const std::string& connection, const std::string& name,
+          std::chrono::seconds answers_within = std::chrono::seconds(0));
 
   /// A statement that was prepared at its first use. Throws ServerAway or ServerRefuses.
   Rows run(const char* sql, const Values& values = {});
@@ -74,8 +78,12 @@ class Session {
   struct Finish {
     void operator()(pg_conn* handle) const;
   };
+  Rows answer(int was_sent, const char* sql);
+  void wait_for_server(bool to_write, std::chrono::steady_clock::time_point since);
   void check(pg_result* result, const char* sql);
   std::unique_ptr<pg_conn, Finish> handle_;
+  std::chrono::seconds answers_within_;
+  bool stands_ = false;                                    ///< the server did not answer in time: nothing more is asked
   std::unordered_map<const char*, std::string> prepared_;  ///< names by the statements' places
 };
 
