@@ -79,7 +79,8 @@ class DescriptorBuffer : public std::streambuf {
   }
   /// Large pieces go where they are to go without a copy.
   std::streamsize xsputn(const char* text, std::streamsize size) override {
-    if (size <= epptr() - pptr()) return std::streambuf::xsputn(text, size);
+    constexpr std::streamsize large = 64 * 1024;
+    if (size < large) return std::streambuf::xsputn(text, size);
     write_out();
     write_all(text, text + size);
     return size;
