@@ -2,7 +2,8 @@
 
 namespace spoolflow::estimation {
 
-// All in one piece where it is optimised: a tenth less time than with calls of the step's parts.
+// All in one piece where it is optimised: 4 % less time an observer's sample than with calls of the step's parts, and
+// no copy of them that another file was given less optimisation for.
 #ifdef __OPTIMIZE__
 [[gnu::flatten]]
 #endif
