@@ -195,7 +195,7 @@ class Faults(unittest.TestCase):
             fleet.start_worker()
         faults = [fleet.kill_worker_and_start_it_again, fleet.kill_worker_and_start_another,
                   fleet.stop_worker_until_others_have_its_valves, fleet.kill_nats, fleet.delete_the_stream,
-                  fleet.cut_the_site_off, fleet.kill_postgres, fleet.start_another_worker]
+                  fleet.cut_the_site_off, fleet.kill_postgres, fleet.start_another_worker, fleet.complain_to_the_site]
         chance.shuffle(faults)
         with site(COMMAND, self.folder, fleet.servers()) as live:
             tell(f"the site sends; its page is at http://127.0.0.1:{live.port}/")

@@ -248,6 +248,14 @@ class Gate:
                     pass
         self.pairs.clear()
 
+    def say(self, words):
+        """To all who came through, as if the server said it."""
+        for inner, _ in self.pairs:
+            try:
+                inner.sendall(words)
+            except OSError:
+                pass
+
     def stop(self):
         self.close()
         self.listener.close()

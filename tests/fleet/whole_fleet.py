@@ -119,6 +119,11 @@ class Fleet:
         for gate in self.gates:
             gate.open = True
 
+    def complain_to_the_site(self, _):
+        """As a server does of what it cannot read: behind these words libnats closes a connection for good."""
+        for gate in self.gates:
+            gate.say(b"-ERR 'Unknown Protocol Operation'\r\n")
+
     def kill_postgres(self, _):
         self.postgres.kill()
         if self.standby:

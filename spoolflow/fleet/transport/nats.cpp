@@ -1,119 +1,18 @@
 #include "spoolflow/fleet/transport/nats.hpp"
 
 #include <algorithm>
-#include <array>
-#include <nats/nats.h>
 #include <string_view>
+#include <thread>
+
+#include "spoolflow/fleet/transport/nats_handles.hpp"
 
 namespace spoolflow::fleet {
 namespace {
 
-[[noreturn]] void refuse(natsStatus status, const std::string& what) {
-  const char* const last = nats_GetLastError(nullptr);
-  std::string text = "NATS: " + what + ": " + natsStatus_GetText(status);
-  if (last != nullptr && *last != 0) text += std::string(" (") + last + ")";
-  throw TransportError(text);
-}
-
-void check(natsStatus status, const std::string& what) {
-  if (status != NATS_OK) refuse(status, what);
-}
-
-struct Destroy {
-  void operator()(natsOptions* handle) const { natsOptions_Destroy(handle); }
-  void operator()(natsConnection* handle) const { natsConnection_Destroy(handle); }
-  void operator()(jsCtx* handle) const { jsCtx_Destroy(handle); }
-  void operator()(jsStreamInfo* handle) const { jsStreamInfo_Destroy(handle); }
-  void operator()(jsConsumerInfo* handle) const { jsConsumerInfo_Destroy(handle); }
-  void operator()(natsInbox* handle) const { natsInbox_Destroy(handle); }
-  void operator()(natsMsg* handle) const { natsMsg_Destroy(handle); }
-  void operator()(jsMsgMetaData* handle) const { jsMsgMetaData_Destroy(handle); }
-};
-template <class T>
-using Handle = std::unique_ptr<T, Destroy>;
-
-/// Several connection attempts fit a broken server's absence. Who waits for an answer of JetStream that does not come
-/// does nothing else meanwhile, and it answers within milliseconds where it does; a server that stands takes no bytes.
-constexpr std::int64_t reconnect_wait_ms = 250, answer_wait_ms = 1500, ping_interval_ms = 2000, write_wait_ms = 3000;
-constexpr int pings_out = 2;
+/// Who waits for an answer of JetStream that does not come does nothing else meanwhile, and it answers within
+/// milliseconds where it does.
+constexpr std::int64_t answer_wait_ms = 1500;
 constexpr std::string_view nothing_there = "404", request_over = "408";  // of the server to a request for messages
-
-Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name) {
-  natsOptions* made = nullptr;
-  check(natsOptions_Create(&made), "options");
-  Handle<natsOptions> options(made);
-  std::vector<const char*> servers;
-  for (const std::string& server : access.servers) servers.push_back(server.c_str());
-  check(natsOptions_SetServers(made, servers.data(), static_cast<int>(servers.size())), "servers");
-  check(natsOptions_SetName(made, name.c_str()), "name");
-  check(natsOptions_SetMaxReconnect(made, -1), "reconnects");
-  check(natsOptions_SetReconnectWait(made, reconnect_wait_ms), "reconnects");
-  check(natsOptions_SetRetryOnFailedConnect(
-            made, true, [](natsConnection*, void*) {}, nullptr),
-        "reconnects");
-  // Only the servers that were named: others that those tell of may be out of reach from here.
-  check(natsOptions_SetIgnoreDiscoveredServers(made, true), "servers");
-  check(natsOptions_SetPingInterval(made, ping_interval_ms), "pings");
-  check(natsOptions_SetMaxPingsOut(made, pings_out), "pings");
-  check(natsOptions_SetWriteDeadline(made, write_wait_ms), "writes");
-  const auto login = [](natsStatus status, const std::string& what, const std::string& remedy) {
-    if (status == NATS_OK) return;
-    throw LoginError("NATS: " + what + " (" + natsStatus_GetText(status) + "); " + remedy);
-  };
-  if (!access.credentials.empty()) {
-    login(natsOptions_SetUserCredentialsFromFiles(made, access.credentials.c_str(), nullptr),
-          "the credentials " + access.credentials + " cannot be used", "check the file and its rights");
-  }
-  if (!access.user.empty()) {
-    login(natsOptions_SetUserInfo(made, access.user.c_str(), access.password.c_str()), "the user cannot be used",
-          "check user and password_file");
-  }
-  if (!access.authority.empty()) {
-    login(natsOptions_SetSecure(made, true), "TLS cannot be used", "check libnats");
-    login(natsOptions_LoadCATrustedCertificates(made, access.authority.c_str()),
-          "the certificates " + access.authority + " cannot be read", "name a PEM file as authority");
-  }
-  // What comes before there is an answer is refused by the servers later: the connection goes on trying.
-  return options;
-}
-
-/// What another try does not help: who we are, and whether both sides speak TLS and trust each other.
-bool is_refusal(natsStatus status) {
-  return status == NATS_CONNECTION_AUTH_FAILED || status == NATS_NOT_PERMITTED || status == NATS_SSL_ERROR ||
-         status == NATS_SECURE_CONNECTION_WANTED || status == NATS_SECURE_CONNECTION_REQUIRED;
-}
-
-/// Asks one server after the other until one lets us in; the connection itself would go on trying in silence.
-/// Throws LoginError where one refuses us; servers that are away, or do not answer in time, are passed over. Returns
-/// whether one let us in.
-bool let_in(const NatsAccess& access, const std::string& name, std::int64_t answer_within_ms) {
-  for (const std::string& server : access.servers) {
-    NatsAccess one = access;
-    one.servers = {server};
-    const Handle<natsOptions> options = options_of(one, name);
-    check(natsOptions_SetRetryOnFailedConnect(options.get(), false, nullptr, nullptr), "options");
-    check(natsOptions_SetAllowReconnect(options.get(), false), "options");
-    check(natsOptions_SetTimeout(options.get(), answer_within_ms), "options");
-    natsConnection* made = nullptr;
-    const natsStatus status = natsConnection_Connect(&made, options.get());
-    const Handle<natsConnection> connection(made);
-    if (status == NATS_OK) return true;
-    if (!is_refusal(status)) continue;
-    const char* const last = nats_GetLastError(nullptr);
-    throw LoginError("NATS: " + server + " refuses this user or its TLS: " + natsStatus_GetText(status) +
-                     (last != nullptr && *last != 0 ? std::string(" (") + last + ")" : "") +
-                     "; check user, password_file or credentials, and authority");
-  }
-  return false;
-}
-
-/// A busy server needs longer for TLS and a password than one that is away is worth.
-void check_login(const NatsAccess& access, const std::string& name) {
-  constexpr std::array<std::int64_t, 2> patience_ms{1000, 5000};
-  for (const std::int64_t one : patience_ms) {
-    if (let_in(access, name, one)) return;
-  }
-}
 
 Message message_of(natsMsg* handle) {
   Message out{natsMsg_GetSubject(handle),
@@ -124,6 +23,11 @@ Message message_of(natsMsg* handle) {
     out.sequence = data->Sequence.Stream;
   }
   return out;
+}
+
+/// For good, by the library.
+bool is_closed(natsConnection& connection) {
+  return natsConnection_Status(&connection) == NATS_CONN_STATUS_CLOSED;
 }
 
 StreamPlace place_of(const jsStreamInfo& info) {
@@ -137,45 +41,75 @@ struct Connection::Handles {
   Handle<natsConnection> connection;
   Handle<jsCtx> stream;
   std::shared_ptr<RetiredSubscriptions> retired = std::make_shared<RetiredSubscriptions>();
+
+  Handles() = default;
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
+  ~Handles() {
+    if (connection) natsConnection_Close(connection.get());  // its reader has ended then, and subscriptions may
+  }
 };
 
-Connection::Connection(const NatsAccess& access, const std::string& name) : handles_(std::make_unique<Handles>()) {
-  check_login(access, name);
-  handles_->options = options_of(access, name);
+std::shared_ptr<Connection::Handles> Connection::made(const NatsAccess& access, const std::string& name) {
+  auto out = std::make_shared<Handles>();
+  out->options = options_of(access, name);
   natsConnection* connection = nullptr;
-  const natsStatus status = natsConnection_Connect(&connection, handles_->options.get());
-  handles_->connection.reset(connection);
+  const natsStatus status = natsConnection_Connect(&connection, out->options.get());
+  out->connection.reset(connection);
   if (status != NATS_OK && status != NATS_NOT_YET_CONNECTED) refuse(status, "connect");
   jsCtx* stream = nullptr;
   jsOptions options;
   check(jsOptions_Init(&options), "options");
   options.Wait = answer_wait_ms;
   check(natsConnection_JetStream(&stream, connection, &options), "stream");
-  handles_->stream.reset(stream);
+  out->stream.reset(stream);
+  return out;
 }
 
-Connection::~Connection() {
-  natsConnection_Close(handles_->connection.get());  // its reader has ended then, and subscriptions may
+Connection::Connection(const NatsAccess& access, const std::string& name) : access_(access), name_(name) {
+  check_login(access, name);
+  handles_ = made(access, name);
+  made_ = std::chrono::steady_clock::now();
+}
+
+Connection::~Connection() = default;
+
+std::shared_ptr<Connection::Handles> Connection::handles() const {
+  const std::lock_guard lock(mutex_);
+  return handles_;
+}
+
+/// Not again and again where servers refuse each.
+std::shared_ptr<Connection::Handles> Connection::open_handles() {
+  constexpr std::chrono::seconds at_least{1};
+  const std::lock_guard lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_closed(*handles_->connection) || now - made_ < at_least) return handles_;
+  made_ = now;
+  try {
+    handles_ = made(access_, name_);
+  } catch (const TransportError&) {  // the next time
+  }
+  return handles_;
 }
 
 bool Connection::connected() const {
-  return natsConnection_Status(handles_->connection.get()) == NATS_CONN_STATUS_CONNECTED;
+  return natsConnection_Status(handles()->connection.get()) == NATS_CONN_STATUS_CONNECTED;
 }
 
 bool Connection::publish(const std::string& subject, std::span<const std::uint8_t> bytes) {
-  return connected() && natsConnection_Publish(handles_->connection.get(), subject.c_str(), bytes.data(),
-                                               static_cast<int>(bytes.size())) == NATS_OK;
+  const auto by = open_handles();
+  return natsConnection_Status(by->connection.get()) == NATS_CONN_STATUS_CONNECTED &&
+         natsConnection_Publish(by->connection.get(), subject.c_str(), bytes.data(), static_cast<int>(bytes.size())) ==
+             NATS_OK;
 }
 
 bool Connection::publish(const std::string& subject, const std::string& text) {
-  return connected() && natsConnection_Publish(handles_->connection.get(), subject.c_str(), text.data(),
-                                               static_cast<int>(text.size())) == NATS_OK;
+  return publish(subject, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 Subscription Connection::subscribe(const std::string& subject) {
-  natsSubscription* made = nullptr;
-  check(natsConnection_SubscribeSync(&made, handles_->connection.get(), subject.c_str()), "subscribe to " + subject);
-  return {made, handles_->retired};
+  return {*this, subject, open_handles()};
 }
 
 StreamPlace Connection::make_stream(const StreamSettings& settings) {
@@ -192,11 +126,12 @@ StreamPlace Connection::make_stream(const StreamSettings& settings) {
   config.MaxAge = static_cast<std::int64_t>(3.6e12 * settings.hours);
   config.Duplicates = std::int64_t{1'000'000'000};  // none are looked for
   config.NoAck = true;
+  const auto by = open_handles();
   jsStreamInfo* info = nullptr;
   jsErrCode code{};
-  natsStatus status = js_AddStream(&info, handles_->stream.get(), &config, nullptr, &code);
+  natsStatus status = js_AddStream(&info, by->stream.get(), &config, nullptr, &code);
   if (status != NATS_OK && code != 0) {  // it is there with other settings
-    status = js_UpdateStream(&info, handles_->stream.get(), &config, nullptr, &code);
+    status = js_UpdateStream(&info, by->stream.get(), &config, nullptr, &code);
   }
   check(status, "stream " + settings.name);
   const Handle<jsStreamInfo> made(info);
@@ -205,7 +140,7 @@ StreamPlace Connection::make_stream(const StreamSettings& settings) {
 
 StreamPlace Connection::stream(const std::string& name) {
   jsStreamInfo* info = nullptr;
-  check(js_GetStreamInfo(&info, handles_->stream.get(), name.c_str(), nullptr, nullptr), "stream " + name);
+  check(js_GetStreamInfo(&info, open_handles()->stream.get(), name.c_str(), nullptr, nullptr), "stream " + name);
   const Handle<jsStreamInfo> found(info);
   return place_of(*found);
 }
@@ -221,23 +156,42 @@ Puller Connection::pull(const std::string& stream, const std::string& subject, s
   config.MemoryStorage = true;
   config.Replicas = 1;
   jsConsumerInfo* info = nullptr;
-  check(js_AddConsumer(&info, handles_->stream.get(), stream.c_str(), &config, nullptr, nullptr), "read " + subject);
+  const auto by = open_handles();
+  check(js_AddConsumer(&info, by->stream.get(), stream.c_str(), &config, nullptr, nullptr), "read " + subject);
   const Handle<jsConsumerInfo> there(info);
   natsInbox* inbox = nullptr;
   check(natsInbox_Create(&inbox), "inbox");
   const Handle<natsInbox> address(inbox);
-  return {*handles_, {stream, there->Name, address.get()}, subscribe(address.get()), silent_before};
+  return {by, {stream, there->Name, address.get()}, Subscription(*this, address.get(), by), silent_before};
+}
+
+Subscription::Subscription(Connection& connection, std::string subject, std::shared_ptr<Connection::Handles> of)
+    : connection_(&connection),
+      subject_(std::move(subject)),
+      handle_(nullptr, Retire{of->retired}),
+      of_(std::move(of)) {
+  natsSubscription* made = nullptr;
+  check(natsConnection_SubscribeSync(&made, of_->connection.get(), subject_.c_str()), "subscribe to " + subject_);
+  handle_.reset(made);
 }
 
 std::optional<Message> Subscription::next(std::chrono::milliseconds patience) {
+  try {
+    if (auto now = connection_->open_handles(); now != of_) *this = Subscription(*connection_, subject_, now);
+  } catch (const TransportError&) {  // it is closed again
+  }
+  if (is_closed(*of_->connection)) {
+    std::this_thread::sleep_for(patience);
+    return std::nullopt;
+  }
   natsMsg* message = nullptr;
   if (natsSubscription_NextMsg(&message, handle_.get(), patience.count()) != NATS_OK) return std::nullopt;
   const Handle<natsMsg> held(message);
   return message_of(message);
 }
 
-Puller::Puller(Connection::Handles& handles, Place place, Subscription subscription, int silent_before)
-    : handles_(&handles),
+Puller::Puller(std::shared_ptr<Connection::Handles> handles, Place place, Subscription subscription, int silent_before)
+    : handles_(std::move(handles)),
       place_(std::move(place)),
       subscription_(std::move(subscription)),
       watch_(std::chrono::steady_clock::now(), silent_before) {}

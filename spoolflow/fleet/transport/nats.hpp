@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -56,7 +57,9 @@ struct StreamPlace {
 class Subscription;
 class Puller;
 
-/// Safe to be used from any thread.
+/// Safe to be used from any thread. The library tries again and again where servers are away, but closes a connection
+/// for good where a server complains of what it was sent, as behind a write that came to its end half-way: then another
+/// is made in its place at the next use.
 class Connection {
  public:
   /// Connects when a server can be reached; each is asked for a second at most, and once more for five
@@ -71,6 +74,7 @@ class Connection {
   /// False where it could not be handed over; that it was says nothing.
   bool publish(const std::string& subject, std::span<const std::uint8_t> bytes);
   bool publish(const std::string& subject, const std::string& text);
+  /// Does not outlive the connection. Throws TransportError.
   [[nodiscard]] Subscription subscribe(const std::string& subject);
 
   /// Makes the stream of all blocks where there is none, and gives it these settings. Throws TransportError.
@@ -83,31 +87,43 @@ class Connection {
                             int silent_before);
 
  private:
+  friend class Subscription;
   friend class Puller;
   struct Handles;
-  std::unique_ptr<Handles> handles_;
+  static std::shared_ptr<Handles> made(const NatsAccess& access, const std::string& name);
+  [[nodiscard]] std::shared_ptr<Handles> handles() const;
+  [[nodiscard]] std::shared_ptr<Handles> open_handles();
+
+  NatsAccess access_;
+  std::string name_;
+  mutable std::mutex mutex_;  ///< of the others
+  std::shared_ptr<Handles> handles_;
+  std::chrono::steady_clock::time_point made_{};
 };
 
-/// Messages of a subject as they come.
+/// Messages of a subject as they come, by whichever connection there is.
 class Subscription {
  public:
-  Subscription(__natsSubscription* handle, std::shared_ptr<RetiredSubscriptions> retired)
-      : handle_(handle, Retire{std::move(retired)}) {}
   /// Nothing where none came within that time, or the connection is away.
   std::optional<Message> next(std::chrono::milliseconds patience);
 
  private:
+  friend class Connection;
   friend class Puller;
+  Subscription(Connection& connection, std::string subject, std::shared_ptr<Connection::Handles> of);
   struct Retire {
     std::shared_ptr<RetiredSubscriptions> to;
     void operator()(__natsSubscription* handle) const { to->add(handle); }
   };
+  Connection* connection_;
+  std::string subject_;
   std::unique_ptr<__natsSubscription, Retire> handle_;
+  std::shared_ptr<Connection::Handles> of_;
 };
 
 /// Reads a stream by asking for messages, a bounded number at a time. By requests of our own: the library's fetching
 /// (libnats 3.4.1, natsSubscription_Fetch) writes behind its list of messages where answers to an older request come
-/// with those to a newer one. Does not outlive its connection.
+/// with those to a newer one.
 class Puller {
  public:
   /// Up to `most` messages; empty where none came within that time. Throws TransportError where the reader is gone, or
@@ -122,11 +138,11 @@ class Puller {
   struct Place {
     std::string stream, consumer, inbox;
   };
-  Puller(Connection::Handles& handles, Place place, Subscription subscription, int silent_before);
+  Puller(std::shared_ptr<Connection::Handles> handles, Place place, Subscription subscription, int silent_before);
   void ask(int most, Time now);
   void look_whether_it_is_there(Time now);
 
-  Connection::Handles* handles_;
+  std::shared_ptr<Connection::Handles> handles_;
   Place place_;
   Subscription subscription_;
   ReaderWatch watch_;
