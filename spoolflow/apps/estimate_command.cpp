@@ -107,6 +107,7 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
     Ahead<ReadBlock> reading(
         [&](ReadBlock& block) {
           const bool more = reader->next(block.samples);
+          if (more) means.take(block.samples);  // here, as the sensor has most to do
           block.notes = reader->notes();
           block.share = reader->progress();
           return more;
@@ -118,7 +119,6 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
           if (read == nullptr) return false;
           block.estimates.resize(read->samples.rows);
           estimation::run(sensor, validation::sensor_columns(read->samples), block.estimates);
-          means.take(read->samples);
           std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
           block.notes = read->notes;
           block.share = read->share;

@@ -63,13 +63,7 @@ class DescriptorBuffer : public std::streambuf {
   void descriptor(int descriptor) { descriptor_ = descriptor; }
   void stands_for_stdout() { is_stdout_ = true; }
   void write_out() {
-    const char* from = pbase();
-    if (is_stdout_ && from != pptr()) interruption_output_state(OutputState::stream_begun);
-    while (from != pptr()) {
-      const ssize_t written = ::write(descriptor_, from, static_cast<std::size_t>(pptr() - from));
-      if (written < 0 && errno != EINTR) refuse_errno(target_, errno);
-      if (written > 0) from += written;
-    }
+    write_all(pbase(), pptr());
     setp(buffer_.begin(), buffer_.end());
   }
 
@@ -83,8 +77,25 @@ class DescriptorBuffer : public std::streambuf {
     write_out();
     return 0;
   }
+  /// Large pieces go where they are to go without a copy.
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    constexpr std::streamsize large = 64 * 1024;
+    if (size < large) return std::streambuf::xsputn(text, size);
+    write_out();
+    write_all(text, text + size);
+    return size;
+  }
 
  private:
+  void write_all(const char* from, const char* end) const {
+    if (is_stdout_ && from != end) interruption_output_state(OutputState::stream_begun);
+    while (from != end) {
+      const ssize_t written = ::write(descriptor_, from, static_cast<std::size_t>(end - from));
+      if (written < 0 && errno != EINTR) refuse_errno(target_, errno);
+      if (written > 0) from += written;
+    }
+  }
+
   fs::path target_;
   int descriptor_ = -1;
   bool is_stdout_ = false;

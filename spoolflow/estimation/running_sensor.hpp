@@ -171,11 +171,16 @@ class RunningSensor {
   /// instant, a time that runs backwards holds the last answer; both say time_fault, and the next time step counts from
   /// the new time. Before the first complete sample the flow is zero with a band over the whole rated flow, of a whole
   /// valve to both sides.
-  sensor::Estimate<double> step(TimedSample sample) {
-    const SteppedSample<double> given = take(sample);
-    sensor::Estimate<double> out = answer(given.sample, sample);
-    tell(out, given);
+  sensor::Estimate<double> step(const TimedSample& sample) {
+    sensor::Estimate<double> out;
+    step(sample, out);
     return out;
+  }
+  /// The same into where it is to stand.
+  void step(TimedSample sample, sensor::Estimate<double>& out) {
+    const SteppedSample<double> given = take(sample);
+    out = answer(given.sample, sample);
+    tell(out, given);
   }
 
   /// The beginning and the end of `step`, for whoever steps the estimators of several sensors together (RunningGroup):

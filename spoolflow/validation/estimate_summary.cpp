@@ -9,14 +9,18 @@ namespace spoolflow::validation {
 
 void EstimateSummary::add(std::span<const sensor::Estimate<double>> estimates) {
   samples += estimates.size();
+  std::array<std::uint64_t, 32> with_bit{};
   for (const sensor::Estimate<double>& estimate : estimates) {
     flow_sum_m3_per_s += estimate.flow_m3_per_s;
     width_sum_m3_per_s += estimate.flow_upper_m3_per_s - estimate.flow_lower_m3_per_s;
     const auto bits = static_cast<std::uint32_t>(estimate.status);
     with_fault += (bits & sensor::fault_bits) != 0;
-    if (bits == 0) continue;
-    for (std::size_t k = 0; k < with_status.size(); ++k)
-      with_status[k] += sensor::has(estimate.status, sensor::status_names[k].bit);
+    for (std::uint32_t left = bits; left != 0; left &= left - 1)
+      ++with_bit[static_cast<std::size_t>(std::countr_zero(left))];
+  }
+  for (std::size_t k = 0; k < with_status.size(); ++k) {
+    const auto bit = static_cast<std::uint32_t>(sensor::status_names[k].bit);
+    with_status[k] += with_bit[static_cast<std::size_t>(std::countr_zero(bit))];
   }
 }
 

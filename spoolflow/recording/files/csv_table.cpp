@@ -136,8 +136,8 @@ bool CsvTable::refill() {
   return true;
 }
 
-/// The fast path: plain decimals, no quotes, the right number of cells; anything else is false and nothing has moved.
-bool CsvTable::plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const {
+/// The fast path: bare numbers, no quotes, the right number of cells; anything else is false and nothing has moved.
+bool CsvTable::plain_row(const char*& cursor, const char* end, std::span<double* const> out, std::size_t row) const {
   const char* text = cursor;
   std::size_t cells = 0;
   bool ended = false;
@@ -147,7 +147,7 @@ bool CsvTable::plain_row(const char*& cursor, std::span<double* const> out, std:
       text = behind_delimiters(text, dialect_.delimiter, step.skip);
       if (text == nullptr) return false;
     }
-    text = read_plain_decimal(text, point_, out[step.slot][row]);
+    text = read_decimal(text, end, point_, out[step.slot][row]);
     if (text == nullptr) return false;
     cells += step.skip + 1;
     if (*text == dialect_.delimiter) {
@@ -251,7 +251,7 @@ bool CsvTable::careful_row(std::string_view line, std::span<double* const> out, 
 }
 
 std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
-  line_of_row_.clear();
+  line_of_row_.resize(rows);
   std::size_t row = 0;
   const bool waits = !input_->comes_bit_by_bit();  // for more, while rows are there to be handed out
   while (row < rows && (waits || row == 0 || cursor_ != lines_end_) && refill()) {
@@ -259,18 +259,18 @@ std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
     const char* const end = buffer_.data() + lines_end_;
     while (row < rows && cursor != end) {
       ++line_;
-      if (quotes_ || *cursor == '#' || !plain_row(cursor, out, row)) {
+      if (quotes_ || *cursor == '#' || !plain_row(cursor, end, out, row)) {
         std::string_view rest(cursor, static_cast<std::size_t>(end - cursor));
         const std::string_view line = take_line(rest);
         cursor = rest.empty() ? end : rest.data();
         if (line.starts_with('#') || line.find_first_not_of(" \t") == std::string_view::npos) continue;
         if (!careful_row(line, out, row)) continue;
       }
-      line_of_row_.push_back(line_);
-      ++row;
+      line_of_row_[row++] = line_;
     }
     cursor_ = static_cast<std::size_t>(cursor - buffer_.data());
   }
+  line_of_row_.resize(row);
   return row;
 }
 

@@ -1,45 +1,76 @@
 #include "spoolflow/recording/files/csv_writer.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <ostream>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 16;
+constexpr std::size_t buffer_size = std::size_t{1} << 17;
 constexpr std::array<double, 10> power{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+constexpr std::uint64_t eight_places = 100'000'000;
+constexpr std::size_t longest_number = 344;  // 309 digits before the point, sign, point, decimals, what else is written
 
-/// Two decimal digits at a time.
-constexpr auto digit_pairs = [] {
-  std::array<char, 200> pairs{};
-  for (std::size_t k = 0; k < 100; ++k) {
-    pairs[2 * k] = static_cast<char>('0' + k / 10);
-    pairs[2 * k + 1] = static_cast<char>('0' + k % 10);
-  }
-  return pairs;
-}();
+/// The last eight decimal digits of a number below 1e8 as numbers 0 to 9, the first in the lowest byte: halves of four
+/// digits, then of two, then of one, each split in all places of the word at once by a product with the inverse.
+inline std::uint64_t eight_digits(std::uint64_t number) {
+  const std::uint64_t fours = number / 10'000 | number % 10'000 << 32;
+  const std::uint64_t hundreds = (fours * 10'486 >> 20) & 0x0000'007F'0000'007F;
+  const std::uint64_t twos = hundreds | (fours - 100 * hundreds) << 16;
+  const std::uint64_t tens = (twos * 103 >> 10) & 0x000F'000F'000F'000F;
+  return tens | (twos - 10 * tens) << 8;
+}
 
-/// The digits of `value` ending at `end`, at least `least` of them; returns where they begin.
-char* write_backwards(char* end, std::uint64_t value, int least) {
-  char* at = end;
-  while (value >= 100) {
-    at -= 2;
-    std::memcpy(at, digit_pairs.data() + 2 * (value % 100), 2);
-    value /= 100;
+/// Eight bytes, of which those that the caller counts are text.
+inline void put_eight(char* out, std::uint64_t digits) {
+  std::uint64_t text = digits | 0x3030'3030'3030'3030;
+  if constexpr (std::endian::native == std::endian::big) text = __builtin_bswap64(text);
+  std::memcpy(out, &text, sizeof text);
+}
+
+/// The digits of `number`, below 1e16, the last `decimals` <= 7 of them behind a point and at least one before it;
+/// returns the end. Writes up to 8 bytes more.
+inline char* put_fixed(char* out, std::uint64_t number, unsigned decimals) {
+  unsigned most_zeros = 7 - decimals;  // that are left out: leading ones, but for the last before the point
+  if (number >= eight_places) {
+    const std::uint64_t high = eight_digits(number / eight_places);
+    const unsigned zeros = static_cast<unsigned>(std::countr_zero(high)) / 8;
+    put_eight(out, high >> 8 * zeros);
+    out += 8 - zeros;
+    most_zeros = 0;
+    number %= eight_places;
   }
-  if (value >= 10) {
-    at -= 2;
-    std::memcpy(at, digit_pairs.data() + 2 * value, 2);
-  } else {
-    *--at = static_cast<char>('0' + value);
+  const std::uint64_t digits = eight_digits(number);
+  const unsigned leading = static_cast<unsigned>(std::countr_zero(digits | std::uint64_t{1} << 63)) / 8;
+  const unsigned zeros = std::min(leading, most_zeros);
+  put_eight(out, digits >> 8 * zeros);
+  out += 8 - zeros - decimals;
+  if (decimals == 0) return out;
+  *out = '.';
+  put_eight(out + 1, digits >> 8 * (8 - decimals));
+  return out + 1 + decimals;
+}
+
+/// Nothing where there is no number.
+inline char* put_number(char* at, double value, unsigned decimals) {
+  const double scaled = std::abs(value) * power[decimals];
+  if (scaled < 9e15 && decimals < 8) [[likely]] {
+    const auto digits = static_cast<std::int64_t>(scaled + 0.5);
+    *at = '-';
+    at += static_cast<int>(value < 0) &
+          static_cast<int>(digits != 0);  // without a branch: signs of noise come as they like
+    return put_fixed(at, static_cast<std::uint64_t>(digits), decimals);
   }
-  while (end - at < least) *--at = '0';
-  return at;
+  if (std::isnan(value)) return at;
+  return fmt::format_to_n(at, longest_number, "{:.{}f}", value, decimals).out;
 }
 
 }  // namespace
@@ -53,13 +84,26 @@ CsvWriter::~CsvWriter() {
   }
 }
 
-void CsvWriter::room(std::size_t bytes) {
-  if (buffer_.size() - used_ < bytes) flush();
+/// Room for so many bytes in one piece.
+char* CsvWriter::room(std::size_t bytes) {
+  if (buffer_.size() - used_ < bytes) [[unlikely]]
+    make_room(bytes);
+  return buffer_.data() + used_;
 }
 
-void CsvWriter::separate() {
-  if (row_begun_) buffer_[used_++] = ',';
-  row_begun_ = true;
+void CsvWriter::make_room(std::size_t bytes) {
+  flush();
+  if (buffer_.size() < bytes) buffer_.resize(bytes);
+}
+
+/// Between cells.
+char* CsvWriter::separated(char* at) {
+  *at = ',';
+  return at + (std::exchange(row_begun_, true) ? 1 : 0);
+}
+
+void CsvWriter::used_to(const char* end) {
+  used_ = static_cast<std::size_t>(end - buffer_.data());
 }
 
 void CsvWriter::header(const std::vector<std::string>& names) {
@@ -68,46 +112,42 @@ void CsvWriter::header(const std::vector<std::string>& names) {
 }
 
 void CsvWriter::number(double value, int decimals) {
-  room(512);
-  separate();
-  if (std::isnan(value)) return;
-  const double scaled = std::abs(value) * power[static_cast<std::size_t>(decimals)];
-  if (!(scaled < 9e15)) {
-    const auto written = fmt::format_to_n(buffer_.data() + used_, 400, "{:.{}f}", value, decimals);
-    used_ += static_cast<std::size_t>(written.out - (buffer_.data() + used_));
-    return;
+  used_to(put_number(separated(room(longest_number)), value, static_cast<unsigned>(decimals)));
+}
+
+void CsvWriter::numbers(std::span<const FixedColumn> columns, std::size_t row) {
+  if (columns.empty()) return;
+  char* at = separated(room(columns.size() * longest_number));
+  for (const FixedColumn& column : columns) {
+    at = put_number(at, column.values[row], column.decimals);
+    *at++ = ',';
   }
-  const auto digits = static_cast<std::uint64_t>(std::floor(scaled + 0.5));
-  std::array<char, 32> text;
-  char* const end = text.data() + text.size();
-  char* begin = write_backwards(end, digits, decimals + 1);
-  if (value < 0 && digits != 0) buffer_[used_++] = '-';
-  const std::size_t whole = static_cast<std::size_t>(end - begin) - static_cast<std::size_t>(decimals);
-  std::memcpy(buffer_.data() + used_, begin, whole);
-  used_ += whole;
-  if (decimals > 0) {
-    buffer_[used_++] = '.';
-    std::memcpy(buffer_.data() + used_, begin + whole, static_cast<std::size_t>(decimals));
-    used_ += static_cast<std::size_t>(decimals);
+  used_to(at - 1);
+}
+
+std::string CsvWriter::cell(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
   }
+  return out + '"';
+}
+
+void CsvWriter::put(std::string_view cell) {
+  char* const at = separated(room(cell.size() + 8));
+  std::memcpy(at, cell.data(), cell.size());
+  used_to(at + cell.size());
 }
 
 void CsvWriter::text(std::string_view text) {
-  room(2 * text.size() + 8);
-  if (buffer_.size() < 2 * text.size() + 8) buffer_.resize(2 * text.size() + 8);
-  separate();
-  const bool quoted = text.find_first_of(",\"\n\r") != std::string_view::npos;
-  if (quoted) buffer_[used_++] = '"';
-  for (const char c : text) {
-    if (c == '"') buffer_[used_++] = '"';
-    buffer_[used_++] = c;
-  }
-  if (quoted) buffer_[used_++] = '"';
+  put(cell(text));
 }
 
 void CsvWriter::end_row() {
-  room(8);
-  buffer_[used_++] = '\n';
+  *room(8) = '\n';
+  ++used_;
   row_begun_ = false;
 }
 

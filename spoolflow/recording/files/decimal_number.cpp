@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <fast_float/fast_float.h>
 #include <system_error>
 
 namespace spoolflow::recording {
 namespace {
+
+constexpr std::size_t longest = 400;  // no number of a recording is longer
 
 std::string_view bare(std::string_view text) {
   const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -25,9 +28,9 @@ std::string_view bare(std::string_view text) {
 bool says_missing(std::string_view text) {
   constexpr std::array<std::string_view, 10> words{"nan",  "null", "-",   "na",   "n/a",
                                                    "#n/a", "--",   "---", "none", "1.#qnan"};
-  constexpr std::size_t longest = 8;
-  if (text.size() > longest) return false;
-  std::array<char, longest> small{};
+  constexpr std::size_t longest_word = 8;
+  if (text.size() > longest_word) return false;
+  std::array<char, longest_word> small{};
   std::ranges::transform(text, small.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return std::ranges::count(words, std::string_view(small.data(), text.size())) > 0;
@@ -38,7 +41,6 @@ bool says_missing(std::string_view text) {
 Digits read_number(std::string_view text, char point, double& value) {
   text = bare(text);
   if (text.empty() || says_missing(text)) return Digits::empty;
-  constexpr std::size_t longest = 400;  // no number of a recording is longer
   if (text.size() > longest) return Digits::not_a_number;
   if (text.front() == '+' && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
   double read = 0.0;
@@ -52,6 +54,57 @@ Digits read_number(std::string_view text, char point, double& value) {
   }
   value = read;
   return Digits::number;
+}
+
+const char* read_long_decimal(const char* text, const char* end, char point, bool negative, double& value) {
+  std::uint64_t mantissa = 0;
+  std::ptrdiff_t digits = 0;
+  const char* at = text;
+  const auto take_digits = [&] {
+    for (unsigned count = 8; count == 8;) {
+      const std::uint64_t word = eight_bytes(at);
+      const std::uint64_t others = bytes_no_digits(word);
+      if (others != 0) count = static_cast<unsigned>(std::countr_zero(others)) / 8;
+      if (count == 0) return;
+      mantissa =
+          mantissa * static_cast<std::uint64_t>(exact_powers_of_ten[count]) + number_of_digits(word << 8 * (8 - count));
+      digits += count;
+      at += count;
+    }
+  };
+  take_digits();
+  std::ptrdiff_t exponent = 0;
+  if (*at == point) {
+    const char* const fraction = ++at;
+    take_digits();
+    exponent = fraction - at;
+  }
+  if (digits == 0 || at - text >= static_cast<std::ptrdiff_t>(longest)) return nullptr;
+  if (*at == 'e' || *at == 'E') {
+    ++at;
+    const bool small = *at == '-';
+    if (*at == '-' || *at == '+') ++at;
+    int written = 0;
+    std::ptrdiff_t power = 0;
+    for (; *at >= '0' && *at <= '9' && written < 4; ++written) power = 10 * power + (*at++ - '0');
+    if (written == 0 || written == 4) return nullptr;
+    exponent += small ? -power : power;
+  }
+  constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
+  constexpr auto largest = static_cast<std::ptrdiff_t>(exact_powers_of_ten.size()) - 1;
+  double magnitude = 0;
+  // 19 digits cannot overflow 64 bits, so the mantissa is right where it is compared.
+  if (digits <= 19 && mantissa <= exact_integers && exponent >= -largest && exponent <= largest) {
+    const auto integer = static_cast<double>(static_cast<std::int64_t>(mantissa));
+    magnitude = exponent < 0 ? integer / exact_powers_of_ten[static_cast<std::size_t>(-exponent)]
+                             : integer * exact_powers_of_ten[static_cast<std::size_t>(exponent)];
+  } else {
+    const auto read = fast_float::from_chars_advanced(
+        text, end, magnitude, fast_float::parse_options{fast_float::chars_format::general, point});
+    if (read.ptr != at || !std::isfinite(magnitude)) return nullptr;
+  }
+  value = negative ? -magnitude : magnitude;
+  return at;
 }
 
 bool is_number(std::string_view text) {

@@ -1,9 +1,12 @@
 #pragma once
-/// Numbers as recordings write them, such as -12.345: plain ones by a way of their own, 1.7 times as fast as
-/// fast_float, which reads the others; both with the result of std::from_chars.
+/// Numbers as recordings write them, such as -12.345: short ones eight bytes at once, the others by fast_float, all
+/// with the result of std::from_chars.
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <string_view>
+
+#include "spoolflow/recording/files/eight_bytes.hpp"
 
 namespace spoolflow::recording {
 
@@ -22,33 +25,45 @@ enum class Digits : std::uint8_t {
 /// Whether it is one, by point or comma.
 [[nodiscard]] bool is_number(std::string_view text);
 
-/// The common case, inline: sign, digits, at most one decimal sign, and then whatever ends the cell. Returns where the
-/// number ends, or nullptr where read_number() has to look (no digit, an exponent follows, more than 15 to 19 digits).
-/// Exact: a mantissa up to 2^53 divided by a power of ten up to 10^22 is rounded once (Clinger 1990).
-/// `text` must be followed by a byte that is neither digit nor decimal sign before its memory ends.
-inline const char* read_plain_decimal(const char* text, char point, double& value) {
-  constexpr std::array<double, 23> power_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                                1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
-  constexpr auto is_digit = [](char c) { return static_cast<unsigned char>(c - '0') < 10; };
+/// 10^k, all of which a double holds exactly.
+inline constexpr std::array<double, 23> exact_powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                            1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                            1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/// What read_decimal() leaves to others: more than seven characters, an exponent, or no number. `text` is behind the
+/// sign.
+[[nodiscard]] const char* read_long_decimal(const char* text, const char* end, char point, bool negative,
+                                            double& value);
+
+/// The number that begins a cell: perhaps a minus sign, digits, at most one decimal sign, perhaps an exponent. Returns
+/// where it ends, or nullptr where read_number() has to look. Up to seven characters are read inline: digits and
+/// decimals each as an integer, whose quotient is rounded once (Clinger 1990).
+/// Before `end` stands a byte that ends the cell, and behind it there is scan_padding.
+inline const char* read_decimal(const char* text, const char* end, char point, double& value) {
   const bool negative = *text == '-';
   if (negative) ++text;
-  std::uint64_t mantissa = 0;
-  const char* const first = text;
-  while (is_digit(*text)) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*text++ - '0');
-  auto digits = text - first;
-  std::ptrdiff_t decimals = 0;
-  if (*text == point) {
-    const char* const fraction = ++text;
-    while (is_digit(*text)) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*text++ - '0');
-    decimals = text - fraction;
-    digits += decimals;
+  const std::uint64_t word = eight_bytes(text);
+  std::uint64_t others = bytes_no_digits(word);
+  if (others == 0) return read_long_decimal(text, end, point, negative, value);
+  const auto whole = static_cast<unsigned>(std::countr_zero(others)) / 8;
+  unsigned length = whole;
+  unsigned decimals = 0;
+  std::uint64_t digits = word;
+  if (static_cast<char>(word >> 8 * whole) == point) {
+    others &= others - 1;
+    if (others == 0) return read_long_decimal(text, end, point, negative, value);
+    length = static_cast<unsigned>(std::countr_zero(others)) / 8;
+    decimals = length - whole - 1;
+    const std::uint64_t before = (std::uint64_t{1} << 8 * whole) - 1;
+    digits = (word & before) | (word >> 8 & ~before);
   }
-  // 19 digits cannot overflow 64 bits, so the mantissa is right where it is compared.
-  if (digits == 0 || digits > 19 || mantissa > exact_integers || *text == 'e' || *text == 'E') return nullptr;
-  const double magnitude = static_cast<double>(static_cast<std::int64_t>(mantissa)) / power_of_ten[decimals];
+  const unsigned count = whole + decimals;
+  if (count == 0 || (static_cast<char>(word >> 8 * length) | 0x20) == 'e')
+    return read_long_decimal(text, end, point, negative, value);
+  const auto mantissa = static_cast<std::int64_t>(number_of_digits(digits << 8 * (8 - count)));
+  const double magnitude = static_cast<double>(mantissa) / exact_powers_of_ten[decimals];
   value = negative ? -magnitude : magnitude;
-  return text;
+  return text + length;
 }
 
 }  // namespace spoolflow::recording
