@@ -4,7 +4,7 @@
 #include <string_view>
 #include <thread>
 
-#include "spoolflow/fleet/transport/nats_handles.hpp"
+#include "spoolflow/fleet/transport/nats_login.hpp"
 
 namespace spoolflow::fleet {
 namespace {

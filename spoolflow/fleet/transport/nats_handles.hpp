@@ -4,7 +4,7 @@
 #include <nats/nats.h>
 #include <string>
 
-#include "spoolflow/fleet/transport/nats.hpp"
+#include "spoolflow/fleet/transport/nats_access.hpp"
 
 namespace spoolflow::fleet {
 
@@ -31,11 +31,5 @@ struct Destroy {
 };
 template <class T>
 using Handle = std::unique_ptr<T, Destroy>;
-
-/// As the library wants them. Throws LoginError where a file of `access` cannot be read.
-[[nodiscard]] Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name);
-/// Asks one server after the other until one lets us in; servers that are away are passed over. Throws LoginError where
-/// one refuses us.
-void check_login(const NatsAccess& access, const std::string& name);
 
 }  // namespace spoolflow::fleet

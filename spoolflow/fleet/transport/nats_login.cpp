@@ -1,7 +1,6 @@
-/// Who we are, to NATS servers.
-#include <array>
+#include "spoolflow/fleet/transport/nats_login.hpp"
 
-#include "spoolflow/fleet/transport/nats_handles.hpp"
+#include <array>
 
 namespace spoolflow::fleet {
 namespace {
