@@ -41,7 +41,9 @@ void Engine::report(std::int64_t now_ms, std::vector<ValveCommit>& commits, cons
     for (const Alarm& one : alarms) {
       if (one.valve == id) report.alarms.push_back(one);
     }
-    if (report.summary.samples == 0 && report.events.empty() && report.alarms.empty()) continue;
+    if (report.summary.samples == 0 && report.indicators.empty() && report.events.empty() && report.alarms.empty()) {
+      continue;
+    }
     const OutboxPosition& at = *place.reported;
     fleet::Block block{.valve = fmt::format("{}/{}", site_.fleet.site, id),
                        .model_sha256 = site_.valves[k].model.sha256,
