@@ -160,17 +160,18 @@ Session::Session(const std::string& connection, const std::string& name, std::ch
 
 /// Until there is something to read, or `to_write` room for more. Throws ServerAway once it takes too long.
 void Session::wait_for_server(bool to_write, std::chrono::steady_clock::time_point since) {
-  const bool for_ever = answers_within_.count() == 0;
-  const auto left =
-      std::chrono::duration_cast<std::chrono::milliseconds>(since + answers_within_ - std::chrono::steady_clock::now());
+  int left_ms = -1;  // for as long as it takes
+  if (answers_within_.count() > 0) {
+    const auto left = since + answers_within_ - std::chrono::steady_clock::now();
+    left_ms = static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count());
+    if (left_ms <= 0) throw ServerAway(fmt::format("PostgreSQL has not answered for {} s", answers_within_.count()));
+  }
   pollfd socket{PQsocket(handle_.get()), static_cast<short>(to_write ? POLLIN | POLLOUT : POLLIN), 0};
-  if (for_ever || left.count() > 0) (void)::poll(&socket, 1, for_ever ? -1 : static_cast<int>(left.count()));
-  if (for_ever || left.count() > 0) return;
-  stands_ = true;
-  throw ServerAway(fmt::format("PostgreSQL has not answered for {} s", answers_within_.count()));
+  (void)::poll(&socket, 1, left_ms);
 }
 
-/// The last result of what was handed to libpq, whose own waiting would last for as long as the server says nothing.
+/// The last result of what was handed to libpq, whose own waiting would last for as long as the server says nothing. It
+/// takes no statement behind one that was not answered: the session is over then.
 Rows Session::answer(int was_sent, const char* sql) {
   const auto since = std::chrono::steady_clock::now();
   Rows last(nullptr);
@@ -204,7 +205,6 @@ void Session::check(pg_result* result, const char* sql) {
 }
 
 Rows Session::run(const char* sql, const Values& values) {
-  if (stands_) throw ServerAway("PostgreSQL has not answered");
   const auto count = static_cast<int>(values.texts_.size());
   std::string& name = prepared_[sql];
   if (name.empty()) {
@@ -224,7 +224,6 @@ Rows Session::run(const char* sql, const Values& values) {
 }
 
 void Session::run_script(const std::string& sql) {
-  if (stands_) throw ServerAway("PostgreSQL has not answered");
   answer(PQsendQuery(handle_.get(), sql.c_str()), sql.c_str());
 }
 

@@ -83,7 +83,6 @@ class Session {
   void check(pg_result* result, const char* sql);
   std::unique_ptr<pg_conn, Finish> handle_;
   std::chrono::seconds answers_within_;
-  bool stands_ = false;                                    ///< the server did not answer in time: nothing more is asked
   std::unordered_map<const char*, std::string> prepared_;  ///< names by the statements' places
 };
 
