@@ -2,38 +2,22 @@
 """closed_connection_test.py COMMAND REFERENCE EXAMPLES: NATS servers complain to a site and to its only worker of what they were sent, behind which the
 library closes a connection for good. Both make another; nothing is lost and nothing taken twice."""
 import os
-import shutil
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from fleet import compared, kept, make_recordings, outbox, reach, reckoned, record_offline, site, write_site  # noqa: E402
+from fleet import compared, kept, outbox, reach, site  # noqa: E402
 from servers import until  # noqa: E402
-from whole_fleet import Fleet  # noqa: E402
+from whole_fleet import Fleet, WithAFleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
 SECONDS, VALVES = 70, 2
 MODEL = os.path.join(EXAMPLES, "live", "size_6.json")
 
 
-class ClosedConnection(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="spoolflow-closed-")
-        os.chmod(self.folder, 0o755)
-        self.fleet = None
-
-    def tearDown(self):
-        if self.fleet:
-            self.fleet.stop()
-        shutil.rmtree(self.folder)
-
+class ClosedConnection(WithAFleet):
     def test_blocks_go_on_by_another_connection(self):
-        make_recordings(COMMAND, self.folder, SECONDS)
-        write_site(self.folder, MODEL, VALVES, 0.1)
-        record_offline(COMMAND, self.folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS, 120)
-        waiting = outbox(self.folder)[0]
-        expected = reckoned(COMMAND, REFERENCE, self.folder, MODEL)
+        waiting, expected = self.blocks_that_wait(COMMAND, REFERENCE, MODEL, VALVES, SECONDS)
         fleet = self.fleet = Fleet(COMMAND, self.folder, "cluster")
         fleet.setup()
         file = os.path.join(self.folder, "fleet.toml")  # the worker comes through the gates, too

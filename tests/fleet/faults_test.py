@@ -7,10 +7,8 @@ ten minutes of samples, or VALVES,SECONDS as --large=50,100, in blocks of a seco
 import json
 import os
 import random
-import shutil
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import urllib.request
@@ -20,7 +18,7 @@ from block_reader import read_block  # noqa: E402
 from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline,  # noqa: E402
                    reports_of_the_fleet, reports_of_the_site, site, write_reporting_site, write_site)
 from servers import make_certificates, refused_by_nats, until  # noqa: E402
-from whole_fleet import Fleet  # noqa: E402
+from whole_fleet import Fleet, WithAFleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
 KIND, SEEDS = sys.argv[4], [int(seed) for seed in sys.argv[5:] if not seed.startswith("--")] or [1, 2]
@@ -32,18 +30,15 @@ PATIENCE = max(1.0, VALVES * SECONDS / 5000)  # of what takes longer the more sa
 MODEL = os.path.join(EXAMPLES, "live", "size_6.json")
 
 
-class Faults(unittest.TestCase):
+class Faults(WithAFleet):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="spoolflow-fleet-")
-        os.chmod(self.folder, 0o755)
-        self.fleet, self.done = None, False
+        super().setUp()
+        self.done = False
 
     def tearDown(self):
-        if self.fleet:
-            if TELLS and not self.done:
-                self.fleet.tell_logs()
-            self.fleet.stop()
-        shutil.rmtree(self.folder)
+        if self.fleet and TELLS and not self.done:
+            self.fleet.tell_logs()
+        super().tearDown()
 
     def look_at_blocks(self, newest):
         """By Python alone: numbers, times, and values near those of the recording."""

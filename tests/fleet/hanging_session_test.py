@@ -3,17 +3,15 @@
 line open. The worker says so, leaves it, and the partition goes on; nothing is lost and nothing taken twice."""
 import os
 import random
-import shutil
 import signal
 import sys
-import tempfile
 import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from fleet import compared, kept, make_recordings, outbox, progress, reach, reckoned, record_offline, site, write_site  # noqa: E402
+from fleet import compared, kept, outbox, progress, reach, site  # noqa: E402
 from servers import until  # noqa: E402
-from whole_fleet import Fleet  # noqa: E402
+from whole_fleet import Fleet, WithAFleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
 SECONDS, VALVES = 70, 2
@@ -22,18 +20,15 @@ AT_REST = ("SELECT pid FROM pg_stat_activity JOIN partition ON application_name 
            "WHERE state = 'idle' AND number IN (SELECT partition FROM valve)")
 
 
-class HangingSession(unittest.TestCase):
+class HangingSession(WithAFleet):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="spoolflow-hanging-")
-        os.chmod(self.folder, 0o755)
-        self.fleet, self.halted = None, []
+        super().setUp()
+        self.halted = []
 
     def tearDown(self):
         for pid in self.halted:
             os.kill(pid, signal.SIGKILL)
-        if self.fleet:
-            self.fleet.stop()
-        shutil.rmtree(self.folder)
+        super().tearDown()
 
     def halt_a_session(self):
         """One that is in no transaction: what a transaction holds is nobody else's before it has ended."""
@@ -46,11 +41,7 @@ class HangingSession(unittest.TestCase):
         return False
 
     def test_the_partition_goes_on_with_another_session(self):
-        make_recordings(COMMAND, self.folder, SECONDS)
-        write_site(self.folder, MODEL, VALVES, 0.1)
-        record_offline(COMMAND, self.folder, "nats://127.0.0.1:1", VALVES, 1000 * SECONDS, 120)
-        waiting = outbox(self.folder)[0]
-        expected = reckoned(COMMAND, REFERENCE, self.folder, MODEL)
+        waiting, expected = self.blocks_that_wait(COMMAND, REFERENCE, MODEL, VALVES, SECONDS)
         fleet = self.fleet = Fleet(COMMAND, self.folder, "cluster")
         fleet.setup()
         fleet.start_worker()

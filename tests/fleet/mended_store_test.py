@@ -4,32 +4,20 @@ one that was cut off the fleet is told which blocks are, and everything else is 
 import json
 import os
 import re
-import shutil
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from fleet import make_recordings, outbox, site, write_site  # noqa: E402
 from servers import until  # noqa: E402
-from whole_fleet import Fleet  # noqa: E402
+from whole_fleet import Fleet, WithAFleet  # noqa: E402
 
 COMMAND, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:3])
 SECONDS, VALVES, SPEED = 70, 2, 3
 MODEL = os.path.join(EXAMPLES, "live", "size_6.json")
 
 
-class MendedStore(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="spoolflow-mended-")
-        os.chmod(self.folder, 0o755)
-        self.fleet = None
-
-    def tearDown(self):
-        if self.fleet:
-            self.fleet.stop()
-        shutil.rmtree(self.folder)
-
+class MendedStore(WithAFleet):
     def committed(self):
         return dict(line.split("|") for line in self.fleet.postgres.ask(
             "SELECT id, block FROM coverage JOIN valve ON valve = number"))

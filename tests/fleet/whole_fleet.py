@@ -1,10 +1,13 @@
 """A fleet on loopback: servers, workers, and what may happen to each of them."""
 import os
+import shutil
 import signal
 import subprocess
+import tempfile
 import time
+import unittest
 
-from fleet import Worker, write_fleet
+from fleet import Worker, make_recordings, outbox, reckoned, record_offline, write_fleet, write_site
 from servers import Gate, Nats, Postgres, ask_nats, free_ports, make_certificates, tls_of_nats, until
 
 
@@ -134,3 +137,24 @@ class Fleet:
 
     def start_another_worker(self, _):
         self.start_worker()
+
+
+class WithAFleet(unittest.TestCase):
+    """A folder of its own, and the fleet that a test starts in it, ended behind the test."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="spoolflow-fleet-")
+        os.chmod(self.folder, 0o755)
+        self.fleet = None
+
+    def tearDown(self):
+        if self.fleet:
+            self.fleet.stop()
+        shutil.rmtree(self.folder)
+
+    def blocks_that_wait(self, command, reference, model, valves, seconds):
+        """How many a site keeps that worked while no server was there, and what one process makes of them."""
+        make_recordings(command, self.folder, seconds)
+        write_site(self.folder, model, valves, 0.1)
+        record_offline(command, self.folder, "nats://127.0.0.1:1", valves, 1000 * seconds, 120)
+        return outbox(self.folder)[0], reckoned(command, reference, self.folder, model)
