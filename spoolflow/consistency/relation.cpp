@@ -50,7 +50,7 @@ void add_travel(std::vector<Deviation>& to, const Recording& means, double strok
                 .over_limit = too_short ? impossible : outside / count / most_outside,
                 .file = file_of(means)});
   if (strokes) return;
-  constexpr double doubtful = 1.6;  // a valve may well stay closed
+  constexpr double doubtful = 1.6;
   to.push_back({.of = largest_opening,
                 .shown = fmt::format("{:.3g} mm", units::mm_from_m(highest)),
                 .over_limit = highest < least_opening * stroke_m ? doubtful : 0,

@@ -199,6 +199,48 @@ TEST(RunMeans, KeepTheMeanOfEveryStretchHoweverLongTheRun) {
   EXPECT_EQ(means.gaps().count, 0U);
 }
 
+/// The rows of some seconds of a run.
+recording::Recording clip(const recording::Recording& run, std::size_t begin, std::size_t rows) {
+  recording::Recording out{run.file, {}};
+  for (const Channel channel : recording::all_channels()) {
+    if (!run.has(channel)) continue;
+    const auto from = run.column(channel).begin() + static_cast<std::ptrdiff_t>(begin);
+    out.column(channel).assign(from, from + static_cast<std::ptrdiff_t>(rows));
+  }
+  return out;
+}
+
+/// A dither of 100 Hz, and the voltage that it takes: some of its samples catch the current at its peaks, where it
+/// stands still for a moment while the voltage is far from what the resistance alone takes.
+void lay_dither_on(recording::Recording& run) {
+  constexpr double swing_A = 0.15, swing_V = 6, pi = 3.14159265358979;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const double phase = 2 * pi * 100 * run.column(Channel::time)[k];
+    run.column(Channel::current)[k] += swing_A * std::sin(phase);
+    run.column(Channel::voltage)[k] += swing_V * std::sin(phase + 1.2);
+  }
+}
+
+TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens) {
+  const RigBenches valve = rig_benches("size_6", 0);
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  const std::size_t second = 1000;
+  ASSERT_GT(run.size(), 10 * second);
+  run.column(Channel::pressure_upstream).clear();  // as a sensor is given it
+  run.column(Channel::pressure_downstream).clear();
+  run.column(Channel::flow_reference).clear();
+  for (const bool dithered : {false, true}) {
+    if (dithered) lay_dither_on(run);
+    for (std::size_t begin = 0; begin + 3 * second <= run.size(); begin += second / 2) {
+      for (const std::size_t rows : {2 * second, 3 * second}) {
+        EXPECT_THAT(all_texts(doubts_about(known, means_of(clip(run, begin, rows)), "clip.csv")), testing::IsEmpty())
+            << "from " << begin << (dithered ? " with dither" : "");
+      }
+    }
+  }
+}
+
 TEST(RunMeans, AStretchOfTimeWithoutSamplesIsAGap) {
   RunMeans means;
   recording::SampleBlock block;
