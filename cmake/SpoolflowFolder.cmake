@@ -36,11 +36,18 @@ function(spoolflow_link_names list)
   set(${list} ${names} PARENT_SCOPE)
 endfunction()
 
-# spoolflow_folder(NAME [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
+# spoolflow_light(TARGET): its time goes into texts, files and sockets; more than -O1 would but take longer to build.
+function(spoolflow_light target)
+  if(NOT SPOOLFLOW_SANITIZE)
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
+# spoolflow_folder(NAME [LIGHT] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME; a folder without *.cpp is
-# header-only. A room has its folder's name before its own: rig/plant becomes spoolflow_rig_plant.
+# header-only. A room has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. LIGHT: see spoolflow_light.
 function(spoolflow_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS;APART")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "LINKS;PRIVATE_LINKS;APART")
   spoolflow_link_names(arg_LINKS)
   spoolflow_link_names(arg_PRIVATE_LINKS)
   string(REPLACE "/" "_" name ${name})
@@ -52,6 +59,9 @@ function(spoolflow_folder name)
   if(sources)
     add_library(spoolflow_${name} STATIC ${sources})
     target_link_libraries(spoolflow_${name} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
+    if(arg_LIGHT)
+      spoolflow_light(spoolflow_${name})
+    endif()
   else()
     add_library(spoolflow_${name} INTERFACE)
     target_link_libraries(spoolflow_${name} INTERFACE spoolflow_settings ${arg_LINKS})
@@ -68,9 +78,7 @@ function(spoolflow_tests folder)
   endif()
   add_executable(${folder}_test ${sources})
   target_link_libraries(${folder}_test PRIVATE spoolflow_warnings ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
-  if(NOT SPOOLFLOW_SANITIZE)
-    target_compile_options(${folder}_test PRIVATE -O1)  # what is tested is optimised in its own library; this builds sooner
-  endif()
+  spoolflow_light(${folder}_test)  # what is tested is optimised in its own library
   if(SPOOLFLOW_SANITIZE)
     return()  # ctest runs the whole program (tests/CMakeLists.txt)
   endif()

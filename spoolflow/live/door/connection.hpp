@@ -105,7 +105,7 @@ class PlotStream : public std::enable_shared_from_this<PlotStream<Stream>> {
     });
   }
 
-  websocket::stream<Stream> socket_;
+  websocket::stream<Stream, false> socket_;  // frames are not compressed
   Seats::Seat seat_;
   asio::steady_timer timer_;
   NextFrame next_;
