@@ -77,10 +77,10 @@ std::vector<CanopenObject> canopen_objects(const PlantAnswer& answer, const Cano
   const char* const sending = "TPDO 1 communication parameter";
   const char* const mapped = "TPDO 1 mapping parameter";
   const char* const estimated = "Estimated flow";
-  const bool is_sound = (sensor::canopen_status_word(flow) & 8U) != 0;
+  const bool is_active = sensor::canopen_status_word(flow) == sensor::canopen_active;
   return {
       {0x1000, 0, unsigned32, "Device type", "", 408},
-      {0x1001, 0, unsigned8, "Error register", "", is_sound ? 0U : 0x81U},
+      {0x1001, 0, unsigned8, "Error register", "", is_active ? 0U : 0x81U},
       {0x1017, 0, unsigned16, "Producer heartbeat time", "", heartbeat_ms},
       {0x1018, 0, unsigned8, identity, "Highest sub-index supported", 4},
       {0x1018, 1, unsigned32, identity, "Vendor-ID", 0},

@@ -87,7 +87,22 @@ TEST(CanopenDevice, TellsAsUnknownWhatAStalledValveHad) {
   stalled.stalled = true;
   EXPECT_THAT(device.hear(request(0x40, 0x2000, 4), stalled)->data,
               testing::ElementsAre(0x43, 0x00, 0x20, 4, 0, 0, 0, 0x80));
-  EXPECT_EQ(device.hear(request(0x40, 0x1001, 0), stalled)->data[4], 0x81);
+}
+
+TEST(CanopenDevice, HasAnErrorInItsRegisterWhereItsStateIsAFault) {
+  CanopenDevice device({.node = 17});
+  const auto told = [&](std::uint16_t index, const PlantAnswer& answer) {
+    return device.hear(request(0x40, index, 0), answer)->data[4];
+  };
+  PlantAnswer faulty = valve(), silent = valve();
+  faulty.status = sensor::Status::coil_fault;
+  silent.stalled = true;
+  EXPECT_EQ(told(0x6041, valve()), 0x0F);
+  EXPECT_EQ(told(0x1001, valve()), 0);
+  for (const PlantAnswer& held : {faulty, silent}) {
+    EXPECT_EQ(told(0x6041, held), 0x03);
+    EXPECT_EQ(told(0x1001, held), 0x81);
+  }
 }
 
 /// SPOOLFLOW_WRITE_EDS=1 writes it anew.

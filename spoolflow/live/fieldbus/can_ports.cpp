@@ -9,6 +9,7 @@
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -34,6 +35,7 @@ class SocketCan : public CanPort {
     }
   }
   bool send(const CanFrame& frame, double) override {
+    if (!trouble_.empty()) return false;
     can_frame out{};
     out.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U);
     out.can_dlc = frame.size;
@@ -55,8 +57,10 @@ class SocketCan : public CanPort {
     }
     return std::nullopt;
   }
-  void look_after() override {
-    if (!trouble_.empty()) open();
+  bool look_after() override {
+    if (trouble_.empty()) return false;
+    open();
+    return trouble_.empty();
   }
 
  private:
@@ -73,6 +77,13 @@ class SocketCan : public CanPort {
     if (address.can_ifindex == 0 ||
         ::bind(socket_.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
       trouble_ = fmt::format("no CAN interface {}: {}", interface_, std::strerror(errno));
+      return;
+    }
+    ifreq state{};
+    interface_.copy(state.ifr_name, sizeof state.ifr_name - 1);
+    // The kernel binds to an interface that is down, too.
+    if (::ioctl(socket_.number(), SIOCGIFFLAGS, &state) != 0 || (state.ifr_flags & IFF_UP) == 0) {
+      trouble_ = fmt::format("the CAN interface {} is down", interface_);
     }
   }
   std::string interface_;
@@ -100,9 +111,9 @@ class CanLog : public CanPort {
     written_ += static_cast<double>(text.size());
     return std::fputs(text.c_str(), out_) >= 0;
   }
-  void look_after() override {
+  bool look_after() override {
     if (out_ != nullptr && std::fflush(out_) != 0) fail();
-    if (out_ != nullptr && written_ < largest_) return;
+    if (out_ != nullptr && written_ < largest_) return false;
     if (out_ != nullptr) {
       if (is_asc_) (void)std::fputs("End TriggerBlock\n", out_);
       (void)std::fclose(out_);
@@ -111,6 +122,7 @@ class CanLog : public CanPort {
       std::filesystem::rename(file_, file_.string() + ".1", ignored);
     }
     begin();
+    return false;
   }
 
  private:

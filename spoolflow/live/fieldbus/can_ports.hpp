@@ -21,8 +21,8 @@ class CanPort {
   virtual bool send(const sensor::CanFrame& frame, double time_s) = 0;
   /// The next frame of others; nothing where none has come.
   virtual std::optional<sensor::CanFrame> receive() { return std::nullopt; }
-  /// Once a second: writes what it holds back, opens again what was lost.
-  virtual void look_after() {}
+  /// Once a second: writes what it holds back, opens again what was lost. True where a bus that was lost is back.
+  virtual bool look_after() { return false; }
   [[nodiscard]] const std::string& trouble() const { return trouble_; }
 
  protected:

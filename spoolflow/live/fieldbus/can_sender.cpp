@@ -25,12 +25,15 @@ struct CanSender::Parts {
     fieldbus::CanopenDevice device;
   };
   static constexpr std::uint32_t tick_ms = 10;
+  /// SAE J1939-81: who claims an address sends nothing else under it until others had this time to object.
+  static constexpr std::uint32_t objection_ms = 250;
 
   Engine& engine;
   CanSettings settings;
   std::vector<std::unique_ptr<CanPort>> ports;
   std::shared_ptr<Output> output;
   fieldbus::J1939Address address;
+  std::uint32_t claimed_tick = 0;
   std::vector<Auxiliary> auxiliaries{};
   std::vector<Node> nodes{};
   std::jthread thread{};
@@ -62,6 +65,11 @@ struct CanSender::Parts {
       }
     }
   }
+  void claim(std::uint32_t tick) {
+    if (auxiliaries.empty()) return;
+    claimed_tick = tick;
+    send(address.claim());
+  }
   void hear() {
     constexpr int most_in_a_tick = 200;
     for (const auto& port : ports) {
@@ -80,7 +88,8 @@ struct CanSender::Parts {
   }
   void tell(std::uint32_t tick) {
     const auto is_due = [&](std::uint32_t period_ms) { return tick * tick_ms % period_ms < tick_ms; };
-    if (is_due(sensor::estimated_flow_period_ms) && !address.is_lost()) {
+    const bool is_ours = !address.is_lost() && tick - claimed_tick > objection_ms / tick_ms;
+    if (is_ours && is_due(sensor::estimated_flow_period_ms)) {
       for (const Auxiliary& one : auxiliaries) {
         send(sensor::estimated_flow_frame(flow_answer(answer_of(engine, one.valve)), one.at));
       }
@@ -91,26 +100,28 @@ struct CanSender::Parts {
       send(sensor::process_data_frame(flow_answer(answer_of(engine, node.valve)), node.device.node()));
     }
   }
-  void look_after() {
+  void look_after(std::uint32_t tick) {
+    bool is_back = false;
     std::string trouble = address.is_lost() ? fmt::format(
                                                   "J1939 address {} belongs to another device; name another as "
                                                   "source_address in [can]",
                                                   settings.source_address)
                                             : "";
     for (const auto& port : ports) {
-      port->look_after();
+      is_back = port->look_after() || is_back;
       if (!port->trouble().empty()) trouble = port->trouble();
     }
+    if (is_back) claim(tick);
     output->set_trouble(trouble);
   }
   void run(const std::stop_token& stop) {
     constexpr std::uint32_t ticks_a_second = 1000 / tick_ms;
     parallel::SteadyTime next = std::chrono::steady_clock::now();
-    if (!auxiliaries.empty()) send(address.claim());
+    claim(0);
     for (std::uint32_t tick = 0;; ++tick) {
       hear();
       tell(tick);
-      if (tick % ticks_a_second == 0) look_after();
+      if (tick % ticks_a_second == 0) look_after(tick);
       next = std::max(next + std::chrono::milliseconds(tick_ms), std::chrono::steady_clock::now());
       if (!parallel::wait_until(next, stop)) return;
     }
