@@ -3,13 +3,13 @@
 /// cortex_m_profile MODEL.json RECORDING
 #include <algorithm>
 #include <exception>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "bench/sensor_profile.hpp"
 #include "tests/cortex_m/packed_run.hpp"
 #include "tests/cortex_m/workshop.hpp"
 
@@ -19,68 +19,15 @@ using namespace spoolflow;
 
 const cortex_m::Core& core = cortex_m::cores.front();
 
-/// Instructions by header, and there by function.
-using Profile = std::map<std::string, std::map<std::string, int>>;
-
 std::string firmware(const std::string& more, const std::string& out) {
   return cortex_m::compiler(core) + "-g " + more +
          SPOOLFLOW_FIRMWARE "/board.cpp " SPOOLFLOW_FIRMWARE "/profile.cpp -o " + out + cortex_m::link() +
          core.libraries;
 }
 
-/// What is written in these serves all stages and is attributed to whoever asked for it.
-bool serves_all(const std::string& header) {
-  return header == "table" || header == "scalar" || header == "status" || header == "sample" ||
-         header == "position_state";
-}
-
-/// "…/spoolflow/sensor/NAME.hpp:12" gives NAME; empty where it lies elsewhere.
-std::string header_of(const std::string& place) {
-  const auto folder = place.find("spoolflow/sensor/");
-  const auto ending = place.rfind(".hpp:");
-  if (folder == std::string::npos || ending == std::string::npos) return {};
-  const auto name = place.rfind('/', ending) + 1;
-  return place.substr(name, ending - name);
-}
-
-/// The bare name of a demangled function; of a lambda that of the function it stands in.
-std::string function_of(std::string text) {
-  text = text.substr(0, text.find("::{lambda"));
-  int depth = 0;
-  std::string flat;
-  for (const char letter : text) {
-    if (letter == '<') ++depth;
-    if (depth == 0) flat += letter;
-    if (letter == '>') --depth;
-  }
-  flat = flat.substr(0, flat.find('('));
-  return flat.substr(flat.find_last_of(" :") + 1);
-}
-
 /// Addresses of the executed instructions in `log`, with `-d exec` one a line: "Trace 0: host [table/address/…] name".
 std::string executed(cortex_m::Workshop& workshop) {
   return workshop.run("sed -n 's|^Trace [0-9]*: [^ ]* \\[[^/]*/\\([0-9a-f]*\\)/.*|0x\\1|p' trace.log");
-}
-
-/// `inlined`: of each address what addr2line -a -i -f -C says.
-Profile profile_of(const std::string& inlined) {
-  Profile profile;
-  std::istringstream lines(inlined);
-  bool found = true;
-  for (std::string function, place; std::getline(lines, function);) {
-    if (function.rfind("0x", 0) == 0) {
-      if (!found) ++profile["entry, return and others"][""];
-      found = false;
-      continue;
-    }
-    std::getline(lines, place);
-    const std::string header = header_of(place);
-    if (found || header.empty() || serves_all(header)) continue;
-    ++profile[header][function_of(function)];
-    found = true;
-  }
-  if (!found) ++profile["entry, return and others"][""];
-  return profile;
 }
 
 template <class Entry, class Count>
@@ -89,7 +36,7 @@ std::vector<Entry> by_size(std::vector<Entry> entries, const Count& count) {
   return entries;
 }
 
-void print(const Profile& profile, std::uint32_t sample) {
+void print(const bench::Profile& profile, std::uint32_t sample) {
   std::vector<std::pair<std::string, int>> totals;
   int all = 0;
   for (const auto& [header, functions] : profile) {
@@ -131,7 +78,7 @@ int main(int argc, char** argv) {
     workshop.run(cortex_m::emulator(core, "profile.elf") +
                  fmt::format(" -singlestep -d exec,nochain -dfilter 0x{}+0x{} -D trace.log", address, size));
     workshop.write("addresses", executed(workshop));
-    print(profile_of(workshop.run("arm-none-eabi-addr2line -a -i -f -C -e profile.elf < addresses")), sample);
+    print(bench::profile_of(workshop.run("arm-none-eabi-addr2line -a -i -f -C -e profile.elf < addresses")), sample);
   } catch (const std::exception& error) {
     fmt::print(stderr, "cortex_m_profile: {}\n", error.what());
     return 1;

@@ -62,6 +62,8 @@ def cortex_m(build, model):
         block = part.get(estimator, "")
         largest = number(r"instructions a step.*?\n  \S.*?\s(\d+)\n", block)
         row(f"Cortex-M4F, {estimator}, largest step [instructions]", shown(largest), "", wanted)
+        longest = number(r"longest way through the code (\d+) instructions", block)
+        row(f"Cortex-M4F, {estimator}, longest way through the code [instructions]", shown(longest), "", "")
     for core in ("Cortex-M3", "Cortex-M0+"):
         for estimator in ("observer", "condensed"):
             block = next((block for block in text.split("\n\n") if block.startswith(f"{core}, {estimator}")), "")

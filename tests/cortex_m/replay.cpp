@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "tests/cortex_m/packed_run.hpp"
-#include "tests/cortex_m/workshop.hpp"
+#include "tests/cortex_m/step_ways.hpp"
 
 namespace spoolflow::cortex_m {
 namespace {
@@ -37,15 +37,28 @@ std::vector<std::string> ways(Estimator estimator) {
           "opening",        "opening, block", "closing",     "closing, block"};
 }
 
+/// -D for the firmware's sources.
+std::string which_sensor(Estimator estimator) {
+  return estimator == Estimator::condensed ? "-DREPLAY_CONDENSED " : "";
+}
+
 }  // namespace
+
+std::string replay_firmware(Estimator estimator, const Core& core) {
+  return compiler(core) + "-g " + which_sensor(estimator) +
+         SPOOLFLOW_FIRMWARE "/board.cpp " SPOOLFLOW_FIRMWARE "/replay.cpp -o replay.elf" + link() + core.libraries;
+}
+
+model::Model on_both_sides(model::Model model) {
+  model.p_to_a = model::Direction{model.condensed, model.observer, model.evidence};
+  model.valve.direction = "both";
+  return model;
+}
 
 Replay replay(const model::Model& model, Estimator estimator, const fs::path& recording, const Core& core) {
   Workshop workshop(model);
   workshop.write("run.bin", packed_run(model, estimator, recording));
-  const std::string which = estimator == Estimator::condensed ? "-DREPLAY_CONDENSED " : "";
-  workshop.run(compiler(core) + which +
-               SPOOLFLOW_FIRMWARE "/board.cpp " SPOOLFLOW_FIRMWARE "/replay.cpp -o replay.elf" + link() +
-               core.libraries);
+  workshop.run(replay_firmware(estimator, core));
   const Figures figures = figures_of(workshop.run(emulator(core, "replay.elf")));
   if (figures.at("overflowing") > 0) throw std::runtime_error("a step took more instructions than the firmware counts");
 
@@ -62,9 +75,12 @@ Replay replay(const model::Model& model, Estimator estimator, const fs::path& re
     const StepCost way = cost(figures, fmt::format("mode{}", k), names[k]);
     if (way.steps > 0) out.ways.push_back(way);
   }
+  if (std::string(core.flags).find("hard") != std::string::npos)
+    out.longest_way = static_cast<std::uint32_t>(
+        longest_way_of(workshop, "replay.elf", step_code_of(workshop, "replay.elf")).size() + call_instructions);
   out.state_bytes = figures.at("state_bytes");
   out.stack_bytes = figures.at("stack_bytes");
-  out.flash_bytes = flash_bytes(workshop, core, which);
+  out.flash_bytes = flash_bytes(workshop, core, which_sensor(estimator));
   workshop.run(compiler(core) + SPOOLFLOW_FIRMWARE "/board.cpp self_test.cpp -o self_test.elf" + link() +
                core.libraries);
   workshop.run(emulator(core, "self_test.elf"), 3);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,17 @@ struct Replay {
   StepCost all;
   std::vector<StepCost> ways;  ///< each that was taken
   std::uint32_t state_bytes;
-  std::uint32_t stack_bytes;       ///< of one step
+  std::optional<std::uint32_t> longest_way;  ///< by the graph of the step's code; with a floating-point unit alone
+  std::uint32_t stack_bytes;                 ///< of one step
   std::uint32_t flash_bytes;       ///< code and tables of this sensor, linked without any library but the compiler's
   std::uint32_t self_test_status;  ///< of the exported self-test on the core
 };
+
+/// The command that compiles `replay.elf`, with lines of source in it.
+[[nodiscard]] std::string replay_firmware(estimation::Estimator estimator, const Core& core);
+
+/// A valve that has the one direction of `model` on both sides.
+[[nodiscard]] model::Model on_both_sides(model::Model model);
 
 /// Throws std::runtime_error with what the tools said where one of them fails.
 [[nodiscard]] Replay replay(const model::Model& model, estimation::Estimator estimator,

@@ -1,8 +1,11 @@
 #include "tests/cortex_m/workshop.hpp"
 
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -47,6 +50,21 @@ std::string Workshop::run(const std::string& command, int allowed_status) {
   if (status_ > allowed_status)
     throw std::runtime_error(fmt::format("{}\nfailed ({}): {}", command, status_, content(said)));
   return content(said);
+}
+
+void Workshop::read_lines(const std::string& command, const std::function<void(const std::string&)>& each) const {
+  const std::unique_ptr<FILE, int (*)(FILE*)> out(
+      ::popen(fmt::format("cd '{}' && {} </dev/null", folder_.string(), command).c_str(), "r"), ::pclose);
+  if (!out) throw std::runtime_error("cannot run " + command);
+  std::array<char, 512> text;
+  std::string line;
+  while (std::fgets(text.data(), static_cast<int>(text.size()), out.get()) != nullptr) {
+    line += text.data();
+    if (line.back() != '\n') continue;
+    line.pop_back();
+    each(line);
+    line.clear();
+  }
 }
 
 std::string options(const Core& core) {

@@ -2,6 +2,7 @@
 /// A folder in which firmware is built from an export and run on an emulated core.
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -22,6 +23,8 @@ class Workshop {
   /// What the command prints. Throws std::runtime_error where its exit status is not one of 0 to `allowed_status`.
   std::string run(const std::string& command, int allowed_status = 0);
   [[nodiscard]] int status() const { return status_; }
+  /// Calls `each` with every line that the command prints, while it runs.
+  void read_lines(const std::string& command, const std::function<void(const std::string&)>& each) const;
 
  private:
   std::filesystem::path folder_;
