@@ -30,6 +30,7 @@ bool asks_for_more(const HydraulicCurves& hydraulics, const MagneticCurves& magn
   constexpr std::size_t fewest = 3, one_of = 100;
   std::size_t beyond = 0;
   for (std::size_t k = 0; k < current_A.size(); ++k) {
+    if (!std::isfinite(position_m[k]) || !std::isfinite(current_A[k])) continue;
     const double x = std::max(position_m[k], 0.0);
     const double held_N = hydraulics.spring_at(x) + hydraulics.force_per_Pa_at(x) * hydraulics.highest_pressure_Pa +
                           2 * hydraulics.friction_N;
@@ -122,9 +123,10 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
   const std::vector<double>& position_m = run.column(Channel::position);
   const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
   const std::vector<double>& reference = run.column(Channel::flow);
-  std::vector<double> expected(reference.size());
+  std::vector<double> expected(reference.size(), std::nan(""));
   double largest = 0;
   for (std::size_t k = 0; k < expected.size(); ++k) {
+    if (!std::isfinite(position_m[k])) continue;
     const double conductance = std::max(hydraulics.conductance_at(std::max(position_m[k], 0.0)), 0.0);
     expected[k] = conductance * std::copysign(std::sqrt(std::abs(pressure_Pa[k])), pressure_Pa[k]);
     if (std::isfinite(expected[k])) largest = std::max(largest, std::abs(expected[k]));
@@ -154,9 +156,9 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
 void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
                         const Recording& run) {
   add_travel(to, run, hydraulics.stroke_m, false);
-  Deviation& opening = to.back();
-  if (opening.of == largest_opening && run.has(Channel::current) && !asks_for_more(hydraulics, magnetics, run))
-    opening.over_limit = 0;  // a valve may well stay closed
+  const bool has_opening = !to.empty() && to.back().of == largest_opening;
+  if (has_opening && run.has(Channel::current) && !asks_for_more(hydraulics, magnetics, run))
+    to.back().over_limit = 0;  // a valve may well stay closed
   const bool with_pressure = run.has(Channel::pressure_difference), with_flow = run.has(Channel::flow);
   if (run.has(Channel::current)) {
     if (with_pressure || with_flow) {

@@ -133,7 +133,9 @@ double momentum_share(const HydraulicCurves& curves, const std::vector<const Rec
   return square > 0 ? product / square : std::nan("");
 }
 
+/// NaN where the position is not known.
 double on_knots(const std::vector<double>& knots, double position_m, double stroke_m) {
+  if (!std::isfinite(position_m)) return std::nan("");
   return of(between_knots(position_m, stroke_m, position_knots), knots);
 }
 
@@ -173,6 +175,7 @@ HydraulicCurves fit_hydraulics(const Recording* spring, const std::vector<const 
 }
 
 double MagneticCurves::at(double current_A, double position_m) const {
+  if (!std::isfinite(current_A) || !std::isfinite(position_m)) return std::nan("");
   return of(map_row(current_A, position_m, largest_current_A, stroke_m), force_N);
 }
 

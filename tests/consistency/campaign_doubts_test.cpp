@@ -210,6 +210,11 @@ recording::Recording clip(const recording::Recording& run, std::size_t begin, st
   return out;
 }
 
+void keep_what_a_sensor_reads(recording::Recording& run) {
+  for (const Channel other : {Channel::pressure_upstream, Channel::pressure_downstream, Channel::flow_reference})
+    run.column(other).clear();
+}
+
 /// A dither of 100 Hz, and the voltage that it takes: some of its samples catch the current at its peaks, where it
 /// stands still for a moment while the voltage is far from what the resistance alone takes.
 void lay_dither_on(recording::Recording& run) {
@@ -227,9 +232,7 @@ TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens)
   recording::Recording run = valve.recordings.at("ramp_60bar.csv");
   const std::size_t second = 1000;
   ASSERT_GT(run.size(), 10 * second);
-  run.column(Channel::pressure_upstream).clear();  // as a sensor is given it
-  run.column(Channel::pressure_downstream).clear();
-  run.column(Channel::flow_reference).clear();
+  keep_what_a_sensor_reads(run);
   for (const bool dithered : {false, true}) {
     if (dithered) lay_dither_on(run);
     for (std::size_t begin = 0; begin + 3 * second <= run.size(); begin += second / 2) {
@@ -238,6 +241,17 @@ TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens)
             << "from " << begin << (dithered ? " with dither" : "");
       }
     }
+  }
+}
+
+TEST(RunDoubts, AreNoneOfACableOfThePositionSensorThatIsTornFromSomeSampleOn) {
+  const RigBenches valve = rig_benches("size_6", 0);
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  for (const std::size_t torn_from : {0U, 400U, 2990U}) {
+    recording::Recording run = clip(valve.recordings.at("ramp_60bar.csv"), 0, 3000);
+    keep_what_a_sensor_reads(run);
+    for (std::size_t k = torn_from; k < run.size(); ++k) run.column(Channel::position)[k] = std::nan("");
+    EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "torn.csv")), testing::IsEmpty()) << torn_from;
   }
 }
 
