@@ -49,12 +49,6 @@ void add_travel(std::vector<Deviation>& to, const Recording& means, double strok
                 .shown = fmt::format("{:.3g} to {:.3g} mm", units::mm_from_m(lowest), units::mm_from_m(highest)),
                 .over_limit = too_short ? impossible : outside / count / most_outside,
                 .file = file_of(means)});
-  if (strokes) return;
-  constexpr double doubtful = 1.6;
-  to.push_back({.of = largest_opening,
-                .shown = fmt::format("{:.3g} mm", units::mm_from_m(highest)),
-                .over_limit = highest < least_opening * stroke_m ? doubtful : 0,
-                .file = file_of(means)});
 }
 
 double over_limit_of(const std::vector<Deviation>& deviations, const Deviation& as) {

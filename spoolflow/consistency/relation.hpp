@@ -26,7 +26,7 @@ inline constexpr const char* reference_ratio = "reference flow over that of edge
 [[nodiscard]] double factor_over(double value, double usual, double factor);
 /// The recording's file without its folder.
 [[nodiscard]] std::string file_of(const recording::Recording& recording);
-/// Positions lie within the stroke, bench strokes go over half of it at least, an operating run opens the valve.
+/// Positions lie within the stroke, bench strokes go over half of it at least.
 void add_travel(std::vector<Deviation>& to, const recording::Recording& means, double stroke_m, bool strokes,
                 double most_outside = outside_share);
 

@@ -22,6 +22,13 @@ double least_imbalance_N(const HydraulicCurves& hydraulics) {
   return balance_share * hydraulics.force_range_N + balance_frictions * hydraulics.friction_N;
 }
 
+/// What the solenoid pulls beyond springs, the largest flow force and friction at a position [N]; NaN where either is
+/// not known.
+double pull_beyond_N(const HydraulicCurves& hydraulics, const MagneticCurves& magnetics, double current_A, double x) {
+  const double most_N = hydraulics.force_per_Pa_at(x) * hydraulics.highest_pressure_Pa;
+  return magnetics.at(current_A, x) - hydraulics.spring_at(x) - most_N - 2 * hydraulics.friction_N;
+}
+
 /// Whether the solenoid pulls harder, in one block of a hundred, than springs, the largest flow force and friction hold
 /// at the recorded position: the spool must have opened further.
 bool asks_for_more(const HydraulicCurves& hydraulics, const MagneticCurves& magnetics, const Recording& run) {
@@ -30,13 +37,25 @@ bool asks_for_more(const HydraulicCurves& hydraulics, const MagneticCurves& magn
   constexpr std::size_t fewest = 3, one_of = 100;
   std::size_t beyond = 0;
   for (std::size_t k = 0; k < current_A.size(); ++k) {
-    if (!std::isfinite(position_m[k]) || !std::isfinite(current_A[k])) continue;
     const double x = std::max(position_m[k], 0.0);
-    const double held_N = hydraulics.spring_at(x) + hydraulics.force_per_Pa_at(x) * hydraulics.highest_pressure_Pa +
-                          2 * hydraulics.friction_N;
-    beyond += magnetics.at(current_A[k], x) - held_N > least_imbalance_N(hydraulics);
+    beyond += pull_beyond_N(hydraulics, magnetics, current_A[k], x) > least_imbalance_N(hydraulics);
   }
   return beyond >= std::max(fewest, current_A.size() / one_of);
+}
+
+/// A valve may well stay closed, unless the solenoid asks for more.
+void add_opening(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                 const Recording& run) {
+  double highest_m = std::nan("");
+  for (const double position_m : run.column(Channel::position)) highest_m = std::fmax(highest_m, position_m);
+  if (std::isnan(highest_m)) return;
+  constexpr double doubtful = 1.6;
+  const bool hardly_opens = highest_m < least_opening * hydraulics.stroke_m &&
+                            (!run.has(Channel::current) || asks_for_more(hydraulics, magnetics, run));
+  to.push_back({.of = largest_opening,
+                .shown = fmt::format("{:.3g} mm", units::mm_from_m(highest_m)),
+                .over_limit = hardly_opens ? doubtful : 0,
+                .file = file_of(run)});
 }
 
 /// Without pressure and flow: what the solenoid holds is no less than the springs and no more than springs and the
@@ -50,9 +69,8 @@ void add_force_bounds(std::vector<Deviation>& to, const HydraulicCurves& hydraul
     const double x = position_m[k];
     if (!(x > least_opening * hydraulics.stroke_m) || !std::isfinite(current_A[k])) continue;
     const double net_N = magnetics.at(current_A[k], x) - hydraulics.spring_at(x);
-    const double most_N = hydraulics.force_per_Pa_at(x) * hydraulics.highest_pressure_Pa;
     const double beyond_N =
-        std::max({0.0, -net_N - 2 * hydraulics.friction_N, net_N - most_N - 2 * hydraulics.friction_N});
+        std::max({0.0, -net_N - 2 * hydraulics.friction_N, pull_beyond_N(hydraulics, magnetics, current_A[k], x)});
     square += beyond_N * beyond_N;
     ++count;
   }
@@ -123,10 +141,9 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
   const std::vector<double>& position_m = run.column(Channel::position);
   const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
   const std::vector<double>& reference = run.column(Channel::flow);
-  std::vector<double> expected(reference.size(), std::nan(""));
+  std::vector<double> expected(reference.size());
   double largest = 0;
   for (std::size_t k = 0; k < expected.size(); ++k) {
-    if (!std::isfinite(position_m[k])) continue;
     const double conductance = std::max(hydraulics.conductance_at(std::max(position_m[k], 0.0)), 0.0);
     expected[k] = conductance * std::copysign(std::sqrt(std::abs(pressure_Pa[k])), pressure_Pa[k]);
     if (std::isfinite(expected[k])) largest = std::max(largest, std::abs(expected[k]));
@@ -156,9 +173,7 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
 void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
                         const Recording& run) {
   add_travel(to, run, hydraulics.stroke_m, false);
-  const bool has_opening = !to.empty() && to.back().of == largest_opening;
-  if (has_opening && run.has(Channel::current) && !asks_for_more(hydraulics, magnetics, run))
-    to.back().over_limit = 0;  // a valve may well stay closed
+  add_opening(to, hydraulics, magnetics, run);
   const bool with_pressure = run.has(Channel::pressure_difference), with_flow = run.has(Channel::flow);
   if (run.has(Channel::current)) {
     if (with_pressure || with_flow) {
