@@ -1,6 +1,7 @@
 #include "spoolflow/consistency/block_means.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace spoolflow::consistency {
 namespace {
@@ -17,7 +18,49 @@ std::vector<double> means_of(const std::vector<double>& values, std::size_t widt
   return out;
 }
 
+/// Where each stretch begins, and behind the last.
+std::vector<std::size_t> stretches(std::span<const double> time_s) {
+  std::vector<std::size_t> out{0};
+  double begun_s = std::nan("");
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    if (std::isnan(begun_s)) begun_s = time_s[k];
+    if (!(std::abs(time_s[k] - begun_s) >= shortest_block_s)) continue;
+    out.push_back(k);
+    begun_s = time_s[k];
+  }
+  out.push_back(time_s.size());
+  return out;
+}
+
+/// Of those that are numbers, at least half of all.
+double mean_of_numbers(std::span<const double> values) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return 2 * count >= values.size() && count > 0 ? sum / static_cast<double>(count) : std::nan("");
+}
+
 }  // namespace
+
+std::vector<double> longer_blocks(std::span<const double> time_s, std::span<const double> values) {
+  const std::vector<std::size_t> begins = stretches(time_s);
+  std::vector<double> out;
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k)
+    out.push_back(mean_of_numbers(values.subspan(begins[k], begins[k + 1] - begins[k])));
+  return out;
+}
+
+recording::Recording longer_blocks(const recording::Recording& means) {
+  recording::Recording out{means.file, {}};
+  for (const Channel channel : recording::all_channels()) {
+    if (means.has(channel)) out.column(channel) = longer_blocks(means.column(Channel::time), means.column(channel));
+  }
+  return out;
+}
 
 void name_alike(recording::Recording& means) {
   if (!means.has(Channel::pressure_difference) && means.has(Channel::pressure_upstream) &&

@@ -100,7 +100,8 @@ class RunTrial {
     std::vector<Deviation> out;
     if (!both_) {
       add_run_deviations(out, valve_.front().hydraulics, valve_.front().magnetics, run);
-      add_resistance_deviation(out, {&run}, valve_.front().resistance_Ohm);
+      const Recording slow = longer_blocks(run);
+      add_resistance_deviation(out, {&slow}, valve_.front().resistance_Ohm);
       return out;
     }
     for (const int side : {1, -1}) {
@@ -108,7 +109,8 @@ class RunTrial {
       const Recording part = one_side(run, side);
       if (part.size() < 2) continue;
       std::vector<Deviation> found;
-      add_resistance_deviation(found, {&part}, known.resistance_Ohm);
+      const Recording slow = longer_blocks(part);
+      add_resistance_deviation(found, {&slow}, known.resistance_Ohm);
       add_run_deviations(found, known.hydraulics, known.magnetics, part);
       std::erase_if(found, [](const Deviation& deviation) { return deviation.of == "travel"; });
       for (Deviation& deviation : found) {

@@ -77,35 +77,12 @@ void RunMeans::take(const recording::SampleBlock& block) {
   find_gaps(block.column(Channel::time));
 }
 
-/// How many of the blocks make one that is long enough.
-std::size_t RunMeans::joined_blocks() const {
-  const Column& time = columns_[static_cast<std::size_t>(Channel::time)];
-  std::size_t first = 0, last = time.counts.size();
-  while (first < last && time.counts[first] == 0) ++first;
-  while (last > first && time.counts[last - 1] == 0) --last;
-  if (last - first < 2) return 1;
-  const auto time_s = [&](std::size_t k) { return time.sums[k] / static_cast<double>(time.counts[k]); };
-  const double block_s = (time_s(last - 1) - time_s(first)) / static_cast<double>(last - 1 - first);
-  if (!(block_s > 0)) return 1;
-  return static_cast<std::size_t>(std::clamp(std::ceil(shortest_run_block_s / block_s), 1.0, double{most_blocks}));
-}
-
 recording::Recording RunMeans::means(const std::filesystem::path& file) const {
   recording::Recording out{file, {}};
-  const std::size_t joined = joined_blocks();
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const auto& [sums, counts] = columns_[c];
-    for (std::size_t begin = 0; begin < sums.size(); begin += joined) {
-      const std::size_t end = std::min(begin + joined, sums.size());
-      double sum = 0;
-      std::uint64_t count = 0;
-      for (std::size_t k = begin; k < end; ++k) {
-        sum += sums[k];
-        count += counts[k];
-      }
-      const std::uint64_t width = (end - begin) * width_ - (end == blocks_ ? width_ - filled_ : 0);
-      out.columns[c].push_back(mean(sum, count, width));
-    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      out.columns[c].push_back(mean(sums[k], counts[k], k + 1 == blocks_ ? filled_ : width_));
   }
   name_alike(out);
   return out;

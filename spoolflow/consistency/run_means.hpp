@@ -18,10 +18,6 @@ struct Gaps {
 /// So long a step between two samples is a gap [s].
 inline constexpr double least_gap_s = 1;
 
-/// Blocks are no shorter [s]: within two periods of dither neither a current that happens to stand still nor a sample's
-/// noise tells of the valve.
-inline constexpr double shortest_run_block_s = 0.025;
-
 /// As block_means(), but that samples missing among others of a block are left out of its mean. Pressure difference and
 /// flow are named as there.
 class RunMeans {
@@ -36,7 +32,6 @@ class RunMeans {
     std::vector<std::uint64_t> counts;
   };
   void halve();
-  [[nodiscard]] std::size_t joined_blocks() const;
   void find_gaps(const std::vector<double>& times_s);
 
   std::array<Column, recording::channel_count> columns_;

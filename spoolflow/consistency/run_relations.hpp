@@ -8,7 +8,8 @@
 namespace spoolflow::consistency {
 
 /// Of an operating run against both: balance of forces, flow against what edge and pressure difference make, positions.
-/// Reads current, position, and of flow and pressure difference what is there.
+/// Reads current, position, and of flow and pressure difference what is there; the flow in the rows as they are, as a
+/// meter's lag may be shorter than the stretches over which forces are judged (longer_blocks()).
 void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
                         const recording::Recording& run);
 

@@ -12,7 +12,7 @@
 namespace spoolflow::estimation {
 namespace {
 
-using batch::NumberKind;
+using packs::NumberKind;
 
 /// So many samples of all valves are brought side by side at a time.
 constexpr std::size_t rows_at_once = 32;
@@ -21,13 +21,13 @@ constexpr std::size_t least_together = 3;
 /// In the widest registers.
 constexpr std::size_t most_valves = 8;
 
-const batch::GroupSteps* observer_steps(GroupRegisters registers) {
-  if (registers == GroupRegisters::avx512) return &batch::observer_group_avx512;
-  return registers == GroupRegisters::avx2 ? &batch::observer_group_avx2 : nullptr;
+const packs::GroupSteps* observer_steps(GroupRegisters registers) {
+  if (registers == GroupRegisters::avx512) return &packs::observer_group_avx512;
+  return registers == GroupRegisters::avx2 ? &packs::observer_group_avx2 : nullptr;
 }
-const batch::GroupSteps* whole_valve_steps(GroupRegisters registers) {
-  if (registers == GroupRegisters::avx512) return &batch::whole_valve_group_avx512;
-  return registers == GroupRegisters::avx2 ? &batch::whole_valve_group_avx2 : nullptr;
+const packs::GroupSteps* whole_valve_steps(GroupRegisters registers) {
+  if (registers == GroupRegisters::avx512) return &packs::whole_valve_group_avx512;
+  return registers == GroupRegisters::avx2 ? &packs::whole_valve_group_avx2 : nullptr;
 }
 
 bool has(GroupRegisters registers) {
@@ -51,9 +51,9 @@ constexpr NumberKind kind_of() {
 
 /// Where the numbers of a state lie, in the order in which it has them.
 template <class State>
-std::span<const batch::NumberRun> runs_of_numbers() {
-  static const std::vector<batch::NumberRun> runs = [] {
-    std::vector<batch::NumberRun> out;
+std::span<const packs::NumberRun> runs_of_numbers() {
+  static const std::vector<packs::NumberRun> runs = [] {
+    std::vector<packs::NumberRun> out;
     const State state{};
     numerics::for_each_number(state, [&]<class Number>(const Number& number) {
       const auto offset =
@@ -125,12 +125,12 @@ RunningGroup::RunningGroup(GroupRegisters registers) {
 }
 
 /// Where others have less than half of the room, as many fill narrower registers better.
-void RunningGroup::begin(Kind& kind, const batch::GroupSteps& steps) {
+void RunningGroup::begin(Kind& kind, const packs::GroupSteps& steps) {
   const std::size_t least = kind.lanes.empty() ? least_together : steps.valves / 2 + 1;
   kind.lanes.push_back(
       {&steps, least, {::operator new(steps.bytes, std::align_val_t(steps.alignment)), {steps.alignment}}});
   samples_.resize(std::max(samples_.size(), rows_at_once * steps.valves * steps.channels));
-  answers_.resize(std::max(answers_.size(), rows_at_once * steps.valves * batch::numbers_of_an_answer));
+  answers_.resize(std::max(answers_.size(), rows_at_once * steps.valves * packs::numbers_of_an_answer));
   given_.resize(std::max(given_.size(), rows_at_once * steps.valves));
 }
 
@@ -178,7 +178,7 @@ void RunningGroup::step_some(Kind& kind, Runs runs) {
 /// The longest first. Lanes that are left over, or whose samples are over, do as the first one does. Returns the runs
 /// of which samples are left when they are too few, each with its first `done` samples done.
 RunningGroup::Runs RunningGroup::step_together(const Kind& kind, Lanes& lanes, Runs runs, std::size_t& done) {
-  const batch::GroupSteps& steps = *lanes.steps;
+  const packs::GroupSteps& steps = *lanes.steps;
   void* const memory = lanes.memory.get();
   const auto in_lane = [&](std::size_t lane) -> RunningSensor& { return *runs[lane < runs.size() ? lane : 0]->sensor; };
   std::array<const void*, 2 * most_valves> models{};
@@ -205,7 +205,7 @@ RunningGroup::Runs RunningGroup::step_together(const Kind& kind, Lanes& lanes, R
   return runs;
 }
 
-void RunningGroup::put_sample(const batch::GroupSteps& steps, std::size_t row, std::size_t lane, const GroupedRun& run,
+void RunningGroup::put_sample(const packs::GroupSteps& steps, std::size_t row, std::size_t lane, const GroupedRun& run,
                               TimedSample sample) {
   SteppedSample<double>& given = given_[row * steps.valves + lane] = run.sensor->take(sample);
   double* at = samples_.data() + row * steps.channels * steps.valves + lane;
@@ -221,7 +221,7 @@ void RunningGroup::put_sample(const batch::GroupSteps& steps, std::size_t row, s
 }
 
 void RunningGroup::step_rows(const Lanes& lanes, Runs runs, std::size_t from, std::size_t count) {
-  const batch::GroupSteps& steps = *lanes.steps;
+  const packs::GroupSteps& steps = *lanes.steps;
   for (std::size_t row = 0; row < count; ++row) {
     for (std::size_t lane = 0; lane < runs.size(); ++lane)
       put_sample(steps, row, lane, *runs[lane], runs[lane]->samples[from + row]);
@@ -232,7 +232,7 @@ void RunningGroup::step_rows(const Lanes& lanes, Runs runs, std::size_t from, st
   steps.step(lanes.memory.get(), samples_.data(), answers_.data(), count);
   for (std::size_t row = 0; row < count; ++row) {
     for (std::size_t lane = 0; lane < runs.size(); ++lane) {
-      const double* const at = answers_.data() + row * batch::numbers_of_an_answer * steps.valves + lane;
+      const double* const at = answers_.data() + row * packs::numbers_of_an_answer * steps.valves + lane;
       const auto number = [&](std::size_t k) { return at[k * steps.valves]; };
       sensor::Estimate<double>& answer = runs[lane]->answers[from + row];
       answer = {number(0), number(1), number(2),

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/estimation/batch/group_steps.hpp"
+#include "spoolflow/estimation/packs/group_steps.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
 
 namespace spoolflow::estimation {
@@ -49,22 +49,22 @@ class RunningGroup {
       std::size_t alignment;
       void operator()(void* memory) const;
     };
-    const batch::GroupSteps* steps;
+    const packs::GroupSteps* steps;
     std::size_t least;  ///< valves for which it pays
     std::unique_ptr<void, Free> memory;
   };
   /// Valves of one kind.
   struct Kind {
     std::vector<Lanes> lanes{};                      ///< the widest last
-    std::span<const batch::NumberRun> state_runs{};  ///< the numbers of their states
+    std::span<const packs::NumberRun> state_runs{};  ///< the numbers of their states
     std::vector<const GroupedRun*> runs{};           ///< that are to be stepped
   };
-  void begin(Kind& kind, const batch::GroupSteps& steps);
+  void begin(Kind& kind, const packs::GroupSteps& steps);
   void step(Kind& kind);
   void step_some(Kind& kind, Runs runs);
   [[nodiscard]] Runs step_together(const Kind& kind, Lanes& lanes, Runs runs, std::size_t& done);
   void step_rows(const Lanes& lanes, Runs runs, std::size_t from, std::size_t count);
-  void put_sample(const batch::GroupSteps& steps, std::size_t row, std::size_t lane, const GroupedRun& run,
+  void put_sample(const packs::GroupSteps& steps, std::size_t row, std::size_t lane, const GroupedRun& run,
                   TimedSample sample);
 
   Kind observers_, whole_valves_;

@@ -7,7 +7,6 @@ namespace spoolflow::numerics {
 namespace {
 
 constexpr double change_s = 0.1;
-constexpr std::size_t least_samples = 1000;
 /// Where more than this share of the reference's changes stays unexplained, a lag would but smooth the flow's own
 /// errors.
 constexpr double most_unexplained_share = 0.25;
@@ -54,8 +53,8 @@ class UnexplainedChanges {
 
 }  // namespace
 
-MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
-                        std::span<const double> reference) {
+MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> flow, std::span<const double> reference,
+                        std::size_t least_samples) {
   std::size_t both = 0;
   for (std::size_t k = 0; k < time_s.size(); ++k)
     both += std::isfinite(flow[k]) && std::isfinite(reference[k]) ? 1U : 0U;

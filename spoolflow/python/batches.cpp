@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 #include <tuple>
 
-#include "spoolflow/estimation/running_batch.hpp"
+#include "spoolflow/estimation/batch/running_batch.hpp"
 #include "spoolflow/numerics/single_precision.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/python/bindings.hpp"
@@ -55,13 +55,13 @@ struct Valve {
 template <class Parameters>
 void estimate_together(std::span<const Valve> valves, const Parameters& (*parameters)(const SingleModel&),
                        SignalCheck& check) {
-  std::vector<estimation::BatchedValve<Parameters>> in_batch;
+  std::vector<estimation::batch::BatchedValve<Parameters>> in_batch;
   std::size_t longest = 0;
   for (const Valve& valve : valves) {
     in_batch.push_back({&parameters(*valve.model), valve.rated_flow_m3_per_s});
     longest = std::max(longest, valve.run->size());
   }
-  estimation::RunningBatch<Parameters> batch(in_batch);
+  estimation::batch::RunningBatch<Parameters> batch(in_batch);
   constexpr std::size_t at_once = 1024;
   std::vector<std::vector<sensor::Estimate<float>>> estimates(
       valves.size(), std::vector<sensor::Estimate<float>>(std::min(at_once, longest)));

@@ -1,4 +1,5 @@
 /// A campaign that cannot be is named with file, channel and cause; a sound one raises nothing.
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/consistency/run_doubts.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
 #include "tests/consistency/rig_benches.hpp"
 
 namespace spoolflow::consistency {
@@ -199,6 +201,11 @@ TEST(RunMeans, KeepTheMeanOfEveryStretchHoweverLongTheRun) {
   EXPECT_EQ(means.gaps().count, 0U);
 }
 
+const RigBenches& sound_size_6() {
+  static const RigBenches valve = rig_benches("size_6", 0);
+  return valve;
+}
+
 /// The rows of some seconds of a run.
 recording::Recording clip(const recording::Recording& run, std::size_t begin, std::size_t rows) {
   recording::Recording out{run.file, {}};
@@ -227,7 +234,7 @@ void lay_dither_on(recording::Recording& run) {
 }
 
 TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens) {
-  const RigBenches valve = rig_benches("size_6", 0);
+  const RigBenches& valve = sound_size_6();
   const std::vector<KnownValve> known{known_valve(valve.benches())};
   recording::Recording run = valve.recordings.at("ramp_60bar.csv");
   const std::size_t second = 1000;
@@ -244,8 +251,47 @@ TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens)
   }
 }
 
+TEST(RunDoubts, AreNoneOfAMetersNoiseBesideAValveThatHardlyLetsOilThrough) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  const recording::Recording& run = valve.recordings.at("ramp_60bar.csv");
+  const std::vector<double>& flow = run.column(Channel::flow_reference);
+  const double little = 0.05 * std::ranges::max(flow);
+  std::size_t rows = 0;
+  while (flow[rows] < little) ++rows;
+  ASSERT_GT(run.column(Channel::time)[rows], 3);
+  recording::Recording beginning = clip(run, 0, rows);
+  const double noise = 0.1 * little;
+  for (std::size_t k = 0; k < rows; ++k) beginning.column(Channel::flow_reference)[k] += k % 2 == 0 ? noise : -noise;
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(beginning), "closed.csv")), testing::IsEmpty());
+}
+
+TEST(RunDoubts, AreNoneOfAFewSecondsOfFastMotionBesideASlowMeter) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  constexpr double faster = 15;
+  for (double& time_s : run.column(Channel::time)) time_s /= faster;
+  std::vector<double>& reference = run.column(Channel::flow_reference);
+  const std::vector<double> prompt = reference;
+  const auto rows = static_cast<std::size_t>(2.7 / (run.column(Channel::time)[1] - run.column(Channel::time)[0]));
+  ASSERT_GT(run.size(), rows);
+  for (const double lag_s : {0.03, 0.1, 0.3}) {
+    reference = prompt;
+    numerics::apply_lag<double>(run.column(Channel::time), reference, {.dead_time_s = 0.01, .lag_s = lag_s});
+    for (std::size_t begin = 0; begin + rows <= run.size(); begin += rows / 8) {
+      recording::Recording part = clip(run, begin, rows);
+      EXPECT_THAT(all_texts(doubts_about(known, means_of(part), "clip.csv")), testing::IsEmpty())
+          << "from " << begin << " with a lag of " << lag_s << " s";
+      for (double& flow : part.column(Channel::flow_reference)) flow *= 2;
+      EXPECT_THAT(all_texts(doubts_about(known, means_of(part), "clip.csv")), testing::HasSubstr("looks doubled"))
+          << "from " << begin << " with a lag of " << lag_s << " s";
+    }
+  }
+}
+
 TEST(RunDoubts, AreNoneOfACableOfThePositionSensorThatIsTornFromSomeSampleOn) {
-  const RigBenches valve = rig_benches("size_6", 0);
+  const RigBenches& valve = sound_size_6();
   const std::vector<KnownValve> known{known_valve(valve.benches())};
   for (const std::size_t torn_from : {0U, 400U, 2990U}) {
     recording::Recording run = clip(valve.recordings.at("ramp_60bar.csv"), 0, 3000);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/estimation/running_batch.hpp"
+#include "spoolflow/estimation/batch/running_batch.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "tests/sensor/valve_course.hpp"
 
@@ -136,8 +136,8 @@ TEST(ImplausibleCoil, IsFoundInABatchAsAlone) {
   const std::vector<double> time_s{0, 1e-3, 2e-3, 3e-3}, current_A{1, 20, 1, 1}, voltage_V{10, 10, 400, 10},
       position_m(4, 1e-3), oil_K(4, 313.0);
   const Columns columns{time_s, current_A, voltage_V, position_m, oil_K};
-  const BatchedValve<sensor::ObserverParameters<float>> batched{&single, rated_m3_per_s};
-  RunningBatch<sensor::ObserverParameters<float>> batch(std::span(&batched, 1));
+  const batch::BatchedValve<sensor::ObserverParameters<float>> batched{&single, rated_m3_per_s};
+  batch::RunningBatch<sensor::ObserverParameters<float>> batch(std::span(&batched, 1));
   std::vector<sensor::Estimate<float>> answers(4);
   const std::span<sensor::Estimate<float>> wanted(answers);
   batch.run(std::span(&columns, 1), std::span(&wanted, 1));

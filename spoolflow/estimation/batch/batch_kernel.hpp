@@ -5,14 +5,19 @@
 #include <experimental/simd>
 
 #include "spoolflow/estimation/batch/batch_steps.hpp"
-#include "spoolflow/estimation/batch/packs_together.hpp"
 #include "spoolflow/estimation/batch/valve_batch.hpp"
+#include "spoolflow/estimation/packs/packs_together.hpp"
 
 namespace spoolflow::estimation::batch {
 namespace {
 
-using Register = simd::native_simd<float>;
-using Pack = ValvePack<Register, valves_together / Register::size()>;
+using packs::describe_parameters;
+using packs::describe_tables;
+using packs::Together;
+using packs::WholeTogether;
+
+using Register = packs::simd::native_simd<float>;
+using Pack = packs::ValvePack<Register, valves_together / Register::size()>;
 
 // Rows of numbers are read as packs, and registers of a pack follow each other.
 static_assert(sizeof(Pack) == valves_together * sizeof(float) && sizeof(Pack::Index) == sizeof(Pack));
@@ -57,13 +62,13 @@ template <class Valves>
 template <class Valves, auto describe>
 constexpr BatchSteps steps_of_direction{sizeof(Valves), alignof(Valves),
                                         [](void* memory, const void* const* valves, const float* numbers) {
-                                          return begin_valves<Valves>(memory, valves, numbers, describe);
+                                          return packs::begin_valves<Valves>(memory, valves, numbers, describe);
                                         },
                                         step_rows<Valves>};
 template <class Valves, auto describe>
 constexpr BatchSteps steps_of_whole{sizeof(Valves), alignof(Valves),
                                     [](void* memory, const void* const* valves, const float* numbers) {
-                                      return begin_whole_valves<Valves>(memory, valves, numbers, describe);
+                                      return packs::begin_whole_valves<Valves>(memory, valves, numbers, describe);
                                     },
                                     step_rows<Valves>};
 
@@ -75,11 +80,11 @@ constexpr const BatchSteps& observer_steps =
                        describe_parameters>;
 constexpr const BatchSteps& whole_condensed_steps =
     steps_of_whole<WholeTogether<Pack, sensor::WholeCondensedTables<Pack>, sensor::WholeCondensedState<Pack>,
-                                 CondensedSides<Register, registers>>,
+                                 packs::CondensedSides<Register, registers>>,
                    describe_tables>;
 constexpr const BatchSteps& whole_valve_steps =
     steps_of_whole<WholeTogether<Pack, sensor::WholeValveParameters<Pack>, sensor::WholeValveState<Pack>,
-                                 ObserverSides<Register, registers>>,
+                                 packs::ObserverSides<Register, registers>>,
                    describe_parameters>;
 
 }  // namespace

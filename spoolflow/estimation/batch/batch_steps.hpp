@@ -1,6 +1,5 @@
 #pragma once
-/// What an instruction set offers to a ValveBatch. Plain functions over plain memory: a translation unit for a newer
-/// instruction set must not share code with others, who might run it on a processor that does not know it.
+/// What an instruction set offers to a ValveBatch. Plain functions over plain memory, as in packs/group_steps.hpp.
 #include <array>
 #include <cstddef>
 

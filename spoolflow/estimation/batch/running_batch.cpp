@@ -1,4 +1,4 @@
-#include "spoolflow/estimation/running_batch.hpp"
+#include "spoolflow/estimation/batch/running_batch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace spoolflow::estimation {
+namespace spoolflow::estimation::batch {
 namespace {
 
 /// So many samples of all valves are brought side by side at a time.
@@ -16,7 +16,7 @@ template <class Parameters>
 std::vector<const Parameters*> filled_up(std::span<const BatchedValve<Parameters>> valves) {
   std::vector<const Parameters*> out;
   for (const BatchedValve<Parameters>& valve : valves) out.push_back(valve.parameters);
-  while (!out.empty() && out.size() % batch::valves_together != 0) out.push_back(out.front());
+  while (!out.empty() && out.size() % valves_together != 0) out.push_back(out.front());
   return out;
 }
 
@@ -58,8 +58,7 @@ sensor::Estimate<float> RunningBatch<Parameters>::Rows::answer(std::size_t at) c
 }
 
 template <class Parameters>
-RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>> valves,
-                                       batch::InstructionSet instructions)
+RunningBatch<Parameters>::RunningBatch(std::span<const BatchedValve<Parameters>> valves, InstructionSet instructions)
     : times_(valves.size()),
       positions_(valves.size()),
       places_(filled_up(valves).size()),
@@ -106,15 +105,15 @@ void RunningBatch<Parameters>::step(std::size_t count) {
   const std::size_t numbers = count * places_;
   const auto given = [&](const std::vector<float>& row) { return std::span<const float>(row).first(numbers); };
   const auto wanted = [&](auto& row) { return std::span(row).first(numbers); };
-  const batch::EstimateRows estimates{.flow_m3_per_s = wanted(rows_.flow_m3_per_s),
-                                      .flow_lower_m3_per_s = wanted(rows_.flow_lower_m3_per_s),
-                                      .flow_upper_m3_per_s = wanted(rows_.flow_upper_m3_per_s),
-                                      .pressure_difference_Pa = wanted(rows_.pressure_difference_Pa),
-                                      .magnetic_force_N = wanted(rows_.magnetic_force_N),
-                                      .spring_force_N = wanted(rows_.spring_force_N),
-                                      .flow_force_N = wanted(rows_.flow_force_N),
-                                      .friction_force_N = wanted(rows_.friction_force_N),
-                                      .status = wanted(rows_.status)};
+  const EstimateRows estimates{.flow_m3_per_s = wanted(rows_.flow_m3_per_s),
+                               .flow_lower_m3_per_s = wanted(rows_.flow_lower_m3_per_s),
+                               .flow_upper_m3_per_s = wanted(rows_.flow_upper_m3_per_s),
+                               .pressure_difference_Pa = wanted(rows_.pressure_difference_Pa),
+                               .magnetic_force_N = wanted(rows_.magnetic_force_N),
+                               .spring_force_N = wanted(rows_.spring_force_N),
+                               .flow_force_N = wanted(rows_.flow_force_N),
+                               .friction_force_N = wanted(rows_.friction_force_N),
+                               .status = wanted(rows_.status)};
   if constexpr (whole) {
     batch_.step({.time_step_s = given(rows_.time_step_s),
                  .current_a_A = given(rows_.current_a_A),
@@ -179,4 +178,4 @@ template class RunningBatch<sensor::ObserverParameters<float>>;
 template class RunningBatch<sensor::WholeCondensedTables<float>>;
 template class RunningBatch<sensor::WholeValveParameters<float>>;
 
-}  // namespace spoolflow::estimation
+}  // namespace spoolflow::estimation::batch

@@ -9,11 +9,11 @@
 #include <tuple>
 #include <utility>
 
-#include "spoolflow/estimation/batch/registers.hpp"
+#include "spoolflow/estimation/packs/registers.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 /// What the packs of `Count` registers are made of; each kind has one number of the same size a valve.
 template <class Register, int Count>
@@ -117,7 +117,7 @@ struct PackIndex {
 
 template <class Register, int Count>
 struct ValvePack {
-  using Lanes = batch::Lanes<Register, Count>;
+  using Lanes = packs::Lanes<Register, Count>;
   using Mask = PackMask<Register, Count>;
   using Index = PackIndex<Register, Count>;
   using Number = typename Lanes::Number;
@@ -258,4 +258,4 @@ template <class Register, int Count, class State, class Body>
   }
 }
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

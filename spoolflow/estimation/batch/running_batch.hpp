@@ -7,9 +7,9 @@
 #include "spoolflow/estimation/batch/valve_batch.hpp"
 #include "spoolflow/estimation/columns.hpp"
 
-namespace spoolflow::estimation {
+namespace spoolflow::estimation::batch {
 
-/// A valve of a batch. `Parameters` as in batch::ValveBatch.
+/// A valve of a batch. `Parameters` as in ValveBatch.
 template <class Parameters>
 struct BatchedValve {
   const Parameters* parameters;
@@ -22,9 +22,9 @@ template <class Parameters>
 class RunningBatch {
  public:
   /// Any number of valves but none; copies their parameters. Places that are left over in the last registers are filled
-  /// up. Throws as batch::ValveBatch does.
+  /// up. Throws as ValveBatch does.
   explicit RunningBatch(std::span<const BatchedValve<Parameters>> valves,
-                        batch::InstructionSet instructions = batch::instruction_sets().back());
+                        InstructionSet instructions = instruction_sets().back());
 
   [[nodiscard]] std::size_t size() const { return rated_flow_m3_per_s_.size(); }
 
@@ -48,7 +48,7 @@ class RunningBatch {
     void put(std::size_t at, const sensor::WholeValveSample<float>& sample);
     [[nodiscard]] sensor::Estimate<float> answer(std::size_t at) const;
   };
-  static constexpr bool whole = std::is_same_v<typename batch::BatchedKind<Parameters>::Rows, batch::WholeSampleRows>;
+  static constexpr bool whole = std::is_same_v<typename BatchedKind<Parameters>::Rows, WholeSampleRows>;
   void fill(std::span<const Columns> runs, std::size_t from, std::size_t count);
   void put(std::size_t at, std::size_t valve, TimedSample sample);
   void step(std::size_t count);
@@ -58,7 +58,7 @@ class RunningBatch {
   std::vector<SampleTimes> times_;
   std::vector<StillPosition> positions_;
   std::size_t places_;  ///< of valves in the batch, those that fill it up included
-  batch::ValveBatch<Parameters> batch_;
+  ValveBatch<Parameters> batch_;
   Rows rows_;
 };
 
@@ -67,4 +67,4 @@ extern template class RunningBatch<sensor::ObserverParameters<float>>;
 extern template class RunningBatch<sensor::WholeCondensedTables<float>>;
 extern template class RunningBatch<sensor::WholeValveParameters<float>>;
 
-}  // namespace spoolflow::estimation
+}  // namespace spoolflow::estimation::batch

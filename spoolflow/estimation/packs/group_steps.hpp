@@ -1,11 +1,12 @@
 #pragma once
 /// What an instruction set offers to sensors in double precision that are stepped together. Plain functions over plain
-/// memory, as in batch_steps.hpp.
+/// memory: a translation unit for a newer instruction set must not share code with others, who might run it on a
+/// processor that does not know it.
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 /// As which kind a number of a state lies in one valve.
 enum class NumberKind : std::uint8_t {
@@ -49,4 +50,4 @@ extern const GroupSteps observer_group_avx512;
 extern const GroupSteps whole_valve_group_avx2;
 extern const GroupSteps whole_valve_group_avx512;
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

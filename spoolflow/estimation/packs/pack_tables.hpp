@@ -1,9 +1,9 @@
 #pragma once
 /// Tables and rings of several valves, each with its own numbers. A register fetches from all of them by turning rows
 /// into lanes: each valve's neighbouring numbers are loaded at once and then dealt out.
-#include "spoolflow/estimation/batch/pack_status.hpp"
+#include "spoolflow/estimation/packs/pack_status.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 /// The same table of each valve, counted from a beginning that all valves' numbers have in common. Both lie as packs
 /// do, so that `keep` may take some valves' tables from here and others' from another PackTable of the same beginning.
@@ -161,7 +161,7 @@ template <class Register, int Count>
 template <class Register, int Count, std::size_t Size>
 ValvePack<Register, Count> in_ring(const std::array<ValvePack<Register, Count>, Size>& ring,
                                    const PackIndex<Register, Count>& place) {
-  using Lanes = estimation::batch::Lanes<Register, Count>;
+  using Lanes = estimation::packs::Lanes<Register, Count>;
   using Number = typename Lanes::Number;
   const auto places = std::bit_cast<std::array<typename Lanes::Integer, Lanes::valves>>(place.lanes);
   static_assert(sizeof ring[0] == Lanes::valves * sizeof(Number), "entry after entry, in each the valves side by side");
@@ -176,7 +176,7 @@ ValvePack<Register, Count> in_ring(const std::array<ValvePack<Register, Count>, 
 template <class Register, int Count, std::size_t Size>
 void put_in_ring(std::array<ValvePack<Register, Count>, Size>& ring, const PackIndex<Register, Count>& place,
                  const ValvePack<Register, Count>& value) {
-  using Lanes = estimation::batch::Lanes<Register, Count>;
+  using Lanes = estimation::packs::Lanes<Register, Count>;
   using Number = typename Lanes::Number;
   const auto places = std::bit_cast<std::array<typename Lanes::Integer, Lanes::valves>>(place.lanes);
   const auto values = std::bit_cast<std::array<Number, Lanes::valves>>(value.lanes);
@@ -185,13 +185,13 @@ void put_in_ring(std::array<ValvePack<Register, Count>, Size>& ring, const PackI
     numbers[static_cast<std::size_t>(places[valve]) * Lanes::valves + valve] = values[valve];
 }
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs
 
 template <class Register, int Count>
-struct spoolflow::sensor::ScalarTypes<spoolflow::estimation::batch::ValvePack<Register, Count>> {
+struct spoolflow::sensor::ScalarTypes<spoolflow::estimation::packs::ValvePack<Register, Count>> {
   template <int Size>
-  using Numbers = spoolflow::estimation::batch::PackTable<Register, Count>;
-  using Mask = spoolflow::estimation::batch::PackMask<Register, Count>;
-  using Index = spoolflow::estimation::batch::PackIndex<Register, Count>;
-  using StatusWord = spoolflow::estimation::batch::PackStatus<Register, Count>;
+  using Numbers = spoolflow::estimation::packs::PackTable<Register, Count>;
+  using Mask = spoolflow::estimation::packs::PackMask<Register, Count>;
+  using Index = spoolflow::estimation::packs::PackIndex<Register, Count>;
+  using StatusWord = spoolflow::estimation::packs::PackStatus<Register, Count>;
 };

@@ -5,11 +5,11 @@
 #include <bit>
 #include <cstddef>
 
-#include "spoolflow/estimation/batch/pack_tables.hpp"
+#include "spoolflow/estimation/packs/pack_tables.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 namespace {
 
 /// Where one valve's numbers lie, in the order in which they are described: visitor of a description that names
@@ -137,4 +137,4 @@ constexpr auto describe_parameters = [](auto& parameters, auto& visitor) {
 };
 
 }  // namespace
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

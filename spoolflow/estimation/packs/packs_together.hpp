@@ -5,11 +5,11 @@
 #include <new>
 #include <utility>
 
-#include "spoolflow/estimation/batch/pack_parameters.hpp"
-#include "spoolflow/estimation/batch/pack_sides.hpp"
+#include "spoolflow/estimation/packs/pack_parameters.hpp"
+#include "spoolflow/estimation/packs/pack_sides.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 namespace {
 
 /// The valves that are stepped together.
@@ -103,4 +103,4 @@ template <class Valves, class Describe>
 }
 
 }  // namespace
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

@@ -1,5 +1,5 @@
 /// Runs of unequal length and sampling rate in a batch against the same runs through sensors of their own.
-#include "spoolflow/estimation/running_batch.hpp"
+#include "spoolflow/estimation/batch/running_batch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include "tests/sensor/valve_course.hpp"
 
-namespace spoolflow::estimation {
+namespace spoolflow::estimation::batch {
 namespace {
 
 using Observer = sensor::ObserverParameters<float>;
@@ -82,7 +82,7 @@ bool alike(const sensor::Estimate<float>& a, const sensor::Estimate<float>& b) {
          a.status == b.status;
 }
 
-class RunningBatchTest : public testing::TestWithParam<batch::InstructionSet> {
+class RunningBatchTest : public testing::TestWithParam<InstructionSet> {
  protected:
   static constexpr std::size_t valves = 11;  // no multiple of what a register holds
   void SetUp() override {
@@ -115,8 +115,8 @@ class RunningBatchTest : public testing::TestWithParam<batch::InstructionSet> {
   std::vector<MeasuredRun> runs;
   std::vector<BatchedValve<Observer>> in_batch;
 };
-INSTANTIATE_TEST_SUITE_P(Batch, RunningBatchTest, testing::ValuesIn(batch::instruction_sets()),
-                         [](const auto& set) { return std::string(batch::name(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Batch, RunningBatchTest, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return std::string(name(set.param)); });
 
 TEST_P(RunningBatchTest, AnswersRunsOfUnequalLengthAndRateAsEachSensorAlone) {
   for (const std::size_t pieces : {1U, 7U}) {
@@ -255,4 +255,4 @@ TEST(RunningBatch, RefusesTheRunOfAWholeValveWhereItsValvesAreOfOneDirection) {
 }
 
 }  // namespace
-}  // namespace spoolflow::estimation
+}  // namespace spoolflow::estimation::batch

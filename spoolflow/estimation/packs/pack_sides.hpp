@@ -1,11 +1,11 @@
 #pragma once
 /// Whole valves side by side: each lane has a model of either direction, and of these the one on whose side its spool
 /// stands is at work. The models of all lanes are put together anew only when a spool has changed sides.
-#include "spoolflow/estimation/batch/pack_tables.hpp"
+#include "spoolflow/estimation/packs/pack_tables.hpp"
 #include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 /// Both directions of several valves; `Parameters` of one direction are made of packs. Not to be moved.
 template <class Register, int Count, class Parameters>
@@ -36,22 +36,22 @@ using ObserverSides = PackSides<Register, Count, sensor::ObserverParameters<Valv
 template <class Register, int Count>
 using CondensedSides = PackSides<Register, Count, sensor::CondensedTables<ValvePack<Register, Count>>>;
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs
 
 template <class Register, int Count>
-struct spoolflow::sensor::WholeValveParameters<spoolflow::estimation::batch::ValvePack<Register, Count>> {
-  using Parameters = ObserverParameters<spoolflow::estimation::batch::ValvePack<Register, Count>>;
+struct spoolflow::sensor::WholeValveParameters<spoolflow::estimation::packs::ValvePack<Register, Count>> {
+  using Parameters = ObserverParameters<spoolflow::estimation::packs::ValvePack<Register, Count>>;
   const Parameters* b;
   const Parameters* a;
-  spoolflow::estimation::batch::ObserverSides<Register, Count>* sides;
+  spoolflow::estimation::packs::ObserverSides<Register, Count>* sides;
 };
 
 template <class Register, int Count>
-struct spoolflow::sensor::WholeCondensedTables<spoolflow::estimation::batch::ValvePack<Register, Count>> {
-  spoolflow::estimation::batch::CondensedSides<Register, Count>* sides;
+struct spoolflow::sensor::WholeCondensedTables<spoolflow::estimation::packs::ValvePack<Register, Count>> {
+  spoolflow::estimation::packs::CondensedSides<Register, Count>* sides;
 };
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 /// What sensor::step of a whole valve asks for, found by its arguments.
 template <class Register, int Count>
@@ -68,4 +68,4 @@ const sensor::CondensedTables<ValvePack<Register, Count>>& of_side(
   return valve.sides->open;
 }
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

@@ -1,8 +1,8 @@
 #pragma once
 /// Status words of several valves.
-#include "spoolflow/estimation/batch/valve_pack.hpp"
+#include "spoolflow/estimation/packs/valve_pack.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 /// Status words.
 template <class Register, int Count>
@@ -33,4 +33,4 @@ void mark(PackStatus<Register, Count>& status, const PackMask<Register, Count>& 
   status = status | when(condition, bit);
 }
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

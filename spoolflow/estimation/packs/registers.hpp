@@ -6,7 +6,7 @@
 #include <experimental/simd>
 #include <type_traits>
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 
 namespace simd = std::experimental;
 
@@ -147,4 +147,4 @@ template <class Register>
   return simd::static_simd_cast<Integers>(numbers);
 }
 
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <experimental/simd>
 
-#include "spoolflow/estimation/batch/group_steps.hpp"
-#include "spoolflow/estimation/batch/packs_together.hpp"
+#include "spoolflow/estimation/packs/group_steps.hpp"
+#include "spoolflow/estimation/packs/packs_together.hpp"
 
-namespace spoolflow::estimation::batch {
+namespace spoolflow::estimation::packs {
 namespace {
 
 /// One number of a valve's state, as the lane of a pack has it.
@@ -138,4 +138,4 @@ using WholeValvesTogether =
                   sensor::WholeValveState<ValvePack<Register, registers>>, ObserverSides<Register, registers>>;
 
 }  // namespace
-}  // namespace spoolflow::estimation::batch
+}  // namespace spoolflow::estimation::packs
