@@ -2,7 +2,7 @@
 # arm64_packages.sh FOLDER: the Debian packages of the command and the libraries for 64-bit Arm, cross-compiled here, in FOLDER/packages.
 # FOLDER also keeps what that takes (libraries of Debian's arm64 packages, the build), so that a second call is quick. Needs Debian's package
 # archive, g++-aarch64-linux-gnu, dpkg-dev, a built release of this machine's own (pages and libraries for other platforms come from it).
-# Not yet run to its end: it configures and compiles the first folders.
+# The Python package is not among them: its headers would have to be of the other machine's Python.
 set -eu
 folder=$(mkdir -p "$1" && realpath "$1")
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -47,7 +47,8 @@ depends=
 for needed in $(aarch64-linux-gnu-objdump -p "$folder/build/bin/spoolflow" | sed -n 's/^ *NEEDED *//p'); do
   for package in "$archive"/cache/archives/*.deb; do
     case "$package" in *-dev_*) continue ;; esac
-    dpkg-deb --contents "$package" | grep -q "/$needed\( -> .*\)\?$" || continue
+    dpkg-deb --contents "$package" >"$archive/contents"
+    grep -q "/$needed\( -> .*\)\?$" "$archive/contents" || continue
     one="$(dpkg-deb --field "$package" Package) (>= $(dpkg-deb --field "$package" Version | sed 's/^\([0-9]*:\)\?\([^-+~]*\).*/\1\2/'))"
     case "$depends" in *"$one"*) ;; *) depends="${depends:+$depends, }$one" ;; esac
     break

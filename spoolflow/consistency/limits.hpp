@@ -20,7 +20,9 @@ inline constexpr double shortest_metered_s = 2.5;         ///< five lags of the 
 inline constexpr double least_flow = 0.2;                 ///< share of the largest one from which a meter tells
 inline constexpr double least_opening = 0.1;              ///< share of the stroke from which forces and flow tell
 inline constexpr double least_blocks = 50;
-inline constexpr double surely = 1.5;  ///< times a limit: no valve does that
+inline constexpr double position_noise_factor = 1.5;  ///< more than in the campaign; below, the band still holds
+inline constexpr double position_step_noises = 4;     ///< steps of a position signal over the campaign's noise
+inline constexpr double surely = 1.5;                 ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 
 }  // namespace spoolflow::consistency

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::consistency {
 namespace {
@@ -188,6 +190,22 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
   return best;
 }
 
+/// A position that is recorded more coarsely than in the campaign: the sensor takes its steps and noise for motion.
+std::string coarse_position(const KnownValve& known, const PositionGrain& grain) {
+  const double noise_m = known.position_noise_m;
+  if (!(noise_m > 0)) return {};
+  const auto told = [&](std::string_view as, double value_m) {
+    return fmt::format(
+        "position comes {} {:.2g} um, and the model's valve was calibrated with noise of {:.2g} um: the "
+        "sensor takes more for motion of the spool, and its band is too narrow; record it as finely as "
+        "the bench tests were, or calibrate from bench tests recorded like this",
+        as, units::mm_from_m(value_m) * 1e3, units::mm_from_m(noise_m) * 1e3);
+  };
+  if (grain.step_m() > position_step_noises * noise_m) return told("in steps of", grain.step_m());
+  if (grain.noise_m() > position_noise_factor * noise_m) return told("with noise of", grain.noise_m());
+  return {};
+}
+
 std::string dead_channel(const Recording& run) {
   for (const Channel channel : {Channel::position, Channel::current}) {
     if (const std::optional<double> value = standing_value(run.column(channel)))
@@ -201,13 +219,15 @@ std::string dead_channel(const Recording& run) {
 
 std::vector<KnownValve> known_valve(const model::Model& model) {
   std::vector<KnownValve> out{direction_of(model.evidence, model.valve.stroke_m)};
-  const auto add_resistance = [&](const std::optional<model::Observer>& observer) {
-    if (observer) out.back().resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
+  const auto add_observed = [&](const std::optional<model::Observer>& observer) {
+    if (!observer) return;
+    out.back().resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
+    out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
   };
-  add_resistance(model.observer);
+  add_observed(model.observer);
   if (model.whole()) {
     out.push_back(direction_of(model.p_to_a->evidence, model.valve.stroke_m));
-    add_resistance(model.p_to_a->observer);
+    add_observed(model.p_to_a->observer);
   }
   return out;
 }
@@ -240,6 +260,8 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;
   }
+  if (const std::string coarse = coarse_position(valve.front(), run.position_grain()); !coarse.empty())
+    out.push_back({false, fmt::format("{}: {}", name, coarse)});
   const std::vector<Deviation> now = trial.deviations();
   const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
   if (worst == now.end() || !(worst->over_limit > 1)) return out;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "spoolflow/consistency/position_grain.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -25,6 +26,7 @@ class RunMeans {
   void take(const recording::SampleBlock& block);
   [[nodiscard]] recording::Recording means(const std::filesystem::path& file) const;
   [[nodiscard]] const Gaps& gaps() const { return gaps_; }
+  [[nodiscard]] const PositionGrain& position_grain() const { return position_grain_; }
 
  private:
   struct Column {
@@ -39,6 +41,7 @@ class RunMeans {
   std::uint64_t width_ = 1;   ///< samples in a full block
   std::uint64_t filled_ = 0;  ///< of the last block
   Gaps gaps_;
+  PositionGrain position_grain_;
   double last_s_ = 0;
   bool begun_ = false;
 };

@@ -58,13 +58,19 @@ constexpr Status why_held(const Sample<T>& sample) {
 }
 
 /// The root of the flow force in cells; `cells2`, its square, is taken to the end of the axis where it lies beyond.
+/// That is told of a valve that is open; of one that is closed, that it is.
 template <class T>
 constexpr Place<T> find_root(const Mask<T>& closed, T& cells2, typename ScalarTypes<T>::StatusWord& status) {
   constexpr int cells = CondensedLayout::root_cells;
   constexpr Status beyond = Status::outside_flow_force_map;
   if constexpr (one_valve<T>) {
-    return root_place<cells>(cells2, closed ? Status::none : beyond, status);
+    if (closed) {  // a way of its own: nothing then waits in a register for a place beyond the axis
+      status |= Status::closed;
+      return root_place<cells>(cells2, Status::none, status);
+    }
+    return root_place<cells>(cells2, beyond, status);
   } else {
+    mark(status, closed, Status::closed);
     mark(status, !closed && !(cells2 >= T(0) && cells2 < T(cells * cells)), beyond);
     cells2 = limited(cells2, T(0), T(cells * cells));
     return blended_place<cells>(sqrt(cells2));
@@ -136,7 +142,6 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   // Flow rate: at a fixed opening nearly linear in the root of the flow force (paper (2)).
   T cells2 = flow_force_N / line(scale, scale_rise);
   const Mask<T> closed = lies_below(x, valve.closed_below_cells);
-  mark(point.status, closed, Status::closed);
   const Place<T> root = detail::find_root(closed, cells2, point.status);
   const auto by_root = onward(here, root.index * Layout::flow_cell);
   const auto [flow, flow_rise, flow_more, flow_more_rise] = four(by_root, Layout::flow);

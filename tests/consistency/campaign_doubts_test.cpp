@@ -1,6 +1,8 @@
 /// A campaign that cannot be is named with file, channel and cause; a sound one raises nothing.
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include <fmt/format.h>
@@ -299,6 +301,51 @@ TEST(RunDoubts, AreNoneOfACableOfThePositionSensorThatIsTornFromSomeSampleOn) {
     for (std::size_t k = torn_from; k < run.size(); ++k) run.column(Channel::position)[k] = std::nan("");
     EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "torn.csv")), testing::IsEmpty()) << torn_from;
   }
+}
+
+/// Of a valve whose position was recorded as finely on the bench as in this run.
+std::vector<KnownValve> as_fine_as(const recording::Recording& run) {
+  std::vector<KnownValve> known{known_valve(sound_size_6().benches())};
+  known.front().position_noise_m = means_of(run).position_grain().noise_m();
+  return known;
+}
+
+TEST(RunDoubts, NameAPositionThatIsRecordedMoreCoarselyThanOnTheBench) {
+  const recording::Recording run = sound_size_6().recordings.at("ramp_60bar.csv");
+  const std::vector<KnownValve> known = as_fine_as(run);
+  const double noise_m = known.front().position_noise_m;
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "fine.csv")), testing::IsEmpty());
+
+  recording::Recording noisy = run;
+  std::mt19937 random(7);
+  std::normal_distribution<double> more(0, 1.5 * noise_m);
+  for (double& position_m : noisy.column(Channel::position)) position_m += more(random);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(noisy), "noisy.csv")),
+              testing::HasSubstr("noisy.csv: position comes with noise of"));
+
+  recording::Recording rounded = run;
+  for (double& position_m : rounded.column(Channel::position)) position_m = 1e-5 * std::round(position_m / 1e-5);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(rounded), "rounded.csv")),
+              testing::HasSubstr("rounded.csv: position comes in steps of 10 um"));
+}
+
+TEST(PositionGrain, IsTheNoiseOfASpoolInMotionAndAtRest) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 2e-6);
+  PositionGrain grain;
+  for (int block = 0; block < 10; ++block) {
+    std::vector<double> position_m;
+    for (int k = 0; k < 3000; ++k) {
+      const double time_s = 1e-3 * (3000 * block + k);
+      position_m.push_back(1.2e-3 + (block % 2 == 0 ? 1e-3 * std::sin(20 * time_s) : 0) + noise(random));
+    }
+    position_m[17] = std::nan("");
+    position_m[1000] = 5e-3;  // a fault
+    grain.take(position_m);
+  }
+  EXPECT_NEAR(grain.noise_m(), 2e-6, 0.1e-6);
+  EXPECT_TRUE(std::isnan(PositionGrain().noise_m()));
+  EXPECT_EQ(PositionGrain().step_m(), 0);
 }
 
 TEST(RunMeans, AStretchOfTimeWithoutSamplesIsAGap) {

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/recording/temporary_file.hpp"
+
 namespace spoolflow::model {
 namespace {
 
@@ -147,7 +149,8 @@ TEST(Model, NamesThePathOfWhatIsMissingOrOutOfRange) {
 }
 
 TEST(Model, ThatIsNotThereOrEmptyIsRefusedByName) {
-  const auto file = std::filesystem::temp_directory_path() / "spoolflow_empty_model.json";
+  const recording::TemporaryFile beside("model.json");
+  const std::filesystem::path& file = beside.path();
   std::ofstream(file).flush();
   EXPECT_THAT([&] { (void)read_model(file); }, ThrowsMessage<ModelError>(HasSubstr("is empty")));
   std::filesystem::remove(file);
@@ -157,10 +160,8 @@ TEST(Model, ThatIsNotThereOrEmptyIsRefusedByName) {
 }
 
 TEST(Provenance, ChecksumsAFileAsSha256DoesEverywhere) {
-  const auto file = std::filesystem::temp_directory_path() / "spoolflow_sha256.txt";
-  std::ofstream(file) << "abc";
-  EXPECT_EQ(sha256_of_file(file), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-2
-  std::filesystem::remove(file);
+  EXPECT_EQ(sha256_of_file(recording::TemporaryFile("three_letters.txt", "abc").path()),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-2
 }
 
 }  // namespace

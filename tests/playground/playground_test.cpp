@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/recording/temporary_file.hpp"
+
 namespace spoolflow::playground {
 namespace {
 
@@ -58,10 +60,9 @@ TEST(Playground, AValveThatIsOpenedFurtherPassesMoreOilAndTheSensorFollows) {
 }
 
 TEST(Playground, FilesGoThroughInspectionEstimateAndValidation) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "spoolflow_playground_test";
-  std::filesystem::create_directories(folder);
-  const auto in = [&](const char* name) { return (folder / name).string(); };
-  std::ofstream(in("scenario.toml")) << "protocol = \"steps\"\nvalve = \"size_6\"\n[run]\nhold_s = 0.1\n";
+  const recording::TemporaryFile scenario("scenario.toml",
+                                          "protocol = \"steps\"\nvalve = \"size_6\"\n[run]\nhold_s = 0.1\n");
+  const auto in = [&](const char* name) { return (scenario.folder() / name).string(); };
   Playground playground = silent();
   const json made = answered(playground, {{"work", "simulate"},
                                           {"scenario", in("scenario.toml")},
@@ -81,7 +82,6 @@ TEST(Playground, FilesGoThroughInspectionEstimateAndValidation) {
                                             {"metrics", in("metrics.json")}});
   EXPECT_FALSE(judged.at("sentence").get<std::string>().empty());
   EXPECT_GT(std::filesystem::file_size(in("report.html")), 50'000U);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

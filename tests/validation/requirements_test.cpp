@@ -1,13 +1,14 @@
 #include "spoolflow/validation/requirements.hpp"
 
-#include <filesystem>
-#include <fstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/validation/judged_limits.hpp"
+#include "tests/recording/temporary_file.hpp"
 
 namespace spoolflow::validation {
 namespace {
@@ -18,15 +19,9 @@ constexpr double valve_scale = 100 / 60000.0;
 
 class RequirementsFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    file_ = std::filesystem::temp_directory_path() / (std::string("spoolflow_") + test->name() + ".toml");
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
-
   [[nodiscard]] Requirements read(const std::string& text) const {
-    std::ofstream(file_) << text;
-    return read_requirements(file_);
+    file_.write(text);
+    return read_requirements(file_.path());
   }
   void expect_refused(const std::string& text, const std::vector<std::string>& reasons) const {
     try {
@@ -37,7 +32,7 @@ class RequirementsFile : public ::testing::Test {
     }
   }
 
-  std::filesystem::path file_;
+  recording::TemporaryFile file_{"limits.toml"};
 };
 
 /// A run whose errors are 1, 2, … 100 hundredths of full scale while moving.

@@ -1,11 +1,11 @@
 #include "spoolflow/report/validation/comparison.hpp"
 
-#include <filesystem>
-#include <fstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/recording/temporary_file.hpp"
 #include "tests/report/markup.hpp"
 
 namespace spoolflow::report {
@@ -20,17 +20,16 @@ constexpr const char* figures = R"({"format":"spoolflow metrics","version":1,"va
 
 class Comparison : public ::testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(file_); }
   [[nodiscard]] ComparedValidation read(const std::string& text) const {
-    std::ofstream(file_) << text;
-    return read_compared(file_);
+    file_.write(text);
+    return read_compared(file_.path());
   }
   void expect_refused(const std::string& text, const std::string& reason) const {
     try {
       (void)read(text);
       ADD_FAILURE() << "accepted: " << text;
     } catch (const MetricsError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(file_.string()));
+      EXPECT_THAT(error.what(), HasSubstr(file_.path().string()));
       EXPECT_THAT(error.what(), HasSubstr(reason));
     }
   }
@@ -38,9 +37,7 @@ class Comparison : public ::testing::Test {
     return text.replace(text.find(from), from.size(), to);
   }
 
-  std::filesystem::path file_ =
-      std::filesystem::temp_directory_path() /
-      (std::string("spoolflow_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json");
+  recording::TemporaryFile file_{"metrics.json"};
 };
 
 TEST_F(Comparison, ReadsTheEstimatorsThatHaveFigures) {

@@ -1,18 +1,17 @@
 #include "spoolflow/rig/bench/scenario.hpp"
 
-#include <filesystem>
-#include <fstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/recording/temporary_file.hpp"
 
 namespace spoolflow::rig {
 namespace {
 
 Scenario scenario_of(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "scenario_test.toml";
-  std::ofstream(file) << text;
-  return read_scenario(file);
+  return read_scenario(recording::TemporaryFile("scenario.toml", text).path());
 }
 
 std::string refusal_of(const std::string& text) {

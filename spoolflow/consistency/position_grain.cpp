@@ -1,0 +1,58 @@
+#include "spoolflow/consistency/position_grain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "spoolflow/numerics/median.hpp"
+
+namespace spoolflow::consistency {
+namespace {
+
+constexpr std::size_t stretch_samples = 4096;
+constexpr std::size_t fewest_samples = 500;
+constexpr std::size_t most_stretches = 10'000;  // so many tell enough of the longest run
+constexpr double no_change_m = 1e-10;           // rounding of numbers
+
+}  // namespace
+
+void PositionGrain::take(std::span<const double> position_m) {
+  for (const double value : position_m) {
+    if (std::isnan(value)) continue;
+    if (!stretch_.empty()) {
+      const double change_m = std::abs(value - stretch_.back());
+      if (change_m > no_change_m && (least_change_m_ == 0 || change_m < least_change_m_)) least_change_m_ = change_m;
+    }
+    stretch_.push_back(value);
+    if (stretch_.size() == stretch_samples) judge_stretch();
+  }
+}
+
+/// By the lower quartile of the differences' sizes: slips of the spool fill the upper ones where samples are slow.
+void PositionGrain::judge_stretch() {
+  if (stretch_.size() >= fewest_samples && noise_m_.size() < most_stretches) {
+    fourth_.clear();
+    for (std::size_t k = 4; k < stretch_.size(); ++k) {
+      const double* const x = &stretch_[k - 4];
+      fourth_.push_back(std::abs(x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]));
+    }
+    const double noise_gain = std::sqrt(1.0 + 16 + 36 + 16 + 1);
+    constexpr double quartile_deviations = 0.318639;  // a quarter of all lie so near to a normal distribution's mean
+    const auto quarter = fourth_.begin() + static_cast<std::ptrdiff_t>(fourth_.size() / 4);
+    std::ranges::nth_element(fourth_, quarter);
+    noise_m_.push_back(*quarter / (quartile_deviations * noise_gain));
+  }
+  stretch_.erase(stretch_.begin(), stretch_.end() - 1);
+}
+
+double PositionGrain::noise_m() const {
+  PositionGrain whole = *this;
+  if (!whole.stretch_.empty()) whole.judge_stretch();
+  return whole.noise_m_.empty() ? std::nan("") : numerics::median(whole.noise_m_);
+}
+
+double PositionGrain::step_m() const {
+  return least_change_m_;
+}
+
+}  // namespace spoolflow::consistency

@@ -1,0 +1,29 @@
+#pragma once
+/// How finely a run's position is recorded: its noise, and the steps in which it comes.
+#include <span>
+#include <vector>
+
+namespace spoolflow::consistency {
+
+class PositionGrain {
+ public:
+  /// The next samples of a run [m]; those missing (NaN) say nothing.
+  void take(std::span<const double> position_m);
+
+  /// Standard deviation of white noise [m], from differences of fourth order, to which a spool's motion adds nearly
+  /// nothing where it is sampled fast enough; half of the stretches of the run have less. NaN where there are fewer
+  /// than some 500 samples.
+  [[nodiscard]] double noise_m() const;
+  /// The smallest change from sample to sample but none [m]; 0 where nothing ever changes.
+  [[nodiscard]] double step_m() const;
+
+ private:
+  void judge_stretch();
+
+  std::vector<double> stretch_;  ///< samples of which nothing is known yet
+  std::vector<double> noise_m_;  ///< of each stretch
+  std::vector<double> fourth_;   ///< memory
+  double least_change_m_ = 0;
+};
+
+}  // namespace spoolflow::consistency
