@@ -10,15 +10,19 @@ namespace spoolflow::consistency {
 namespace {
 
 constexpr std::size_t stretch_samples = 4096;
+constexpr double slowest_step_s = 0.005;
 constexpr std::size_t fewest_samples = 500;
 constexpr std::size_t most_stretches = 10'000;  // so many tell enough of the longest run
 constexpr double no_change_m = 1e-10;           // rounding of numbers
 
 }  // namespace
 
-void PositionGrain::take(std::span<const double> position_m) {
-  for (const double value : position_m) {
-    if (std::isnan(value)) continue;
+void PositionGrain::take(std::span<const double> time_s, std::span<const double> position_m) {
+  for (std::size_t k = 0; k < position_m.size(); ++k) {
+    const double value = position_m[k];
+    if (std::isnan(value + time_s[k])) continue;
+    if (samples_++ == 0) first_s_ = time_s[k];
+    last_s_ = time_s[k];
     if (!stretch_.empty()) {
       const double change_m = std::abs(value - stretch_.back());
       if (change_m > no_change_m && (least_change_m_ == 0 || change_m < least_change_m_)) least_change_m_ = change_m;
@@ -46,6 +50,7 @@ void PositionGrain::judge_stretch() {
 }
 
 double PositionGrain::noise_m() const {
+  if (last_s_ - first_s_ > slowest_step_s * static_cast<double>(samples_)) return std::nan("");
   PositionGrain whole = *this;
   if (!whole.stretch_.empty()) whole.judge_stretch();
   return whole.noise_m_.empty() ? std::nan("") : numerics::median(whole.noise_m_);

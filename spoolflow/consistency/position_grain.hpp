@@ -1,5 +1,6 @@
 #pragma once
 /// How finely a run's position is recorded: its noise, and the steps in which it comes.
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -7,12 +8,12 @@ namespace spoolflow::consistency {
 
 class PositionGrain {
  public:
-  /// The next samples of a run [m]; those missing (NaN) say nothing.
-  void take(std::span<const double> position_m);
+  /// The next samples of a run, as many times [s] as positions [m]; where either is missing (NaN) they say nothing.
+  void take(std::span<const double> time_s, std::span<const double> position_m);
 
   /// Standard deviation of white noise [m], from differences of fourth order, to which a spool's motion adds nearly
-  /// nothing where it is sampled fast enough; half of the stretches of the run have less. NaN where there are fewer
-  /// than some 500 samples.
+  /// nothing; half of the stretches of the run have less. NaN where there are fewer than some 500 samples, or they are
+  /// more than 5 ms apart, in which a spool slips further.
   [[nodiscard]] double noise_m() const;
   /// The smallest change from sample to sample but none [m]; 0 where nothing ever changes.
   [[nodiscard]] double step_m() const;
@@ -24,6 +25,8 @@ class PositionGrain {
   std::vector<double> noise_m_;  ///< of each stretch
   std::vector<double> fourth_;   ///< memory
   double least_change_m_ = 0;
+  double first_s_ = 0, last_s_ = 0;
+  std::uint64_t samples_ = 0;
 };
 
 }  // namespace spoolflow::consistency

@@ -75,7 +75,7 @@ void RunMeans::take(const recording::SampleBlock& block) {
     begin = end;
   }
   find_gaps(block.column(Channel::time));
-  position_grain_.take(block.column(Channel::position));
+  position_grain_.take(block.column(Channel::time), block.column(Channel::position));
 }
 
 recording::Recording RunMeans::means(const std::filesystem::path& file) const {

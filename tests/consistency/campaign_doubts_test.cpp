@@ -334,14 +334,14 @@ TEST(PositionGrain, IsTheNoiseOfASpoolInMotionAndAtRest) {
   std::normal_distribution<double> noise(0, 2e-6);
   PositionGrain grain;
   for (int block = 0; block < 10; ++block) {
-    std::vector<double> position_m;
+    std::vector<double> time_s, position_m;
     for (int k = 0; k < 3000; ++k) {
-      const double time_s = 1e-3 * (3000 * block + k);
-      position_m.push_back(1.2e-3 + (block % 2 == 0 ? 1e-3 * std::sin(20 * time_s) : 0) + noise(random));
+      time_s.push_back(1e-3 * (3000 * block + k));
+      position_m.push_back(1.2e-3 + (block % 2 == 0 ? 1e-3 * std::sin(20 * time_s.back()) : 0) + noise(random));
     }
     position_m[17] = std::nan("");
     position_m[1000] = 5e-3;  // a fault
-    grain.take(position_m);
+    grain.take(time_s, position_m);
   }
   EXPECT_NEAR(grain.noise_m(), 2e-6, 0.1e-6);
   EXPECT_TRUE(std::isnan(PositionGrain().noise_m()));
