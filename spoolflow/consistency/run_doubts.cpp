@@ -134,6 +134,7 @@ class RunTrial {
 
 struct RunExplanation {
   std::string text;  ///< "position looks reversed: with …"
+  bool of_position;  ///< the slip is the position's
   double badness;
   std::vector<Deviation> deviations;
 };
@@ -143,11 +144,11 @@ bool wholly(const RunExplanation& explanation) {
 }
 
 void keep_better(std::optional<RunExplanation>& best, const RunTrial& trial, const std::vector<Deviation>& before,
-                 std::string text) {
+                 std::string text, bool of_position = false) {
   std::vector<Deviation> deviations = trial.deviations();
   if (!judges_as_much(deviations, before)) return;
   const double left = badness(deviations);
-  if (!best || left < best->badness) best = RunExplanation{std::move(text), left, std::move(deviations)};
+  if (!best || left < best->badness) best = RunExplanation{std::move(text), of_position, left, std::move(deviations)};
 }
 
 std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vector<Deviation>& before) {
@@ -160,7 +161,8 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
     for (const Slip& slip : usual_slips(channel)) {
       if (slip.from_other_end && trial.both()) continue;
       for (double& value : trial.run.column(channel)) value = slip.undone(value, trial.stroke_m());
-      keep_better(best, trial, before, fmt::format("{} looks {}: with {}", name, slip.looks, slip.undo));
+      keep_better(best, trial, before, fmt::format("{} looks {}: with {}", name, slip.looks, slip.undo),
+                  channel == Channel::position);
       trial.run.column(channel) = kept;
     }
   }
@@ -215,6 +217,34 @@ std::string dead_channel(const Recording& run) {
   return {};
 }
 
+/// What the relations of a run say against it.
+struct SlipDoubt {
+  bool cannot_be;
+  bool of_position;  ///< a slip of the position explains it: its noise is in that unit, too
+  std::string text;
+};
+
+std::optional<SlipDoubt> slip_doubt(RunTrial& trial) {
+  const std::vector<Deviation> now = trial.deviations();
+  const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
+  if (worst == now.end() || !(worst->over_limit > 1)) return std::nullopt;
+  const std::optional<RunExplanation> found = best_explanation(trial, now);
+  constexpr double left_share = 0.35;
+  const bool all = found && wholly(*found);
+  const bool explains =
+      all || (found && found->badness < left_share * badness(now) && over_limit_of(found->deviations, *worst) <= 1);
+  if (worst->of.starts_with(largest_opening) && !all) return std::nullopt;
+  const bool cannot_be = worst->over_limit > surely;
+  if (explains) {
+    return SlipDoubt{cannot_be, found->of_position,
+                     fmt::format("{}, {}", found->text, told(telling_change(now, found->deviations)))};
+  }
+  return SlipDoubt{cannot_be, false,
+                   fmt::format("{} is {}, which no usual slip of one channel explains: is the model of this valve, and "
+                               "is every channel in its unit?",
+                               worst->of, worst->shown)};
+}
+
 }  // namespace
 
 std::vector<KnownValve> known_valve(const model::Model& model) {
@@ -260,23 +290,10 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;
   }
-  if (const std::string coarse = coarse_position(valve.front(), run.position_grain()); !coarse.empty())
-    out.push_back({false, fmt::format("{}: {}", name, coarse)});
-  const std::vector<Deviation> now = trial.deviations();
-  const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
-  if (worst == now.end() || !(worst->over_limit > 1)) return out;
-  const bool cannot_be = worst->over_limit > surely;
-  const std::optional<RunExplanation> found = best_explanation(trial, now);
-  constexpr double left_share = 0.35;
-  const bool all = found && wholly(*found);
-  const bool explains =
-      all || (found && found->badness < left_share * badness(now) && over_limit_of(found->deviations, *worst) <= 1);
-  if (worst->of.starts_with(largest_opening) && !all) return out;
-  out.push_back(
-      {cannot_be, explains ? fmt::format("{}: {}, {}", name, found->text, told(telling_change(now, found->deviations)))
-                           : fmt::format("{}: {} is {}, which no usual slip of one channel explains: is the model of "
-                                         "this valve, and is every channel in its unit?",
-                                         name, worst->of, worst->shown)});
+  const std::optional<SlipDoubt> slip = slip_doubt(trial);
+  const std::string coarse = coarse_position(valve.front(), run.position_grain());
+  if (!coarse.empty() && !(slip && slip->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});
+  if (slip) out.push_back({slip->cannot_be, fmt::format("{}: {}", name, slip->text)});
   return out;
 }
 

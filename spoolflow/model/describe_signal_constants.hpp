@@ -135,6 +135,16 @@ void describe_position_constants(Visitor& visitor) {
                     .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
                    sensor::credible_jump_m);
   visitor.constant(
+      {.name = "position_noise_excess",
+       .unit = "1",
+       .meaning =
+           "how many times the calibrated noise the position's second differences show before they are believed"},
+      sensor::position_noise_excess);
+  visitor.constant({.name = "position_noise_follow_share",
+                    .unit = "1",
+                    .meaning = "share of the calibrated noise by which a sample moves the median of these differences"},
+                   sensor::position_noise_follow_share);
+  visitor.constant(
       {.name = "quiet_current_share",
        .unit = "1",
        .meaning = "share of the largest current: a smaller change from sample to sample tells of no motion"},

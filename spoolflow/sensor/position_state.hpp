@@ -33,6 +33,11 @@ inline constexpr double slip_settling_s = 0.03;
 /// what the hardest acceleration allows.
 inline constexpr double credible_jump_deviations = 20;
 inline constexpr double credible_jump_m = 20e-6;
+/// The noise is the calibrated one, or that which the signal has, where it is more by this factor: the spool's motion
+/// adds a little to it, too.
+inline constexpr double position_noise_excess = 1.12;
+/// What the signal has follows it by this share of the calibrated noise a sample: in some seconds.
+inline constexpr double position_noise_follow_share = 0.004;
 /// An armature that moves changes current or voltage of its coil, by more than this share of the largest current, and
 /// of the voltage that holds it: where neither changed, ...
 inline constexpr double quiet_current_share = 0.005;
@@ -92,6 +97,7 @@ struct PositionState {
   T per_block_samples{};  ///< 1 / samples in a block
   T last_m{};
   T step_m{};     ///< last believed change
+  T jitter_m{};   ///< median size of the changes of that: of second differences of the signal
   T current_A{};  ///< of the coil, in the last sample
   T voltage_V{};
   T offset_m{};               ///< what an acquisition fault adds to the signal

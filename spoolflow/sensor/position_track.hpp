@@ -106,10 +106,24 @@ template <class T>
   });
 }
 
+/// Standard deviation of the signal's noise [m], which a valve's own electronics may have more of than the bench had.
+template <class T>
+constexpr T noise_of(const PositionSensor<T>& sensor, const PositionState<T>& state) {
+  constexpr double of_white_noise = 1.6521;  // median size of second differences, 0.6745 sqrt(6) standard deviations
+  return larger(sensor.noise_m, state.jitter_m * T(1 / (of_white_noise * position_noise_excess)));
+}
+
+/// The median goes up where a second difference is larger, and down where it is smaller.
+template <class T>
+constexpr void follow_jitter(const PositionSensor<T>& sensor, PositionState<T>& state, T second_m) {
+  const T step_m = T(position_noise_follow_share) * sensor.noise_m;
+  state.jitter_m += select(second_m > state.jitter_m, step_m, -step_m);
+}
+
 /// What the spool does, after each block.
 template <class T>
 [[gnu::always_inline]] constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
-  const T noise_m = sensor.noise_m * sqrt(T(2) * state.per_block_samples);
+  const T noise_m = noise_of(sensor, state) * sqrt(T(2) * state.per_block_samples);
   const MotionOf<T> motion = even_motion(state, noise_m);
   const Mask<T> even = !is(motion, Motion::rest);
   const Mask<T> uneven = !even && state.blocks > short_window_blocks;
@@ -177,9 +191,11 @@ constexpr T outlast_fault(PositionState<T>& state, Mask<T> faulty, T position_m,
 template <class T>
 [[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
-  const T noise_m = T(credible_jump_deviations) * sensor.noise_m + T(credible_jump_m);
+  const T noise_m = T(credible_jump_deviations) * noise_of(sensor, state) + T(credible_jump_m);
   const T change_m = position_m - state.offset_m - state.last_m;
-  const Mask<T> unusual = magnitude(change_m - state.step_m) > noise_m;
+  const T second_m = magnitude(change_m - state.step_m);
+  const Mask<T> unusual = second_m > noise_m;
+  follow_jitter(sensor, state, second_m);
   if (any(unusual)) {
     judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
   }

@@ -1,8 +1,5 @@
 /// A campaign that cannot be is named with file, channel and cause; a sound one raises nothing.
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <random>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/consistency/run_doubts.hpp"
-#include "spoolflow/numerics/meter_lag.hpp"
+#include "tests/consistency/doubt_texts.hpp"
 #include "tests/consistency/rig_benches.hpp"
 
 namespace spoolflow::consistency {
@@ -107,18 +104,6 @@ void join_pressures(recording::Recording& recording) {
   recording.column(Channel::pressure_downstream).clear();
 }
 
-std::string all_texts(const std::vector<Doubt>& doubts) {
-  std::string out;
-  for (const Doubt& doubt : doubts) out += doubt.text + "\n";
-  return out;
-}
-
-RunMeans means_of(const recording::Recording& run) {
-  RunMeans out;
-  out.take({run.columns, run.size()});
-  return out;
-}
-
 struct Count {
   int asked = 0, named = 0;
 };
@@ -178,185 +163,6 @@ TEST(CampaignDoubts, DISABLED_TenValvesOfTheRigRaiseNone) {
     }
   }
   EXPECT_EQ(valves, 10);
-}
-
-TEST(RunMeans, KeepTheMeanOfEveryStretchHoweverLongTheRun) {
-  RunMeans means;
-  recording::SampleBlock block;
-  block.rows = 1000;
-  std::vector<double>& time_s = block.columns[static_cast<std::size_t>(Channel::time)];
-  std::vector<double>& position_m = block.columns[static_cast<std::size_t>(Channel::position)];
-  for (int blocks = 0; blocks < 100; ++blocks) {
-    time_s.clear();
-    position_m.clear();
-    for (int k = 0; k < 1000; ++k) {
-      time_s.push_back(1e-3 * (1000 * blocks + k));
-      position_m.push_back(k % 10 == 0 ? std::nan("") : 2 * time_s.back());
-    }
-    means.take(block);
-  }
-  const recording::Recording out = means.means("run.csv");
-  ASSERT_GT(out.size(), 1000U);
-  ASSERT_LE(out.size(), 4000U);
-  for (std::size_t k = 0; k < out.size(); ++k)
-    EXPECT_NEAR(out.column(Channel::position)[k], 2 * out.column(Channel::time)[k], 0.02) << k;
-  EXPECT_EQ(means.gaps().count, 0U);
-}
-
-const RigBenches& sound_size_6() {
-  static const RigBenches valve = rig_benches("size_6", 0);
-  return valve;
-}
-
-/// The rows of some seconds of a run.
-recording::Recording clip(const recording::Recording& run, std::size_t begin, std::size_t rows) {
-  recording::Recording out{run.file, {}};
-  for (const Channel channel : recording::all_channels()) {
-    if (!run.has(channel)) continue;
-    const auto from = run.column(channel).begin() + static_cast<std::ptrdiff_t>(begin);
-    out.column(channel).assign(from, from + static_cast<std::ptrdiff_t>(rows));
-  }
-  return out;
-}
-
-void keep_what_a_sensor_reads(recording::Recording& run) {
-  for (const Channel other : {Channel::pressure_upstream, Channel::pressure_downstream, Channel::flow_reference})
-    run.column(other).clear();
-}
-
-/// A dither of 100 Hz, and the voltage that it takes: some of its samples catch the current at its peaks, where it
-/// stands still for a moment while the voltage is far from what the resistance alone takes.
-void lay_dither_on(recording::Recording& run) {
-  constexpr double swing_A = 0.15, swing_V = 6, pi = 3.14159265358979;
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    const double phase = 2 * pi * 100 * run.column(Channel::time)[k];
-    run.column(Channel::current)[k] += swing_A * std::sin(phase);
-    run.column(Channel::voltage)[k] += swing_V * std::sin(phase + 1.2);
-  }
-}
-
-TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens) {
-  const RigBenches& valve = sound_size_6();
-  const std::vector<KnownValve> known{known_valve(valve.benches())};
-  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
-  const std::size_t second = 1000;
-  ASSERT_GT(run.size(), 10 * second);
-  keep_what_a_sensor_reads(run);
-  for (const bool dithered : {false, true}) {
-    if (dithered) lay_dither_on(run);
-    for (std::size_t begin = 0; begin + 3 * second <= run.size(); begin += second / 2) {
-      for (const std::size_t rows : {2 * second, 3 * second}) {
-        EXPECT_THAT(all_texts(doubts_about(known, means_of(clip(run, begin, rows)), "clip.csv")), testing::IsEmpty())
-            << "from " << begin << (dithered ? " with dither" : "");
-      }
-    }
-  }
-}
-
-TEST(RunDoubts, AreNoneOfAMetersNoiseBesideAValveThatHardlyLetsOilThrough) {
-  const RigBenches& valve = sound_size_6();
-  const std::vector<KnownValve> known{known_valve(valve.benches())};
-  const recording::Recording& run = valve.recordings.at("ramp_60bar.csv");
-  const std::vector<double>& flow = run.column(Channel::flow_reference);
-  const double little = 0.05 * std::ranges::max(flow);
-  std::size_t rows = 0;
-  while (flow[rows] < little) ++rows;
-  ASSERT_GT(run.column(Channel::time)[rows], 3);
-  recording::Recording beginning = clip(run, 0, rows);
-  const double noise = 0.1 * little;
-  for (std::size_t k = 0; k < rows; ++k) beginning.column(Channel::flow_reference)[k] += k % 2 == 0 ? noise : -noise;
-  EXPECT_THAT(all_texts(doubts_about(known, means_of(beginning), "closed.csv")), testing::IsEmpty());
-}
-
-TEST(RunDoubts, AreNoneOfAFewSecondsOfFastMotionBesideASlowMeter) {
-  const RigBenches& valve = sound_size_6();
-  const std::vector<KnownValve> known{known_valve(valve.benches())};
-  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
-  constexpr double faster = 15;
-  for (double& time_s : run.column(Channel::time)) time_s /= faster;
-  std::vector<double>& reference = run.column(Channel::flow_reference);
-  const std::vector<double> prompt = reference;
-  const auto rows = static_cast<std::size_t>(2.7 / (run.column(Channel::time)[1] - run.column(Channel::time)[0]));
-  ASSERT_GT(run.size(), rows);
-  for (const double lag_s : {0.03, 0.1, 0.3}) {
-    reference = prompt;
-    numerics::apply_lag<double>(run.column(Channel::time), reference, {.dead_time_s = 0.01, .lag_s = lag_s});
-    for (std::size_t begin = 0; begin + rows <= run.size(); begin += rows / 8) {
-      recording::Recording part = clip(run, begin, rows);
-      EXPECT_THAT(all_texts(doubts_about(known, means_of(part), "clip.csv")), testing::IsEmpty())
-          << "from " << begin << " with a lag of " << lag_s << " s";
-      for (double& flow : part.column(Channel::flow_reference)) flow *= 2;
-      EXPECT_THAT(all_texts(doubts_about(known, means_of(part), "clip.csv")), testing::HasSubstr("looks doubled"))
-          << "from " << begin << " with a lag of " << lag_s << " s";
-    }
-  }
-}
-
-TEST(RunDoubts, AreNoneOfACableOfThePositionSensorThatIsTornFromSomeSampleOn) {
-  const RigBenches& valve = sound_size_6();
-  const std::vector<KnownValve> known{known_valve(valve.benches())};
-  for (const std::size_t torn_from : {0U, 400U, 2990U}) {
-    recording::Recording run = clip(valve.recordings.at("ramp_60bar.csv"), 0, 3000);
-    keep_what_a_sensor_reads(run);
-    for (std::size_t k = torn_from; k < run.size(); ++k) run.column(Channel::position)[k] = std::nan("");
-    EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "torn.csv")), testing::IsEmpty()) << torn_from;
-  }
-}
-
-/// Of a valve whose position was recorded as finely on the bench as in this run.
-std::vector<KnownValve> as_fine_as(const recording::Recording& run) {
-  std::vector<KnownValve> known{known_valve(sound_size_6().benches())};
-  known.front().position_noise_m = means_of(run).position_grain().noise_m();
-  return known;
-}
-
-TEST(RunDoubts, NameAPositionThatIsRecordedMoreCoarselyThanOnTheBench) {
-  const recording::Recording run = sound_size_6().recordings.at("ramp_60bar.csv");
-  const std::vector<KnownValve> known = as_fine_as(run);
-  const double noise_m = known.front().position_noise_m;
-  EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "fine.csv")), testing::IsEmpty());
-
-  recording::Recording noisy = run;
-  std::mt19937 random(7);
-  std::normal_distribution<double> more(0, 1.5 * noise_m);
-  for (double& position_m : noisy.column(Channel::position)) position_m += more(random);
-  EXPECT_THAT(all_texts(doubts_about(known, means_of(noisy), "noisy.csv")),
-              testing::HasSubstr("noisy.csv: position comes with noise of"));
-
-  recording::Recording rounded = run;
-  for (double& position_m : rounded.column(Channel::position)) position_m = 1e-5 * std::round(position_m / 1e-5);
-  EXPECT_THAT(all_texts(doubts_about(known, means_of(rounded), "rounded.csv")),
-              testing::HasSubstr("rounded.csv: position comes in steps of 10 um"));
-}
-
-TEST(PositionGrain, IsTheNoiseOfASpoolInMotionAndAtRest) {
-  std::mt19937 random(3);
-  std::normal_distribution<double> noise(0, 2e-6);
-  PositionGrain grain;
-  for (int block = 0; block < 10; ++block) {
-    std::vector<double> time_s, position_m;
-    for (int k = 0; k < 3000; ++k) {
-      time_s.push_back(1e-3 * (3000 * block + k));
-      position_m.push_back(1.2e-3 + (block % 2 == 0 ? 1e-3 * std::sin(20 * time_s.back()) : 0) + noise(random));
-    }
-    position_m[17] = std::nan("");
-    position_m[1000] = 5e-3;  // a fault
-    grain.take(time_s, position_m);
-  }
-  EXPECT_NEAR(grain.noise_m(), 2e-6, 0.1e-6);
-  EXPECT_TRUE(std::isnan(PositionGrain().noise_m()));
-  EXPECT_EQ(PositionGrain().step_m(), 0);
-}
-
-TEST(RunMeans, AStretchOfTimeWithoutSamplesIsAGap) {
-  RunMeans means;
-  recording::SampleBlock block;
-  block.rows = 3;
-  block.columns[static_cast<std::size_t>(Channel::time)] = {0.0, 0.001, 5.001};
-  means.take(block);
-  EXPECT_EQ(means.gaps().count, 1U);
-  EXPECT_DOUBLE_EQ(means.gaps().longest_s, 5.0);
-  EXPECT_NEAR(means.gaps().longest_from_s, 0.001, 1e-9);
 }
 
 }  // namespace

@@ -55,6 +55,22 @@ TEST_P(PositionTrack, TellsRestFromNoise) {
   EXPECT_LT(moving, 0.01 * samples);
 }
 
+TEST_P(PositionTrack, LearnsThatItsSignalHasMoreNoiseThanTheBenchHad) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> more_noise_m(0, 2 * signal_of_lvdt.noise_m);
+  const double learnt_s = 1000 * step_s() + 0.5;
+  int moving = 0, samples = 0;
+  follow(
+      learnt_s + 5, [](double) { return 1e-3; },
+      [&](double time_s, const PositionPoint<double>& point) {
+        if (time_s < learnt_s) return;
+        moving += point.motion == Motion::rest ? 0 : 1;
+        ++samples;
+      },
+      [&](double) { return more_noise_m(generator); });
+  EXPECT_LT(moving, 0.02 * samples);
+}
+
 TEST_P(PositionTrack, TellsWhichWayTheSpoolSlidesWithinAFewBlocks) {
   // 0.12 mm/s is 5 %/s, the paper's stroke; 10 mm/s is a fast duty cycle.
   for (const double speed_m_per_s : {0.12e-3, 1e-3, 10e-3}) {

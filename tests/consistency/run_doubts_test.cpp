@@ -1,0 +1,147 @@
+/// A run that cannot be of its valve is named; a sound one, however short, raises nothing.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/consistency/run_doubts.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
+#include "tests/consistency/doubt_texts.hpp"
+#include "tests/consistency/rig_benches.hpp"
+
+namespace spoolflow::consistency {
+namespace {
+
+using recording::Channel;
+
+const RigBenches& sound_size_6() {
+  static const RigBenches valve = rig_benches("size_6", 0);
+  return valve;
+}
+
+/// The rows of some seconds of a run.
+recording::Recording clip(const recording::Recording& run, std::size_t begin, std::size_t rows) {
+  recording::Recording out{run.file, {}};
+  for (const Channel channel : recording::all_channels()) {
+    if (!run.has(channel)) continue;
+    const auto from = run.column(channel).begin() + static_cast<std::ptrdiff_t>(begin);
+    out.column(channel).assign(from, from + static_cast<std::ptrdiff_t>(rows));
+  }
+  return out;
+}
+
+void keep_what_a_sensor_reads(recording::Recording& run) {
+  for (const Channel other : {Channel::pressure_upstream, Channel::pressure_downstream, Channel::flow_reference})
+    run.column(other).clear();
+}
+
+/// A dither of 100 Hz, and the voltage that it takes: some of its samples catch the current at its peaks, where it
+/// stands still for a moment while the voltage is far from what the resistance alone takes.
+void lay_dither_on(recording::Recording& run) {
+  constexpr double swing_A = 0.15, swing_V = 6, pi = 3.14159265358979;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const double phase = 2 * pi * 100 * run.column(Channel::time)[k];
+    run.column(Channel::current)[k] += swing_A * std::sin(phase);
+    run.column(Channel::voltage)[k] += swing_V * std::sin(phase + 1.2);
+  }
+}
+
+TEST(RunDoubts, AreNoneOfAFewSecondsOfASoundRunWhetherItIsDitheredOrHardlyOpens) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  const std::size_t second = 1000;
+  ASSERT_GT(run.size(), 10 * second);
+  keep_what_a_sensor_reads(run);
+  for (const bool dithered : {false, true}) {
+    if (dithered) lay_dither_on(run);
+    for (std::size_t begin = 0; begin + 3 * second <= run.size(); begin += second / 2) {
+      for (const std::size_t rows : {2 * second, 3 * second}) {
+        EXPECT_THAT(all_texts(doubts_about(known, means_of(clip(run, begin, rows)), "clip.csv")), testing::IsEmpty())
+            << "from " << begin << (dithered ? " with dither" : "");
+      }
+    }
+  }
+}
+
+TEST(RunDoubts, AreNoneOfAMetersNoiseBesideAValveThatHardlyLetsOilThrough) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  const recording::Recording& run = valve.recordings.at("ramp_60bar.csv");
+  const std::vector<double>& flow = run.column(Channel::flow_reference);
+  const double little = 0.05 * std::ranges::max(flow);
+  std::size_t rows = 0;
+  while (flow[rows] < little) ++rows;
+  ASSERT_GT(run.column(Channel::time)[rows], 3);
+  recording::Recording beginning = clip(run, 0, rows);
+  const double noise = 0.1 * little;
+  for (std::size_t k = 0; k < rows; ++k) beginning.column(Channel::flow_reference)[k] += k % 2 == 0 ? noise : -noise;
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(beginning), "closed.csv")), testing::IsEmpty());
+}
+
+TEST(RunDoubts, AreNoneOfAFewSecondsOfFastMotionBesideASlowMeter) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  constexpr double faster = 15;
+  for (double& time_s : run.column(Channel::time)) time_s /= faster;
+  std::vector<double>& reference = run.column(Channel::flow_reference);
+  const std::vector<double> prompt = reference;
+  const auto rows = static_cast<std::size_t>(2.7 / (run.column(Channel::time)[1] - run.column(Channel::time)[0]));
+  ASSERT_GT(run.size(), rows);
+  for (const double lag_s : {0.03, 0.1, 0.3}) {
+    reference = prompt;
+    numerics::apply_lag<double>(run.column(Channel::time), reference, {.dead_time_s = 0.01, .lag_s = lag_s});
+    for (std::size_t begin = 0; begin + rows <= run.size(); begin += rows / 8) {
+      recording::Recording part = clip(run, begin, rows);
+      EXPECT_THAT(all_texts(doubts_about(known, means_of(part), "clip.csv")), testing::IsEmpty())
+          << "from " << begin << " with a lag of " << lag_s << " s";
+      for (double& flow : part.column(Channel::flow_reference)) flow *= 2;
+      EXPECT_THAT(all_texts(doubts_about(known, means_of(part), "clip.csv")), testing::HasSubstr("looks doubled"))
+          << "from " << begin << " with a lag of " << lag_s << " s";
+    }
+  }
+}
+
+TEST(RunDoubts, AreNoneOfACableOfThePositionSensorThatIsTornFromSomeSampleOn) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  for (const std::size_t torn_from : {0U, 400U, 2990U}) {
+    recording::Recording run = clip(valve.recordings.at("ramp_60bar.csv"), 0, 3000);
+    keep_what_a_sensor_reads(run);
+    for (std::size_t k = torn_from; k < run.size(); ++k) run.column(Channel::position)[k] = std::nan("");
+    EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "torn.csv")), testing::IsEmpty()) << torn_from;
+  }
+}
+
+/// Of a valve whose position was recorded as finely on the bench as in this run.
+std::vector<KnownValve> as_fine_as(const recording::Recording& run) {
+  std::vector<KnownValve> known{known_valve(sound_size_6().benches())};
+  known.front().position_noise_m = means_of(run).position_grain().noise_m();
+  return known;
+}
+
+TEST(RunDoubts, NameAPositionThatIsRecordedMoreCoarselyThanOnTheBench) {
+  const recording::Recording run = sound_size_6().recordings.at("ramp_60bar.csv");
+  const std::vector<KnownValve> known = as_fine_as(run);
+  const double noise_m = known.front().position_noise_m;
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "fine.csv")), testing::IsEmpty());
+
+  recording::Recording noisy = run;
+  std::mt19937 random(7);
+  std::normal_distribution<double> more(0, 3 * noise_m);
+  for (double& position_m : noisy.column(Channel::position)) position_m += more(random);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(noisy), "noisy.csv")),
+              testing::HasSubstr("noisy.csv: position comes with noise of"));
+
+  recording::Recording rounded = run;
+  for (double& position_m : rounded.column(Channel::position)) position_m = 1e-5 * std::round(position_m / 1e-5);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(rounded), "rounded.csv")),
+              testing::HasSubstr("rounded.csv: position comes in steps of 10 um"));
+}
+
+}  // namespace
+}  // namespace spoolflow::consistency
