@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-NOISE_UM = (1.0, 1.5, 3.0)
+NOISE_UM = (1.0, 1.5, 2.0, 3.0)
 STEPS_UM = (1.0, 2.0, 3.0, 5.0, 10.0)
 
 

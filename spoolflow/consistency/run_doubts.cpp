@@ -192,19 +192,25 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
   return best;
 }
 
-/// A position that is recorded more coarsely than in the campaign: the sensor takes its steps and noise for motion.
+/// A position that is recorded more coarsely than in the campaign: the sensor takes its steps for motion, and does not
+/// see a slow spool move beneath its noise.
 std::string coarse_position(const KnownValve& known, const PositionGrain& grain) {
   const double noise_m = known.position_noise_m;
   if (!(noise_m > 0)) return {};
-  const auto told = [&](std::string_view as, double value_m) {
+  const auto told = [&](std::string_view as, double value_m, std::string_view costs) {
     return fmt::format(
-        "position comes {} {:.2g} um, and the model's valve was calibrated with noise of {:.2g} um: the "
-        "sensor takes more for motion of the spool, and its band is too narrow; record it as finely as "
-        "the bench tests were, or calibrate from bench tests recorded like this",
-        as, units::mm_from_m(value_m) * 1e3, units::mm_from_m(noise_m) * 1e3);
+        "position comes {} {:.2g} um, and the model's valve was calibrated with noise of {:.2g} um: {}; record it as "
+        "finely as the bench tests were, or calibrate from bench tests recorded like this",
+        as, units::mm_from_m(value_m) * 1e3, units::mm_from_m(noise_m) * 1e3, costs);
   };
-  if (grain.step_m() > position_step_noises * noise_m) return told("in steps of", grain.step_m());
-  if (grain.noise_m() > position_noise_factor * noise_m) return told("with noise of", grain.noise_m());
+  if (grain.step_m() > position_step_noises * noise_m) {
+    return told("in steps of", grain.step_m(),
+                "the sensor takes steps for motion of the spool, and its band is too narrow");
+  }
+  if (grain.noise_m() > position_noise_factor * noise_m) {
+    return told("with noise of", grain.noise_m(),
+                "the sensor does not see a slow spool move, and its band widens to several percent");
+  }
   return {};
 }
 

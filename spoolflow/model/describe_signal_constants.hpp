@@ -142,7 +142,7 @@ void describe_position_constants(Visitor& visitor) {
       sensor::position_noise_excess);
   visitor.constant({.name = "position_noise_follow_share",
                     .unit = "1",
-                    .meaning = "share of the calibrated noise by which a sample moves the median of these differences"},
+                    .meaning = "share of the calibrated noise by which the median of these differences moves with each block"},
                    sensor::position_noise_follow_share);
   visitor.constant(
       {.name = "quiet_current_share",

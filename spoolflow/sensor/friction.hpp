@@ -86,9 +86,9 @@ constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& frictio
 
 /// By how much noise may fake a displacement at rest.
 template <class T>
-[[gnu::always_inline]] constexpr T gauge_slack_m(const PositionSensor<T>& sensor, T time_step_s) {
+[[gnu::always_inline]] constexpr T gauge_slack_m(T noise_m, T time_step_s) {
   const T smoothing_s = T(gauge_smoothing_s);
-  return T(gauge_slack_deviations) * sensor.noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
+  return T(gauge_slack_deviations) * noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
 }
 
 /// How far to either side of what the pre-sliding displacement tells friction may lie.
@@ -189,7 +189,7 @@ template <class T>
                                                           const PositionSensor<T>& sensor,
                                                           const PositionPoint<T>& position, T apparent_N,
                                                           Mask<T> creeps, T time_step_s) {
-  in_valves(position.turn.closed, state, [&] { state.slack_m = gauge_slack_m(sensor, time_step_s); });
+  in_valves(position.turn.closed, state, [&] { state.slack_m = gauge_slack_m(position.noise_m, time_step_s); });
   const T slack_m = state.slack_m;
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;

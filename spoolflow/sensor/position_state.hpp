@@ -36,7 +36,7 @@ inline constexpr double credible_jump_m = 20e-6;
 /// The noise is the calibrated one, or that which the signal has, where it is more by this factor: the spool's motion
 /// adds a little to it, too.
 inline constexpr double position_noise_excess = 1.12;
-/// What the signal has follows it by this share of the calibrated noise a sample: in some seconds.
+/// What the signal has is followed by this share of the calibrated noise in each block: in a second or so.
 inline constexpr double position_noise_follow_share = 0.004;
 /// An armature that moves changes current or voltage of its coil, by more than this share of the largest current, and
 /// of the voltage that holds it: where neither changed, ...
@@ -85,6 +85,13 @@ using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
 inline constexpr int position_blocks = 32;  ///< of means over four blocks, for the long windows
 inline constexpr int short_blocks = 8;      ///< of means over one, for the short ones
 
+/// The noise of the signal.
+template <class T>
+struct PositionNoise {
+  T median_m{};     ///< of the size of second differences
+  T deviation_m{};  ///< standard deviation of one sample: as calibrated, or what the median tells where that is more
+};
+
 /// Trivially copyable memory of a track. The rings hold means over blocks of some milliseconds, newest at `newest`;
 /// each of the short one's stands twice, so that those before the newest lie in a row.
 template <class T>
@@ -96,8 +103,8 @@ struct PositionState {
   T block_s{};
   T per_block_samples{};  ///< 1 / samples in a block
   T last_m{};
-  T step_m{};     ///< last believed change
-  T jitter_m{};   ///< median size of the changes of that: of second differences of the signal
+  T step_m{};  ///< last believed change
+  PositionNoise<T> noise{};
   T current_A{};  ///< of the coil, in the last sample
   T voltage_V{};
   T offset_m{};               ///< what an acquisition fault adds to the signal
@@ -137,6 +144,7 @@ struct PositionPoint {
   T acceleration_m_per_s2{};
   T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
   T block_s{};      ///< length of the last block
+  T noise_m{};      ///< standard deviation of one sample, as calibrated or as learnt
   Turn<T> turn{};
 };
 

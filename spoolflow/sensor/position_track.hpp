@@ -106,24 +106,22 @@ template <class T>
   });
 }
 
-/// Standard deviation of the signal's noise [m], which a valve's own electronics may have more of than the bench had.
+/// The noise that the signal has shown, which a valve's own electronics may have more of than the bench had. Half of
+/// its second differences, in size, are larger than their median: it goes up with each that is, and down with every
+/// other.
 template <class T>
-constexpr T noise_of(const PositionSensor<T>& sensor, const PositionState<T>& state) {
-  constexpr double of_white_noise = 1.6521;  // median size of second differences, 0.6745 sqrt(6) standard deviations
-  return larger(sensor.noise_m, state.jitter_m * T(1 / (of_white_noise * position_noise_excess)));
-}
-
-/// The median goes up where a second difference is larger, and down where it is smaller.
-template <class T>
-constexpr void follow_jitter(const PositionSensor<T>& sensor, PositionState<T>& state, T second_m) {
+constexpr void follow_noise(const PositionSensor<T>& sensor, PositionState<T>& state, T second_difference_m) {
+  constexpr double of_white_noise = 1.6521;  // their median, 0.6745 sqrt(6) standard deviations
   const T step_m = T(position_noise_follow_share) * sensor.noise_m;
-  state.jitter_m += select(second_m > state.jitter_m, step_m, -step_m);
+  state.noise.median_m += select(second_difference_m > state.noise.median_m, step_m, -step_m);
+  state.noise.deviation_m =
+      larger(sensor.noise_m, state.noise.median_m * T(1 / (of_white_noise * position_noise_excess)));
 }
 
 /// What the spool does, after each block.
 template <class T>
-[[gnu::always_inline]] constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
-  const T noise_m = noise_of(sensor, state) * sqrt(T(2) * state.per_block_samples);
+[[gnu::always_inline]] constexpr void tell_motion(PositionState<T>& state) {
+  const T noise_m = state.noise.deviation_m * sqrt(T(2) * state.per_block_samples);
   const MotionOf<T> motion = even_motion(state, noise_m);
   const Mask<T> even = !is(motion, Motion::rest);
   const Mask<T> uneven = !even && state.blocks > short_window_blocks;
@@ -191,11 +189,9 @@ constexpr T outlast_fault(PositionState<T>& state, Mask<T> faulty, T position_m,
 template <class T>
 [[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
-  const T noise_m = T(credible_jump_deviations) * noise_of(sensor, state) + T(credible_jump_m);
+  const T noise_m = T(credible_jump_deviations) * state.noise.deviation_m + T(credible_jump_m);
   const T change_m = position_m - state.offset_m - state.last_m;
-  const T second_m = magnitude(change_m - state.step_m);
-  const Mask<T> unusual = second_m > noise_m;
-  follow_jitter(sensor, state, second_m);
+  const Mask<T> unusual = magnitude(change_m - state.step_m) > noise_m;
   if (any(unusual)) {
     judge_jump(state, unusual, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
   }
@@ -213,7 +209,9 @@ template <class T>
 
 /// To be called before the first sample, with its drift-free position, and where time has leapt.
 template <class T>
-constexpr void begin(PositionState<T>& state, T position_m) {
+constexpr void begin(const PositionSensor<T>& sensor, PositionState<T>& state, T position_m) {
+  state.noise.deviation_m = sensor.noise_m;
+  state.noise.median_m = T(0);
   state.last_m = position_m;
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
   state.acceleration_m_per_s2 = T(0);
@@ -251,6 +249,7 @@ template <class T>
   const T time_step_s = sample.time_step_s;
   const Mask<T> due = state.velocity_due;
   in_valves(due, state, [&] { detail::follow_velocity(sensor, state); });
+  const T step_before_m = state.step_m;
   const T position_m =
       detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
   state.sum_m += position_m;
@@ -261,8 +260,9 @@ template <class T>
   const Mask<T> closed = whole && (dither.begins || !trembles);
   in_valves(
       closed, state, [&]() __attribute__((always_inline)) {
+        detail::follow_noise(sensor, state, magnitude(state.step_m - step_before_m));
         detail::close_block(state);
-        detail::tell_motion(sensor, state);
+        detail::tell_motion(state);
       });
   const Turn<T> turn = detail::turn_of(state, closed, due);
   return {position_m,
@@ -273,6 +273,7 @@ template <class T>
           state.acceleration_m_per_s2,
           position_m + state.elsewhere_m,
           state.block_s,
+          state.noise.deviation_m,
           turn};
 }
 

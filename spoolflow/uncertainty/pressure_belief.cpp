@@ -87,7 +87,7 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
                                    0.5 * valve.pressure.sliding_drift_Pa_per_sqrt_s * noise_Pa_sqrt_s);
   } else if (!sensor::has(answer.status, sensor::Status::closed)) {
     const double reach_N = sensor::gauge_reach_N(valve.friction, valve.position_sensor,
-                                                 sensor::gauge_slack_m(valve.position_sensor, step_s));
+                                                 sensor::gauge_slack_m(valve.position_sensor.noise_m, step_s));
     const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
     // The belief's error is (friction - apparent)/slope, friction within the reach of the gauge.
     parts.above_Pa = (state.friction.gauge_N + reach_N - apparent_N) / slope_N_per_Pa;

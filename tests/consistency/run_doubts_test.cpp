@@ -137,6 +137,11 @@ TEST(RunDoubts, NameAPositionThatIsRecordedMoreCoarselyThanOnTheBench) {
   EXPECT_THAT(all_texts(doubts_about(known, means_of(noisy), "noisy.csv")),
               testing::HasSubstr("noisy.csv: position comes with noise of"));
 
+  recording::Recording tenfold = run;
+  for (double& position_m : tenfold.column(Channel::position)) position_m *= 10;
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(tenfold), "tenfold.csv")),
+              testing::AllOf(testing::HasSubstr("position looks"), testing::Not(testing::HasSubstr("noise"))));
+
   recording::Recording rounded = run;
   for (double& position_m : rounded.column(Channel::position)) position_m = 1e-5 * std::round(position_m / 1e-5);
   EXPECT_THAT(all_texts(doubts_about(known, means_of(rounded), "rounded.csv")),

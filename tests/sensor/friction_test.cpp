@@ -29,9 +29,10 @@ class Friction : public testing::TestWithParam<double> {
   FrictionInterval<double> sample(Motion motion, double position_m, double apparent_N, double direction = 1) {
     const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
     dragged_m_ = std::clamp(dragged_m_, position_m - fine_lvdt.backlash_m, position_m + fine_lvdt.backlash_m);
-    PositionPoint<double> point{dragged_m_ + noise_(generator_), motion, false, direction * 1e-6};
+    PositionPoint<double> point{dragged_m_ + noise_times * noise_(generator_), motion, false, direction * 1e-6};
     point.turn.closed = true;  // a block of one sample
     point.block_s = GetParam();
+    point.noise_m = learnt_times * fine_lvdt.noise_m;
     return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, GetParam());
   }
   /// Slides, opening or closing, then stops at 1 mm.
@@ -43,6 +44,7 @@ class Friction : public testing::TestWithParam<double> {
   }
   FrictionState<double> state{};
   bool creeps = false;
+  double noise_times = 1, learnt_times = 1;  ///< the calibrated noise: what there is, and what the track has learnt
 
  private:
   std::mt19937 generator_{11};
@@ -93,6 +95,27 @@ TEST_P(Friction, IsFollowedAcrossItsWidthByThePreSlidingDisplacement) {
     ++samples;
   }
   EXPECT_GT(held, 0.95 * samples);
+}
+
+TEST_P(Friction, IsNotMovedByNoiseThatTheTrackHasLearntOf) {
+  const double friction_N = 0.5 * (spool_N + armature_N);
+  const auto moved_N = [&] {
+    stop_after(1);
+    for (double time_s = 0; time_s < 0.5; time_s += GetParam()) sample(Motion::rest, 1e-3, friction_N);
+    double lowest_N = state.gauge_N, highest_N = state.gauge_N;
+    for (double time_s = 0; time_s < 5; time_s += GetParam()) {
+      sample(Motion::rest, 1e-3, friction_N);
+      lowest_N = std::min(lowest_N, state.gauge_N);
+      highest_N = std::max(highest_N, state.gauge_N);
+    }
+    return highest_N - lowest_N;
+  };
+  const double quiet_N = moved_N();
+  noise_times = 6;
+  const double surprised_N = moved_N();
+  learnt_times = 6;
+  EXPECT_LT(moved_N(), 0.5 * surprised_N);
+  EXPECT_LT(quiet_N, 0.5 * surprised_N);
 }
 
 TEST_P(Friction, TellsTheForceAtWhichTheSpoolBrokeAwayNotThatOfTheSlip) {
