@@ -36,21 +36,17 @@ bool says_missing(std::string_view text) {
   return std::ranges::count(words, std::string_view(small.data(), text.size())) > 0;
 }
 
-/// Up to seven digits, the point and up to seven more, as times have them: each half at once. Nothing where it is
-/// other.
-const char* read_two_halves(const char* text, char point, double& magnitude) {
-  const std::uint64_t before = eight_bytes(text);
-  const auto whole = static_cast<unsigned>(std::countr_zero(bytes_no_digits(before))) / 8;  // 8: no other byte
-  if (whole - 1U >= 7 || text[whole] != point) return nullptr;
-  const char* const fraction = text + whole + 1;
-  const std::uint64_t behind = eight_bytes(fraction);
-  const auto decimals = static_cast<unsigned>(std::countr_zero(bytes_no_digits(behind))) / 8;
-  if (decimals - 1U >= 7 || (fraction[decimals] | 0x20) == 'e') return nullptr;
-  const std::uint64_t mantissa =
-      number_of_digits(before << 8 * (8 - whole)) * static_cast<std::uint64_t>(exact_powers_of_ten[decimals]) +
-      number_of_digits(behind << 8 * (8 - decimals));
+/// Nine to sixteen characters, with up to seven decimals, as times have them. False where it is other.
+bool read_sixteen(const char* text, const char* end, char point, double& magnitude) {
+  const auto length = static_cast<std::size_t>(end - text);
+  if (length < 9 || length > 16) return false;
+  const std::uint64_t first = eight_bytes(text) << 8 * (16 - length) | zeros_before(length - 8);
+  const auto [digits, decimals, has_point] = without_point(eight_bytes(end - 8), point, first >> 56);
+  const std::uint64_t before = first << 8 | '0';
+  if (!has_point || (bytes_no_digits(digits) | bytes_no_digits(before)) != 0) return false;
+  const std::uint64_t mantissa = number_of_digits(before) * 100'000'000 + number_of_digits(digits);
   magnitude = static_cast<double>(static_cast<std::int64_t>(mantissa)) / exact_powers_of_ten[decimals];
-  return fraction + decimals;
+  return true;
 }
 
 }  // namespace
@@ -73,11 +69,11 @@ Digits read_number(std::string_view text, char point, double& value) {
   return Digits::number;
 }
 
-const char* read_long_decimal(const char* text, const char* end, char point, bool negative, double& value) {
+bool read_long_decimal(const char* text, const char* end, char point, bool negative, double& value) {
   double magnitude = 0;
-  if (const char* const halves_end = read_two_halves(text, point, magnitude)) {
-    value = negative ? -magnitude : magnitude;
-    return halves_end;
+  if (read_sixteen(text, end, point, magnitude)) {
+    value = signed_number(magnitude, negative);
+    return true;
   }
   std::uint64_t mantissa = 0;
   std::ptrdiff_t digits = 0;
@@ -101,7 +97,7 @@ const char* read_long_decimal(const char* text, const char* end, char point, boo
     take_digits();
     exponent = fraction - at;
   }
-  if (digits == 0 || at - text >= static_cast<std::ptrdiff_t>(longest)) return nullptr;
+  if (digits == 0 || end - text >= static_cast<std::ptrdiff_t>(longest)) return false;
   if (*at == 'e' || *at == 'E') {
     ++at;
     const bool small = *at == '-';
@@ -109,9 +105,10 @@ const char* read_long_decimal(const char* text, const char* end, char point, boo
     int written = 0;
     std::ptrdiff_t power = 0;
     for (; *at >= '0' && *at <= '9' && written < 4; ++written) power = 10 * power + (*at++ - '0');
-    if (written == 0 || written == 4) return nullptr;
+    if (written == 0 || written == 4) return false;
     exponent += small ? -power : power;
   }
+  if (at != end) return false;
   constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
   constexpr auto largest = static_cast<std::ptrdiff_t>(exact_powers_of_ten.size()) - 1;
   // 19 digits cannot overflow 64 bits, so the mantissa is right where it is compared.
@@ -122,10 +119,10 @@ const char* read_long_decimal(const char* text, const char* end, char point, boo
   } else {
     const auto read = fast_float::from_chars_advanced(
         text, end, magnitude, fast_float::parse_options{fast_float::chars_format::general, point});
-    if (read.ptr != at || !std::isfinite(magnitude)) return nullptr;
+    if (read.ptr != end || !std::isfinite(magnitude)) return false;
   }
-  value = negative ? -magnitude : magnitude;
-  return at;
+  value = signed_number(magnitude, negative);
+  return true;
 }
 
 bool is_number(std::string_view text) {
