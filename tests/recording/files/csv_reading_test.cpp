@@ -76,7 +76,7 @@ TEST(CsvReading, FindsCellsWhereverTheyBeginInALine) {
   for (std::size_t width = 0; width < 200; ++width) {
     const std::string note(width, 'n');
     const Recording run = read("note,time_s,position_mm,end\n" + note + ",0.001,-1.25," + note + "\n" + note +
-                               ",1785.9990,12345678.5,\n");
+                               ",1785.9990,-12.3456785,\n");
     EXPECT_THAT(column(run, Channel::time), ElementsAre(0.001, 1785.999)) << width;
     EXPECT_EQ(column(run, Channel::position).front(), -0.00125) << width;
     EXPECT_THAT(refused("note,time_s,position_mm,end\n" + note + ",0,1,2,3\n"), HasSubstr("cells")) << width;
