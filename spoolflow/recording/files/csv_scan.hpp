@@ -3,9 +3,7 @@
 /// it.
 #include <bit>
 #include <cstdint>
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
+#include <cstring>
 
 #include "spoolflow/recording/files/eight_bytes.hpp"
 
@@ -15,12 +13,13 @@ namespace spoolflow::recording {
 inline std::uint64_t ends_in_64_bytes(const char* text, char delimiter) {
   std::uint64_t out = 0;
 #if defined(__SSE2__)
-  const __m128i delimiters = _mm_set1_epi8(delimiter);
-  const __m128i line_feeds = _mm_set1_epi8('\n');
+  using Bytes [[gnu::vector_size(16)]] = char;
+  const Bytes delimiters = Bytes{} + delimiter, line_feeds = Bytes{} + '\n';
   for (unsigned k = 0; k < 64; k += 16) {
-    const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(text + k));
-    const __m128i ends = _mm_or_si128(_mm_cmpeq_epi8(bytes, delimiters), _mm_cmpeq_epi8(bytes, line_feeds));
-    out |= static_cast<std::uint64_t>(static_cast<std::uint32_t>(_mm_movemask_epi8(ends))) << k;
+    Bytes bytes;
+    std::memcpy(&bytes, text + k, sizeof bytes);
+    const auto ends = reinterpret_cast<Bytes>((bytes == delimiters) | (bytes == line_feeds));
+    out |= static_cast<std::uint64_t>(static_cast<std::uint32_t>(__builtin_ia32_pmovmskb128(ends))) << k;
   }
 #else
   for (unsigned k = 0; k < 64; k += 8) {
