@@ -43,7 +43,9 @@ class Ahead {
     std::unique_lock lock(mutex_);
     if (std::exchange(taken_, false)) {
       ++first_;
+      lock.unlock();  // whoever is woken needs it
       changed_.notify_all();
+      lock.lock();
     }
     changed_.wait(lock, [this] { return first_ < end_ || ended_; });
     if (first_ < end_) {
@@ -70,14 +72,16 @@ class Ahead {
           failure = std::current_exception();
         }
       }
-      const std::lock_guard lock(mutex_);
-      if (more) {
-        end_ = k + 1;
-      } else {
-        ended_ = true;
-        failure_ = failure;
+      {
+        const std::lock_guard lock(mutex_);
+        if (more) {
+          end_ = k + 1;
+        } else {
+          ended_ = true;
+          failure_ = failure;
+        }
       }
-      changed_.notify_all();
+      changed_.notify_all();  // unlocked: whoever is woken needs it
       if (!more) return;
     }
   }

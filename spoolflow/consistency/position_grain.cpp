@@ -32,6 +32,25 @@ void PositionGrain::take(std::span<const double> time_s, std::span<const double>
   }
 }
 
+/// Of fourth_. It lies near that of the stretch before, mostly: only what is as large is put in order.
+double PositionGrain::lower_quartile() {
+  const std::size_t rank = fourth_.size() / 4;
+  const double least_m = 0.8 * quartile_m_, most_m = 1.25 * quartile_m_;
+  near_.resize(fourth_.size());
+  std::size_t below = 0, near = 0;
+  for (const double difference_m : fourth_) {  // without a branch: noise falls as it likes
+    near_[near] = difference_m;
+    below += static_cast<std::size_t>(difference_m < least_m);
+    near += static_cast<std::size_t>(difference_m >= least_m) & static_cast<std::size_t>(difference_m <= most_m);
+  }
+  const bool found = below <= rank && rank < below + near;
+  const auto begin = found ? near_.begin() : fourth_.begin();
+  const auto end = found ? near_.begin() + static_cast<std::ptrdiff_t>(near) : fourth_.end();
+  const auto quarter = begin + static_cast<std::ptrdiff_t>(found ? rank - below : rank);
+  std::nth_element(begin, quarter, end);
+  return *quarter;
+}
+
 /// By the lower quartile of the differences' sizes: slips of the spool fill the upper ones where samples are slow.
 void PositionGrain::judge_stretch() {
   if (stretch_.size() >= fewest_samples && noise_m_.size() < most_stretches) {
@@ -42,9 +61,8 @@ void PositionGrain::judge_stretch() {
     }
     const double noise_gain = std::sqrt(1.0 + 16 + 36 + 16 + 1);
     constexpr double quartile_deviations = 0.318639;  // a quarter of all lie so near to a normal distribution's mean
-    const auto quarter = fourth_.begin() + static_cast<std::ptrdiff_t>(fourth_.size() / 4);
-    std::ranges::nth_element(fourth_, quarter);
-    noise_m_.push_back(*quarter / (quartile_deviations * noise_gain));
+    quartile_m_ = lower_quartile();
+    noise_m_.push_back(quartile_m_ / (quartile_deviations * noise_gain));
   }
   stretch_.erase(stretch_.begin(), stretch_.end() - 1);
 }

@@ -20,10 +20,12 @@ class PositionGrain {
 
  private:
   void judge_stretch();
+  double lower_quartile();
 
-  std::vector<double> stretch_;  ///< samples of which nothing is known yet
-  std::vector<double> noise_m_;  ///< of each stretch
-  std::vector<double> fourth_;   ///< memory
+  std::vector<double> stretch_;        ///< samples of which nothing is known yet
+  std::vector<double> noise_m_;        ///< of each stretch
+  std::vector<double> fourth_, near_;  ///< memory
+  double quartile_m_ = 0;              ///< of the last stretch
   double least_change_m_ = 0;
   double first_s_ = 0, last_s_ = 0;
   std::uint64_t samples_ = 0;

@@ -34,7 +34,8 @@ struct StillPosition {
       if (hanging == 0 && driven > longest_driven) longest_driven = driven;
       hanging = driven = 0;
       const double change_m = position_m - last_m;
-      if (change_m * last_change_m < 0) ++reversals;
+      reversals +=
+          static_cast<std::uint32_t>(change_m * last_change_m < 0);  // without a branch: noise goes as it likes
       if (!std::isnan(change_m)) last_change_m = change_m;
       last_m = position_m;
       lowest_A = highest_A = current_A;

@@ -88,6 +88,12 @@ std::string Plausibility::better_units(const Watched& watched, double value, dou
   return out;
 }
 
+/// What the channel has reached; 0 where nothing was measured yet.
+double Plausibility::largest(const Watched& watched) {
+  if (!(watched.lowest <= watched.highest)) return 0.0;
+  return std::max(std::abs(watched.lowest), std::abs(watched.highest));
+}
+
 void Plausibility::take(std::size_t column, std::span<const double> values,
                         const std::function<std::string(std::size_t)>& place) {
   Watched& watched = watched_[column];
@@ -113,6 +119,7 @@ void Plausibility::take(std::size_t column, std::span<const double> values,
         better.empty() ? "check unit, scale and offset" : fmt::format("is its unit {} instead?", better)));
   }
   if (!watched.may_be_too_small || watched.limits.smallest == 0.0) return;
+  if (largest(watched) >= watched.limits.smallest) return;  // finish() asks for no more
   for (const double value : values) {
     if (std::isnan(value)) continue;
     watched.lowest = std::min(watched.lowest, value);
@@ -126,8 +133,8 @@ void Plausibility::take(std::size_t column, std::span<const double> values,
 void Plausibility::finish() const {
   for (const Watched& watched : watched_) {
     if (!watched.may_be_too_small || !(watched.lowest <= watched.highest)) continue;
-    const double largest = std::max(std::abs(watched.lowest), std::abs(watched.highest));
-    if (largest >= watched.limits.smallest) continue;
+    const double reached = largest(watched);
+    if (reached >= watched.limits.smallest) continue;
     // White noise of any length has a range of 7 to 10 mean steps and a mean that is far smaller than one step; a
     // signal moves by many steps of its noise, or stands clear of zero.
     const double mean_step = watched.steps / static_cast<double>(watched.samples);
@@ -136,13 +143,13 @@ void Plausibility::finish() const {
     const bool one_sign = watched.lowest > 0.0 || watched.highest < 0.0;
     const bool stands_clear = watched.limits.level_is_signal && (one_sign || mean > 5.0 * mean_step);
     if (!moves && !stands_clear) continue;
-    const std::string better = better_units(watched, largest, much_larger);
+    const std::string better = better_units(watched, reached, much_larger);
     if (better.empty()) continue;
     const units::Unit& unit = watched.column->unit;
     throw RecordingError(
         fmt::format("{}, column '{}': channel {} carries a signal but never exceeds {:.4g} {} ({}); is "
                     "its unit {} instead?",
-                    file_, watched.column->name, name(watched.column->channel), std::abs(unit.from_SI(largest)),
+                    file_, watched.column->name, name(watched.column->channel), std::abs(unit.from_SI(reached)),
                     unit.name, watched.limits.reason, better));
   }
 }

@@ -44,6 +44,7 @@ class Plausibility {
     double last;
   };
 
+  static double largest(const Watched& watched);
   static Limits limits_of(Channel channel, std::optional<double> stroke_m);
   [[nodiscard]] std::string better_units(const Watched& watched, double value, double least_factor) const;
   void check_sampling(const Watched& time, std::span<const double> time_s) const;

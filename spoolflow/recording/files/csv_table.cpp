@@ -137,34 +137,35 @@ bool CsvTable::refill() {
 }
 
 /// The fast path: bare numbers, no quotes, the right number of cells; anything else is false and nothing has moved.
-bool CsvTable::plain_row(const char*& cursor, const char* end, std::span<double* const> out, std::size_t row) const {
+bool CsvTable::plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const {
+  CellEnds ends(cursor, dialect_.delimiter);
   const char* text = cursor;
-  std::size_t cells = 0;
-  bool ended = false;
+  std::size_t left = dialect_.columns.size();
+  const auto step_over = [&](std::size_t cells) {
+    for (; cells > 0; --cells) {
+      const char* const cell_end = ends.next();
+      if (*cell_end == '\n') return false;
+      text = cell_end + 1;
+    }
+    return true;
+  };
   for (const Step& step : steps_) {
-    if (ended) return false;
-    if (step.skip != 0) {
-      text = behind_delimiters(text, dialect_.delimiter, step.skip);
-      if (text == nullptr) return false;
-    }
-    text = read_decimal(text, end, point_, out[step.slot][row]);
-    if (text == nullptr) return false;
-    cells += step.skip + 1;
-    if (*text == dialect_.delimiter) {
-      ++text;
-    } else {
-      if (*text == '\r') ++text;
-      if (*text != '\n') return false;
-      ended = true;
-    }
+    if (!step_over(step.skip)) return false;
+    left -= step.skip + 1;
+    const char* const cell_end = ends.next();
+    const bool line_ends = *cell_end == '\n';
+    const bool returns = line_ends && cell_end != text && cell_end[-1] == '\r';
+    if (line_ends != (left == 0)) return false;
+    if (!read_decimal(text, cell_end - static_cast<int>(returns), point_, out[step.slot][row])) return false;
+    text = cell_end + 1;
   }
-  if (!ended) {
-    const LineRest rest = rest_of_line(text, dialect_.delimiter);
-    cells += rest.delimiters + 1;
-    text = rest.line_feed;
+  if (left > 0) {
+    if (!step_over(left - 1)) return false;
+    const char* const line_end = ends.next();
+    if (*line_end != '\n') return false;
+    text = line_end + 1;
   }
-  if (cells != dialect_.columns.size()) return false;
-  cursor = text + 1;
+  cursor = text;
   return true;
 }
 
@@ -259,7 +260,7 @@ std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
     const char* const end = buffer_.data() + lines_end_;
     while (row < rows && cursor != end) {
       ++line_;
-      if (quotes_ || *cursor == '#' || !plain_row(cursor, end, out, row)) {
+      if (quotes_ || *cursor == '#' || !plain_row(cursor, out, row)) {
         std::string_view rest(cursor, static_cast<std::size_t>(end - cursor));
         const std::string_view line = take_line(rest);
         cursor = rest.empty() ? end : rest.data();

@@ -39,7 +39,7 @@ class CsvTable final : public SampleTable {
   bool refill();
   void refuse_zero_bytes(std::size_t first) const;
   void look_at_new_bytes();
-  bool plain_row(const char*& cursor, const char* end, std::span<double* const> out, std::size_t row) const;
+  bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
   [[nodiscard]] bool header_again(std::string_view line) const;
   bool careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);

@@ -59,6 +59,80 @@ inline char* put_fixed(char* out, std::uint64_t number, unsigned decimals) {
   return out + 1 + decimals;
 }
 
+/// The numbers below a thousand as text: all three digits, and without leading zeros, behind which stands how many that
+/// leaves. 8 KB, half of a number's time.
+struct Thousand {
+  std::array<std::array<char, 4>, 1000> digits{}, shortest{};
+};
+constexpr Thousand thousand = [] {
+  Thousand out;
+  for (unsigned k = 0; k < 1000; ++k) {
+    out.digits[k] = {static_cast<char>('0' + k / 100), static_cast<char>('0' + k / 10 % 10),
+                     static_cast<char>('0' + k % 10), 0};
+    const unsigned length = k < 10 ? 1 : k < 100 ? 2 : 3;
+    for (unsigned j = 0; j < length; ++j) out.shortest[k][j] = out.digits[k][3 - length + j];
+    out.shortest[k][3] = static_cast<char>(length);
+  }
+  return out;
+}();
+
+inline char* put_three(char* out, std::uint64_t below_thousand) {
+  std::memcpy(out, thousand.digits[below_thousand].data(), 4);
+  return out + 3;
+}
+inline char* put_up_to_three(char* out, std::uint64_t below_thousand) {
+  const auto& text = thousand.shortest[below_thousand];
+  std::memcpy(out, text.data(), 4);
+  return out + text[3];
+}
+
+constexpr unsigned most_grouped_decimals = 6;
+constexpr std::uint64_t grouped_whole = 1'000'000;  // below it
+
+/// As put_fixed, of a number whose part before the point is below `grouped_whole`: three digits at once from a table.
+template <unsigned decimals>
+inline char* put_grouped(char* out, std::uint64_t number) {
+  constexpr auto one = static_cast<std::uint64_t>(power[decimals]);
+  const std::uint64_t whole = number / one;
+  std::uint64_t fraction = number % one;
+  if (whole < 1000) [[likely]] {
+    out = put_up_to_three(out, whole);
+  } else {
+    out = put_three(put_up_to_three(out, whole / 1000), whole % 1000);
+  }
+  *out++ = '.';
+  constexpr unsigned first = std::min(decimals, 3U);
+  constexpr auto behind = static_cast<std::uint64_t>(power[decimals - first]);
+  put_three(out, fraction / behind * static_cast<std::uint64_t>(power[3 - first]));
+  if constexpr (decimals > 3) {
+    fraction %= behind;
+    put_three(out + 3, fraction * static_cast<std::uint64_t>(power[most_grouped_decimals - decimals]));
+  }
+  return out + decimals;
+}
+
+/// Either, whichever is fit for it.
+inline char* put_decimals(char* out, std::uint64_t number, unsigned decimals) {
+  if (decimals > most_grouped_decimals || number >= static_cast<std::uint64_t>(power[decimals]) * grouped_whole)
+    return put_fixed(out, number, decimals);
+  switch (decimals) {
+    case 1:
+      return put_grouped<1>(out, number);
+    case 2:
+      return put_grouped<2>(out, number);
+    case 3:
+      return put_grouped<3>(out, number);
+    case 4:
+      return put_grouped<4>(out, number);
+    case 5:
+      return put_grouped<5>(out, number);
+    case 6:
+      return put_grouped<6>(out, number);
+    default:
+      return put_fixed(out, number, decimals);
+  }
+}
+
 /// Nothing where there is no number.
 inline char* put_number(char* at, double value, unsigned decimals) {
   const double scaled = std::abs(value) * power[decimals];
@@ -67,7 +141,7 @@ inline char* put_number(char* at, double value, unsigned decimals) {
     *at = '-';
     at += static_cast<int>(value < 0) &
           static_cast<int>(digits != 0);  // without a branch: signs of noise come as they like
-    return put_fixed(at, static_cast<std::uint64_t>(digits), decimals);
+    return put_decimals(at, static_cast<std::uint64_t>(digits), decimals);
   }
   if (std::isnan(value)) return at;
   return fmt::format_to_n(at, longest_number, "{:.{}f}", value, decimals).out;

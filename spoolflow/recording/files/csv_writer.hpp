@@ -1,6 +1,6 @@
 #pragma once
-/// Writes rows of numbers and words as CSV, fast: fixed decimals by integer arithmetic, eight digits at once, into one
-/// buffer.
+/// Writes rows of numbers and words as CSV, fast: fixed decimals by integer arithmetic, three or eight digits at once,
+/// into one buffer.
 #include <iosfwd>
 #include <span>
 #include <string>

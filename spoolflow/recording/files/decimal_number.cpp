@@ -36,6 +36,19 @@ bool says_missing(std::string_view text) {
   return std::ranges::count(words, std::string_view(small.data(), text.size())) > 0;
 }
 
+/// Nine to sixteen characters, with up to seven decimals, as times have them. False where it is other.
+bool read_sixteen(const char* text, const char* end, char point, double& magnitude) {
+  const auto length = static_cast<std::size_t>(end - text);
+  if (length < 9 || length > 16) return false;
+  const std::uint64_t first = eight_bytes(text) << 8 * (16 - length) | zeros_before(length - 8);
+  const auto [digits, decimals, has_point] = without_point(eight_bytes(end - 8), point, first >> 56);
+  const std::uint64_t before = first << 8 | '0';
+  if (!has_point || (bytes_no_digits(digits) | bytes_no_digits(before)) != 0) return false;
+  const std::uint64_t mantissa = number_of_digits(before) * 100'000'000 + number_of_digits(digits);
+  magnitude = static_cast<double>(static_cast<std::int64_t>(mantissa)) / exact_powers_of_ten[decimals];
+  return true;
+}
+
 }  // namespace
 
 Digits read_number(std::string_view text, char point, double& value) {
@@ -56,7 +69,12 @@ Digits read_number(std::string_view text, char point, double& value) {
   return Digits::number;
 }
 
-const char* read_long_decimal(const char* text, const char* end, char point, bool negative, double& value) {
+bool read_long_decimal(const char* text, const char* end, char point, bool negative, double& value) {
+  double magnitude = 0;
+  if (read_sixteen(text, end, point, magnitude)) {
+    value = signed_number(magnitude, negative);
+    return true;
+  }
   std::uint64_t mantissa = 0;
   std::ptrdiff_t digits = 0;
   const char* at = text;
@@ -79,7 +97,7 @@ const char* read_long_decimal(const char* text, const char* end, char point, boo
     take_digits();
     exponent = fraction - at;
   }
-  if (digits == 0 || at - text >= static_cast<std::ptrdiff_t>(longest)) return nullptr;
+  if (digits == 0 || end - text >= static_cast<std::ptrdiff_t>(longest)) return false;
   if (*at == 'e' || *at == 'E') {
     ++at;
     const bool small = *at == '-';
@@ -87,12 +105,12 @@ const char* read_long_decimal(const char* text, const char* end, char point, boo
     int written = 0;
     std::ptrdiff_t power = 0;
     for (; *at >= '0' && *at <= '9' && written < 4; ++written) power = 10 * power + (*at++ - '0');
-    if (written == 0 || written == 4) return nullptr;
+    if (written == 0 || written == 4) return false;
     exponent += small ? -power : power;
   }
+  if (at != end) return false;
   constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
   constexpr auto largest = static_cast<std::ptrdiff_t>(exact_powers_of_ten.size()) - 1;
-  double magnitude = 0;
   // 19 digits cannot overflow 64 bits, so the mantissa is right where it is compared.
   if (digits <= 19 && mantissa <= exact_integers && exponent >= -largest && exponent <= largest) {
     const auto integer = static_cast<double>(static_cast<std::int64_t>(mantissa));
@@ -101,10 +119,10 @@ const char* read_long_decimal(const char* text, const char* end, char point, boo
   } else {
     const auto read = fast_float::from_chars_advanced(
         text, end, magnitude, fast_float::parse_options{fast_float::chars_format::general, point});
-    if (read.ptr != at || !std::isfinite(magnitude)) return nullptr;
+    if (read.ptr != end || !std::isfinite(magnitude)) return false;
   }
-  value = negative ? -magnitude : magnitude;
-  return at;
+  value = signed_number(magnitude, negative);
+  return true;
 }
 
 bool is_number(std::string_view text) {

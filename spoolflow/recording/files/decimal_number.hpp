@@ -30,40 +30,53 @@ inline constexpr std::array<double, 23> exact_powers_of_ten{1e0,  1e1,  1e2,  1e
                                                             1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                             1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// What read_decimal() leaves to others: more than seven characters, an exponent, or no number. `text` is behind the
-/// sign.
-[[nodiscard]] const char* read_long_decimal(const char* text, const char* end, char point, bool negative,
-                                            double& value);
+/// Without a branch: signs of noise come as they like, and a wrong guess costs more than the number.
+inline double signed_number(double magnitude, bool negative) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{negative} << 63);
+}
 
-/// The number that begins a cell: perhaps a minus sign, digits, at most one decimal sign, perhaps an exponent. Returns
-/// where it ends, or nullptr where read_number() has to look. Up to seven characters are read inline: digits and
-/// decimals each as an integer, whose quotient is rounded once (Clinger 1990).
-/// Before `end` stands a byte that ends the cell, and behind it there is scan_padding.
-inline const char* read_decimal(const char* text, const char* end, char point, double& value) {
+/// Digits, perhaps with one decimal sign among them, without the sign; and how many stand behind it.
+struct EightDigits {
+  std::uint64_t digits;
+  unsigned decimals;
+  bool has_point;
+};
+
+/// Of eight characters, taking in `before`, the one before them, where a point goes out.
+inline EightDigits without_point(std::uint64_t word, char point, std::uint64_t before) {
+  const std::uint64_t difference = word ^ eight_times(static_cast<unsigned char>(point));
+  // The lowest mark is right; where there are more, no digit stands there.
+  const std::uint64_t mark = (difference - eight_times(1)) & ~difference & eight_times(0x80);
+  if (mark == 0) return {word, 0, false};
+  const std::uint64_t left = word & ((mark >> 7) - 1);
+  const std::uint64_t right = word & ~(mark | (mark - 1));
+  return {right | left << 8 | before, 7 - static_cast<unsigned>(std::countr_zero(mark)) / 8, true};
+}
+
+/// So many '0' before the digits of a word that has `length` of them, 1 to 8.
+constexpr std::uint64_t zeros_before(std::size_t length) {
+  return eight_times('0') >> 8 * (length - 1) >> 8;
+}
+
+/// What read_decimal() leaves to others: more than eight characters, an exponent, or no number. `text` is behind the
+/// sign.
+[[nodiscard]] bool read_long_decimal(const char* text, const char* end, char point, bool negative, double& value);
+
+/// The number that a cell is: perhaps a minus sign, digits, at most one decimal sign, perhaps an exponent. False where
+/// read_number() has to look. Up to eight characters are read inline, as one integer that a power of ten divides, which
+/// rounds once (Clinger 1990). Behind `end` there are eight bytes that may be looked at.
+inline bool read_decimal(const char* text, const char* end, char point, double& value) {
   const bool negative = *text == '-';
-  if (negative) ++text;
-  const std::uint64_t word = eight_bytes(text);
-  std::uint64_t others = bytes_no_digits(word);
-  if (others == 0) return read_long_decimal(text, end, point, negative, value);
-  const auto whole = static_cast<unsigned>(std::countr_zero(others)) / 8;
-  unsigned length = whole;
-  unsigned decimals = 0;
-  std::uint64_t digits = word;
-  if (static_cast<char>(word >> 8 * whole) == point) {
-    others &= others - 1;
-    if (others == 0) return read_long_decimal(text, end, point, negative, value);
-    length = static_cast<unsigned>(std::countr_zero(others)) / 8;
-    decimals = length - whole - 1;
-    const std::uint64_t before = (std::uint64_t{1} << 8 * whole) - 1;
-    digits = (word & before) | (word >> 8 & ~before);
-  }
-  const unsigned count = whole + decimals;
-  if (count == 0 || (static_cast<char>(word >> 8 * length) | 0x20) == 'e')
+  text += static_cast<int>(negative);
+  const auto length = static_cast<std::size_t>(end - text);
+  if (length - 1 >= 8) return read_long_decimal(text, end, point, negative, value);
+  const std::uint64_t word = eight_bytes(text) << 8 * (8 - length) | zeros_before(length);
+  const auto [digits, decimals, has_point] = without_point(word, point, '0');
+  if (bytes_no_digits(digits) != 0 || length == static_cast<std::size_t>(has_point))
     return read_long_decimal(text, end, point, negative, value);
-  const auto mantissa = static_cast<std::int64_t>(number_of_digits(digits << 8 * (8 - count)));
-  const double magnitude = static_cast<double>(mantissa) / exact_powers_of_ten[decimals];
-  value = negative ? -magnitude : magnitude;
-  return text + length;
+  const auto mantissa = static_cast<std::int64_t>(number_of_digits(digits));
+  value = signed_number(static_cast<double>(mantissa) / exact_powers_of_ten[decimals], negative);
+  return true;
 }
 
 }  // namespace spoolflow::recording

@@ -8,7 +8,7 @@
 namespace spoolflow::recording {
 
 /// Bytes after the last line that stepping may look at (not use).
-inline constexpr std::size_t scan_padding = 16;
+inline constexpr std::size_t scan_padding = 64;
 
 inline std::uint64_t eight_bytes(const char* text) {
   std::uint64_t word;
@@ -35,9 +35,9 @@ inline std::uint64_t bytes_no_digits(std::uint64_t word) {
   return (((difference & eight_times(0x7F)) + eight_times(0x7F - 9)) | difference) & eight_times(0x80);
 }
 
-/// How many bytes are marked by their top bits, the other bits being 0.
-inline std::size_t marked_bytes(std::uint64_t marks) {
-  return static_cast<std::size_t>((marks >> 7) * eight_times(1) >> 56);
+/// The marks of bytes, which are their top bits, as eight bits, the first byte's the lowest.
+inline std::uint64_t gathered_marks(std::uint64_t marks) {
+  return (marks >> 7) * 0x0102'0408'1020'4080 >> 56;
 }
 
 /// The number that eight digits stand for, the first in the lowest byte; a byte of 0 counts as the digit 0. Neighbours

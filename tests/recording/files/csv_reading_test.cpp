@@ -72,6 +72,18 @@ TEST(CsvReading, TakesAnEmptyCellForAMissingSampleAndCountsIt) {
   EXPECT_EQ(reader->notes().duplicate_times, 1u);
 }
 
+TEST(CsvReading, FindsCellsWhereverTheyBeginInALine) {
+  for (std::size_t width = 0; width < 200; ++width) {
+    const std::string note(width, 'n');
+    const Recording run = read("note,time_s,position_mm,end\n" + note + ",0.001,-1.25," + note + "\n" + note +
+                               ",1785.9990,-12.3456785,\n");
+    EXPECT_THAT(column(run, Channel::time), ElementsAre(0.001, 1785.999)) << width;
+    EXPECT_EQ(column(run, Channel::position).front(), -0.00125) << width;
+    EXPECT_THAT(refused("note,time_s,position_mm,end\n" + note + ",0,1,2,3\n"), HasSubstr("cells")) << width;
+    EXPECT_THAT(refused("note,time_s,position_mm,end\n" + note + ",0,1\n"), HasSubstr("cells")) << width;
+  }
+}
+
 TEST(CsvReading, LeavesTextInColumnsThatNobodyAskedFor) {
   EXPECT_EQ(read("time_s,status,position_mm\n0,fully_open|at_rest,1\n1e-3,,2\n").size(), 2u);
 }

@@ -17,9 +17,7 @@ std::optional<double> number_of_cell(const std::string& cell, const std::string&
   const std::string line = cell + behind;
   const std::string text = line + "\n" + std::string(scan_padding, '9');
   double value = 0;
-  const char* const end = read_decimal(text.data(), text.data() + line.size() + 1, point, value);
-  if (end == nullptr) return std::nullopt;
-  EXPECT_EQ(end - text.data(), static_cast<std::ptrdiff_t>(cell.size())) << cell;
+  if (!read_decimal(text.data(), text.data() + cell.size(), point, value)) return std::nullopt;
   return value;
 }
 
@@ -55,8 +53,8 @@ TEST(DecimalNumber, IsToTheLastBitWhatTheStandardLibraryReads) {
 
 TEST(DecimalNumber, IsReadAlikeWhateverEndsItsCell) {
   for (const std::string& behind : std::vector<std::string>{",", ";", "\t", "\r", " ,", "\n99", "-", "\x80"})
-    for (const char* const cell :
-         {"0", "-7", "12.5", "-0.00283", "1234567", "12345678", "123456.7", "1833.0123", ".5", "5.", "2e3"})
+    for (const char* const cell : {"0", "-7", "12.5", "-0.00283", "1234567", "12345678", "123456.7", "1833.0123",
+                                   "123456.75", "-12345678.7654321", "123456789.25", ".5", "5.", "2e3"})
       EXPECT_EQ(number_of_cell(cell, behind), std::stod(cell)) << cell;
 }
 
@@ -67,8 +65,8 @@ TEST(DecimalNumber, HasACommaWhereTheFileHas) {
 }
 
 TEST(DecimalNumber, LeavesWhatIsNoBareNumber) {
-  for (const char* const cell :
-       {"", "-", ".", "-.", "nan", "inf", "+1", " 1", "1e", "1e+", "1e99999", "1e400", "e5", "\"1\""})
+  for (const char* const cell : {"", "-", ".", "-.", "1.2.3", "1-2", "1785.9990.1", "1785 .99901", "nan", "inf", "+1",
+                                 " 1", "1e", "1e+", "1e99999", "1e400", "e5", "\"1\""})
     EXPECT_FALSE(number_of_cell(cell)) << cell;
   EXPECT_FALSE(number_of_cell(std::string(401, '1')));  // no number of a recording is longer
 }
