@@ -140,10 +140,11 @@ void describe_position_constants(Visitor& visitor) {
        .meaning =
            "how many times the calibrated noise the position's second differences show before they are believed"},
       sensor::position_noise_excess);
-  visitor.constant({.name = "position_noise_follow_share",
-                    .unit = "1",
-                    .meaning = "share of the calibrated noise by which the median of these differences moves with each block"},
-                   sensor::position_noise_follow_share);
+  visitor.constant(
+      {.name = "position_noise_follow_share",
+       .unit = "1",
+       .meaning = "share of the calibrated noise by which the median of these differences moves with each block"},
+      sensor::position_noise_follow_share);
   visitor.constant(
       {.name = "quiet_current_share",
        .unit = "1",
