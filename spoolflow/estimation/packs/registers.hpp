@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <experimental/simd>
+#include <limits>
 #include <type_traits>
 
 namespace spoolflow::estimation::packs {
@@ -32,6 +33,7 @@ template <class Register>
 [[gnu::always_inline]] inline bool any_lane(const typename Plain<Register>::Integers& lanes) {
 #if defined(__AVX512DQ__)
   if constexpr (is_register<Register, double, 64>) return _mm512_movepi64_mask(std::bit_cast<__m512i>(lanes)) != 0;
+  if constexpr (is_register<Register, float, 64>) return _mm512_movepi32_mask(std::bit_cast<__m512i>(lanes)) != 0;
 #endif
   if constexpr (sizeof(typename Register::mask_type) == sizeof lanes)
     return any_of(std::bit_cast<typename Register::mask_type>(lanes));
@@ -51,6 +53,8 @@ template <class Register>
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Register>(_mm512_maskz_min_pd(0xff, std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_min_ps(0xffff, std::bit_cast<__m512>(a), std::bit_cast<__m512>(b)));
 #endif
 #if defined(__AVX__)
   if constexpr (is_register<Register, double, 32>)
@@ -69,6 +73,8 @@ template <class Register>
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Register>(_mm512_maskz_max_pd(0xff, std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_max_ps(0xffff, std::bit_cast<__m512>(a), std::bit_cast<__m512>(b)));
 #endif
 #if defined(__AVX__)
   if constexpr (is_register<Register, double, 32>)
@@ -89,6 +95,8 @@ template <class Register>
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Register>(_mm512_maskz_sqrt_pd(0xff, std::bit_cast<__m512d>(a)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_sqrt_ps(0xffff, std::bit_cast<__m512>(a)));
 #endif
   return simd::sqrt(a);
 }
@@ -96,12 +104,9 @@ template <class Register>
 /// Without their signs.
 template <class Register>
 [[gnu::always_inline]] inline Register magnitudes(const Register& a) {
-  if constexpr (std::is_same_v<typename Register::value_type, double>) {
-    using In = Plain<Register>;
-    return std::bit_cast<Register>(std::bit_cast<typename In::Bits>(In::of(a)) & INT64_MAX);
-  } else {
-    return simd::abs(a);
-  }
+  using In = Plain<Register>;
+  constexpr auto without_sign = std::numeric_limits<typename In::Integer>::max();
+  return std::bit_cast<Register>(std::bit_cast<typename In::Bits>(In::of(a)) & without_sign);
 }
 
 /// Of whole numbers that have room in 32 bits.
@@ -139,6 +144,8 @@ template <class Register>
 #if defined(__AVX512DQ__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Integers>(_mm512_maskz_cvttpd_epi64(0xff, std::bit_cast<__m512d>(numbers)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Integers>(_mm512_maskz_cvttps_epi32(0xffff, std::bit_cast<__m512>(numbers)));
 #endif
 #if defined(__AVX2__)
   if constexpr (is_register<Register, double, 32>)
