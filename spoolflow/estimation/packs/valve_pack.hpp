@@ -2,6 +2,7 @@
 /// A scalar that stands for several valves at once: one number a valve, side by side in SIMD registers. The sensor's
 /// templates run on it as they run on float or double; where those branch, a pack blends. In packs of double every
 /// valve's numbers are to the last bit those of its sensor alone.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <concepts>
@@ -270,8 +271,8 @@ void keep(const PackMask<Register, Count>& condition, const Packs& kept, Packs& 
     now = blend(condition.lanes[k % Count], old, now);
     std::memcpy(reinterpret_cast<char*>(&out) + k * sizeof(Register), &now, sizeof(Register));
   };
-  if constexpr (compares_to_bits<Register>) {
-    constexpr std::array<bool, registers> masks = detail::mask_places<Packs, registers>();
+  constexpr std::array<bool, registers> masks = detail::mask_places<Packs, registers>();
+  if constexpr (std::ranges::find(masks, true) != masks.end()) {
     [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
       (take(k, masks[k] ? blended_masks<Register> : blended<Register>), ...);
     }
@@ -307,8 +308,8 @@ template <class Register, int Count, class State, class Body>
   }
 }
 
-/// Among sixteen valves it is seldom the same for all: one copy and one taking over for both. Among fewer, where it
-/// mostly is, that would only cost.
+/// Of sixteen valves one copy and one taking over for both, of fewer one after the other: each was the faster
+/// (docs/batch.md).
 template <class Register, int Count, class State, class Yes, class No>
 [[gnu::always_inline]] inline void in_either(const PackMask<Register, Count>& condition, State& state, const Yes& yes,
                                              const No& no) {
