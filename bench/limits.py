@@ -88,14 +88,16 @@ def host(build):
 
 def packs(build, model):
     text = build.run("bench/valve_batch", model, EXAMPLES / "duty_cycle_1.h5")
+    sets = {3: "the baseline", 4: "AVX2", 5: "AVX-512"}
     for estimator, digits, wanted in (("observer", 0, 20), ("condensed", 1, 2.5)):
-        line = re.search(rf"^{estimator}\s+8  each its own\s+(.*)$", text, re.MULTILINE)
-        figures = re.findall(r"(?<![(\d.])\d+\.\d+", line.group(1)) if line else []
-        if len(figures) < 3:
-            row(f"packs, {estimator}, 8 valves", "not measured", "", wanted)
-            continue
-        row(f"packs of {'AVX2' if len(figures) > 3 else 'the baseline'}, {estimator}, 8 valves with a model each [ns a sample]",
-            shown(float(figures[-2]), digits), f"alone {float(figures[0]):.{digits}f}; reading and writing {figures[-1]}", wanted)
+        for valves in (8, 16):
+            line = re.search(rf"^{estimator}\s+{valves}  each its own\s+(.*)$", text, re.MULTILINE)
+            figures = re.findall(r"(?<![(\d.])\d+\.\d+", line.group(1)) if line else []
+            if len(figures) not in sets:
+                row(f"packs, {estimator}, {valves} valves", "not measured", "", wanted)
+                continue
+            row(f"packs of {sets[len(figures)]}, {estimator}, {valves} valves with a model each [ns a sample]",
+                shown(float(figures[-2]), digits), f"alone {float(figures[0]):.{digits}f}; reading and writing {figures[-1]}", wanted)
 
 
 def parsing(build, model, folder):

@@ -30,7 +30,8 @@ void time(double& fastest_ns, const Work& work) {
 }
 
 /// What the valves measure, sample after sample, in each the valves side by side: the recording, each valve from
-/// another moment on.
+/// another moment on. None comes to its end and begins anew, if it is long enough: a position that leaps there would be
+/// doubted for seconds.
 struct Signals {
   std::size_t valves;
   std::vector<float> time_step_s, current_A, voltage_V, position_m, oil_temperature_K, flow, pressure;
@@ -42,7 +43,7 @@ struct Signals {
     const Channel voltage = both ? Channel::voltage_b : Channel::voltage;
     for (std::size_t k = 0; k < samples; ++k) {
       for (std::size_t valve = 0; valve < valves; ++valve) {
-        const std::size_t from = 1 + (k + valve * file.size() / valves) % (file.size() - 1);
+        const std::size_t from = place(file, k, valve);
         const auto number = [&](Channel channel) { return static_cast<float>(file[channel][from]); };
         time_step_s.push_back(static_cast<float>(file[Channel::time][from] - file[Channel::time][from - 1]));
         current_A.push_back(number(current));
@@ -53,6 +54,10 @@ struct Signals {
     }
     flow.resize(current_A.size());
     pressure.resize(current_A.size());
+  }
+  [[nodiscard]] std::size_t place(const recording::Recording& file, std::size_t k, std::size_t valve) const {
+    const std::size_t last = file.size() - 1;
+    return 1 + (k + valve * (last > samples ? last - samples : last) / valves) % last;
   }
   [[nodiscard]] sensor::Sample<float> sample(std::size_t k) const {
     return {time_step_s[k], current_A[k], voltage_V[k], position_m[k], oil_temperature_K[k]};
@@ -70,7 +75,7 @@ struct WholeSignals : Signals {
     using recording::Channel;
     for (std::size_t k = 0; k < samples; ++k) {
       for (std::size_t valve = 0; valve < valves; ++valve) {
-        const std::size_t from = 1 + (k + valve * file.size() / valves) % (file.size() - 1);
+        const std::size_t from = place(file, k, valve);
         current_a_A.push_back(static_cast<float>(file[Channel::current_a][from]));
         voltage_a_V.push_back(static_cast<float>(file[Channel::voltage_a][from]));
       }
@@ -111,21 +116,22 @@ void read_and_write(Signals& on) {
   }
 }
 
-/// All ways in turn, round after round: who else uses the machine slows them alike.
+/// All ways in turn, round after round, with new sensors each: who else uses the machine slows them alike.
 template <class State, class Parameters, class Measured>
 void compare(const char* estimator, const std::vector<Parameters>& models, Measured& on) {
   const bool own = models.size() > 1;
   std::vector<const Parameters*> valves;
   for (std::size_t valve = 0; valve < on.valves; ++valve) valves.push_back(&models[own ? valve : 0]);
-  std::vector<State> states(on.valves);
   const auto sets = estimation::batch::instruction_sets();
-  std::vector<estimation::batch::ValveBatch<Parameters>> batches;
-  for (const auto instructions : sets) batches.emplace_back(valves, instructions);
   double alone_ns = 1e15, touch_ns = 1e15;
   std::vector<double> together_ns(sets.size(), 1e15);
   for (int round = 0; round < rounds; ++round) {
+    std::vector<State> states(on.valves);
     time(alone_ns, [&] { one_after_the_other(valves, states, on); });
-    for (std::size_t set = 0; set < sets.size(); ++set) time(together_ns[set], [&] { together(batches[set], on); });
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      estimation::batch::ValveBatch<Parameters> batch(valves, sets[set]);
+      time(together_ns[set], [&] { together(batch, on); });
+    }
     time(touch_ns, [&] { read_and_write(on); });
   }
   const auto numbers = static_cast<double>(on.flow.size());

@@ -184,20 +184,20 @@ template <class T>
                                               const Sample<T>& sample, const PositionPoint<T>& position,
                                               const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
   const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
-  const auto doubt = [&]() __attribute__((always_inline)) {
-    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
-                    begins);
+  const auto doubt = [&](ObserverState<T> & of) __attribute__((always_inline)) {
+    answer_in_doubt(of, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N, begins);
+  };
+  const auto believe_forces = [&](ObserverState<T> & of) __attribute__((always_inline)) {
+    observe_forces(valve, of, sample, position, dither, opposing_N, begins, has_time);
   };
   if constexpr (one_valve<T>) {
     if (unlikely(doubtful)) {
-      doubt();
+      doubt(state);
       return;
     }
-    observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time);
+    believe_forces(state);
   } else {
-    in_valves(!doubtful, state,
-              [&] { observe_forces(valve, state, sample, position, dither, opposing_N, begins, has_time); });
-    in_valves(doubtful, state, doubt);
+    in_either(doubtful, state, doubt, believe_forces);
   }
 }
 

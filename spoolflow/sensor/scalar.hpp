@@ -54,6 +54,12 @@ template <class State, class Body>
   if (condition) body();
 }
 
+/// `yes(state)` to the state of those valves for which the condition holds, `no(state)` to that of the others.
+template <class State, class Yes, class No>
+[[gnu::always_inline]] constexpr void in_either(bool condition, State& state, const Yes& yes, const No& no) {
+  condition ? yes(state) : no(state);
+}
+
 /// What the compiler may lay out the step for; C++20 has attributes for it.
 constexpr bool likely(bool condition) {
   return __builtin_expect(condition, true);

@@ -17,10 +17,13 @@ using packs::Together;
 using packs::WholeTogether;
 
 using Register = packs::simd::native_simd<float>;
-using Pack = packs::ValvePack<Register, valves_together / Register::size()>;
+/// Of a register with more valves one.
+constexpr int registers = valves_together > Register::size() ? valves_together / Register::size() : 1;
+using Pack = packs::ValvePack<Register, registers>;
+constexpr std::size_t valves_of_pack = Pack::Lanes::valves;
 
 // Rows of numbers are read as packs, and registers of a pack follow each other.
-static_assert(sizeof(Pack) == valves_together * sizeof(float) && sizeof(Pack::Index) == sizeof(Pack));
+static_assert(sizeof(Pack) == valves_of_pack * sizeof(float) && sizeof(Pack::Index) == sizeof(Pack));
 // Inputs are given, and answers fetched, by their number.
 using Answers = sensor::Estimate<Pack>;
 static_assert(sizeof(sensor::Sample<Pack>) == 5 * sizeof(Pack) &&
@@ -60,19 +63,18 @@ template <class Valves>
 }
 
 template <class Valves, auto describe>
-constexpr BatchSteps steps_of_direction{sizeof(Valves), alignof(Valves),
+constexpr BatchSteps steps_of_direction{sizeof(Valves), alignof(Valves), valves_of_pack,
                                         [](void* memory, const void* const* valves, const float* numbers) {
                                           return packs::begin_valves<Valves>(memory, valves, numbers, describe);
                                         },
                                         step_rows<Valves>};
 template <class Valves, auto describe>
-constexpr BatchSteps steps_of_whole{sizeof(Valves), alignof(Valves),
+constexpr BatchSteps steps_of_whole{sizeof(Valves), alignof(Valves), valves_of_pack,
                                     [](void* memory, const void* const* valves, const float* numbers) {
                                       return packs::begin_whole_valves<Valves>(memory, valves, numbers, describe);
                                     },
                                     step_rows<Valves>};
 
-constexpr int registers = valves_together / static_cast<int>(Register::size());
 constexpr const BatchSteps& condensed_steps =
     steps_of_direction<Together<Pack, sensor::CondensedTables<Pack>, sensor::CondensedState<Pack>>, describe_tables>;
 constexpr const BatchSteps& observer_steps =

@@ -25,6 +25,7 @@ struct BatchRows {
 struct BatchSteps {
   std::size_t bytes;
   std::size_t alignment;
+  std::size_t valves;  ///< at once
   /// `valves`: the parameters of each; of whole valves those of direction b of all, then those of a.
   /// `numbers`: a beginning that all valves' numbers have in common. False where the description of the numbers names
   /// more of them than there is room for.
@@ -32,13 +33,10 @@ struct BatchSteps {
   void (*step)(void* memory, const BatchRows& rows);
 };
 
-extern const BatchSteps condensed_baseline;
-extern const BatchSteps observer_baseline;
-extern const BatchSteps observer_avx2;
-extern const BatchSteps condensed_avx2;  ///< bytes = 0 where the compiler's target has none
-extern const BatchSteps whole_condensed_baseline;
-extern const BatchSteps whole_condensed_avx2;
-extern const BatchSteps whole_valve_baseline;
-extern const BatchSteps whole_valve_avx2;
+// Where the compiler's target has none, bytes = 0.
+extern const BatchSteps condensed_baseline, condensed_avx2, condensed_avx512;
+extern const BatchSteps observer_baseline, observer_avx2, observer_avx512;
+extern const BatchSteps whole_condensed_baseline, whole_condensed_avx2, whole_condensed_avx512;
+extern const BatchSteps whole_valve_baseline, whole_valve_avx2, whole_valve_avx512;
 
 }  // namespace spoolflow::estimation::batch

@@ -14,20 +14,27 @@
 namespace spoolflow::estimation::batch {
 namespace {
 
-const BatchSteps& steps_of(const sensor::CondensedTables<float>* /*kind*/, InstructionSet instructions) {
-  return instructions == InstructionSet::avx2 ? condensed_avx2 : condensed_baseline;
+/// The steps of one kind of valve: of the baseline, AVX2 and AVX-512.
+using StepsOfSets = std::array<const BatchSteps*, 3>;
+
+StepsOfSets all_steps(const sensor::CondensedTables<float>* /*kind*/) {
+  return {&condensed_baseline, &condensed_avx2, &condensed_avx512};
+}
+StepsOfSets all_steps(const sensor::ObserverParameters<float>* /*kind*/) {
+  return {&observer_baseline, &observer_avx2, &observer_avx512};
+}
+StepsOfSets all_steps(const sensor::WholeCondensedTables<float>* /*kind*/) {
+  return {&whole_condensed_baseline, &whole_condensed_avx2, &whole_condensed_avx512};
+}
+StepsOfSets all_steps(const sensor::WholeValveParameters<float>* /*kind*/) {
+  return {&whole_valve_baseline, &whole_valve_avx2, &whole_valve_avx512};
 }
 
-const BatchSteps& steps_of(const sensor::ObserverParameters<float>* /*kind*/, InstructionSet instructions) {
-  return instructions == InstructionSet::avx2 ? observer_avx2 : observer_baseline;
-}
-
-const BatchSteps& steps_of(const sensor::WholeCondensedTables<float>* /*kind*/, InstructionSet instructions) {
-  return instructions == InstructionSet::avx2 ? whole_condensed_avx2 : whole_condensed_baseline;
-}
-
-const BatchSteps& steps_of(const sensor::WholeValveParameters<float>* /*kind*/, InstructionSet instructions) {
-  return instructions == InstructionSet::avx2 ? whole_valve_avx2 : whole_valve_baseline;
+/// The widest steps that have no more valves at once than there are left, a multiple of valves_together.
+const BatchSteps& widest(const StepsOfSets& steps, InstructionSet instructions, std::size_t left) {
+  auto set = static_cast<std::size_t>(instructions);
+  while (steps[set]->valves > left) --set;
+  return *steps[set];
 }
 
 /// The models of a valve: of its one direction, or those of b and a.
@@ -70,13 +77,17 @@ constexpr std::size_t samples_in_block = 64;
 }  // namespace
 
 std::string_view name(InstructionSet instructions) {
-  return instructions == InstructionSet::avx2 ? "AVX2" : "baseline";
+  constexpr std::array<std::string_view, 3> names{"baseline", "AVX2", "AVX512"};
+  return names[static_cast<std::size_t>(instructions)];
 }
 
 std::vector<InstructionSet> instruction_sets() {
   std::vector<InstructionSet> out{InstructionSet::baseline};
 #if defined(__x86_64__)
   if (condensed_avx2.bytes > 0 && __builtin_cpu_supports("avx2")) out.push_back(InstructionSet::avx2);
+  if (out.back() == InstructionSet::avx2 && condensed_avx512.bytes > 0 && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+    out.push_back(InstructionSet::avx512);
 #endif
   return out;
 }
@@ -87,11 +98,15 @@ struct ValveBatch<Parameters>::Memory {
   struct alignas(64) Model {
     typename BatchedKind<Parameters>::Model parameters;
   };
-  const BatchSteps& steps;
+  /// Valves that are stepped together.
+  struct Group {
+    const BatchSteps& steps;
+    void* valves;
+  };
   std::vector<Model> models;  ///< each once
-  std::vector<void*> groups;  ///< of valves_together each
+  std::vector<Group> groups;
 
-  Memory(std::span<const Parameters* const> valves, const BatchSteps& batch_steps) : steps(batch_steps) {
+  Memory(std::span<const Parameters* const> valves, InstructionSet instructions) {
     std::map<const void*, std::size_t> known;
     for (const Parameters* valve : valves)
       for (const auto* model : models_of(*valve))
@@ -101,13 +116,15 @@ struct ValveBatch<Parameters>::Memory {
       throw std::length_error("a batch of " + std::to_string(models.size()) +
                               " different models: their tables are more than one batch can reach; make several");
     }
-    for (std::size_t first = 0; first < valves.size(); first += valves_together) {
+    const StepsOfSets steps_of_sets = all_steps(static_cast<const Parameters*>(nullptr));
+    for (std::size_t first = 0; first < valves.size(); first += groups.back().steps.valves) {
+      const BatchSteps& steps = widest(steps_of_sets, instructions, valves.size() - first);
       std::vector<const void*> addresses;
       for (std::size_t side = 0; side < models_of(*valves.front()).size(); ++side)
-        for (const Parameters* valve : valves.subspan(first, valves_together))
+        for (const Parameters* valve : valves.subspan(first, steps.valves))
           addresses.push_back(&models[known.at(models_of(*valve)[side])].parameters);
-      groups.push_back(::operator new(steps.bytes, std::align_val_t(steps.alignment)));
-      if (!steps.begin(groups.back(), addresses.data(), reinterpret_cast<const float*>(models.data()))) {
+      groups.push_back({steps, ::operator new(steps.bytes, std::align_val_t(steps.alignment))});
+      if (!steps.begin(groups.back().valves, addresses.data(), reinterpret_cast<const float*>(models.data()))) {
         forget();
         throw std::length_error("a batch of valves: the description of their parameters names one of them twice");
       }
@@ -119,7 +136,7 @@ struct ValveBatch<Parameters>::Memory {
 
  private:
   void forget() {
-    for (void* group : groups) ::operator delete(group, std::align_val_t(steps.alignment));
+    for (const Group& group : groups) ::operator delete(group.valves, std::align_val_t(group.steps.alignment));
   }
 };
 
@@ -133,7 +150,7 @@ ValveBatch<Parameters>::ValveBatch(std::span<const Parameters* const> valves, In
   const auto known = instruction_sets();
   if (std::find(known.begin(), known.end(), instructions) == known.end())
     throw std::invalid_argument("this processor or build has no " + std::string(name(instructions)) + " instructions");
-  memory_ = std::make_unique<Memory>(valves, steps_of(static_cast<const Parameters*>(nullptr), instructions));
+  memory_ = std::make_unique<Memory>(valves, instructions);
 }
 
 template <class Parameters>
@@ -146,7 +163,8 @@ ValveBatch<Parameters>& ValveBatch<Parameters>::operator=(ValveBatch&&) noexcept
 template <class Parameters>
 void ValveBatch<Parameters>::step(const typename BatchedKind<Parameters>::Rows& samples,
                                   const EstimateRows& estimates) {
-  const std::size_t valves = memory_->groups.size() * valves_together;
+  std::size_t valves = 0;
+  for (const auto& group : memory_->groups) valves += group.steps.valves;
   const auto rows_in = rows_of(samples);
   const char* const current = rows_in[1].name;
   const std::size_t numbers = rows_in[1].numbers.size();
@@ -180,13 +198,14 @@ void ValveBatch<Parameters>::step(const typename BatchedKind<Parameters>::Rows& 
 
   const std::size_t count = numbers / valves;
   for (std::size_t begin = 0; begin < count; begin += samples_in_block) {
-    for (std::size_t group = 0; group < memory_->groups.size(); ++group) {
-      const std::size_t from = begin * valves + group * valves_together;
+    std::size_t from = begin * valves;
+    for (const auto& group : memory_->groups) {
       BatchRows rows = all;
       for (std::size_t row = 0; row < rows_in.size(); ++row) rows.samples[row] += from;
       for (std::size_t k = 0; k < rows.wanted; ++k) rows.answers[k].to = static_cast<float*>(rows.answers[k].to) + from;
       rows.count = std::min(samples_in_block, count - begin);
-      memory_->steps.step(memory_->groups[group], rows);
+      group.steps.step(group.valves, rows);
+      from += group.steps.valves;
     }
   }
 }

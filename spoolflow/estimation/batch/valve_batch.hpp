@@ -18,6 +18,7 @@ namespace spoolflow::estimation::batch {
 enum class InstructionSet {
   baseline,  ///< what the whole program is built for; SSE2 on x86-64, four valves a register
   avx2,      ///< eight valves a register
+  avx512,    ///< sixteen valves a register; eight that are left in one of AVX2
 };
 [[nodiscard]] std::string_view name(InstructionSet instructions);
 /// Those that this program has and this processor runs; the fastest is the last.
@@ -73,7 +74,7 @@ struct EstimateRows {
   std::span<sensor::Status> status;
 };
 
-/// As many valves are stepped together; a batch has a multiple of them.
+/// As many valves or a multiple of them are stepped together; a batch has a multiple of them.
 inline constexpr std::size_t valves_together = 8;
 
 /// The steps of one instruction set, and the memory of the valves that are stepped together.

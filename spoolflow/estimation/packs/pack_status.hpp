@@ -25,7 +25,7 @@ template <class Register, int Count>
 PackStatus<Register, Count> when(const PackMask<Register, Count>& condition, sensor::Status bit) {
   using Index = PackIndex<Register, Count>;
   const typename Index::Integers bits(typename Index::Integer{static_cast<std::int32_t>(bit)});
-  return {each_register<Index>([&](std::size_t r) { return condition.lanes[r] & bits; })};
+  return {each_register<Index>([&](std::size_t r) { return only<Register>(condition.lanes[r], bits); })};
 }
 
 template <class Register, int Count>

@@ -51,7 +51,27 @@ template <class Numbers, class Number>
 /// Rows of a register's valves, dealt out: the k-th register has the k-th number of each valve.
 template <class Register, class RowOf>
 [[gnu::always_inline]] inline std::array<Register, 4> rows_to_lanes(const RowOf& row) {
-  if constexpr (Register::size() == 8) {
+  if constexpr (Register::size() == 16) {
+    const auto joined = [&](std::size_t k) {
+      const auto low = __builtin_shufflevector(row(k), row(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+      const auto high = __builtin_shufflevector(row(k + 8), row(k + 12), 0, 1, 2, 3, 4, 5, 6, 7);
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    };
+    const auto a = joined(0), b = joined(1), c = joined(2), d = joined(3);
+    const auto low_ab = __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+    const auto high_ab = __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+    const auto low_cd = __builtin_shufflevector(c, d, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+    const auto high_cd = __builtin_shufflevector(c, d, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+    const auto firsts = [](auto ab, auto cd) {
+      return std::bit_cast<Register>(
+          __builtin_shufflevector(ab, cd, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29));
+    };
+    const auto seconds = [](auto ab, auto cd) {
+      return std::bit_cast<Register>(
+          __builtin_shufflevector(ab, cd, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31));
+    };
+    return {firsts(low_ab, low_cd), seconds(low_ab, low_cd), firsts(high_ab, high_cd), seconds(high_ab, high_cd)};
+  } else if constexpr (Register::size() == 8) {
     const auto both = [&](std::size_t k) {
 #if defined(__AVX__)
       return _mm256_insertf128_ps(_mm256_castps128_ps256(row(k)), row(k + 4), 1);
@@ -86,7 +106,18 @@ template <class Register, class RowOf>
 template <class Register, class PairAt>
 [[gnu::always_inline]] inline std::array<Register, 2> pairs_to_lanes(const PairAt& pair) {
   const auto two = [&](std::size_t k) { return __builtin_shufflevector(pair(k), pair(k + 1), 0, 1, 2, 3); };
-  if constexpr (Register::size() == 8) {
+  if constexpr (Register::size() == 16) {
+    const auto joined = [&](std::size_t k) {
+      const auto low = __builtin_shufflevector(two(k), two(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+      const auto high = __builtin_shufflevector(two(k + 8), two(k + 12), 0, 1, 2, 3, 4, 5, 6, 7);
+      return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    };
+    const auto a = joined(0), b = joined(2);
+    return {std::bit_cast<Register>(
+                __builtin_shufflevector(a, b, 0, 2, 16, 18, 4, 6, 20, 22, 8, 10, 24, 26, 12, 14, 28, 30)),
+            std::bit_cast<Register>(
+                __builtin_shufflevector(a, b, 1, 3, 17, 19, 5, 7, 21, 23, 9, 11, 25, 27, 13, 15, 29, 31))};
+  } else if constexpr (Register::size() == 8) {
     const auto a = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
     const auto b = __builtin_shufflevector(two(2), two(6), 0, 1, 2, 3, 4, 5, 6, 7);
     return {std::bit_cast<Register>(__builtin_shufflevector(a, b, 0, 2, 8, 10, 4, 6, 12, 14)),

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <experimental/simd>
+#include <limits>
 #include <type_traits>
 
 namespace spoolflow::estimation::packs {
@@ -27,22 +28,124 @@ struct Plain {
 template <class Register, class Number, std::size_t bytes>
 inline constexpr bool is_register = std::is_same_v<typename Register::value_type, Number> && sizeof(Register) == bytes;
 
-/// Whether a bit is set anywhere. Every lane has all bits set or none.
+/// Sixteen floats are compared into bits of a mask register.
 template <class Register>
-[[gnu::always_inline]] inline bool any_lane(const typename Plain<Register>::Integers& lanes) {
-#if defined(__AVX512DQ__)
-  if constexpr (is_register<Register, double, 64>) return _mm512_movepi64_mask(std::bit_cast<__m512i>(lanes)) != 0;
-#endif
-  if constexpr (sizeof(typename Register::mask_type) == sizeof lanes)
-    return any_of(std::bit_cast<typename Register::mask_type>(lanes));
+inline constexpr bool compares_to_bits = is_register<Register, float, 64>;
+
+/// The answers of a comparison: a bit a valve, or a whole number of which all bits are set or none.
+template <class Register>
+using Answers = std::conditional_t<compares_to_bits<Register>, std::uint16_t, typename Plain<Register>::Integers>;
+
+template <class Register>
+[[gnu::always_inline]] inline Answers<Register> answers(bool all) {
+  if constexpr (compares_to_bits<Register>) {
+    return all ? 0xffff : 0;
+  } else {
+    return Answers<Register>(typename Plain<Register>::Integer{all ? -1 : 0});
+  }
+}
+template <class Bits>
+[[gnu::always_inline]] inline Bits negated(const Bits& answers) {
+  return static_cast<Bits>(~answers);
 }
 
-/// `yes` where the bits of `condition` are set, else `no`.
+/// As the processor counts them.
+enum class Relation : std::uint8_t { equal, less, less_or_equal };
+
+/// Numbers of any kind in the compiler's own terms.
+template <Relation relation, class Numbers>
+[[gnu::always_inline]] inline auto related(const Numbers& a, const Numbers& b) {
+  if constexpr (relation == Relation::equal) {
+    return a == b;
+  } else if constexpr (relation == Relation::less) {
+    return a < b;
+  } else {
+    return a <= b;
+  }
+}
+template <Relation relation, class Register>
+[[gnu::always_inline]] inline Answers<Register> compared(const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+  if constexpr (compares_to_bits<Register>)
+    return _mm512_cmp_ps_mask(std::bit_cast<__m512>(a), std::bit_cast<__m512>(b), static_cast<int>(relation));
+  else
+#endif
+    return std::bit_cast<Answers<Register>>(related<relation>(Plain<Register>::of(a), Plain<Register>::of(b)));
+}
+template <Relation relation, class Register>
+[[gnu::always_inline]] inline Answers<Register> compared_integers(const typename Plain<Register>::Integers& a,
+                                                                  const typename Plain<Register>::Integers& b) {
+#if defined(__AVX512F__)
+  if constexpr (compares_to_bits<Register>)
+    return _mm512_cmp_epi32_mask(std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b), static_cast<int>(relation));
+  else
+#endif
+    return std::bit_cast<Answers<Register>>(related<relation>(Plain<Register>::of(a), Plain<Register>::of(b)));
+}
+
+/// Whether it holds for a valve at least.
 template <class Register>
-[[gnu::always_inline]] inline Register blended(const typename Plain<Register>::Integers& condition, const Register& yes,
+[[gnu::always_inline]] inline bool any_lane(const Answers<Register>& lanes) {
+  if constexpr (compares_to_bits<Register>) {
+    return lanes != 0;
+  } else {
+#if defined(__AVX512DQ__)
+    if constexpr (is_register<Register, double, 64>) return _mm512_movepi64_mask(std::bit_cast<__m512i>(lanes)) != 0;
+#endif
+    if constexpr (sizeof(typename Register::mask_type) == sizeof lanes)
+      return any_of(std::bit_cast<typename Register::mask_type>(lanes));
+  }
+}
+
+/// `yes` where `condition` holds, else `no`.
+template <class Register>
+[[gnu::always_inline]] inline Register blended(const Answers<Register>& condition, const Register& yes,
                                                const Register& no) {
-  using In = Plain<Register>;
-  return std::bit_cast<Register>(In::of(condition) ? In::of(yes) : In::of(no));
+#if defined(__AVX512F__)
+  if constexpr (compares_to_bits<Register>)
+    return std::bit_cast<Register>(
+        _mm512_mask_blend_ps(condition, std::bit_cast<__m512>(no), std::bit_cast<__m512>(yes)));
+  else
+#endif
+  {
+    using In = Plain<Register>;
+    return std::bit_cast<Register>(In::of(condition) ? In::of(yes) : In::of(no));
+  }
+}
+/// The same of whole numbers.
+template <class Register, class Integers = typename Plain<Register>::Integers>
+[[gnu::always_inline]] inline Integers blended_integers(const Answers<Register>& condition, const Integers& yes,
+                                                        const Integers& no) {
+  if constexpr (compares_to_bits<Register>) {
+    return std::bit_cast<Integers>(
+        blended<Register>(condition, std::bit_cast<Register>(yes), std::bit_cast<Register>(no)));
+  } else {
+    return (yes & condition) | (no & ~condition);
+  }
+}
+
+/// The same of masks that lie in the memory of a register.
+template <class Register>
+[[gnu::always_inline]] inline Register blended_masks(const Answers<Register>& condition, const Register& yes,
+                                                     const Register& no) {
+  if constexpr (compares_to_bits<Register>) {
+    using Bits = typename Plain<Register>::Bits;
+    const Bits taken = Bits{} + static_cast<std::int32_t>(condition * 0x10001U);  // in either half of 32 bits
+    return std::bit_cast<Register>((std::bit_cast<Bits>(yes) & taken) | (std::bit_cast<Bits>(no) & ~taken));
+  } else {
+    return blended<Register>(condition, yes, no);
+  }
+}
+
+/// `integers` where `condition` holds, else 0.
+template <class Register, class Integers = typename Plain<Register>::Integers>
+[[gnu::always_inline]] inline Integers only(const Answers<Register>& condition, const Integers& integers) {
+#if defined(__AVX512F__)
+  if constexpr (compares_to_bits<Register>)
+    return std::bit_cast<Integers>(_mm512_maskz_mov_epi32(condition, std::bit_cast<__m512i>(integers)));
+  else
+#endif
+    return condition & integers;
 }
 
 /// `a < b ? a : b` and `a > b ? a : b`. The library's own would be a call, x86 has an instruction for just that.
@@ -51,6 +154,8 @@ template <class Register>
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Register>(_mm512_maskz_min_pd(0xff, std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_min_ps(0xffff, std::bit_cast<__m512>(a), std::bit_cast<__m512>(b)));
 #endif
 #if defined(__AVX__)
   if constexpr (is_register<Register, double, 32>)
@@ -69,6 +174,8 @@ template <class Register>
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Register>(_mm512_maskz_max_pd(0xff, std::bit_cast<__m512d>(a), std::bit_cast<__m512d>(b)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_max_ps(0xffff, std::bit_cast<__m512>(a), std::bit_cast<__m512>(b)));
 #endif
 #if defined(__AVX__)
   if constexpr (is_register<Register, double, 32>)
@@ -89,6 +196,8 @@ template <class Register>
 #if defined(__AVX512F__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Register>(_mm512_maskz_sqrt_pd(0xff, std::bit_cast<__m512d>(a)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Register>(_mm512_maskz_sqrt_ps(0xffff, std::bit_cast<__m512>(a)));
 #endif
   return simd::sqrt(a);
 }
@@ -96,12 +205,9 @@ template <class Register>
 /// Without their signs.
 template <class Register>
 [[gnu::always_inline]] inline Register magnitudes(const Register& a) {
-  if constexpr (std::is_same_v<typename Register::value_type, double>) {
-    using In = Plain<Register>;
-    return std::bit_cast<Register>(std::bit_cast<typename In::Bits>(In::of(a)) & INT64_MAX);
-  } else {
-    return simd::abs(a);
-  }
+  using In = Plain<Register>;
+  constexpr auto without_sign = std::numeric_limits<typename In::Integer>::max();
+  return std::bit_cast<Register>(std::bit_cast<typename In::Bits>(In::of(a)) & without_sign);
 }
 
 /// Of whole numbers that have room in 32 bits.
@@ -139,6 +245,8 @@ template <class Register>
 #if defined(__AVX512DQ__)
   if constexpr (is_register<Register, double, 64>)
     return std::bit_cast<Integers>(_mm512_maskz_cvttpd_epi64(0xff, std::bit_cast<__m512d>(numbers)));
+  if constexpr (is_register<Register, float, 64>)
+    return std::bit_cast<Integers>(_mm512_maskz_cvttps_epi32(0xffff, std::bit_cast<__m512>(numbers)));
 #endif
 #if defined(__AVX2__)
   if constexpr (is_register<Register, double, 32>)
