@@ -1,4 +1,6 @@
 /// A run that cannot be of its valve is named; a sound one, however short, raises nothing.
+#include "spoolflow/consistency/run_doubts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -7,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "tests/consistency/doubt_texts.hpp"
 #include "tests/consistency/rig_benches.hpp"

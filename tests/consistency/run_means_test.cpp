@@ -1,11 +1,11 @@
 /// What of a run is kept while it streams by: means, gaps, the grain of its position.
+#include "spoolflow/consistency/run_means.hpp"
+
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "spoolflow/consistency/run_means.hpp"
 
 namespace spoolflow::consistency {
 namespace {

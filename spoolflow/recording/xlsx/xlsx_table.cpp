@@ -16,6 +16,9 @@
 namespace spoolflow::recording {
 namespace {
 
+/// Less may be a table of results that stands before the recording.
+constexpr std::uint64_t rows_of_a_recording = 100;
+constexpr std::string_view why_that_sheet = "the first one with a table of 100 samples, or else the longest";
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 std::string shortened(std::string_view text) {
@@ -44,8 +47,9 @@ class ColumnOfCells {
     }
     double written = 0;
     const Digits digits = read_number(cell.text, '.', written);
-    if (digits == Digits::number) return number(cell, row, written);
+    if (digits == Digits::number) return text_number(cell, row, written);
     if (digits == Digits::empty) return missing;
+    if (read_number(cell.text, ',', written) == Digits::number) return text_number(cell, row, written);
     if (const auto clock = read_clock_time(cell.text)) return since_first(cell, row, *clock);
     has_text_ = true;
     return refuse(cell, row,
@@ -57,9 +61,37 @@ class ColumnOfCells {
   [[nodiscard]] bool is_used() const { return is_used_ || !has_text_; }
   [[nodiscard]] bool is_clock() const { return origin_.has_value(); }
   /// Of the first cell that is not as it should be; empty where all are.
-  [[nodiscard]] const std::string& refusal() const { return refusal_; }
+  [[nodiscard]] const std::string& refusal() const {
+    return refusal_.empty() && !comma_is_decimal_ ? doubtful_ : refusal_;
+  }
 
  private:
+  /// A number that is written as text, with a decimal point or a decimal comma: one kind in a column. 1,234 alone may
+  /// be 1234 to whoever wrote it, until another cell of the column tells.
+  double text_number(const XlsxCell& cell, std::uint64_t row, double value) {
+    const bool comma = cell.text.find(',') != std::string_view::npos;
+    const bool point = cell.text.find('.') != std::string_view::npos;
+    if ((comma && has_point_) || (point && has_comma_)) {
+      return refuse(cell, row,
+                    fmt::format("'{}' has a decimal {}, where text above has a decimal {}; write numbers",
+                                shortened(cell.text), comma ? "comma" : "point", comma ? "point" : "comma"));
+    }
+    has_comma_ = has_comma_ || comma, has_point_ = has_point_ || point;
+    if (comma && !may_group_thousands(cell.text)) comma_is_decimal_ = true;
+    if (comma && !comma_is_decimal_ && doubtful_.empty()) {
+      doubtful_ = fmt::format("{}{}: '{}' is text that may be {} or {}; write numbers", sheet_,
+                              cell_name(cell.column, row), shortened(cell.text), value, 1000 * value);
+    }
+    return number(cell, row, value);
+  }
+  /// 1,234 and -12,345, but not 0,123 or 1,25.
+  static bool may_group_thousands(std::string_view text) {
+    const std::size_t first = text.find_first_of("0123456789"), comma = text.find(',');
+    const std::size_t behind = text.find_first_not_of("0123456789", comma + 1);
+    const bool three = std::min(behind, text.size()) - comma == 4;
+    return first < comma && comma - first <= 3 && text[first] != '0' && three && text.find_first_of("eE") == text.npos;
+  }
+
   double number(const XlsxCell& cell, std::uint64_t row, double value) {
     if (origin_)
       return refuse(cell, row, "is a number, where the cells above are dates or times; write one kind alone");
@@ -92,6 +124,9 @@ class ColumnOfCells {
   bool from_1904_;
   std::optional<ClockTime> origin_{};
   bool is_used_ = false, has_numbers_ = false, has_text_ = false;
+  bool has_comma_ = false, has_point_ = false;  ///< numbers that are written as text
+  bool comma_is_decimal_ = false;               ///< beyond doubt
+  std::string doubtful_{};                      ///< refused unless that
   std::string refusal_{};
 };
 
@@ -124,6 +159,7 @@ class SheetTable {
   [[nodiscard]] bool found() const { return header_.found(); }
   [[nodiscard]] const std::vector<XlsxColumn>& columns() const { return header_.columns(); }
   [[nodiscard]] const ColumnOfCells& cells(std::size_t column) const { return cells_[column]; }
+  /// Empty where no row has a number there.
   [[nodiscard]] const std::vector<double>& values(std::size_t column) const { return values_[column]; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -158,8 +194,16 @@ class SheetTable {
       if (slot >= 0) latest_[static_cast<std::size_t>(slot)] = cells_[static_cast<std::size_t>(slot)].value(cell, row);
     }
     if (std::ranges::all_of(latest_, [](double value) { return std::isnan(value); })) return;
-    declared_.add(name_, 1, latest_.size(), sizeof(double));
-    for (std::size_t k = 0; k < latest_.size(); ++k) values_[k].push_back(latest_[k]);
+    for (std::size_t k = 0; k < latest_.size(); ++k) {
+      if (values_[k].empty()) {
+        if (std::isnan(latest_[k])) continue;  // named columns without a number take no room
+        declared_.add(name_, rows_, 1, sizeof(double));
+        values_[k].assign(rows_, missing);
+        ++begun_;
+      }
+      values_[k].push_back(latest_[k]);
+    }
+    declared_.add(name_, 1, begun_, sizeof(double));
     ++rows_;
   }
 
@@ -171,6 +215,7 @@ class SheetTable {
   std::vector<std::ptrdiff_t> slot_of_;  ///< of each of the sheet's columns among those that are named
   std::vector<double> latest_;
   std::vector<std::vector<double>> values_;
+  std::uint64_t begun_ = 0;  ///< columns that have a number
   std::uint64_t rows_ = 0;
 };
 
@@ -186,20 +231,21 @@ class XlsxTable final : public VectorTable {
       auto table = std::make_unique<SheetTable>(file(), sheet, workbook.from_1904, archive_.bytes());
       read_xlsx_rows(archive_, sheet, texts, styles, [&](const XlsxRow& row) { return table->take(row); });
       table->finish();
-      if (!table->found()) continue;
+      if (!table->found() || (sheet_ && table->rows() <= sheet_->rows())) continue;
       sheet_ = std::move(table);
-      break;
+      if (sheet_->rows() >= rows_of_a_recording) break;
     }
     if (!sheet_) refuse_tableless(workbook);
     list();
     tell_unread(workbook);
   }
 
-  [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
   void take_text_as_missing() override { refuses_text_ = false; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const std::vector<double>& values = sheet_->values(listed_[column]);
+    if (values.empty()) return void(std::fill_n(out, count, missing));
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), count, out);
   }
 
@@ -232,21 +278,22 @@ class XlsxTable final : public VectorTable {
   }
 
   void tell_unread(const XlsxWorkbook& workbook) {
-    for (std::size_t k = 0; k < sheet_->columns().size() && unread_.empty(); ++k) {
+    for (std::size_t k = 0; k < sheet_->columns().size(); ++k) {
       if (sheet_->cells(k).is_used()) continue;
-      unread_ = fmt::format("column '{}' holds text, which is not read; write it as numbers in its unit",
-                            sheet_->columns()[k].name);
+      const std::string& column = sheet_->columns()[k].name;
+      keep(unread_,
+           {column, fmt::format("column '{}' holds text, which is not read; write it as numbers in its unit", column)});
     }
-    if (!unread_.empty() || workbook.sheets.size() < 2) return;
-    unread_ = fmt::format(
-        "of its {} sheets '{}' is read, the first one that holds a table; move the one that is meant to the front",
-        workbook.sheets.size(), sheet_->name());
+    if (workbook.sheets.size() < 2) return;
+    keep(unread_, {{},
+                   fmt::format("of its {} sheets '{}' is read, {}; move the one that is meant to the front",
+                               workbook.sheets.size(), sheet_->name(), why_that_sheet)});
   }
 
   XlsxArchive archive_;
   std::unique_ptr<SheetTable> sheet_;
   std::vector<std::size_t> listed_;  ///< of each column of this table, which of the sheet's
-  std::string unread_;
+  std::vector<UnreadPart> unread_;
   bool refuses_text_ = true;
 };
 

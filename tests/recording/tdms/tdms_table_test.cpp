@@ -169,6 +169,24 @@ TEST(TdmsTable, UnfinishedLastSegmentIsReadAsFarAsItGoesAndTold) {
               HasSubstr("lacks the end of its last segment, which was never finished"));
 }
 
+TEST(TdmsTable, ZerosBehindTheLastSegmentAreWhatAMachineThatWentDownLeaves) {
+  const std::string metadata =
+      Meta().channel("/'g'/'time_s'", Meta::f64, 2).channel("/'g'/'current_A'", Meta::f64, 2).content();
+  const std::string whole = tdms_segment(metadata, tdms_samples<double>({0, 1, 0.1, 0.2}));
+  const TemporaryFile file("run.tdms", whole + std::string(4096, '\0'));
+  EXPECT_THAT(read_recording(file.path(), {}).resampled,
+              HasSubstr("lacks whatever was to stand in the last 4096 bytes, which begin with zeros"));
+}
+
+TEST(TdmsTable, ACurrentWithoutATimeIsInspectedAndToldToLackIt) {
+  Meta metadata;
+  metadata.channel("/'g'/'current'", Meta::f64, 2).property("unit_string", "A");
+  metadata.channel("/'g'/'voltage'", Meta::f64, 2).property("unit_string", "V").property("wf_increment", 1e-3);
+  const TemporaryFile file("run.tdms", tdms_segment(metadata.content(), tdms_samples<double>({1, 2, 3, 4})));
+  const Inspection found = inspect(file.path(), {}, [](std::optional<double>, std::uint64_t) {});
+  EXPECT_THAT(found.missing, ElementsAre(Channel::time, Channel::position));
+}
+
 TEST(TdmsTable, WhatIsNoNumberIsToldWhereAChannelIsMissing) {
   Meta metadata;
   metadata.channel("/'g'/'note'", Meta::text_type, 1).channel("/'g'/'time_s'", Meta::f64, 1);
