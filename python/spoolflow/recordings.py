@@ -39,7 +39,10 @@ class Recording(Mapping[str, NDArray[Any]]):
         self.resampled: str = notes["resampled"]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        return self._columns[name]
+        try:
+            return self._columns[name]
+        except KeyError:
+            raise KeyError(self._without(name)) from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -52,7 +55,10 @@ class Recording(Mapping[str, NDArray[Any]]):
         columns: Dict[str, NDArray[Any]] = self.__dict__.get("_columns", {})
         if name in columns:
             return columns[name]
-        raise AttributeError(f"{name}: no such channel; the recording has {', '.join(columns)}")
+        raise AttributeError(self._without(name))
+
+    def _without(self, name: str) -> str:
+        return f"{name}: no such channel; the recording has {', '.join(self.__dict__.get('_columns', {}))}"
 
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._columns]
@@ -90,7 +96,7 @@ def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
 
     Raises Error with file, line and column: text among numbers, times that run back, values implausible for their unit.
     """
-    file = os.fspath(path)
+    file = os.fsdecode(path)
     with as_file(channels) as map_file:
         read = apart.call("read_recording", [file], file, map_file, stroke_m)
     return Recording(read, file)
@@ -109,7 +115,7 @@ def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Op
 
     Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
     """
-    file = os.fspath(path)
+    file = os.fsdecode(path)
     with as_file(channels) as map_file:
         seen: Dict[str, Any] = json.loads(apart.call("inspect", [file], file, map_file, stroke_m))
     return seen

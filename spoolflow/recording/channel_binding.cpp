@@ -244,9 +244,8 @@ std::string unread_channels(const SampleTable& table, const ReadOptions& options
   const Binder binder(table, options, file);
   std::string out;
   for (const Channel channel : all_channels()) {
-    const bool asked =
-        (options.required.empty() && options.optional.empty()) || std::ranges::count(options.optional, channel) > 0;
-    if (!asked || std::ranges::count(bound, channel, &BoundColumn::channel) > 0) continue;
+    if (std::ranges::count(options.optional, channel) == 0) continue;  // a required one is bound
+    if (std::ranges::count(bound, channel, &BoundColumn::channel) > 0) continue;
     if (const std::string what = binder.unread_as(channel); !what.empty()) out += (out.empty() ? "" : "; ") + what;
   }
   return out;

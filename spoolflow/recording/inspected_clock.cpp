@@ -68,9 +68,13 @@ bool propose_leading_time(ChannelMap& proposal, const SampleTable& table, const 
   } catch (const RecordingError&) {
     return false;  // reading tells
   }
-  if (!clock || clock->time == named) return false;
+  if (!clock) return false;
+  if (!clock->time) {
+    proposal.sources.erase(Channel::time);
+    return true;
+  }
+  if (clock->time == named) return false;
   proposal.sources.erase(Channel::time);
-  if (!clock->time) return true;
   const FileColumn& column = table.columns()[*clock->time];
   proposal.sources.emplace(Channel::time, ChannelSource{column.name, unit_of_time(column), 1.0, 0.0, std::nullopt});
   return false;

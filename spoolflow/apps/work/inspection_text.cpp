@@ -125,9 +125,7 @@ void add_proposal(std::string& out, const recording::Inspection& found) {
 void add_unread(std::string& out, const recording::Inspection& found) {
   constexpr std::size_t most = 10;
   const std::vector<std::string>& unread = found.contents.unread;
-  for (std::size_t k = 0; k < std::min(unread.size(), most); ++k) {
-    if (found.resampled.find(unread[k]) == std::string::npos) add(out, "Not read: {}\n", unread[k]);
-  }
+  for (std::size_t k = 0; k < std::min(unread.size(), most); ++k) add(out, "Not read: {}\n", unread[k]);
   if (unread.size() > most) add(out, "Not read: {} more\n", unread.size() - most);
   if (!unread.empty()) add(out, "\n");
 }
