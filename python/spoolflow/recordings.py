@@ -107,11 +107,11 @@ def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Op
 
     path, channels, stroke_m: as of `read_recording`.
 
-    `format`, `columns`, `unread` (what else it holds, and why that is not read), `samples`, `begin_s`, `end_s`, `rate_Hz`, `time_step_jitter` (share of the step), `duplicate_times`,
-    `gap_count`, `gaps_s`; `channels`: lowest, highest and mean in `unit`, missing samples, the share that stands at an end; of
-    `raw_columns` the range in the file's unit and what each is taken for; `times`, where columns have several; what is
-    `missing` and `helpful`; `proposed_map`, a dict for `channels` once its units are filled in, and `proposed_channel_map`, the
-    same as TOML. A number that is not known is None.
+    `format`, `columns`, `unread` (what else it holds, and why that is not read), `samples`, `begin_s`, `end_s`, `rate_Hz`,
+    `time_step_jitter` (share of the step), `duplicate_times`, `gap_count`, `gaps_s`; `channels`: lowest, highest and mean in
+    `unit`, missing samples, the share that stands at an end; of `raw_columns` the range in the file's unit and what each is
+    taken for; `times`, where columns have several; what is `missing` and `helpful`; `proposed_map`, a dict for `channels`
+    once its units are filled in, and `proposed_channel_map`, the same as TOML. A number that is not known is None.
 
     Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
     """

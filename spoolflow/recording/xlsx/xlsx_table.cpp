@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/files/clock_time.hpp"
-#include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
+#include "spoolflow/recording/xlsx/xlsx_column_of_cells.hpp"
 #include "spoolflow/recording/xlsx/xlsx_header.hpp"
 
 namespace spoolflow::recording {
@@ -19,116 +16,7 @@ namespace {
 /// Less may be a table of results that stands before the recording.
 constexpr std::uint64_t rows_of_a_recording = 100;
 constexpr std::string_view why_that_sheet = "the first one with a table of 100 samples, or else the longest";
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-std::string shortened(std::string_view text) {
-  constexpr std::size_t shown = 40;
-  std::string out;
-  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  return text.size() > shown ? out + "..." : out;
-}
-
-/// The numbers of one column as rows bring them.
-class ColumnOfCells {
- public:
-  ColumnOfCells(std::string sheet, bool from_1904) : sheet_(std::move(sheet)), from_1904_(from_1904) {}
-
-  /// The value of a cell, NaN where it has none.
-  double value(const XlsxCell& cell, std::uint64_t row) {
-    if (cell.kind == XlsxCell::Kind::number) return number(cell, row, cell.number);
-    if (cell.kind == XlsxCell::Kind::time) return since_first(cell, row, clock_of(cell.number));
-    if (cell.kind == XlsxCell::Kind::error) return missing;
-    if (cell.kind == XlsxCell::Kind::unreckoned) {
-      is_used_ = true;
-      return refuse(
-          cell, row,
-          "is a formula whose result the file does not hold; open the file in the program for sheets and save it "
-          "there, or write values");
-    }
-    double written = 0;
-    const Digits digits = read_number(cell.text, '.', written);
-    if (digits == Digits::number) return text_number(cell, row, written);
-    if (digits == Digits::empty) return missing;
-    if (read_number(cell.text, ',', written) == Digits::number) return text_number(cell, row, written);
-    if (const auto clock = read_clock_time(cell.text)) return since_first(cell, row, *clock);
-    has_text_ = true;
-    return refuse(cell, row,
-                  fmt::format("'{}' is not a number; correct it, or leave the cell empty where a sample is missing",
-                              shortened(cell.text)));
-  }
-
-  /// Whether there is anything in it but text.
-  [[nodiscard]] bool is_used() const { return is_used_ || !has_text_; }
-  [[nodiscard]] bool is_clock() const { return origin_.has_value(); }
-  /// Of the first cell that is not as it should be; empty where all are.
-  [[nodiscard]] const std::string& refusal() const {
-    return refusal_.empty() && !comma_is_decimal_ ? doubtful_ : refusal_;
-  }
-
- private:
-  /// A number that is written as text, with a decimal point or a decimal comma: one kind in a column. 1,234 alone may
-  /// be 1234 to whoever wrote it, until another cell of the column tells.
-  double text_number(const XlsxCell& cell, std::uint64_t row, double value) {
-    const bool comma = cell.text.find(',') != std::string_view::npos;
-    const bool point = cell.text.find('.') != std::string_view::npos;
-    if ((comma && has_point_) || (point && has_comma_)) {
-      return refuse(cell, row,
-                    fmt::format("'{}' has a decimal {}, where text above has a decimal {}; write numbers",
-                                shortened(cell.text), comma ? "comma" : "point", comma ? "point" : "comma"));
-    }
-    has_comma_ = has_comma_ || comma, has_point_ = has_point_ || point;
-    if (comma && !may_group_thousands(cell.text)) comma_is_decimal_ = true;
-    if (comma && !comma_is_decimal_ && doubtful_.empty()) {
-      doubtful_ = fmt::format("{}{}: '{}' is text that may be {} or {}; write numbers", sheet_,
-                              cell_name(cell.column, row), shortened(cell.text), value, 1000 * value);
-    }
-    return number(cell, row, value);
-  }
-  /// 1,234 and -12,345, but not 0,123 or 1,25.
-  static bool may_group_thousands(std::string_view text) {
-    const std::size_t first = text.find_first_of("0123456789"), comma = text.find(',');
-    const std::size_t behind = text.find_first_not_of("0123456789", comma + 1);
-    const bool three = std::min(behind, text.size()) - comma == 4;
-    return first < comma && comma - first <= 3 && text[first] != '0' && three && text.find_first_of("eE") == text.npos;
-  }
-
-  double number(const XlsxCell& cell, std::uint64_t row, double value) {
-    if (origin_)
-      return refuse(cell, row, "is a number, where the cells above are dates or times; write one kind alone");
-    is_used_ = has_numbers_ = true;
-    return value;
-  }
-  double since_first(const XlsxCell& cell, std::uint64_t row, const ClockTime& clock) {
-    if (has_numbers_) {
-      return refuse(cell, row, "is a date or time, where the cells above are numbers; write one kind alone");
-    }
-    if (!origin_) origin_ = clock;
-    is_used_ = true;
-    const double since_s = clock.since(*origin_);
-    constexpr double per_s = 1e5;  // of a date of today 15 to 17 digits tell 9 to 0.6 us
-    return cell.kind == XlsxCell::Kind::time ? std::round(since_s * per_s) / per_s : since_s;
-  }
-  [[nodiscard]] ClockTime clock_of(double days) const {
-    constexpr double day_s = 86400;
-    constexpr std::int64_t of_1900 = -25569, of_1904 = -24107;  // since 1970-01-01
-    const double whole = std::floor(days);
-    if (!(std::abs(whole) < 1e9)) return {0, day_s * days};
-    return {static_cast<std::int64_t>(whole) + (from_1904_ ? of_1904 : of_1900), day_s * (days - whole)};
-  }
-  double refuse(const XlsxCell& cell, std::uint64_t row, std::string_view why) {
-    if (refusal_.empty()) refusal_ = fmt::format("{}{}: {}", sheet_, cell_name(cell.column, row), why);
-    return missing;
-  }
-
-  std::string sheet_;  ///< "run.xlsx, 'Sheet1'!"
-  bool from_1904_;
-  std::optional<ClockTime> origin_{};
-  bool is_used_ = false, has_numbers_ = false, has_text_ = false;
-  bool has_comma_ = false, has_point_ = false;  ///< numbers that are written as text
-  bool comma_is_decimal_ = false;               ///< beyond doubt
-  std::string doubtful_{};                      ///< refused unless that
-  std::string refusal_{};
-};
+constexpr double missing = XlsxColumnOfCells::missing;
 
 /// One sheet's table, if it holds one, in memory.
 class SheetTable {
@@ -158,7 +46,7 @@ class SheetTable {
 
   [[nodiscard]] bool found() const { return header_.found(); }
   [[nodiscard]] const std::vector<XlsxColumn>& columns() const { return header_.columns(); }
-  [[nodiscard]] const ColumnOfCells& cells(std::size_t column) const { return cells_[column]; }
+  [[nodiscard]] const XlsxColumnOfCells& cells(std::size_t column) const { return cells_[column]; }
   /// Empty where no row has a number there.
   [[nodiscard]] const std::vector<double>& values(std::size_t column) const { return values_[column]; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
@@ -169,7 +57,7 @@ class SheetTable {
   void begin() {
     if (!header_.found()) return;
     const std::vector<XlsxColumn>& columns = header_.columns();
-    cells_.assign(columns.size(), ColumnOfCells(what_, from_1904_));
+    cells_.assign(columns.size(), XlsxColumnOfCells(what_, from_1904_));
     values_.resize(columns.size());
     latest_.resize(columns.size());
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -211,7 +99,7 @@ class SheetTable {
   bool from_1904_;
   DeclaredSize declared_;
   XlsxHeader header_;
-  std::vector<ColumnOfCells> cells_;
+  std::vector<XlsxColumnOfCells> cells_;
   std::vector<std::ptrdiff_t> slot_of_;  ///< of each of the sheet's columns among those that are named
   std::vector<double> latest_;
   std::vector<std::vector<double>> values_;
