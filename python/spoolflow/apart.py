@@ -40,7 +40,7 @@ def _threads() -> int:
 def call(name: str, files: Iterable[Any], *arguments: Any, **telling: Any) -> Any:
     """The compiled part's function of that name; in a process of its own where `files` need it. `telling`, its last argument,
     is a function that it calls as it goes on, and that another process would not have."""
-    if _threads() > 1 and sys.executable and _native.takes_a_process([os.fspath(file) for file in files]):
+    if _threads() > 1 and sys.executable and _native.takes_a_process([os.fsdecode(file) for file in files]):
         return _call_apart(name, (*arguments, *(None for _ in telling)))
     return getattr(_native, name)(*arguments, *telling.values())
 

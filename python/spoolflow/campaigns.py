@@ -48,7 +48,7 @@ def campaign(valve: PathLike, folder: PathLike, *, calibration_only: bool = Fals
 
     Returns the name of campaign.toml, which `calibrate` reads. The size_6 valve's takes some 20 s and 100 MB.
     """
-    target = os.fspath(folder)
+    target = os.fsdecode(folder)
     os.makedirs(os.path.join(target, "truth") if truth else target, exist_ok=True)
 
     def store(name: str, recording: str, really: Optional[str]) -> None:
@@ -56,7 +56,7 @@ def campaign(valve: PathLike, folder: PathLike, *, calibration_only: bool = Fals
             write_whole(os.path.join(target, "truth", name), really)
         write_whole(os.path.join(target, name), recording)
 
-    text = _native.campaign(os.fspath(valve), calibration_only, truth, True, _checked(workers), store, progress)
+    text = _native.campaign(os.fsdecode(valve), calibration_only, truth, True, _checked(workers), store, progress)
     listing = os.path.join(target, "campaign.toml")
     write_whole(listing, text)
     return listing
@@ -71,5 +71,5 @@ def simulate_campaign(valve: PathLike, *, calibration_only: bool = False, truth:
         out[name] = Simulation(recording, name)
         out[name].truth = really
 
-    text = _native.campaign(os.fspath(valve), calibration_only, truth, False, _checked(workers), store, progress)
+    text = _native.campaign(os.fsdecode(valve), calibration_only, truth, False, _checked(workers), store, progress)
     return SimulatedCampaign(out, text)

@@ -49,7 +49,7 @@ def _line(name: str, source: Source) -> str:
 def as_file(channels: Optional[Channels]) -> Iterator[Optional[str]]:
     """The path of the map while it is needed; None where there is none. A dict is told as `channels` in messages."""
     if channels is None or not isinstance(channels, Mapping):
-        yield None if channels is None else os.fspath(channels)
+        yield None if channels is None else os.fsdecode(channels)
         return
     lines = "".join(_line(name, source) for name, source in channels.items())
     with tempfile.TemporaryDirectory(prefix="spoolflow-") as folder:

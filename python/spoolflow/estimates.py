@@ -146,7 +146,7 @@ class Estimate:
         columns = [self.time_s, self.flow_m3_per_s, self.flow_lower_m3_per_s, self.flow_upper_m3_per_s,
                    self.pressure_difference_Pa, self.magnetic_force_N, self.flow_force_N, self.friction_force_N]
         notes = [("written_by", f"spoolflow {_native.__version__}")]
-        make_whole(path, lambda file, beside: _native.write_estimate(os.fspath(path), file, beside, columns, self.status,
+        make_whole(path, lambda file, beside: _native.write_estimate(os.fsdecode(path), file, beside, columns, self.status,
                                                                      notes))
 
     def plot(self, axes: "Optional[Axes]" = None, *, reference_m3_per_s: Optional[Any] = None) -> "Axes":

@@ -25,7 +25,7 @@ def export_cpp(model: AnyModel, folder: PathLike, *, direction: Optional[str] = 
 
     Returns the names of the files, relative to the folder. Raises Error where a file of somebody's would be overwritten.
     """
-    target = os.fspath(folder)
+    target = os.fsdecode(folder)
     files = _native.export_cpp(as_model(model)._kept, target, _direction(direction))
     for name, content in files:
         path = os.path.join(target, name)
@@ -51,10 +51,10 @@ def export_fmu(model: Union[Model, PathLike], path: PathLike, *, fmi: int = 2, d
         "whole_size_6", "whole_differential": that of the virtual valve.
     fmi: version of the standard, 2 or 3. direction: as of `export_cpp`, of a sensor alone.
     """
-    if not isinstance(model, Model) and _native.names_valve(os.fspath(model)):
+    if not isinstance(model, Model) and _native.names_valve(os.fsdecode(model)):
         if direction is not None:
             raise _native.Error(f"direction: {direction}: a virtual valve has no direction to choose; leave it away")
-        content = _native.export_valve_fmu(os.fspath(model), fmi)
+        content = _native.export_valve_fmu(os.fsdecode(model), fmi)
     else:
         content = _native.export_sensor_fmu(as_model(model)._kept, fmi, _direction(direction))
     write_bytes(path, content)

@@ -7,7 +7,7 @@ from typing import Callable, Union
 
 from . import _native
 
-PathLike = Union[str, "os.PathLike[str]"]
+PathLike = Union[str, bytes, "os.PathLike[str]"]
 
 
 def write_whole(path: PathLike, text: str) -> None:
@@ -33,7 +33,7 @@ def write_bytes(path: PathLike, content: bytes) -> None:
 def make_whole(path: PathLike, write: Callable[[int, int], None]) -> None:
     """Calls `write` with the descriptor of an empty file and that of another beside it, which goes afterwards; then puts the
     first under that name at once, in place of what was there. Where `write` fails nothing is left."""
-    target = os.fspath(path)
+    target = os.fsdecode(path)
     folder = os.path.dirname(target) or "."
     unfinished = ""
     try:

@@ -6,6 +6,8 @@ import math
 import os
 from typing import Any, Dict, List, Mapping, Optional
 
+from numpy.typing import NDArray
+
 from . import _native
 from .columns import STEP_NAMES, of_one_coil_or_both, sample_columns
 from .estimates import Answer, Estimate
@@ -40,11 +42,17 @@ class Sensor:
         del given["self"]
         sample = of_one_coil_or_both(given, self.model.direction)
         numbers = [sample.get(name, math.nan) for name in STEP_NAMES]
-        return Answer(time_s, self._sensor.step(numbers))
+        try:
+            answer = self._sensor.step(numbers)
+        except TypeError:
+            raise _native.Error(_no_number(sample)) from None
+        return Answer(float(time_s), answer)
 
     def estimate(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> Estimate:
         """The next samples, as `Model.estimate` takes them; goes on where the sensor is."""
-        columns = sample_columns(run, samples, self.model.direction)
+        return self._estimate(sample_columns(run, samples, self.model.direction))
+
+    def _estimate(self, columns: Dict[str, NDArray[Any]]) -> Estimate:
         return Estimate(columns["time_s"], self._sensor.run(columns))
 
     @property
@@ -135,12 +143,16 @@ class Model:
 
         NaN is a value that was not measured. Contiguous arrays of float64 are read where they are, without a copy; others
         (float32, slices with steps, lists, columns of pandas) are converted once. Raises Error where a column is missing,
-        is no row of numbers, or has another length.
+        is no row of numbers, has another length, or is in another unit by all its numbers (mm, mA, degC, ms), as recordings are
+        refused; single wild samples have a status.
         """
         samples = locals()
         for name in ("self", "run", "estimator"):
             del samples[name]
-        return Sensor(self, estimator).estimate(run, **samples)
+        sensor = Sensor(self, estimator)
+        columns = sample_columns(run, samples, self.direction)
+        _native.check_units(columns)
+        return sensor._estimate(columns)
 
     def doubts_about(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> List[str]:
         """What speaks against a run being of this valve, a sentence each, with the usual slip that explains it (other units, a
@@ -159,10 +171,22 @@ class Model:
         return (_from_text, (self._kept.text,))
 
 
+def _no_number(sample: Mapping[str, Any]) -> str:
+    """What is wrong with a sample that the compiled part does not take."""
+    for name, value in sample.items():
+        if getattr(value, "ndim", 0) > 0:
+            return f"{name}: holds {getattr(value, 'size', 'several')} numbers, where a step takes one; give arrays to estimate()"
+        try:
+            float(value)
+        except (TypeError, ValueError):
+            return f"{name}: is no number but a {type(value).__name__}; give a number, NaN where it is missing"
+    return "a sample holds what is no number; give a number each, NaN where it is missing"
+
+
 def _from_text(text: str) -> Model:
     return Model(_native.Model(text, "a pickled model"))
 
 
 def load_model(path: PathLike) -> Model:
     """Reads a model file that `calibrate` wrote. Raises Error with the file and the place in it."""
-    return Model(_native.read_model(os.fspath(path)))
+    return Model(_native.read_model(os.fsdecode(path)))

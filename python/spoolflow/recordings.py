@@ -39,7 +39,10 @@ class Recording(Mapping[str, NDArray[Any]]):
         self.resampled: str = notes["resampled"]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        return self._columns[name]
+        try:
+            return self._columns[name]
+        except KeyError:
+            raise KeyError(self._without(name)) from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -52,7 +55,10 @@ class Recording(Mapping[str, NDArray[Any]]):
         columns: Dict[str, NDArray[Any]] = self.__dict__.get("_columns", {})
         if name in columns:
             return columns[name]
-        raise AttributeError(f"{name}: no such channel; the recording has {', '.join(columns)}")
+        raise AttributeError(self._without(name))
+
+    def _without(self, name: str) -> str:
+        return f"{name}: no such channel; the recording has {', '.join(self.__dict__.get('_columns', {}))}"
 
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._columns]
@@ -90,7 +96,7 @@ def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
 
     Raises Error with file, line and column: text among numbers, times that run back, values implausible for their unit.
     """
-    file = os.fspath(path)
+    file = os.fsdecode(path)
     with as_file(channels) as map_file:
         read = apart.call("read_recording", [file], file, map_file, stroke_m)
     return Recording(read, file)
@@ -101,15 +107,15 @@ def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Op
 
     path, channels, stroke_m: as of `read_recording`.
 
-    `format`, `columns`, `samples`, `begin_s`, `end_s`, `rate_Hz`, `time_step_jitter` (share of the step), `duplicate_times`,
-    `gap_count`, `gaps_s`; `channels`: lowest, highest and mean in `unit`, missing samples, the share that stands at an end; of
-    `raw_columns` the range in the file's unit and what each is taken for; `times`, where columns have several; what is
-    `missing` and `helpful`; `proposed_map`, a dict for `channels` once its units are filled in, and `proposed_channel_map`, the
-    same as TOML. A number that is not known is None.
+    `format`, `columns`, `unread` (what else it holds, and why that is not read), `samples`, `begin_s`, `end_s`, `rate_Hz`,
+    `time_step_jitter` (share of the step), `duplicate_times`, `gap_count`, `gaps_s`; `channels`: lowest, highest and mean in
+    `unit`, missing samples, the share that stands at an end; of `raw_columns` the range in the file's unit and what each is
+    taken for; `times`, where columns have several; what is `missing` and `helpful`; `proposed_map`, a dict for `channels`
+    once its units are filled in, and `proposed_channel_map`, the same as TOML. A number that is not known is None.
 
     Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
     """
-    file = os.fspath(path)
+    file = os.fsdecode(path)
     with as_file(channels) as map_file:
         seen: Dict[str, Any] = json.loads(apart.call("inspect", [file], file, map_file, stroke_m))
     return seen

@@ -35,16 +35,18 @@ def as_model(model: AnyModel) -> Model:
 
 
 def _paths(files: Union[PathLike, Iterable[PathLike]]) -> List[str]:
-    if isinstance(files, (str, os.PathLike)):
+    if isinstance(files, (str, bytes, os.PathLike)):
         files = [files]
-    out = [os.fspath(file) for file in files]
+    if isinstance(files, Recording) or any(isinstance(file, Recording) for file in files):
+        raise _native.Error("recordings are given by their files here, and this is one in memory; give its path")
+    out = [os.fsdecode(file) for file in files]
     if not out:
         raise _native.Error("no recording is given; name one at least")
     return out
 
 
 def _path(file: Optional[PathLike]) -> Optional[str]:
-    return None if file is None else os.fspath(file)
+    return None if file is None else os.fsdecode(file)
 
 
 def _units(report: Optional[PathLike], units: Sequence[str]) -> Optional[List[str]]:
@@ -67,7 +69,7 @@ def calibrate(campaign: PathLike, *, allow_outside: bool = False, despite_doubts
     What is only unusual about the recordings is warned of. Raises Error, naming the campaign's line, the file, the
     channel and the likely cause.
     """
-    file = os.fspath(campaign)
+    file = os.fsdecode(campaign)
     recordings = _native.campaign_files(file)
     kept, page, notes = apart.call("calibrate", recordings, file, allow_outside, despite_doubts, _units(report, units),
                                    telling=progress)
@@ -135,7 +137,7 @@ def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *
     if reference_lag_s is not None and not 0 <= reference_lag_s <= 10:
         raise _native.Error(f"reference_lag_s: Value {reference_lag_s} not in range 0 to 10")
     files = _paths(recordings)
-    others = [os.fspath(compare)] if isinstance(compare, (str, os.PathLike)) else [os.fspath(each) for each in compare]
+    others = [os.fsdecode(compare)] if isinstance(compare, (str, bytes, os.PathLike)) else [os.fsdecode(each) for each in compare]
     if others and report is None:
         raise _native.Error("compare: others are shown in the report, and none is asked for; give report=..., too")
     with as_file(channels) as map_file:
@@ -278,7 +280,7 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
         if report is not None and advice[1] is not None:
             write_whole(report, advice[1])
         return DitherAdvice(advice[0], advice[2] or "")
-    run = [] if recording is None else [os.fspath(recording)]
+    run = [] if recording is None else [os.fsdecode(recording)]
     with as_file(channels) as map_file:
         figures, page, resampled = apart.call(
             "analyse", run, kept, _path(scenario), samples, seed, study, workers, direction, _path(recording), map_file,
@@ -317,7 +319,7 @@ def simulate(scenario: PathLike, *, truth: bool = False, progress: Optional[Prog
     scenario: the protocol, the valve, and what differs from them (TOML, docs/rig.md).
     truth: keep flow, pressure and each force beside it, too (`simulation.truth`). progress: as of `validate`.
     """
-    file = os.fspath(scenario)
+    file = os.fsdecode(scenario)
     recording, really = _native.simulate(file, truth, progress)
     out = Simulation(recording, file)
     out.truth = really
@@ -345,6 +347,7 @@ def estimate_many(models: Union[Model, Sequence[Model]], runs: Sequence[Mapping[
         estimators.append(name)
         try:
             columns.append(sample_columns(run, {}, model.direction))
+            _native.check_units(columns[-1])
         except _native.Error as error:
             raise _native.Error(f"runs[{k}]: {error}") from None
         pressures = sorted(name for name in columns[k] if name.startswith("pressure_"))

@@ -96,9 +96,9 @@ validation::EstimateSummary estimate_one(const Task& task, const std::string& re
   channels.runs_on = runs_on;
   const auto reader = validation::open_sensor_channels(recording, channels);
   estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
-  const recording::TableFormat format = format_for(task, target);
   recording::TableHead head = estimate_table(task.model, task.estimator, fmt::format("spoolflow {}", tool_version()));
-  OutputFile output(target, task.inputs);
+  OutputFile output(target, task.inputs);  // first, as an input in its place is the worse slip
+  const recording::TableFormat format = format_for(task, target);
   validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
   consistency::RunMeans means;
   {

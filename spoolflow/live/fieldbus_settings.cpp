@@ -63,7 +63,7 @@ std::vector<std::string> who_may_ask(const TomlTable& table) {
   if (node == nullptr) return out;
   const toml::array* const list = node->as_array();
   for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-    if (const auto text = (*list)[k].value_exact<std::string>()) out.push_back(*text);
+    if (const auto text = (*list)[k].value_exact<std::string>()) out.push_back(read_host(*text, table.place("allow")));
   }
   if (list != nullptr && out.size() == list->size()) return out;
   throw SiteError(

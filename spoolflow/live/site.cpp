@@ -198,7 +198,8 @@ void read_parts(const TomlTable& top, SiteSettings& site) {
   if (const auto sources = part("sources")) {
     sources->allow_only({"udp", "allow", "stalled_after_s"});
     if (const auto udp = sources->optional_text("udp")) site.udp = read_address(*udp, sources->place("udp"));
-    site.allow = texts(*sources, "allow");
+    for (const std::string& host : texts(*sources, "allow"))
+      site.allow.push_back(read_host(host, sources->place("allow")));
     site.stalled_after_s = sources->optional_positive("stalled_after_s").value_or(site.stalled_after_s);
   }
 }

@@ -1,13 +1,18 @@
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+
+#include <fmt/format.h>
 
 #include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/python/bindings.hpp"
 #include "spoolflow/python/columns.hpp"
 #include "spoolflow/python/models.hpp"
 #include "spoolflow/python/signal_check.hpp"
+#include "spoolflow/recording/plausibility.hpp"
 
 namespace spoolflow::python {
 namespace {
@@ -55,9 +60,55 @@ std::vector<std::string> doubts_about(const SharedModel& model, const py::dict& 
   });
 }
 
+/// The channel and the SI unit that an argument's name says.
+struct NamedColumn {
+  std::span<const double> estimation::Columns::*column;
+  Channel channel;
+  const char* unit;
+};
+constexpr std::array<NamedColumn, column_names.size()> names_say{{
+    {&estimation::Columns::time_s, Channel::time, "s"},
+    {&estimation::Columns::current_A, Channel::current, "A"},
+    {&estimation::Columns::voltage_V, Channel::voltage, "V"},
+    {&estimation::Columns::position_m, Channel::position, "m"},
+    {&estimation::Columns::oil_temperature_K, Channel::oil_temperature, "K"},
+    {&estimation::Columns::current_a_A, Channel::current_a, "A"},
+    {&estimation::Columns::voltage_a_V, Channel::voltage_a, "V"},
+    {&estimation::Columns::pressure_p_Pa, Channel::pressure_p, "Pa"},
+    {&estimation::Columns::pressure_a_Pa, Channel::pressure_a, "Pa"},
+    {&estimation::Columns::pressure_b_Pa, Channel::pressure_b, "Pa"},
+    {&estimation::Columns::pressure_t_Pa, Channel::pressure_t, "Pa"},
+}};
+
+/// Refuses arrays in another unit than their names say, with the words for recordings: mm for m, mA for A, degC for K,
+/// ms for s. Looks at a few thousand samples, as a wrong unit shows in all of them.
+void check_units(const py::dict& arrays) {
+  constexpr std::size_t most = 4096;
+  const ColumnArrays given(arrays);
+  const std::size_t step = 1 + given.columns().size() / most;
+  std::vector<recording::BoundColumn> bound;
+  std::vector<std::span<const double>> columns;
+  for (const ColumnName& each : column_names) {
+    const std::span<const double> column = given.columns().*(each.column);
+    if (column.empty()) continue;
+    const auto* const named = std::ranges::find(names_say, each.column, &NamedColumn::column);
+    bound.push_back({0, named->channel, 1, 0, each.name, *units::unit_named(named->unit)});
+    columns.push_back(column);
+  }
+  recording::Plausibility plausibility("the run", bound, std::nullopt);
+  std::vector<double> seen;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    seen.clear();
+    const std::size_t each = bound[k].channel == Channel::time ? 1 : step;  // its steps tell
+    for (std::size_t at = 0; at < columns[k].size() && seen.size() < most; at += each) seen.push_back(columns[k][at]);
+    plausibility.take(k, seen, [each](std::size_t row) { return fmt::format("the run, sample {}", row * each + 1); });
+  }
+}
+
 }  // namespace
 
 void add_doubts(py::module_& module) {
+  module.def("check_units", &check_units);
   module.def("doubts_about", &doubts_about);
 }
 

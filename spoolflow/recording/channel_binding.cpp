@@ -16,7 +16,7 @@ namespace {
 class Binder {
  public:
   Binder(const SampleTable& table, const ReadOptions& options, const std::string& file)
-      : table_(table), columns_(table.columns()), options_(options), file_(file) {}
+      : table_(table), columns_(table.columns()), unread_(table.unread()), options_(options), file_(file) {}
 
   std::optional<BoundColumn> bind(Channel channel) const {
     const auto source = options_.channels.sources.find(channel);
@@ -65,7 +65,7 @@ class Binder {
           "directions reads it, for a model of P to A alone map current to coil a, and position and flow with scale "
           "-1";
     }
-    if (!table_.unread().empty()) hint += fmt::format("; {}", table_.unread());
+    if (const std::string unread = unread_for(channel); !unread.empty()) hint += "; " + unread;
     throw RecordingError(
         fmt::format("{}: channel {} is missing{}; the columns are {}. Name the column {}_<unit> (unit: {}) or say in a "
                     "channel map which column it is (`spoolflow inspect` proposes one)",
@@ -73,7 +73,31 @@ class Binder {
                     listed(unit_names(channel))));
   }
 
+  /// What would be that channel by its name, if it could be read; empty: nothing.
+  std::string unread_as(Channel channel) const {
+    for (const UnreadPart& part : unread_) {
+      const auto header = channel_header({part.column, part.column.substr(part.column.find_last_of("./") + 1), "?"});
+      if (header && header->channel == channel) return part.what;
+    }
+    return {};
+  }
+
  private:
+  /// What may be the reason that a channel is not found.
+  std::string unread_for(Channel channel) const {
+    const std::string own = unread_as(channel);
+    return own.empty() && !unread_.empty() ? unread_.front().what : own;
+  }
+
+  /// Likewise of a column that a map names; a group of MDF may stand before it there.
+  std::string unread_column(const std::string& wanted) const {
+    const auto same = [&](const UnreadPart& part) {
+      return !part.column.empty() && (wanted == part.column || wanted.ends_with("/" + part.column));
+    };
+    const auto found = std::ranges::find_if(unread_, same);
+    return found == unread_.end() ? "" : "; " + found->what;
+  }
+
   std::vector<std::string> column_names() const {
     std::vector<std::string> out;
     for (const FileColumn& column : columns_) out.push_back(column.name);
@@ -88,9 +112,10 @@ class Binder {
     const auto first = std::find_if(columns_.begin(), columns_.end(), same);
     if (first == columns_.end()) {
       throw RecordingError(
-          fmt::format("{}: channel {} is mapped to column '{}', which {} does not have{}; its columns "
+          fmt::format("{}: channel {} is mapped to column '{}', which {} does not have{}{}; its columns "
                       "are {}",
-                      map_place(), name(channel), wanted, file_, did_you_mean(wanted, column_names()),
+                      map_place(), name(channel), wanted, file_, unread_column(wanted),
+                      unread_column(wanted).empty() ? did_you_mean(wanted, column_names()) : "",
                       columns_.empty() ? "none" : listed(column_names())));
     }
     if (std::find_if(first + 1, columns_.end(), same) != columns_.end()) {
@@ -175,6 +200,7 @@ class Binder {
 
   const SampleTable& table_;
   const std::vector<FileColumn>& columns_;
+  std::vector<UnreadPart> unread_;
   const ReadOptions& options_;
   const std::string& file_;
 };
@@ -211,6 +237,18 @@ std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptio
   if (!time) binder.missing(Channel::time);
   bound.insert(bound.begin(), std::move(*time));
   return bound;
+}
+
+std::string unread_channels(const SampleTable& table, const ReadOptions& options, const std::vector<BoundColumn>& bound,
+                            const std::string& file) {
+  const Binder binder(table, options, file);
+  std::string out;
+  for (const Channel channel : all_channels()) {
+    if (std::ranges::count(options.optional, channel) == 0) continue;  // a required one is bound
+    if (std::ranges::count(bound, channel, &BoundColumn::channel) > 0) continue;
+    if (const std::string what = binder.unread_as(channel); !what.empty()) out += (out.empty() ? "" : "; ") + what;
+  }
+  return out;
 }
 
 }  // namespace spoolflow::recording

@@ -30,6 +30,11 @@ struct BoundColumn {
 [[nodiscard]] std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptions& options,
                                                      const std::string& file);
 
+/// Of the channels that were asked for where they can be had and are not bound: what would be one by its name, but
+/// cannot be read, with its remedy. Empty: nothing.
+[[nodiscard]] std::string unread_channels(const SampleTable& table, const ReadOptions& options,
+                                          const std::vector<BoundColumn>& bound, const std::string& file);
+
 /// Of the bound channels the one whose time is that of the recording: the current, else the position, else the first
 /// that is not time. Null where there is none.
 [[nodiscard]] const BoundColumn* leading_channel(const std::vector<BoundColumn>& bound);

@@ -54,21 +54,30 @@ void look_at(InspectedClock& out, SampleTable& table, const ColumnClock& clock, 
 
 }  // namespace
 
-void propose_leading_time(ChannelMap& proposal, const SampleTable& table, const std::string& file) {
+bool propose_leading_time(ChannelMap& proposal, const SampleTable& table, const std::string& file) {
   const auto leading = leading_column(table, proposal);
-  if (!leading || !table.samples_of(*leading)) return;
+  if (!leading) {
+    return !proposal.sources.contains(Channel::time) &&
+           std::ranges::any_of(table.columns(), [](const FileColumn& column) { return column.wave_step_s > 0; });
+  }
+  if (!table.samples_of(*leading)) return false;
   const auto named = column_of(table, proposal, Channel::time);
   std::optional<ColumnClock> clock;
   try {
     clock = clock_of(table, *leading, named, other_columns(table, proposal), file);
   } catch (const RecordingError&) {
-    return;  // reading tells
+    return false;  // reading tells
   }
-  if (!clock || clock->time == named) return;
+  if (!clock) return false;
+  if (!clock->time) {
+    proposal.sources.erase(Channel::time);
+    return true;
+  }
+  if (clock->time == named) return false;
   proposal.sources.erase(Channel::time);
-  if (!clock->time) return;
   const FileColumn& column = table.columns()[*clock->time];
   proposal.sources.emplace(Channel::time, ChannelSource{column.name, unit_of_time(column), 1.0, 0.0, std::nullopt});
+  return false;
 }
 
 std::vector<InspectedClock> inspected_clocks(const ChannelMap& proposal,

@@ -21,8 +21,10 @@ struct InspectedClock {
   std::string fault{};               ///< why it cannot be used; empty where it can
 };
 
-/// Takes the time of the proposal's current (else of its position) instead of another that the file holds.
-void propose_leading_time(ChannelMap& proposal, const SampleTable& table, const std::string& file);
+/// Takes the time of the proposal's current (else of its position) instead of another that the file holds. Whether
+/// there is none because the file says that it is sampled evenly; where neither is proposed, whether it says so of
+/// anything.
+bool propose_leading_time(ChannelMap& proposal, const SampleTable& table, const std::string& file);
 
 /// The clocks of all columns in the file's order; none where all columns are of one, or for tables of rows.
 [[nodiscard]] std::vector<InspectedClock> inspected_clocks(const ChannelMap& proposal,

@@ -191,9 +191,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   bool even = false;  // sampled evenly, as the file says, without a column of time
   {
     const auto table = open_table();
-    propose_leading_time(out.proposal, *table, file.string());
-    even = !out.proposal.sources.contains(Channel::time) &&
-           std::ranges::any_of(table->columns(), [](const FileColumn& column) { return column.wave_step_s > 0; });
+    even = propose_leading_time(out.proposal, *table, file.string());
   }
   out.clocks =
       inspected_clocks(options.channels.sources.empty() ? out.proposal : options.channels, open_table, file.string());

@@ -69,11 +69,11 @@ OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text te
   if (format == FileFormat::csv) {
     return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
   }
-  if (!input->size()) {
+  if (!input->is_named_file()) {
     throw RecordingError(
-        fmt::format("{}: is {} {} file, which can only be read from a file, not from a pipe; save it "
-                    "and name it",
-                    input->name(), format == FileFormat::xlsx ? "an" : "a", name(format)));
+        fmt::format("{}: is {} {} file, which can only be read from a file that is named, not through a pipe or "
+                    "standard input; name it",
+                    input->name(), format == FileFormat::tdms || format == FileFormat::mat ? "a" : "an", name(format)));
   }
   return {format, open_confined(input->name(), *input->size(), opener(format), text != CsvTable::Text::refused)};
 }

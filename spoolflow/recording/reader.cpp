@@ -30,12 +30,13 @@ class ChannelReader final : public Reader {
         bound_(bind_channels(*table, options, file_)),
         plausibility_(file_, bound_, options.stroke_m),
         runs_on_(options.runs_on) {
+    const std::string unread = unread_channels(*table, options, bound_, file_);
     OneClock clocked = on_one_clock(
         std::move(table), bound_, [this] { return open_sample_table(file_).table; }, file_);
     table_ = std::move(clocked.table);
-    notes_.resampled = table_->lost();
-    if (!notes_.resampled.empty() && !clocked.resampled.empty()) notes_.resampled += "; ";
-    notes_.resampled += clocked.resampled;
+    for (const std::string& note : {table_->lost(), unread, clocked.resampled}) {
+      if (!note.empty()) notes_.resampled += (notes_.resampled.empty() ? "" : "; ") + note;
+    }
     std::vector<std::size_t> chosen;
     for (const BoundColumn& column : bound_) {
       const auto same = std::find(chosen.begin(), chosen.end(), column.column);
@@ -151,11 +152,12 @@ FileContents contents_of(const std::filesystem::path& file) {
 
 FileContents contents_of(std::unique_ptr<InputBytes> input) {
   const OpenTable open = open_sample_table(std::move(input));
-  FileContents out{std::string(name(open.format)), {}, {}};
+  FileContents out{std::string(name(open.format)), {}, {}, {}};
   for (const FileColumn& column : open.table->columns()) {
     out.columns.push_back(column.name);
     out.units.push_back(stated_unit(column));
   }
+  for (const UnreadPart& part : open.table->unread()) out.unread.push_back(part.what);
   return out;
 }
 

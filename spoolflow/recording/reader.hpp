@@ -33,7 +33,8 @@ struct ReadNotes {
   std::uint64_t backward_times = 0;   ///< before the time stamp before
   std::uint64_t left_out = 0;         ///< lines that could not be read
   std::string resampled{};            ///< which columns had a time of their own, from which rate to which, and how;
-                                      ///< before it what of the file is missing (SampleTable::lost)
+                                      ///< before it what of the file is missing (SampleTable::lost), and channels that
+                                      ///< were asked for where they can be had, but cannot be read
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; others are read in slabs).
@@ -61,7 +62,8 @@ class Reader {
 struct FileContents {
   std::string format;  ///< "CSV", "MATLAB", "HDF5", "TDMS"
   std::vector<std::string> columns;
-  std::vector<std::string> units;  ///< as a units row or an attribute says; empty where nothing does
+  std::vector<std::string> units;   ///< as a units row or an attribute says; empty where nothing does
+  std::vector<std::string> unread;  ///< what else it holds, and why that is not read
 };
 [[nodiscard]] FileContents contents_of(const std::filesystem::path& file);
 [[nodiscard]] FileContents contents_of(std::unique_ptr<InputBytes> input);

@@ -75,7 +75,7 @@ class ResampledTable final : public SampleTable {
   [[nodiscard]] std::optional<std::uint64_t> samples_of(std::size_t column) const override {
     return own_->samples_of(column);
   }
-  [[nodiscard]] std::string unread() const override { return own_->unread(); }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return own_->unread(); }
   [[nodiscard]] std::string lost() const override { return own_->lost(); }
   [[nodiscard]] std::string place(std::size_t row) const override { return own_->place(row); }
   [[nodiscard]] std::optional<double> progress() const override { return own_->progress(); }

@@ -53,7 +53,7 @@ constexpr std::array<Unit, 39> table{{
 }};
 
 // Other spellings, in small letters, after plain() has brought them to ASCII.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 60> spellings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 95> spellings{{
     {"-", "1"},
     {"%", "percent"},
     {"pct", "percent"},
@@ -113,6 +113,42 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 60> spelling
     {"m2_per_s", "m2/s"},
     {"kg_per_m3", "kg/m3"},
     {"g_per_cm3", "g/cm3"},
+    {"amps", "A"},
+    {"amperes", "A"},
+    {"milliampere", "mA"},
+    {"milliamps", "mA"},
+    {"millivolt", "mV"},
+    {"millimeter", "mm"},
+    {"millimetre", "mm"},
+    {"millimeters", "mm"},
+    {"micrometer", "um"},
+    {"meter", "m"},
+    {"metre", "m"},
+    {"newtons", "N"},
+    {"pascals", "Pa"},
+    {"sek", "s"},
+    {"sekunden", "s"},
+    {"s.", "s"},
+    {"sec.", "s"},
+    {"millisekunden", "ms"},
+    {"msek", "ms"},
+    {"mikrosekunden", "us"},
+    {"usec", "us"},
+    {"deg. c", "C"},
+    {"grad c", "C"},
+    {"grad celsius", "C"},
+    {"degrees c", "C"},
+    {"degree celsius", "C"},
+    {"degrees celsius", "C"},
+    {"deg celsius", "C"},
+    {"prozent", "percent"},
+    {"percents", "percent"},
+    {"liter/min", "L/min"},
+    {"litre/min", "L/min"},
+    {"liters/min", "L/min"},
+    {"l/minute", "L/min"},
+    {"l/sec", "L/s"},
+    {"bars", "bar"},
 }};
 
 /// ASCII for the signs that units are written with: degree, micro, powers of two and three; spaces at the ends dropped.

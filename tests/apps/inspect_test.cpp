@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/apps/command_line.hpp"
+#include "tests/recording/tdms/tdms_file.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -34,6 +35,19 @@ TEST_F(Inspect, WithAMapTellsWhatItLeavesOutInsteadOfProposingOne) {
   EXPECT_EQ(answer.status, 0) << answer.message;
   EXPECT_THAT(answer.output, HasSubstr("Read with map.toml; columns that it does not name: remark\n"));
   EXPECT_THAT(answer.output, Not(HasSubstr("Proposed channel map")));
+}
+
+TEST_F(Inspect, NamesWhatIsNotRead) {
+  using recording::TdmsMetadata;
+  TdmsMetadata metadata;
+  for (const char* channel : {"/'g'/'time_s'", "/'g'/'current_A'", "/'g'/'position_mm'"})
+    metadata.channel(channel, TdmsMetadata::f64, 2);
+  metadata.channel("/'g'/'oil'", TdmsMetadata::f64, 2).property("NI_Scale[0]_Scale_Type", "Thermocouple");
+  write("rig.tdms",
+        recording::tdms_segment(metadata.content(), recording::tdms_samples<double>({0, 0.001, 1, 1, 0, 1, 7, 7})));
+  constexpr const char* words = "channel 'g/oil' holds a scale 'Thermocouple', which is not read";
+  EXPECT_THAT(run("inspect rig.tdms").output, HasSubstr(std::string("Not read: ") + words));
+  EXPECT_THAT(run("inspect --json rig.tdms").output, HasSubstr(std::string("\"unread\": [\"") + words));
 }
 
 /// Names that say nothing: time, position 12 ms after the current, voltage, oil temperature, current, a spare input.

@@ -61,6 +61,14 @@ password_file = "password"
   EXPECT_EQ(site.mqtt->password_file, path("password"));
 }
 
+TEST_F(FieldbusSettingsTest, NameWhoMayAskByNumbers) {
+  for (const std::string host : {"192.168.0.0/24", "plc.example", "192.168.0", ""}) {
+    const std::string allow = "allow = [\"" + host + "\"]\n", words = "'" + host + "' is no machine's address";
+    EXPECT_THAT(refused("[modbus]\nlisten = \"127.0.0.1:0\"\n" + allow), HasSubstr(words));
+    EXPECT_THAT(refused("[sources]\n" + allow), HasSubstr(words));
+  }
+}
+
 TEST_F(FieldbusSettingsTest, SayWhatIsWrongAndWhatToDo) {
   EXPECT_THAT(refused("[can]\nnode = { press_1 = 17 }\n"), HasSubstr("names nothing that frames could go to; write "));
   EXPECT_THAT(refused("[can]\nlog = \"bus.log\"\n"), HasSubstr("names no valve; write auxiliary_valve"));

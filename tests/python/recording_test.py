@@ -26,6 +26,14 @@ class Recording(examples.InAFolder):
         with self.assertRaisesRegex(AttributeError, "voltage_V: no such channel; the recording has time_s, current_A"):
             run.voltage_V
 
+    def test_is_named_by_text_bytes_or_a_path_alike(self):
+        path = self.written("run.csv", "time_s,current_A,position_mm\n0,1,1\n0.001,1,1\n")
+        for name in (path, str(path), bytes(path)):
+            self.assertEqual(spoolflow.read_recording(name).file, str(path))
+            estimate = examples.model().estimate(spoolflow.read_recording(name))
+            estimate.write(bytes(self.folder / "estimate.csv"))
+            self.assertTrue((self.folder / "estimate.csv").read_text().startswith("time_s,flow_L_min"))
+
     def test_is_read_through_a_channel_map(self):
         run = self.written("rig.csv", "t;I_sol [mA];LVDT\n0;1500;5\n10;1500;5\n")
         channels = self.written("map.toml", """[channels]

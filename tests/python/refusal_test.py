@@ -80,6 +80,40 @@ class Refusal(examples.InAFolder):
         with self.assertRaisesRegex(spoolflow.Error, r"estimator: best not in \{condensed,observer\}"):
             estimate(examples.ramp(), estimator="best")
 
+    def test_of_arrays_in_other_units_has_the_words_for_recordings(self):
+        run = examples.ramp()
+        columns = {name: np.array(run[name]) for name in ("time_s", "current_A", "position_m", "oil_temperature_K")}
+        estimate = examples.model().estimate
+        for name, factor, offset, words in (
+            ("position_m", 1e3, 0, "beyond -0.1 to 0.1 m .* is its unit mm"),
+            ("current_A", 1e3, 0, "beyond -50 to 50 A .* is its unit mA instead"),
+            ("oil_temperature_K", 1, -273.15, "oil is between -60 and 200 degC.* is its unit C or degF instead"),
+            ("time_s", 1e3, 0, "the samples are 1 s apart.* is the unit of time ms instead of s"),
+        ):
+            with self.assertRaisesRegex(spoolflow.Error, f"^the run,.*column '{name}': .*{words}"):
+                estimate(**{**columns, name: columns[name] * factor + offset})
+        wild = dict(columns, position_m=columns["position_m"].copy())
+        wild["position_m"][500] = 17  # a single one is the sensor's to judge
+        self.assertTrue(estimate(**wild).status[500] & spoolflow.Status.position_fault)
+
+    def test_of_a_step_names_the_argument(self):
+        sensor = examples.model().sensor()
+        for words, sample in (
+            ("current_A: is no number but a str", {"time_s": 0, "current_A": "x", "position_m": 1e-3}),
+            ("time_s: holds 3 numbers, where a step takes one", {"time_s": np.zeros(3), "current_A": 1, "position_m": 1e-3}),
+        ):
+            with self.assertRaisesRegex(spoolflow.Error, "^" + words):
+                sensor.step(**sample)
+
+    def test_of_recordings_in_memory_asks_for_their_files(self):
+        for recordings in (examples.ramp(), [examples.ramp()]):
+            with self.assertRaisesRegex(spoolflow.Error, "recordings are given by their files here"):
+                spoolflow.validate(examples.model(), recordings)
+
+    def test_of_a_channel_that_is_not_there_lists_those_that_are(self):
+        with self.assertRaisesRegex(KeyError, "curent_A: no such channel; the recording has time_s, current_A"):
+            examples.ramp()["curent_A"]
+
     def test_leaves_no_half_written_model(self):
         with self.assertRaisesRegex(spoolflow.Error, "cannot be written: No such file"):
             examples.model().save(self.folder / "nowhere" / "model.json")

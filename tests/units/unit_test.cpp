@@ -40,6 +40,20 @@ TEST(Unit, IsKnownByItsUsualSpellings) {
   for (const char* written : {"us", "µs", " us "}) same(written, "us");
 }
 
+TEST(Unit, IsKnownAsMeasuringProgramsWriteIt) {
+  const auto same = [](std::string_view written, std::string_view usual) {
+    ASSERT_TRUE(unit_named(written).has_value()) << written;
+    EXPECT_EQ(unit_named(written)->name, usual) << written;
+  };
+  same("Amps", "A"), same("Volts", "V"), same("Bar", "bar"), same("l/min", "L/min"), same("Liter/min", "L/min");
+  same("Deg C", "C"), same("deg. C", "C"), same("Grad C", "C"), same("\u00b0C", "C"),
+      same(
+          "\xB0"
+          "C",
+          "C");
+  same("Millimeter", "mm"), same("\u00b5m", "um"), same("Sek", "s"), same("%", "percent");
+}
+
 TEST(Unit, TakesCaseLightlyAndRefusesTheUnknown) {
   for (const char* written : {"MPa", "mpa", "MPA"}) EXPECT_DOUBLE_EQ(unit_named(written)->factor, 1e6) << written;
   for (const char* written : {"mA", "MA"}) EXPECT_DOUBLE_EQ(unit_named(written)->factor, 1e-3) << written;

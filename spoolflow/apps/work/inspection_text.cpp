@@ -121,9 +121,22 @@ void add_proposal(std::string& out, const recording::Inspection& found) {
                       asks ? "fill in each \"?\" and check what is called a guess" : "check it", terminal_lines(map)));
 }
 
+/// What else the file holds, of which nobody should think that it was seen.
+void add_unread(std::string& out, const recording::Inspection& found) {
+  constexpr std::size_t most = 10;
+  const std::vector<std::string>& unread = found.contents.unread;
+  for (std::size_t k = 0; k < std::min(unread.size(), most); ++k) add(out, "Not read: {}\n", unread[k]);
+  if (unread.size() > most) add(out, "Not read: {} more\n", unread.size() - most);
+  if (!unread.empty()) add(out, "\n");
+}
+
+void add_notes(std::string& out, const recording::Inspection& found) {
+  if (!found.resampled.empty()) add(out, "{}\n", found.resampled);
+}
+
 /// The times of a file whose columns are of several, and what becomes of them.
 void add_clocks(std::string& out, const recording::Inspection& found) {
-  if (found.clocks.empty()) return;
+  if (found.clocks.empty()) return add_notes(out, found);
   add(out, "\n{:<24} {:>10} {:>10} {:>12} {:>12}  {}\n", "time", "samples", "Hz", "from s", "to s", "columns");
   for (const recording::InspectedClock& clock : found.clocks) {
     add(out, "{:<24} {:>10} {:>10.4g} {:>12.6g} {:>12.6g}  {}\n", clock.time.empty() ? "(even steps)" : clock.time,
@@ -131,7 +144,7 @@ void add_clocks(std::string& out, const recording::Inspection& found) {
         joined(clock.columns) + (clock.leads ? " (the others are brought onto this time)" : ""));
     if (!clock.fault.empty()) add(out, "  cannot be used: {}\n", clock.fault);
   }
-  if (!found.resampled.empty()) add(out, "{}\n", found.resampled);
+  add_notes(out, found);
 }
 
 void add_text(std::string& out, const InspectedFile& inspected) {
@@ -162,6 +175,7 @@ void add_text(std::string& out, const InspectedFile& inspected) {
     }
     add(out, "\n");
   }
+  add_unread(out, found);
   if (inspected.map_file.empty()) {
     add_proposal(out, found);
   } else if (const std::vector<std::string> columns = columns_left_out(inspected.map, found); columns.empty()) {
@@ -228,6 +242,10 @@ void add_json(std::string& out, const recording::Inspection& found) {
   add(out, "{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
   for (const std::string& column : found.contents.columns) {
     add(out, "{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
+  }
+  add(out, "],\n \"unread\": [");
+  for (const std::string& what : found.contents.unread) {
+    add(out, "{}{}", &what == found.contents.unread.data() ? "" : ", ", json_text(what));
   }
   add(out, "],\n \"samples\": {},\n \"begin_s\": {},\n \"end_s\": {},\n \"rate_Hz\": {},\n \"time_step_jitter\": {},\n",
       found.samples, json_number(found.begin_s), json_number(found.end_s), json_number(found.rate_Hz),

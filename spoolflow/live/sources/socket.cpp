@@ -1,6 +1,7 @@
 #include "spoolflow/live/sources/socket.hpp"
 
 #include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -92,6 +93,20 @@ Address read_address(const std::string& text, const std::string& place) {
         place, text));
   }
   return out;
+}
+
+std::string read_host(const std::string& text, const std::string& place) {
+  const int family = is_6(text) ? AF_INET6 : AF_INET;
+  in6_addr host{};
+  std::array<char, INET6_ADDRSTRLEN> told{};
+  if (::inet_pton(family, text.c_str(), &host) == 1 &&
+      ::inet_ntop(family, &host, told.data(), told.size()) != nullptr) {
+    return told.data();
+  }
+  throw SiteError(fmt::format(
+      "{}: '{}' is no machine's address; write each one's by its numbers, such as \"192.168.0.7\" or \"fd00::7\" "
+      "(no names, no networks)",
+      place, text));
 }
 
 Descriptor::~Descriptor() {

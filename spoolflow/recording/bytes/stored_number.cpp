@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace spoolflow::recording {
@@ -20,11 +21,34 @@ void read_as(const std::uint8_t* from, std::size_t stride, std::size_t count, do
   }
 }
 
+/// IEEE 754 binary16: 1 bit of sign, 5 of the exponent, 10 of the fraction.
+double from_half(std::uint16_t bits) {
+  constexpr int bias = 15, fraction_bits = 10, largest = 31;
+  const int exponent = bits >> fraction_bits & largest;
+  const double fraction = bits & 0x3FF;
+  double out = 0;
+  if (exponent == largest) {
+    out = fraction == 0 ? INFINITY : NAN;
+  } else if (exponent == 0) {
+    out = std::ldexp(fraction, 1 - bias - fraction_bits);
+  } else {
+    out = std::ldexp(0x400 + fraction, exponent - bias - fraction_bits);
+  }
+  return (bits & 0x8000) != 0 ? -out : out;
+}
+
+template <bool turned>
+void read_halves(const std::uint8_t* from, std::size_t stride, std::size_t count, double* out) {
+  read_as<std::uint16_t, turned>(from, stride, count, out);
+  for (std::size_t k = 0; k < count; ++k) out[k] = from_half(static_cast<std::uint16_t>(out[k]));
+}
+
 template <bool turned>
 void read_in_order(const StoredNumber& stored, const std::uint8_t* from, std::size_t stride, std::size_t count,
                    double* out) {
   using Kind = StoredNumber::Kind;
   if (stored.kind == Kind::real) {
+    if (stored.bytes == 2) return read_halves<turned>(from, stride, count, out);
     return stored.bytes == 4 ? read_as<float, turned>(from, stride, count, out)
                              : read_as<double, turned>(from, stride, count, out);
   }

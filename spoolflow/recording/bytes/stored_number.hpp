@@ -10,7 +10,7 @@ namespace spoolflow::recording {
 struct StoredNumber {
   enum class Kind : std::uint8_t { unsigned_whole, signed_whole, real };
   Kind kind = Kind::real;
-  std::uint8_t bytes = 8;  ///< 1, 2, 4, 8 of whole numbers; 4, 8 of real ones
+  std::uint8_t bytes = 8;  ///< 1, 2, 4, 8 of whole numbers; 2, 4, 8 of real ones
   ByteOrder order = ByteOrder::lowest_first;
 
   bool operator==(const StoredNumber&) const = default;

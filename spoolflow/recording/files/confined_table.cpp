@@ -133,7 +133,11 @@ std::size_t rows_of_block(std::size_t columns) {
 
 std::string listing_of(const VectorTable& table) {
   MessageText out;
-  out.text(table.unread());
+  const std::vector<UnreadPart> unread = table.unread();
+  out.number(unread.size());
+  for (const UnreadPart& part : unread) {
+    for (const std::string* text : {&part.column, &part.what}) out.text(*text);
+  }
   out.text(table.lost());
   out.number(table.columns().size());
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
@@ -211,7 +215,11 @@ class ConfinedTable final : public VectorTable {
   ConfinedTable(const std::filesystem::path& path, std::uint64_t file_bytes, OpenVectors open, bool text_is_missing)
       : VectorTable(path.string()), process_(order_of(path, file_bytes, open, text_is_missing, shared_)) {
     ReceivedText content(expect(Message::listing));
-    unread_ = content.text();
+    for (std::uint64_t left = content.number(); left > 0; --left) {
+      UnreadPart part;
+      for (std::string* text : {&part.column, &part.what}) *text = content.text();
+      unread_.push_back(std::move(part));
+    }
     lost_ = content.text();
     const std::uint64_t columns = content.number();
     for (std::uint64_t k = 0; k < columns; ++k) {
@@ -223,7 +231,7 @@ class ConfinedTable final : public VectorTable {
     }
   }
 
-  [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
   [[nodiscard]] std::string lost() const override { return lost_; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
@@ -279,7 +287,7 @@ class ConfinedTable final : public VectorTable {
   SharedNumbers shared_;
   ReadingProcess process_;
   std::string content_;
-  std::string unread_;
+  std::vector<UnreadPart> unread_;
   std::string lost_;
   std::vector<std::size_t> slot_of_;
   std::size_t rows_ = 0;     ///< of a block

@@ -81,7 +81,7 @@ class Hdf5Table final : public VectorTable {
     }
   }
 
-  [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const Source& source = sources_[column];
@@ -130,7 +130,7 @@ class Hdf5Table final : public VectorTable {
     const Hdf5Handle type(dataset.valid() ? H5Dget_type(dataset.id()) : -1, H5Tclose);
     const Hdf5Handle space(dataset.valid() ? H5Dget_space(dataset.id()) : -1, H5Sclose);
     if (!type.valid() || !space.valid()) {
-      unread_ = fmt::format("dataset '{}' is damaged or cut short", path);
+      keep(unread_, {path, fmt::format("dataset '{}' is damaged or cut short", path)});
       return;
     }
     const H5T_class_t kind = H5Tget_class(type.id());
@@ -138,8 +138,9 @@ class Hdf5Table final : public VectorTable {
     std::array<hsize_t, 2> size{1, 1};
     if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || rank < 1 || rank > 2 ||
         H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) < 0) {
-      unread_ =
-          fmt::format("dataset '{}' is no vector or matrix of numbers; write one dataset of numbers a channel", path);
+      keep(unread_, {path, fmt::format("dataset '{}' is no vector or matrix of numbers; write one dataset of numbers a "
+                                       "channel",
+                                       path)});
       return;
     }
     declared_.add(path, size[0], size[1], H5Tget_size(type.id()));
@@ -182,7 +183,7 @@ class Hdf5Table final : public VectorTable {
   Hdf5Handle file_handle_;
   std::vector<Source> sources_;
   std::map<std::size_t, Dataset> datasets_;  ///< of the chosen columns
-  std::string unread_;
+  std::vector<UnreadPart> unread_;
   DeclaredSize declared_;
   std::exception_ptr failure_;  ///< of list()
 };

@@ -31,6 +31,8 @@ class InputBytes {
   [[nodiscard]] bool comes_bit_by_bit() const { return !size_; }
   /// The length of a regular file; nothing for a pipe or a terminal.
   [[nodiscard]] std::optional<std::uint64_t> size() const { return size_; }
+  /// Whether name() opens it, so that others can read it from there: not so of standard input, a file or not.
+  [[nodiscard]] bool is_named_file() const { return owned_ && size_.has_value(); }
   [[nodiscard]] std::uint64_t position() const { return position_; }
 
  private:

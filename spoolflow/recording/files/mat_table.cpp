@@ -89,7 +89,7 @@ class MatTable final : public VectorTable {
     if (columns().empty() && unread_.empty()) refuse_damaged("no variable can be read from it");
   }
 
-  [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const Source& source = sources_[column];
@@ -123,14 +123,15 @@ class MatTable final : public VectorTable {
       list_struct(variable, name, path);
     } else if (variable.class_type == MAT_C_OBJECT || variable.class_type == MAT_C_OPAQUE ||
                variable.class_type == MAT_C_FUNCTION) {
-      unread_ = fmt::format(
-          "'{0}' is a table, timetable, timeseries or other object, which only MATLAB can read: save "
-          "its columns as vectors, with s = table2struct({0}, 'ToScalar', true); save(..., '-struct', "
-          "'s'), of a timeseries with t = {0}.Time; x = {0}.Data",
-          name);
+      keep(unread_,
+           {name,
+            fmt::format("'{0}' is a table, timetable, timeseries or other object, which only MATLAB can read: save "
+                        "its columns as vectors, with s = table2struct({0}, 'ToScalar', true); save(..., '-struct', "
+                        "'s'), of a timeseries with t = {0}.Time; x = {0}.Data",
+                        name)});
     } else if (converter(variable.class_type) == nullptr || variable.isComplex != 0 || variable.rank != 2 ||
                variable.dims == nullptr) {
-      if (unread_.empty()) unread_ = fmt::format("'{}' is no vector or matrix of real numbers", name);
+      keep(unread_, {name, fmt::format("'{}' is no vector or matrix of real numbers", name)});
     } else {
       declared_.add(name, variable.dims[0], variable.dims[1], Mat_SizeOfClass(variable.class_type));
       const FileColumn column{name, path.back().field, {}};
@@ -180,7 +181,7 @@ class MatTable final : public VectorTable {
   std::unique_ptr<mat_t, MatCloser> mat_;
   std::vector<Source> sources_;
   std::map<std::string, Variable> loaded_;
-  std::string unread_;
+  std::vector<UnreadPart> unread_;
   DeclaredSize declared_;
 };
 

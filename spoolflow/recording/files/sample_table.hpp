@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/recording/files/unread_part.hpp"
+
 namespace spoolflow::recording {
 
 /// A column of a file before anything is known about its meaning.
@@ -28,8 +30,8 @@ class SampleTable {
   [[nodiscard]] virtual const std::vector<FileColumn>& columns() const = 0;
   /// Samples of a column where columns may differ in that; nothing where all rows have all columns.
   [[nodiscard]] virtual std::optional<std::uint64_t> samples_of(std::size_t) const { return std::nullopt; }
-  /// What the file holds but is not read, with its remedy, for messages about missing channels; empty: nothing.
-  [[nodiscard]] virtual std::string unread() const { return {}; }
+  /// What the file holds but is not read, for messages about missing channels and for whoever inspects it.
+  [[nodiscard]] virtual std::vector<UnreadPart> unread() const { return {}; }
   /// What of the file is missing at its end, where it is read as far as it goes: "lacks ..."; empty: nothing.
   [[nodiscard]] virtual std::string lost() const { return {}; }
   /// Chooses the columns that read() fills, by index, each at most once. Once, before the first read().

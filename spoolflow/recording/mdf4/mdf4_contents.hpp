@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/recording/files/unread_part.hpp"
 #include "spoolflow/recording/mdf4/mdf4_conversion.hpp"
 #include "spoolflow/recording/mdf4/mdf4_sample.hpp"
 #include "spoolflow/recording/mdf4/mdf4_stream.hpp"
@@ -48,7 +49,7 @@ struct Mdf4Contents {
   std::vector<Mdf4Group> groups;  ///< that hold numbers
   /// Of each group the one that holds its time: itself as a rule.
   std::vector<std::size_t> time_group{};
-  std::string unread{};  ///< what cannot be read, with its remedy; empty: nothing
+  std::vector<UnreadPart> unread{};  ///< what cannot be read, with its remedy
 };
 
 /// ASAM MDF from 4.00 on. Throws RecordingError: another version, a file that was never finished, damage.

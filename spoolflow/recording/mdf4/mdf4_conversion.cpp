@@ -2,34 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
 namespace spoolflow::recording {
+namespace {
 
-Mdf4Conversion::Mdf4Conversion(const Mdf4Block& block) {
+constexpr int deepest = 2;  // of conversions within conversions
+constexpr const char* texts = "texts in the place of numbers";
+
+}  // namespace
+
+Mdf4Conversion::Mdf4Conversion(const FileBytes& file, std::uint64_t at) : Mdf4Conversion(file, at, 0) {}
+
+Mdf4Conversion::Mdf4Conversion(const FileBytes& file, std::uint64_t at, int depth) {
+  const Mdf4Block block = read_block(file, at, "##CC");
   ByteReader bytes = block.reader();
   const std::uint8_t kind = bytes.u8();
   bytes.skip(1 + 2 + 2);  // precision, flags, number of links
   const std::uint16_t count = bytes.u16();
   bytes.skip(2 * sizeof(double));  // range of values
-  constexpr std::uint8_t last_of_numbers = 6;
+  unit_ = read_text(file, block.link(1));
   if (kind == static_cast<std::uint8_t>(Kind::formula)) {
     unread_ = "numbers that a formula converts";
-  } else if (kind > last_of_numbers) {
-    unread_ = "texts in the place of numbers";
+  } else if (kind > static_cast<std::uint8_t>(Kind::texts_of_ranges)) {
+    unread_ = texts;
   }
   if (!unread_.empty()) return;
   kind_ = static_cast<Kind>(kind);
   for (std::uint16_t k = 0; k < count; ++k) numbers_.push_back(bytes.f64());
   check(block.what);
+  if (kind_ == Kind::texts_of_values) read_texts(file, block, numbers_.size(), depth);
+  if (kind_ == Kind::texts_of_ranges) read_texts(file, block, numbers_.size() / 2, depth);
+}
+
+/// Entries are texts or conversions, behind them that of all other numbers.
+void Mdf4Conversion::read_texts(const FileBytes& file, const Mdf4Block& block, std::size_t count, int depth) {
+  constexpr std::size_t before = 4;  // links that every conversion has
+  constexpr std::size_t most = 16;   // conversions
+  std::map<std::uint64_t, int> known;
+  for (std::size_t k = 0; k <= count; ++k) {
+    const std::uint64_t at = block.link(before + k);
+    answers_.push_back(known.contains(at) ? known[at] : -1);
+    if (at == 0 || known.contains(at) || read_head(file, at).id != "##CC") continue;
+    if (depth == deepest || inner_.size() == most) {
+      unread_ = "numbers that many tables within tables convert";
+      return;
+    }
+    inner_.push_back(Mdf4Conversion(file, at, depth + 1));
+    const Mdf4Conversion& inner = inner_.back();
+    if (unit_.empty()) unit_ = inner.unit();
+    if (inner.unread().empty()) {
+      answers_.back() = static_cast<int>(inner_.size()) - 1;
+    } else if (inner.unread() != texts) {
+      unread_ = inner.unread();
+      return;
+    }
+    known.emplace(at, answers_.back());
+  }
+  if (std::ranges::all_of(answers_, [](int answer) { return answer < 0; })) unread_ = texts;
 }
 
 void Mdf4Conversion::check(const std::string& what) const {
   const std::size_t count = numbers_.size();
   const bool fits = kind_ == Kind::identity ||                                                           //
                     (kind_ == Kind::linear && count >= 2) || (kind_ == Kind::rational && count >= 6) ||  //
-                    (kind_ == Kind::ranges && count % 3 == 1) ||
+                    (kind_ == Kind::ranges && count % 3 == 1) || kind_ == Kind::texts_of_values ||
+                    (kind_ == Kind::texts_of_ranges && count % 2 == 0) ||
                     ((kind_ == Kind::interpolated || kind_ == Kind::nearest) && count >= 2 && count % 2 == 0);
   if (!fits) refuse_mdf4(what, fmt::format("its conversion has {} numbers", count));
   if (kind_ != Kind::interpolated && kind_ != Kind::nearest) return;
@@ -65,6 +105,18 @@ double Mdf4Conversion::of_ranges(double raw, bool whole) const {
   return numbers_.back();
 }
 
+double Mdf4Conversion::of_texts(double raw, bool whole) const {
+  const bool ranges = kind_ == Kind::texts_of_ranges;
+  const std::size_t entries = answers_.size() - 1;
+  std::size_t entry = 0;
+  for (; entry < entries; ++entry) {
+    const double low = numbers_[ranges ? 2 * entry : entry], high = ranges ? numbers_[2 * entry + 1] : low;
+    if (raw >= low && (raw < high || (raw == high && (whole || !ranges)))) break;
+  }
+  const int answer = answers_[entry];
+  return answer < 0 ? NAN : inner_[static_cast<std::size_t>(answer)].value_at(raw, whole);
+}
+
 double Mdf4Conversion::value_at(double raw, bool whole) const {
   const std::vector<double>& p = numbers_;
   switch (kind_) {
@@ -77,6 +129,9 @@ double Mdf4Conversion::value_at(double raw, bool whole) const {
       return of_pairs(raw);
     case Kind::ranges:
       return of_ranges(raw, whole);
+    case Kind::texts_of_values:
+    case Kind::texts_of_ranges:
+      return of_texts(raw, whole);
     default:
       return raw;
   }

@@ -49,7 +49,7 @@ std::optional<Mdf4Sample> mdf4_sample(std::uint8_t type, std::uint32_t byte, std
   out.number.bytes = static_cast<std::uint8_t>(bits / 8);
   out.byte = byte, out.bit = bit, out.bits = bits;
   const bool real = out.number.kind == Kind::real;
-  const bool fits = real ? bit == 0 && (bits == 32 || bits == 64) : bit < 8 && bits >= 1 && bits <= 64;
+  const bool fits = real ? bit == 0 && (bits == 16 || bits == 32 || bits == 64) : bit < 8 && bits >= 1 && bits <= 64;
   if (fits) return out;
   unread = "numbers of a width that is not known";
   return std::nullopt;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/recording/channels/recording_error.hpp"
+
 namespace spoolflow::recording {
 namespace {
 
@@ -102,7 +104,12 @@ void Mdf4Stream::add_packed(const Mdf4Head& head, DeclaredSize& declared) {
   if (!holds_data(of)) {
     refuse_mdf4(what, fmt::format("it holds a block {}, where DT, DV or DI is wanted", of));
   }
-  if (kind > 1) refuse_mdf4(what, fmt::format("it is packed in way {}, where 0 and 1 are known", kind));
+  if (kind > 1) {
+    throw RecordingError(fmt::format(
+        "{}: it is packed in way {} (of MDF 4.3), where 0 and 1 are read (deflate, also transposed); save it "
+        "with one of these, or unpacked",
+        what, kind));
+  }
   if (packed == 0 || packed > head.bytes - mdf4_head_bytes - raw.size() || unpacked > largest_unpacked) {
     refuse_mdf4(what, fmt::format("{} bytes are said to be packed in {}", unpacked, packed));
   }

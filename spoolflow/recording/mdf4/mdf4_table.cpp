@@ -19,7 +19,7 @@ class Mdf4Table final : public VectorTable {
     for (std::size_t g = 0; g < contents_.groups.size(); ++g) {
       if (contents_.time_group[g] != g) continue;
       std::string& name = contents_.groups[g].name;
-      if (!names.insert(name).second) name = fmt::format("{} #{}", name, g + 1);
+      if (!names.insert(name).second) names.insert(name = fmt::format("{} #{}", name, g + 1));
     }
     for (std::size_t g = 0; g < contents_.groups.size(); ++g) {
       const Mdf4Group& group = contents_.groups[g];
@@ -34,7 +34,7 @@ class Mdf4Table final : public VectorTable {
     }
   }
 
-  [[nodiscard]] std::string unread() const override { return contents_.unread; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return contents_.unread; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     if (first != first_ || count != count_) fill(first, count);

@@ -64,6 +64,10 @@ class Segments {
   /// Returns where the next one begins.
   std::uint64_t segment(std::uint64_t at) {
     what_ = fmt::format("{}: the segment at byte {}", file_.name(), at);
+    if (begun_ && is_blank(at)) {
+      lose(fmt::format("whatever was to stand in the last {} bytes, which begin with zeros", file_.size() - at));
+      return file_.size();
+    }
     const LeadIn lead = lead_in(at);
     const std::uint64_t begin = at + lead_in_bytes;
     const std::uint64_t room = file_.size() - begin;
@@ -82,6 +86,13 @@ class Segments {
     if (lead.is(LeadIn::has_samples)) samples(begin + lead.samples, end, cut);
     if (cut) lose(lead.next == unfinished ? "the end of its last segment, which was never finished" : "its end");
     return end;
+  }
+
+  /// Where the machine went down, the file may have got its length but not its content.
+  [[nodiscard]] bool is_blank(std::uint64_t at) const {
+    std::array<std::uint8_t, lead_in_bytes> bytes{};
+    file_.read(at, bytes);
+    return std::ranges::all_of(bytes, [](std::uint8_t byte) { return byte == 0; });
   }
 
   LeadIn lead_in(std::uint64_t at) {

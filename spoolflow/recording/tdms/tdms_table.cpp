@@ -40,7 +40,7 @@ class TdmsTable final : public VectorTable {
     for (std::size_t k = 0; k < contents_.channels.size(); ++k) list(k, of_file);
   }
 
-  [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
   [[nodiscard]] std::string lost() const override {
     return contents_.lost.empty() ? "" : fmt::format("lacks {}; what stands before is read", contents_.lost);
   }
@@ -96,9 +96,8 @@ class TdmsTable final : public VectorTable {
     const std::string& why = channel.unread.empty() ? scale.unread() : channel.unread;
     const std::string name = channel.group + "/" + channel.name;
     if (!why.empty()) {
-      if (unread_.empty()) {
-        unread_ = fmt::format("channel '{}' holds {}, which is not read; write it as numbers in its unit", name, why);
-      }
+      keep(unread_,
+           {name, fmt::format("channel '{}' holds {}, which is not read; write it as numbers in its unit", name, why)});
       return;
     }
     FileColumn column{name, channel.name, channel.of_time ? "s" : ""};
@@ -162,7 +161,7 @@ class TdmsTable final : public VectorTable {
   std::vector<std::uint8_t> buffer_;
   std::vector<Source> sources_;  ///< one a column
   std::optional<TdmsTime> origin_;
-  std::string unread_;
+  std::vector<UnreadPart> unread_;
 };
 
 }  // namespace

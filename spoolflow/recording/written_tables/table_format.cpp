@@ -10,8 +10,9 @@ namespace spoolflow::recording {
 namespace {
 
 /// Formats that people may hope for and that are not written.
-constexpr std::array<std::string_view, 13> promises{"xlsx",    "xls",   "ods", "tdms", "mf4", "mdf", "nc",
-                                                    "feather", "arrow", "bag", "db3",  "npz", "npy"};
+constexpr auto promises = std::to_array<std::string_view>(
+    {"xlsx", "xls", "ods", "tdms", "mf4",   "mdf",  "nc", "feather", "arrow", "bag", "db3", "npz",
+     "npy",  "pkl", "orc", "json", "jsonl", "html", "pq", "hdf",     "zip",   "gz",  "zst"});
 
 std::string small_letters(std::string_view text) {
   std::string out(text);

@@ -30,7 +30,8 @@ KeptRow kept(const XlsxRow& row) {
 bool is_sample(const KeptCell& each) {
   if (each.cell.kind != XlsxCell::Kind::text) return each.cell.kind != XlsxCell::Kind::error;
   double value = 0;
-  return read_number(each.text, '.', value) == Digits::number || read_clock_time(each.text).has_value();
+  return read_number(each.text, '.', value) == Digits::number || read_number(each.text, ',', value) == Digits::number ||
+         read_clock_time(each.text).has_value();
 }
 
 bool is_name(const KeptCell& each) {

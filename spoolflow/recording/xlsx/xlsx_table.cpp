@@ -2,98 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/files/clock_time.hpp"
-#include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
+#include "spoolflow/recording/xlsx/xlsx_column_of_cells.hpp"
 #include "spoolflow/recording/xlsx/xlsx_header.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-std::string shortened(std::string_view text) {
-  constexpr std::size_t shown = 40;
-  std::string out;
-  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  return text.size() > shown ? out + "..." : out;
-}
-
-/// The numbers of one column as rows bring them.
-class ColumnOfCells {
- public:
-  ColumnOfCells(std::string sheet, bool from_1904) : sheet_(std::move(sheet)), from_1904_(from_1904) {}
-
-  /// The value of a cell, NaN where it has none.
-  double value(const XlsxCell& cell, std::uint64_t row) {
-    if (cell.kind == XlsxCell::Kind::number) return number(cell, row, cell.number);
-    if (cell.kind == XlsxCell::Kind::time) return since_first(cell, row, clock_of(cell.number));
-    if (cell.kind == XlsxCell::Kind::error) return missing;
-    if (cell.kind == XlsxCell::Kind::unreckoned) {
-      is_used_ = true;
-      return refuse(
-          cell, row,
-          "is a formula whose result the file does not hold; open the file in the program for sheets and save it "
-          "there, or write values");
-    }
-    double written = 0;
-    const Digits digits = read_number(cell.text, '.', written);
-    if (digits == Digits::number) return number(cell, row, written);
-    if (digits == Digits::empty) return missing;
-    if (const auto clock = read_clock_time(cell.text)) return since_first(cell, row, *clock);
-    has_text_ = true;
-    return refuse(cell, row,
-                  fmt::format("'{}' is not a number; correct it, or leave the cell empty where a sample is missing",
-                              shortened(cell.text)));
-  }
-
-  /// Whether there is anything in it but text.
-  [[nodiscard]] bool is_used() const { return is_used_ || !has_text_; }
-  [[nodiscard]] bool is_clock() const { return origin_.has_value(); }
-  /// Of the first cell that is not as it should be; empty where all are.
-  [[nodiscard]] const std::string& refusal() const { return refusal_; }
-
- private:
-  double number(const XlsxCell& cell, std::uint64_t row, double value) {
-    if (origin_)
-      return refuse(cell, row, "is a number, where the cells above are dates or times; write one kind alone");
-    is_used_ = has_numbers_ = true;
-    return value;
-  }
-  double since_first(const XlsxCell& cell, std::uint64_t row, const ClockTime& clock) {
-    if (has_numbers_) {
-      return refuse(cell, row, "is a date or time, where the cells above are numbers; write one kind alone");
-    }
-    if (!origin_) origin_ = clock;
-    is_used_ = true;
-    const double since_s = clock.since(*origin_);
-    constexpr double per_s = 1e5;  // of a date of today 15 to 17 digits tell 9 to 0.6 us
-    return cell.kind == XlsxCell::Kind::time ? std::round(since_s * per_s) / per_s : since_s;
-  }
-  [[nodiscard]] ClockTime clock_of(double days) const {
-    constexpr double day_s = 86400;
-    constexpr std::int64_t of_1900 = -25569, of_1904 = -24107;  // since 1970-01-01
-    const double whole = std::floor(days);
-    if (!(std::abs(whole) < 1e9)) return {0, day_s * days};
-    return {static_cast<std::int64_t>(whole) + (from_1904_ ? of_1904 : of_1900), day_s * (days - whole)};
-  }
-  double refuse(const XlsxCell& cell, std::uint64_t row, std::string_view why) {
-    if (refusal_.empty()) refusal_ = fmt::format("{}{}: {}", sheet_, cell_name(cell.column, row), why);
-    return missing;
-  }
-
-  std::string sheet_;  ///< "run.xlsx, 'Sheet1'!"
-  bool from_1904_;
-  std::optional<ClockTime> origin_{};
-  bool is_used_ = false, has_numbers_ = false, has_text_ = false;
-  std::string refusal_{};
-};
+/// Less may be a table of results that stands before the recording.
+constexpr std::uint64_t rows_of_a_recording = 100;
+constexpr std::string_view why_that_sheet = "the first one with a table of 100 samples, or else the longest";
+constexpr double missing = XlsxColumnOfCells::missing;
 
 /// One sheet's table, if it holds one, in memory.
 class SheetTable {
@@ -123,7 +46,8 @@ class SheetTable {
 
   [[nodiscard]] bool found() const { return header_.found(); }
   [[nodiscard]] const std::vector<XlsxColumn>& columns() const { return header_.columns(); }
-  [[nodiscard]] const ColumnOfCells& cells(std::size_t column) const { return cells_[column]; }
+  [[nodiscard]] const XlsxColumnOfCells& cells(std::size_t column) const { return cells_[column]; }
+  /// Empty where no row has a number there.
   [[nodiscard]] const std::vector<double>& values(std::size_t column) const { return values_[column]; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -133,7 +57,7 @@ class SheetTable {
   void begin() {
     if (!header_.found()) return;
     const std::vector<XlsxColumn>& columns = header_.columns();
-    cells_.assign(columns.size(), ColumnOfCells(what_, from_1904_));
+    cells_.assign(columns.size(), XlsxColumnOfCells(what_, from_1904_));
     values_.resize(columns.size());
     latest_.resize(columns.size());
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -158,8 +82,16 @@ class SheetTable {
       if (slot >= 0) latest_[static_cast<std::size_t>(slot)] = cells_[static_cast<std::size_t>(slot)].value(cell, row);
     }
     if (std::ranges::all_of(latest_, [](double value) { return std::isnan(value); })) return;
-    declared_.add(name_, 1, latest_.size(), sizeof(double));
-    for (std::size_t k = 0; k < latest_.size(); ++k) values_[k].push_back(latest_[k]);
+    for (std::size_t k = 0; k < latest_.size(); ++k) {
+      if (values_[k].empty()) {
+        if (std::isnan(latest_[k])) continue;  // named columns without a number take no room
+        declared_.add(name_, rows_, 1, sizeof(double));
+        values_[k].assign(rows_, missing);
+        ++begun_;
+      }
+      values_[k].push_back(latest_[k]);
+    }
+    declared_.add(name_, 1, begun_, sizeof(double));
     ++rows_;
   }
 
@@ -167,10 +99,11 @@ class SheetTable {
   bool from_1904_;
   DeclaredSize declared_;
   XlsxHeader header_;
-  std::vector<ColumnOfCells> cells_;
+  std::vector<XlsxColumnOfCells> cells_;
   std::vector<std::ptrdiff_t> slot_of_;  ///< of each of the sheet's columns among those that are named
   std::vector<double> latest_;
   std::vector<std::vector<double>> values_;
+  std::uint64_t begun_ = 0;  ///< columns that have a number
   std::uint64_t rows_ = 0;
 };
 
@@ -186,20 +119,21 @@ class XlsxTable final : public VectorTable {
       auto table = std::make_unique<SheetTable>(file(), sheet, workbook.from_1904, archive_.bytes());
       read_xlsx_rows(archive_, sheet, texts, styles, [&](const XlsxRow& row) { return table->take(row); });
       table->finish();
-      if (!table->found()) continue;
+      if (!table->found() || (sheet_ && table->rows() <= sheet_->rows())) continue;
       sheet_ = std::move(table);
-      break;
+      if (sheet_->rows() >= rows_of_a_recording) break;
     }
     if (!sheet_) refuse_tableless(workbook);
     list();
     tell_unread(workbook);
   }
 
-  [[nodiscard]] std::string unread() const override { return unread_; }
+  [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
   void take_text_as_missing() override { refuses_text_ = false; }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const std::vector<double>& values = sheet_->values(listed_[column]);
+    if (values.empty()) return void(std::fill_n(out, count, missing));
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), count, out);
   }
 
@@ -232,21 +166,22 @@ class XlsxTable final : public VectorTable {
   }
 
   void tell_unread(const XlsxWorkbook& workbook) {
-    for (std::size_t k = 0; k < sheet_->columns().size() && unread_.empty(); ++k) {
+    for (std::size_t k = 0; k < sheet_->columns().size(); ++k) {
       if (sheet_->cells(k).is_used()) continue;
-      unread_ = fmt::format("column '{}' holds text, which is not read; write it as numbers in its unit",
-                            sheet_->columns()[k].name);
+      const std::string& column = sheet_->columns()[k].name;
+      keep(unread_,
+           {column, fmt::format("column '{}' holds text, which is not read; write it as numbers in its unit", column)});
     }
-    if (!unread_.empty() || workbook.sheets.size() < 2) return;
-    unread_ = fmt::format(
-        "of its {} sheets '{}' is read, the first one that holds a table; move the one that is meant to the front",
-        workbook.sheets.size(), sheet_->name());
+    if (workbook.sheets.size() < 2) return;
+    keep(unread_, {{},
+                   fmt::format("of its {} sheets '{}' is read, {}; move the one that is meant to the front",
+                               workbook.sheets.size(), sheet_->name(), why_that_sheet)});
   }
 
   XlsxArchive archive_;
   std::unique_ptr<SheetTable> sheet_;
   std::vector<std::size_t> listed_;  ///< of each column of this table, which of the sheet's
-  std::string unread_;
+  std::vector<UnreadPart> unread_;
   bool refuses_text_ = true;
 };
 

@@ -29,11 +29,16 @@ class Mdf4File {
     return at;
   }
   std::uint64_t text(const std::string& text) { return block("##TX", {}, text + '\0'); }
-  std::uint64_t conversion(std::uint8_t kind, const std::vector<double>& numbers) {
+  /// `answers`: texts or conversions, of a table of texts.
+  std::uint64_t conversion(std::uint8_t kind, const std::vector<double>& numbers,
+                           const std::vector<std::uint64_t>& answers = {}, const std::string& unit = "") {
     WrittenBytes data;
-    data.u8(kind).u8(0).u16(0).u16(0).u16(static_cast<std::uint16_t>(numbers.size())).f64(0).f64(0);
+    data.u8(kind).u8(0).u16(0).u16(static_cast<std::uint16_t>(answers.size()));
+    data.u16(static_cast<std::uint16_t>(numbers.size())).f64(0).f64(0);
     for (const double number : numbers) data.f64(number);
-    return block("##CC", {0, 0, 0, 0}, data.content());
+    std::vector<std::uint64_t> links{0, unit.empty() ? 0 : text(unit), 0, 0};
+    links.insert(links.end(), answers.begin(), answers.end());
+    return block("##CC", links, data.content());
   }
 
   /// A channel, and how it stands in the record.

@@ -18,8 +18,10 @@
 namespace spoolflow::recording {
 namespace {
 
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsNan;
 
 std::vector<double> values_of(const std::string& bytes, const std::string& name) {
   return column_of("run.mf4", bytes, name);
@@ -179,6 +181,90 @@ TEST(Mdf4Table, TheChannelsAreLookedThroughWhereTheirUnitsTellThem) {
   ASSERT_NE(position, found.channels.end());
   EXPECT_EQ(position->missing, 1U);
   EXPECT_NEAR(position->highest, 0.119e-3, 1e-12);
+}
+
+/// Of an ECU's signal as its database describes it: 0 to 65000 a current in mA, above "error" and "not available".
+TEST(Mdf4Table, TextsAmongNumbersAreMissingSamples) {
+  Mdf4File file;
+  const std::uint64_t linear = file.conversion(1, {0, 0.5}, {}, "mA"), text = file.text("not available");
+  const std::uint64_t by_value = file.conversion(7, {65534, 65535}, {file.text("error"), text, linear});
+  const std::uint64_t by_range = file.conversion(8, {65001, 65535}, {text, linear});
+  const std::uint64_t turned = file.conversion(8, {0, 65000}, {linear, text});
+  const auto column = [&](const std::string& name, std::uint64_t conversion) {
+    return Mdf4File::Channel{name, "", 0, 0, 0, 0, 16, 0, conversion};
+  };
+  const std::string bytes =
+      one_group(file, {column("by_value", by_value), column("by_range", by_range), column("turned", turned)},
+                WrittenBytes().u16(2000).u16(65535).u16(65000).content(), 3, 2);
+  for (const char* name : {"by_value", "by_range", "turned"})
+    EXPECT_THAT(values_of(bytes, name), ElementsAre(1000, IsNan(), 32500)) << name;
+  const TemporaryFile written("run.mf4", bytes);
+  EXPECT_THAT(contents_of(written.path()).units, Each("mA"));
+}
+
+TEST(Mdf4Table, AConversionThatLeadsToItselfEnds) {
+  Mdf4File file;
+  const std::uint64_t text = file.text("no"), at = file.conversion(7, {1, 2}, {text, text, text});
+  std::string bytes = one_group(file, {{"x", "", 0, 0, 0, 0, 8, 0, at}}, "a", 1, 1);
+  constexpr std::size_t answers = 24 + 4 * 8;
+  for (std::size_t k = 0; k < 3; ++k) bytes.replace(at + answers + 8 * k, 8, WrittenBytes().u64(at).content());
+  const TemporaryFile written("run.mf4", bytes);
+  EXPECT_THAT(contents_of(written.path()).unread, ElementsAre(HasSubstr("many tables within tables")));
+}
+
+TEST(Mdf4Table, ReadsNumbersOfHalfPrecision) {
+  Mdf4File file;
+  const std::string bytes =
+      one_group(file, {{"x", "", 0, 0, 4, 0, 16}},
+                WrittenBytes().u16(0x3C00).u16(0xC100).u16(0x7BFF).u16(0x0001).u16(0xFE00).content(), 5, 2);
+  EXPECT_THAT(values_of(bytes, "x"), ElementsAre(1, -2.5, 65504, 0x1p-24, IsNan()));
+}
+
+TEST(Mdf4Table, GroupsOfOneNameAreToldApart) {
+  Mdf4File file;
+  const auto group = [&](const char* name, double first) {
+    const std::string records = WrittenBytes().f64(0).f64(first).f64(1).f64(first).content();
+    return std::pair(
+        file.group(0, file.channels({{"t", "s", 2, 1, 4, 0, 64}, {name, "", 0, 0, 4, 8, 64}}), "CAN1", 0, 2, 16),
+        file.block("##DT", {}, records));
+  };
+  const auto [coil, coil_records] = group("current", 1);
+  const auto [spool, spool_records] = group("position", 2);
+  const std::string bytes = file.content(file.data_group(file.data_group(0, spool, spool_records), coil, coil_records));
+  EXPECT_THAT(values_of(bytes, "CAN1/current"), ElementsAre(1, 1));
+  EXPECT_THAT(values_of(bytes, "CAN1 #2/position"), ElementsAre(2, 2));
+}
+
+TEST(Mdf4Table, WhatIsNotReadBesideTheNumbersIsTold) {
+  Mdf4File file;
+  const auto virtual_alone = file.group(0, file.channels({{"t", "s", 3, 1, 0, 0, 0}}), "clock", 0, 10, 0);
+  const auto group = file.group(0,
+                                file.channels({{"x", "", 0, 0, 0, 0, 8},
+                                               {"note", "", 0, 0, 7, 0, 8},
+                                               {"oil_temperature", "", 0, 0, 7, 0, 8},
+                                               {"time_s", "", 0, 0, 0, 0, 8},
+                                               {"current_A", "", 0, 0, 0, 0, 8}}),
+                                "rig", 0, 1, 1);
+  const auto last = file.data_group(0, group, file.block("##DT", {}, "a"));
+  const TemporaryFile written("run.mf4", file.content(file.data_group(last, virtual_alone, 0)));
+  EXPECT_THAT(contents_of(written.path()).unread,
+              ElementsAre(HasSubstr("group 'clock' has 10 records without a byte"), HasSubstr("'note' holds text"),
+                          HasSubstr("'oil_temperature' holds text")));
+  ReadOptions options;
+  options.required = {Channel::current};
+  options.optional = {Channel::oil_temperature};
+  EXPECT_EQ(open_reader(written.path(), options)->notes().resampled,
+            "channel 'oil_temperature' holds text, which is not read; write it as numbers in its unit");
+  options.channels.sources[Channel::voltage] = {"rig/note", "V", 1, 0, {}};
+  options.required = {Channel::voltage};
+  EXPECT_THAT(refusal([&] { (void)open_reader(written.path(), options); }),
+              HasSubstr("does not have; channel 'note' holds text, which is not read"));
+}
+
+TEST(Mdf4Table, AFileWithoutRecordsIsToldToHaveNone) {
+  Mdf4File file;
+  const TemporaryFile written("run.mf4", file.content(0));
+  EXPECT_THAT(contents_of(written.path()).unread, ElementsAre(HasSubstr("no group of it holds records of numbers")));
 }
 
 TEST(Mdf4Table, WhatIsNoNumberIsTold) {

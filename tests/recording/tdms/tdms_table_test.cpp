@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::vector<double> column(const std::string& bytes, const std::string& name) {
   return column_of("run.tdms", bytes, name);
@@ -167,6 +168,41 @@ TEST(TdmsTable, UnfinishedLastSegmentIsReadAsFarAsItGoesAndTold) {
   const TemporaryFile file("run.tdms", bytes);
   EXPECT_THAT(read_recording(file.path(), {}).resampled,
               HasSubstr("lacks the end of its last segment, which was never finished"));
+}
+
+TEST(TdmsTable, ZerosBehindTheLastSegmentAreWhatAMachineThatWentDownLeaves) {
+  const std::string metadata =
+      Meta().channel("/'g'/'time_s'", Meta::f64, 2).channel("/'g'/'current_A'", Meta::f64, 2).content();
+  const std::string whole = tdms_segment(metadata, tdms_samples<double>({0, 1, 0.1, 0.2}));
+  const TemporaryFile file("run.tdms", whole + std::string(4096, '\0'));
+  EXPECT_THAT(read_recording(file.path(), {}).resampled,
+              HasSubstr("lacks whatever was to stand in the last 4096 bytes, which begin with zeros"));
+}
+
+TEST(TdmsTable, ACurrentWithoutATimeIsInspectedAndToldToLackIt) {
+  Meta metadata;
+  metadata.channel("/'g'/'current'", Meta::f64, 2).property("unit_string", "A");
+  metadata.channel("/'g'/'voltage'", Meta::f64, 2).property("unit_string", "V").property("wf_increment", 1e-3);
+  const TemporaryFile file("run.tdms", tdms_segment(metadata.content(), tdms_samples<double>({1, 2, 3, 4})));
+  const Inspection found = inspect(file.path(), {}, [](std::optional<double>, std::uint64_t) {});
+  EXPECT_THAT(found.missing, ElementsAre(Channel::time, Channel::position));
+}
+
+TEST(TdmsTable, AWaveformIsInspectedWithoutAColumnOfTime) {
+  Meta metadata;
+  for (const char* channel : {"/'g'/'current'", "/'g'/'position'"}) {
+    metadata.channel(channel, Meta::f64, 3).property("wf_increment", 1e-3);
+    metadata.property("unit_string", std::string(channel).find("current") == std::string::npos ? "mm" : "A");
+  }
+  metadata.channel("/'g'/'oil_temperature'", Meta::f64, 3).property("NI_Scale[0]_Scale_Type", "Thermocouple");
+  const std::string numbers = tdms_samples<double>({1, 2, 1, 0.1, 0.2, 0.1, 3, 4, 5});
+  const TemporaryFile file("run.tdms", tdms_segment(metadata.content(), numbers));
+  const Inspection found = inspect(file.path(), {}, [](std::optional<double>, std::uint64_t) {});
+  EXPECT_THAT(found.missing, IsEmpty());
+  EXPECT_EQ(found.samples, 3U);
+  EXPECT_THAT(found.contents.unread,
+              ElementsAre("channel 'g/oil_temperature' holds a scale 'Thermocouple', which is not read; write it as "
+                          "numbers in its unit"));
 }
 
 TEST(TdmsTable, WhatIsNoNumberIsToldWhereAChannelIsMissing) {

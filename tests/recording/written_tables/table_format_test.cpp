@@ -16,7 +16,8 @@ TEST(WrittenTableFormat, FollowsTheSuffixInCapitalsToo) {
 }
 
 TEST(WrittenTableFormat, WritesNoTextUnderANameThatPromisesOtherwise) {
-  EXPECT_THROW((void)table_format_of("b.xlsx"), std::invalid_argument);
+  for (const char* other : {"b.xlsx", "b.json", "b.zip", "b.pq", "b.csv.gz"})
+    EXPECT_THROW((void)table_format_of(other), std::invalid_argument) << other;
   EXPECT_THROW((void)table_format_of("b.TDMS"), std::invalid_argument);
 }
 

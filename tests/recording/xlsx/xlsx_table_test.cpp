@@ -21,6 +21,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::DoubleNear;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -139,8 +140,8 @@ TEST(XlsxTable, RefusesAFormulaWithoutItsResultByItsCell) {
 
 TEST(XlsxTable, RefusesTextAmongNumbersByItsCellButInspectsTheFile) {
   const std::string rows =
-      name_row + xlsx_row({"0", "1", "2"}) + xlsx_row({"1", "2", "'0,75"}) + xlsx_row({"2", "3", "1"});
-  EXPECT_THAT(xlsx_refused(xlsx_book(rows)), HasSubstr("'Sheet1'!C3: '0,75' is not a number; correct it"));
+      name_row + xlsx_row({"0", "1", "2"}) + xlsx_row({"1", "2", "'0,75?"}) + xlsx_row({"2", "3", "1"});
+  EXPECT_THAT(xlsx_refused(xlsx_book(rows)), HasSubstr("'Sheet1'!C3: '0,75?' is not a number; correct it"));
   const TemporaryFile file("run.xlsx", xlsx_book(rows));
   EXPECT_EQ(open_sample_table(file.path(), CsvTable::Text::counted).table->columns().size(), 3U);
   const auto table = open_sample_table(file.path(), CsvTable::Text::counted).table;
@@ -219,8 +220,47 @@ TEST(XlsxTable, ReadsTheFirstVisibleSheetThatHoldsATable) {
   file.sheet("Old", table("1"), " state=\"hidden\"").sheet("Monday", table("2")).sheet("Tuesday", table("3"));
   EXPECT_THAT(xlsx_column(file.content(), "current_A"), ElementsAre(2));
   const TemporaryFile written("run.xlsx", file.content());
-  EXPECT_THAT(open_sample_table(written.path()).table->unread(),
-              HasSubstr("of its 3 sheets 'Monday' is read, the first one that holds a table"));
+  EXPECT_THAT(contents_of(written.path()).unread,
+              ElementsAre(HasSubstr("of its 3 sheets 'Monday' is read, the first one with a table of 100 samples")));
+}
+
+TEST(XlsxTable, ATableOfResultsBeforeTheRecordingIsNotTakenForIt) {
+  std::string recording = name_row;
+  for (int k = 0; k < 120; ++k) recording += xlsx_row({std::to_string(0.001 * k), "1.5", "0.2"});
+  XlsxFile file;
+  file.sheet("Results", xlsx_row({"'Run", "'Flow", "'Pressure"}) + xlsx_row({"1", "20", "50"}));
+  file.sheet("Monday", recording).sheet("Tuesday", recording);
+  const TemporaryFile written("run.xlsx", file.content());
+  EXPECT_THAT(contents_of(written.path()).columns, ElementsAre("time_s", "current_A", "position_mm"));
+}
+
+TEST(XlsxTable, NumbersAsTextMayHaveADecimalComma) {
+  const std::string commas = xlsx_row({"'0,000", "'1,5", "'0,125"}) + xlsx_row({"'0,001", "2", "'-1,25e-1"});
+  EXPECT_THAT(xlsx_column(xlsx_book(name_row + commas), "current_A"), ElementsAre(1.5, 2));
+  EXPECT_THAT(xlsx_column(xlsx_book(name_row + commas), "position_mm"), ElementsAre(0.125, -0.125));
+  EXPECT_THAT(xlsx_column(xlsx_book(name_row + commas), "time_s"), ElementsAre(0, 0.001));
+  const std::string later = xlsx_row({"0", "'1,234", "0"}) + xlsx_row({"1", "'1,23", "0"});
+  EXPECT_THAT(xlsx_column(xlsx_book(name_row + later), "current_A"), ElementsAre(1.234, 1.23));
+}
+
+TEST(XlsxTable, ACommaThatMayGroupThousandsIsRefused) {
+  const auto refused = [](const std::string& rows) {
+    return refusal([&] { (void)xlsx_column(xlsx_book(name_row + rows), "current_A"); });
+  };
+  EXPECT_THAT(refused(xlsx_row({"0", "'1,234", "0"}) + xlsx_row({"1", "'2,500", "0"})),
+              HasSubstr("'Sheet1'!B2: '1,234' is text that may be 1.234 or 1234; write numbers"));
+  EXPECT_THAT(refused(xlsx_row({"0", "'1,5", "0"}) + xlsx_row({"1", "'2.5", "0"})),
+              HasSubstr("'Sheet1'!B3: '2.5' has a decimal point, where text above has a decimal comma"));
+  EXPECT_THAT(refused(xlsx_row({"0", "'1.5", "0"}) + xlsx_row({"1", "'1.234,5", "0"})),
+              HasSubstr("'Sheet1'!B3: '1.234,5' is not a number"));
+}
+
+TEST(XlsxTable, NamedColumnsWithoutNumbersTakeNoRoom) {
+  std::vector<std::string> names{"'time_s", "'current_A", "'position_mm"};
+  for (int k = 3; k < 16384; ++k) names.push_back("'c" + std::to_string(k));
+  std::string rows = xlsx_row(names);
+  for (int k = 0; k < 400; ++k) rows += xlsx_row({std::to_string(k), "1.5", "0.2"});
+  EXPECT_THAT(xlsx_column(xlsx_book(rows), "current_A"), Each(1.5));
 }
 
 TEST(XlsxTable, TellsWhatASheetWithoutATableLacks) {
@@ -270,7 +310,7 @@ TEST(XlsxTable, RefusesBombs) {
               HasSubstr("unpacks to more than 16 MiB and 200 times its size"));
   std::string rows = "<row>";
   for (int k = 0; k < 4000; ++k) rows += "<c t=\"inlineStr\"><is><t>x</t></is></c>";
-  rows += "</row>";
+  rows += "</row>" + xlsx_row(std::vector<std::string>(4000, "1"));
   for (int k = 0; k < 600; ++k) rows += xlsx_row({"0", "1", "2"});
   EXPECT_THAT(xlsx_refused(xlsx_book(rows)), HasSubstr("MiB of numbers in a file of"));
 }
