@@ -17,13 +17,6 @@ constexpr std::size_t block_bytes = std::size_t{256} << 10;
 constexpr std::size_t longest_line = std::size_t{4} << 20;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-std::string shortened(std::string_view text) {
-  constexpr std::size_t shown = 40;
-  std::string out;
-  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  return text.size() > shown ? out + "..." : out;
-}
-
 }  // namespace
 
 CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginning, Text text)

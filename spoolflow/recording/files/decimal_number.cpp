@@ -130,4 +130,11 @@ bool is_number(std::string_view text) {
   return read_number(text, '.', value) == Digits::number || read_number(text, ',', value) == Digits::number;
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t shown = 40;
+  std::string out;
+  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  return text.size() > shown ? out + "..." : out;
+}
+
 }  // namespace spoolflow::recording

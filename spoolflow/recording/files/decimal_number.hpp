@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "spoolflow/recording/files/eight_bytes.hpp"
@@ -24,6 +25,9 @@ enum class Digits : std::uint8_t {
 
 /// Whether it is one, by point or comma.
 [[nodiscard]] bool is_number(std::string_view text);
+
+/// The beginning of a cell's text, for a message.
+[[nodiscard]] std::string shortened(std::string_view text);
 
 /// 10^k, all of which a double holds exactly.
 inline constexpr std::array<double, 23> exact_powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,

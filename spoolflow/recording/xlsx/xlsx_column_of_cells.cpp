@@ -8,16 +8,6 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 
 namespace spoolflow::recording {
-namespace {
-
-std::string shortened(std::string_view text) {
-  constexpr std::size_t shown = 40;
-  std::string out;
-  for (const char c : text.substr(0, shown)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  return text.size() > shown ? out + "..." : out;
-}
-
-}  // namespace
 
 double XlsxColumnOfCells::value(const XlsxCell& cell, std::uint64_t row) {
   if (cell.kind == XlsxCell::Kind::number) return number(cell, row, cell.number);
