@@ -189,7 +189,8 @@ template <class T>
                                                           const PositionSensor<T>& sensor,
                                                           const PositionPoint<T>& position, T apparent_N,
                                                           Mask<T> creeps, T time_step_s) {
-  in_valves(position.turn.closed, state, [&] { state.slack_m = gauge_slack_m(position.noise_m, time_step_s); });
+  in_valves(position.turn.closed, state,
+            [&] { state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s); });
   const T slack_m = state.slack_m;
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;

@@ -33,7 +33,7 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
       select(is_oil_temperature(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.oil_fault_s = T(0);
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
-  sensor::begin(valve.position_sensor, state.position, position_m);
+  sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
   sensor::begin(valve.pressure, state.pressure, valve.edge.highest_pressure_difference_Pa(),

@@ -33,11 +33,12 @@ inline constexpr double slip_settling_s = 0.03;
 /// what the hardest acceleration allows.
 inline constexpr double credible_jump_deviations = 20;
 inline constexpr double credible_jump_m = 20e-6;
-/// The noise is the calibrated one, or that which the signal has, where it is more by this factor: the spool's motion
-/// adds a little to it, too.
-inline constexpr double position_noise_excess = 1.12;
-/// What the signal has is followed by this share of the calibrated noise in each block: in a second or so.
-inline constexpr double position_noise_follow_share = 0.004;
+/// The noise is the calibrated one, or that which the signal has over this factor, where that is more: motion, as long
+/// as it lasts, adds to it, too.
+inline constexpr double position_noise_excess = 1.2;
+/// What the signal has is followed by this share of the calibrated noise in each block: in seconds, longer than a spool
+/// is under way.
+inline constexpr double position_noise_follow_share = 0.001;
 /// An armature that moves changes current or voltage of its coil, by more than this share of the largest current, and
 /// of the voltage that holds it: where neither changed, ...
 inline constexpr double quiet_current_share = 0.005;
@@ -85,11 +86,11 @@ using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
 inline constexpr int position_blocks = 32;  ///< of means over four blocks, for the long windows
 inline constexpr int short_blocks = 8;      ///< of means over one, for the short ones
 
-/// The noise of the signal.
+/// The noise of the signal, over the calibrated one.
 template <class T>
 struct PositionNoise {
-  T median_m{};     ///< of the size of second differences
-  T deviation_m{};  ///< standard deviation of one sample: as calibrated, or what the median tells where that is more
+  T median{};  ///< of the size of second differences
+  T times{};   ///< standard deviation of one sample: 1, or what the median tells where that is more
 };
 
 /// Trivially copyable memory of a track. The rings hold means over blocks of some milliseconds, newest at `newest`;
@@ -144,7 +145,7 @@ struct PositionPoint {
   T acceleration_m_per_s2{};
   T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
   T block_s{};      ///< length of the last block
-  T noise_m{};      ///< standard deviation of one sample, as calibrated or as learnt
+  T noise_times{};  ///< the signal's noise over the calibrated one, >= 1
   Turn<T> turn{};
 };
 

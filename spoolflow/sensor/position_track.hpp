@@ -110,18 +110,17 @@ template <class T>
 /// its second differences, in size, are larger than their median: it goes up with each that is, and down with every
 /// other.
 template <class T>
-constexpr void follow_noise(const PositionSensor<T>& sensor, PositionState<T>& state, T second_difference_m) {
+constexpr void follow_noise(const PositionSensor<T>& sensor, PositionNoise<T>& noise, T second_difference_m) {
   constexpr double of_white_noise = 1.6521;  // their median, 0.6745 sqrt(6) standard deviations
-  const T step_m = T(position_noise_follow_share) * sensor.noise_m;
-  state.noise.median_m += select(second_difference_m > state.noise.median_m, step_m, -step_m);
-  state.noise.deviation_m =
-      larger(sensor.noise_m, state.noise.median_m * T(1 / (of_white_noise * position_noise_excess)));
+  const Mask<T> larger_than_half = second_difference_m > noise.median * sensor.noise_m;
+  noise.median += select(larger_than_half, T(position_noise_follow_share), T(-position_noise_follow_share));
+  noise.times = larger(T(1), noise.median * T(1 / (of_white_noise * position_noise_excess)));
 }
 
 /// What the spool does, after each block.
 template <class T>
-[[gnu::always_inline]] constexpr void tell_motion(PositionState<T>& state) {
-  const T noise_m = state.noise.deviation_m * sqrt(T(2) * state.per_block_samples);
+[[gnu::always_inline]] constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
+  const T noise_m = state.noise.times * sensor.noise_m * sqrt(T(2) * state.per_block_samples);
   const MotionOf<T> motion = even_motion(state, noise_m);
   const Mask<T> even = !is(motion, Motion::rest);
   const Mask<T> uneven = !even && state.blocks > short_window_blocks;
@@ -189,7 +188,7 @@ constexpr T outlast_fault(PositionState<T>& state, Mask<T> faulty, T position_m,
 template <class T>
 [[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
-  const T noise_m = T(credible_jump_deviations) * state.noise.deviation_m + T(credible_jump_m);
+  const T noise_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m);
   const T change_m = position_m - state.offset_m - state.last_m;
   const Mask<T> unusual = magnitude(change_m - state.step_m) > noise_m;
   if (any(unusual)) {
@@ -209,9 +208,8 @@ template <class T>
 
 /// To be called before the first sample, with its drift-free position, and where time has leapt.
 template <class T>
-constexpr void begin(const PositionSensor<T>& sensor, PositionState<T>& state, T position_m) {
-  state.noise.deviation_m = sensor.noise_m;
-  state.noise.median_m = T(0);
+constexpr void begin(PositionState<T>& state, T position_m) {
+  state.noise = {T(0), T(1)};
   state.last_m = position_m;
   state.sum_m = state.sum_s = state.step_m = state.offset_m = state.unsettled_s = state.velocity_m_per_s = T(0);
   state.acceleration_m_per_s2 = T(0);
@@ -260,9 +258,9 @@ template <class T>
   const Mask<T> closed = whole && (dither.begins || !trembles);
   in_valves(
       closed, state, [&]() __attribute__((always_inline)) {
-        detail::follow_noise(sensor, state, magnitude(state.step_m - step_before_m));
+        detail::follow_noise(sensor, state.noise, magnitude(state.step_m - step_before_m));
         detail::close_block(state);
-        detail::tell_motion(state);
+        detail::tell_motion(sensor, state);
       });
   const Turn<T> turn = detail::turn_of(state, closed, due);
   return {position_m,
@@ -273,7 +271,7 @@ template <class T>
           state.acceleration_m_per_s2,
           position_m + state.elsewhere_m,
           state.block_s,
-          state.noise.deviation_m,
+          state.noise.times,
           turn};
 }
 

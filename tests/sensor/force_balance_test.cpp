@@ -21,7 +21,7 @@ void balance_along(const Course& course, double step_s, double wrong_Pa, const E
     state.oil_temperature_K = now.truth.oil_temperature_K;
     state.pressure.pressure_difference_Pa = now.truth.pressure_difference_Pa + wrong_Pa;
     state.pressure.friction_ratio = 1;
-    if (begins) begin(parameters.position_sensor, state.position, now.measured.position_m);
+    if (begins) begin(state.position, now.measured.position_m);
     const Dither<double> dither =
         follow_dither(state.dither, now.measured.current_A, parameters.largest_current_A, step_s);
     const PositionPoint<double> position = track(parameters.position_sensor, state.position, now.measured, {},

@@ -32,7 +32,7 @@ class Friction : public testing::TestWithParam<double> {
     PositionPoint<double> point{dragged_m_ + noise_times * noise_(generator_), motion, false, direction * 1e-6};
     point.turn.closed = true;  // a block of one sample
     point.block_s = GetParam();
-    point.noise_m = learnt_times * fine_lvdt.noise_m;
+    point.noise_times = learnt_times;
     return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, GetParam());
   }
   /// Slides, opening or closing, then stops at 1 mm.

@@ -29,7 +29,7 @@ class PositionTrack : public testing::TestWithParam<double> {
     std::mt19937 generator(3);
     std::normal_distribution<double> noise_m(0, signal_of_lvdt.noise_m);
     PositionState<double> state{};
-    begin(signal_of_lvdt, state, course(0));
+    begin(state, course(0));
     for (int k = 0; k * step_s() < duration_s; ++k) {
       const double time_s = k * step_s();
       Sample<double> sample{};

@@ -238,7 +238,7 @@ struct MaskPlaces {
     } else if constexpr (requires { Member::answers_are_bits; }) {
       holds[at * registers / sizeof(State)] = Member::answers_are_bits;
     } else if constexpr (numerics::Structure<Member>) {
-      numerics::for_each_member(member, [this](auto& part) { look_at(part); });
+      numerics::for_each_member(member, [this](auto& part) { this->look_at(part); });
     }
     at = begun + sizeof(Member);
   }

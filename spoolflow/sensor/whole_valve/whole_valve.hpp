@@ -50,7 +50,7 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   state.opens_a = sample.position_m < T(0);
   const Sides<T> now = sides(valve, state.opens_a);
   begin(now.open, state.open, sample_of(sample, state.opens_a));
-  sensor::begin(valve.b->position_sensor, state.open.position,
+  sensor::begin(state.open.position,
                 drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil_temperature_K));
   sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.edge.highest_pressure_difference_Pa(),
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
