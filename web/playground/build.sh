@@ -16,6 +16,7 @@ export NODE_PATH="${NODE_PATH:-}${NODE_PATH:+:}/usr/share/nodejs"
 toolchain=$(dirname "$(readlink -f "$(command -v emcc)")")/cmake/Modules/Platform/Emscripten.cmake
 [ -e "$toolchain" ] || toolchain=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
 mkdir -p "$work" "$out"
+out=$(cd "$out" && pwd)
 cmake -S "$here" -B "$work/program" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$toolchain" -DCMAKE_BUILD_TYPE=None >"$work/configure.log"
 ninja -C "$work/program" playground
 ninja -C "$work/program" -t deps >"$work/program/deps.txt"

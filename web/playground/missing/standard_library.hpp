@@ -137,6 +137,15 @@ template <class Range, class Compare = less, class Projection = identity>
 auto max(Range&& range, Compare compare = {}, Projection projection = {}) {
   return *ranges::max_element(range, compare, projection);
 }
+template <class Value>
+struct min_max_result {
+  Value min, max;
+};
+template <class Range>
+auto minmax(Range&& range) {
+  const auto [least, most] = std::minmax_element(ranges::begin(range), ranges::end(range));
+  return min_max_result<std::decay_t<decltype(*least)>>{*least, *most};
+}
 template <class Range, class Out, class Function, class Projection = identity>
 void transform(Range&& range, Out out, Function function, Projection projection = {}) {
   std::transform(ranges::begin(range), ranges::end(range), out,
