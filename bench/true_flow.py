@@ -71,4 +71,5 @@ def main(arguments):
               f"{observer[0]:.2f} / {observer[1]:.1f} | {observer[2]:.1f} % | {observer[3]:.1f} |", flush=True)
 
 
-main(sys.argv[1:])
+if __name__ == "__main__":
+    main(sys.argv[1:])

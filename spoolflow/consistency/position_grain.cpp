@@ -1,8 +1,10 @@
 #include "spoolflow/consistency/position_grain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "spoolflow/numerics/median.hpp"
 
@@ -14,6 +16,25 @@ constexpr double slowest_step_s = 0.005;
 constexpr std::size_t fewest_samples = 500;
 constexpr std::size_t most_stretches = 10'000;  // so many tell enough of the longest run
 constexpr double no_change_m = 1e-10;           // rounding of numbers
+
+/// White noise leaves differences of fourth order alike by chance only from the fifth sample on; dither and a position
+/// loop that hunts leave them alike one period later.
+constexpr std::size_t first_lag = 5, last_lag = 64, samples_for_period = 1024;
+constexpr double alike_by_chance = 0.5;
+constexpr double striking_ratio = 1.5;  // noise of one stretch over the least of those before
+
+/// Whether signs come again after some lag: mean of their products.
+bool is_periodic(std::span<const double> differences_m) {
+  const std::size_t count = std::min(differences_m.size(), samples_for_period);
+  std::array<std::int8_t, samples_for_period> sign{};
+  for (std::size_t k = 0; k < count; ++k) sign[k] = differences_m[k] < 0 ? -1 : 1;
+  for (std::size_t lag = first_lag; lag <= last_lag && lag + samples_for_period / 4 < count; ++lag) {
+    int alike = 0;
+    for (std::size_t k = lag; k < count; ++k) alike += sign[k] * sign[k - lag];
+    if (alike > alike_by_chance * static_cast<double>(count - lag)) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -51,18 +72,25 @@ double PositionGrain::lower_quartile() {
   return *quarter;
 }
 
-/// By the lower quartile of the differences' sizes: slips of the spool fill the upper ones where samples are slow.
+/// By the lower quartile of the differences' sizes: slips of the spool fill the upper ones where samples are slow. A
+/// stretch in which dither shakes the spool tells nothing of noise; asked only where there is more of it than before.
 void PositionGrain::judge_stretch() {
   if (stretch_.size() >= fewest_samples && noise_m_.size() < most_stretches) {
+    differences_.clear();
     fourth_.clear();
     for (std::size_t k = 4; k < stretch_.size(); ++k) {
       const double* const x = &stretch_[k - 4];
-      fourth_.push_back(std::abs(x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]));
+      differences_.push_back(x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]);
+      fourth_.push_back(std::abs(differences_.back()));
     }
     const double noise_gain = std::sqrt(1.0 + 16 + 36 + 16 + 1);
     constexpr double quartile_deviations = 0.318639;  // a quarter of all lie so near to a normal distribution's mean
     quartile_m_ = lower_quartile();
-    noise_m_.push_back(quartile_m_ / (quartile_deviations * noise_gain));
+    const double noise_m = quartile_m_ / (quartile_deviations * noise_gain);
+    if (!(noise_m > striking_ratio * least_noise_m_) || !is_periodic(differences_)) {
+      noise_m_.push_back(noise_m);
+      least_noise_m_ = noise_m_.size() == 1 ? noise_m : std::min(least_noise_m_, noise_m);
+    }
   }
   stretch_.erase(stretch_.begin(), stretch_.end() - 1);
 }

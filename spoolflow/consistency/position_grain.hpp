@@ -12,8 +12,8 @@ class PositionGrain {
   void take(std::span<const double> time_s, std::span<const double> position_m);
 
   /// Standard deviation of white noise [m], from differences of fourth order, to which a spool's motion adds nearly
-  /// nothing; half of the stretches of the run have less. NaN where there are fewer than some 500 samples, or they are
-  /// more than 5 ms apart, in which a spool slips further.
+  /// nothing; of the stretches of the run that are not shaken by dither, half have less. NaN where there are fewer than
+  /// some 500 samples of such, or they are more than 5 ms apart, in which a spool slips further.
   [[nodiscard]] double noise_m() const;
   /// The smallest change from sample to sample but none [m]; 0 where nothing ever changes.
   [[nodiscard]] double step_m() const;
@@ -24,8 +24,9 @@ class PositionGrain {
 
   std::vector<double> stretch_;        ///< samples of which nothing is known yet
   std::vector<double> noise_m_;        ///< of each stretch
-  std::vector<double> fourth_, near_;  ///< memory
-  double quartile_m_ = 0;              ///< of the last stretch
+  std::vector<double> differences_, fourth_, near_;  ///< memory
+  double quartile_m_ = 0;                            ///< of the last stretch
+  double least_noise_m_ = 0;                         ///< of all stretches
   double least_change_m_ = 0;
   double first_s_ = 0, last_s_ = 0;
   std::uint64_t samples_ = 0;

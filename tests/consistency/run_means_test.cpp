@@ -1,8 +1,11 @@
 /// What of a run is kept while it streams by: means, gaps, the grain of its position.
 #include "spoolflow/consistency/run_means.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -63,6 +66,24 @@ TEST(PositionGrain, IsTheNoiseOfASpoolInMotionAndAtRest) {
   EXPECT_NEAR(grain.noise_m(), 2e-6, 0.1e-6);
   EXPECT_TRUE(std::isnan(PositionGrain().noise_m()));
   EXPECT_EQ(PositionGrain().step_m(), 0);
+}
+
+TEST(PositionGrain, IsNotTheSpoolsMotionUnderDither) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 0.3e-6);
+  std::vector<double> time_s, position_m;
+  for (int k = 0; k < 30000; ++k) {
+    time_s.push_back(1e-3 * k);
+    const double swing = 4 * std::sin(2 * std::numbers::pi * 110 * time_s.back());
+    const bool shaken = k < 24000;  // 25 um peak to peak, nearly rectangular, as dither moves a light spool
+    position_m.push_back(0.7e-3 + (shaken ? 12.5e-6 * std::clamp(swing, -1.0, 1.0) : 0) + noise(random));
+  }
+  PositionGrain grain;
+  grain.take(time_s, position_m);
+  EXPECT_NEAR(grain.noise_m(), 0.3e-6, 0.03e-6);
+  PositionGrain always_shaken;
+  always_shaken.take(std::span(time_s).first(20000), std::span(position_m).first(20000));
+  EXPECT_TRUE(std::isnan(always_shaken.noise_m()));
 }
 
 }  // namespace
