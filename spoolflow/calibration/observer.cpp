@@ -162,7 +162,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .flow_residual_m3_per_s = together(fits.axial.path, &AxialForceFit::flow_residual).rms(),
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
-              .unseen_factor = 1.75};
+              .unseen_factor = 2.4};
   out.inlet = fits.axial.inlet;
   out.unsettled_load_share = fits.axial.equal_flows ? 0 : unsettled_cylinder_share;
   out.moving_mass_kg = assumed_moving_mass_kg;

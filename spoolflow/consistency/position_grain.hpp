@@ -22,8 +22,8 @@ class PositionGrain {
   void judge_stretch();
   double lower_quartile();
 
-  std::vector<double> stretch_;        ///< samples of which nothing is known yet
-  std::vector<double> noise_m_;        ///< of each stretch
+  std::vector<double> stretch_;                      ///< samples of which nothing is known yet
+  std::vector<double> noise_m_;                      ///< of each stretch
   std::vector<double> differences_, fourth_, near_;  ///< memory
   double quartile_m_ = 0;                            ///< of the last stretch
   double least_noise_m_ = 0;                         ///< of all stretches

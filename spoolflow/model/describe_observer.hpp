@@ -152,7 +152,7 @@ void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
                   .unit = "m",
                   .limits = {0, 1e-3},
                   .meaning = "half width of what the spool may creep unseen",
-                  .evidence = "temperature_sweep: p95 0.45, 0.27, 0.29 % FS, band 94.2, 97.1, 96.3 %"},
+                  .evidence = "temperature_sweep: p95 0.47, 0.28, 0.28 % FS, band 94.0, 97.1, 96.7 %"},
                  sensor.backlash_m);
   visitor.number({.key = "position_drift_m_per_K",
                   .unit = "m/K",
@@ -168,7 +168,7 @@ void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
                   .unit = "m/s2",
                   .limits = {1e-3, 1e5},
                   .meaning = "no spool accelerates harder: a jump of the position beyond it is a fault of the signal",
-                  .evidence = "ramp_60bar: p95 0.34, 0.28, 0.28 % FS, band 96.5, 97.8, 97.8 %"},
+                  .evidence = "ramps_30_to_70bar: p95 0.34, 0.32, 0.32 % FS, band 95.0, 95.7, 95.7 %"},
                  sensor.hardest_acceleration_m_per_s2);
 }
 
@@ -178,32 +178,32 @@ void describe_friction(Friction& friction, Visitor& visitor) {
                   .unit = "1",
                   .limits = {1, 20},
                   .meaning = "the spool's friction after a long rest over its sliding friction",
-                  .evidence = "temperature_sweep: p95 1.11, 0.27, 1.68 % FS, band 63.9, 97.1, 61.6 %"},
+                  .evidence = "temperature_sweep: p95 1.12, 0.28, 1.68 % FS, band 65.3, 97.1, 64.1 %"},
                  friction.ageing_ratio);
   visitor.number({.key = "friction_ageing_s",
                   .unit = "s",
                   .limits = {1e-4, 1e4},
                   .meaning = "time constant of that growth",
-                  .evidence = "temperature_sweep: p95 0.88, 0.27, 0.79 % FS, band 72.7, 97.1, 76.8 %"},
+                  .evidence = "ramps_30_to_70bar: p95 0.96, 0.32, 0.65 % FS, band 72.3, 95.7, 83.9 %"},
                  friction.ageing_s);
   visitor.number({.key = "contact_stiffness_N_per_m",
                   .unit = "N/m",
                   .limits = {0, 1e10},
                   .meaning = "stiffness of the contacts in pre-sliding",
-                  .evidence = "temperature_sweep: p95 0.53, 0.27, 0.47 % FS, band 93.5, 97.1, 92.3 %"},
+                  .evidence = "temperature_sweep: p95 0.56, 0.28, 0.46 % FS, band 93.3, 97.1, 93.3 %"},
                  friction.contact_stiffness_N_per_m);
   visitor.number({.key = "friction_tolerance_N",
                   .unit = "N",
                   .limits = {1e-6, 1e4},
                   .meaning = "standard deviation of friction at rest about what the pre-sliding displacement tells, "
                              "where pressure difference and friction share a force that does not fit",
-                  .evidence = "temperature_sweep: p95 0.43, 0.27, 0.29 % FS, band 92.9, 97.1, 96.1 %"},
+                  .evidence = "temperature_sweep: p95 0.46, 0.28, 0.29 % FS, band 92.0, 97.1, 96.4 %"},
                  friction.tolerance_N);
   visitor.number({.key = "breakaway_share",
                   .unit = "1",
                   .limits = {0, 10},
                   .meaning = "standard deviation of the break-away force about ageing, as a share of it",
-                  .evidence = "ramps_30_to_70bar: p95 0.37, 0.33, 0.32 % FS, band 92.4, 95.1, 96.0 %"},
+                  .evidence = "ramps_30_to_70bar: p95 0.36, 0.32, 0.32 % FS, band 93.1, 95.7, 96.1 %"},
                  friction.breakaway_share);
   visitor.number({.key = "operation_friction_ratio",
                   .unit = "1",
@@ -218,52 +218,52 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
                   .unit = "Pa/s(1/2)",
                   .limits = {0, 1e9},
                   .meaning = "random walk of the pressure difference while the spool slides",
-                  .evidence = "temperature_sweep: p95 0.26, 0.27, 0.59 % FS, band 98.2, 97.1, 96.7 %"},
+                  .evidence = "temperature_sweep: p95 0.27, 0.28, 0.61 % FS, band 98.2, 97.1, 97.3 %"},
                  pressure.sliding_drift_Pa_per_sqrt_s);
   visitor.number({.key = "resting_drift_Pa_per_sqrt_s",
                   .unit = "Pa/s(1/2)",
                   .limits = {0, 1e9},
                   .meaning = "random walk of the pressure difference while the spool rests",
-                  .evidence = "duty_cycle_1: p95 3.71, 3.29, 3.22 % FS, band 90.7, 94.8, 95.5 %"},
+                  .evidence = "duty_cycle_1: p95 3.61, 3.31, 3.22 % FS, band 93.7, 96.8, 96.9 %"},
                  pressure.resting_drift_Pa_per_sqrt_s);
   visitor.number({.key = "least_liveliness",
                   .unit = "1",
                   .limits = {1e-6, 1},
                   .meaning = "process noise where the supply has proved steady, as a share of that walk",
                   .relation = not_above("first_liveliness"),
-                  .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.33 % FS, band 95.2, 95.1, 94.8 %"},
+                  .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.32 % FS, band 95.5, 95.7, 95.5 %"},
                  pressure.least_process_noise);
   visitor.number(
       {.key = "first_liveliness",
        .unit = "1",
        .limits = {1e-6, 1},
        .meaning = "process noise of a supply of which nothing is known yet, as a share of that walk's variance",
-       .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.33 % FS, band 95.0, 95.1, 95.4 %"},
+       .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.32 % FS, band 95.2, 95.7, 95.8 %"},
       pressure.first_process_noise);
   visitor.number({.key = "force_correlation_s",
                   .unit = "s",
                   .limits = {1e-6, 10},
                   .meaning = "for how long errors of the forces stay alike: samples within are no new evidence",
-                  .evidence = "temperature_sweep: p95 0.28, 0.27, 0.41 % FS, band 95.5, 97.1, 97.6 %"},
+                  .evidence = "temperature_sweep: p95 0.29, 0.28, 0.40 % FS, band 95.5, 97.1, 97.9 %"},
                  pressure.force_correlation_s);
   visitor.number({.key = "friction_ratio_deviation",
                   .unit = "1",
                   .limits = {1e-3, 2},
                   .meaning = "standard deviation of the friction ratio at any time",
-                  .evidence = "ramp_60bar_dither: p95 0.31, 0.32, 0.43 % FS, band 98.6, 98.3, 86.7 %"},
+                  .evidence = "ramp_60bar_dither: p95 0.31, 0.33, 0.50 % FS, band 98.7, 98.5, 82.6 %"},
                  pressure.ratio_deviation);
   visitor.number({.key = "friction_ratio_memory_s",
                   .unit = "s",
                   .limits = {1e-3, 1e6},
                   .meaning = "time of sliding in which the friction ratio forgets what it has learnt",
-                  .evidence = "temperature_sweep: p95 0.27, 0.27, 0.28 % FS, band 97.3, 97.1, 97.0 %"},
+                  .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.34 % FS, band 95.6, 95.7, 95.0 %"},
                  pressure.ratio_memory_s);
   visitor.number(
       {.key = "yielding_s",
        .unit = "s",
        .limits = {1e-5, 1e3},
        .meaning = "how fast the pressure difference gives way to a force that resting friction cannot explain",
-       .evidence = "duty_cycle_1: p95 3.24, 3.29, 3.60 % FS, band 94.9, 94.8, 94.3 %"},
+       .evidence = "motor_load: p95 2.69, 2.89, 3.14 % FS, band 98.0, 97.9, 97.7 %"},
       pressure.yielding_s);
 }
 
@@ -306,7 +306,7 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
                   .unit = "kg",
                   .limits = {1e-3, 100},
                   .meaning = "spool, push rod and armature together",
-                  .evidence = "orifice_duty_dither: p95 1.03, 0.94, 0.85 % FS, band 95.2, 97.3, 98.3 %",
+                  .evidence = "orifice_duty_dither: p95 1.02, 0.92, 0.87 % FS, band 96.5, 98.2, 99.1 %",
                   .otherwise = 0.11},
                  parameters.moving_mass_kg);
   visitor.number(

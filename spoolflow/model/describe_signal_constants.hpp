@@ -69,29 +69,29 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "block_length_s",
                     .unit = "s",
                     .meaning = "length of the blocks over which the position is averaged",
-                    .evidence = "ramp_60bar: p95 15.06, 0.28, 0.40 % FS, band 79.7, 97.8, 98.5 %"},
+                    .evidence = "ramp_60bar: p95 14.93, 0.30, 0.44 % FS, band 82.7, 97.7, 98.5 %"},
                    sensor::block_length_s);
   visitor.constant(
       {.name = "short_window_deviations",
        .unit = "1",
        .meaning = "standard deviations of the noise beyond which short windows must travel for the spool to slide",
-       .evidence = "orifice_duty_dither: p95 0.94, 0.94, 0.87 % FS, band 97.0, 97.3, 96.2 %"},
+       .evidence = "orifice_duty_dither: p95 0.93, 0.92, 0.86 % FS, band 98.1, 98.2, 97.4 %"},
       sensor::short_window_deviations);
   visitor.constant({.name = "long_window_deviations",
                     .unit = "1",
                     .meaning = "the same of long windows, for a spool that creeps",
-                    .evidence = "ramp_60bar: p95 0.33, 0.28, 15.61 % FS, band 94.9, 97.8, 76.5 %"},
+                    .evidence = "ramp_60bar: p95 0.34, 0.30, 15.46 % FS, band 95.0, 97.7, 77.3 %"},
                    sensor::long_window_deviations);
   visitor.constant({.name = "even_travel_ratio",
                     .unit = "1",
                     .meaning = "windows travel evenly where the longest is no more than so many times the shortest",
-                    .evidence = "fast_10kHz: p95 3.29, 2.37, 1.99 % FS, band 92.7, 93.7, 94.5 %"},
+                    .evidence = "fast_10kHz: p95 3.25, 2.36, 1.97 % FS, band 94.2, 95.0, 95.5 %"},
                    sensor::even_travel_ratio);
   visitor.constant(
       {.name = "slowing_travel_ratio",
        .unit = "1",
        .meaning = "a spool whose newest window travels less than one over this of the others is about to stop",
-       .evidence = "duty_cycle_1: p95 3.91, 3.29, 3.31 % FS, band 88.5, 94.8, 95.1 %"},
+       .evidence = "fast_10kHz: p95 3.57, 2.36, 2.38 % FS, band 96.1, 95.0, 94.8 %"},
       sensor::slowing_travel_ratio);
   visitor.constant({.name = "longest_tremble_block_s",
                     .unit = "s",
@@ -106,33 +106,33 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "velocity_smoothing_s",
                     .unit = "s",
                     .meaning = "smoothing of the velocity",
-                    .evidence = "orifice_duty_dither: p95 0.89, 0.94, 1.00 % FS, band 97.6, 97.3, 96.6 %"},
+                    .evidence = "orifice_duty_dither: p95 0.88, 0.92, 0.97 % FS, band 98.4, 98.2, 97.5 %"},
                    sensor::velocity_smoothing_s);
   visitor.constant({.name = "slip_speed_m_per_s",
                     .unit = "m/s",
                     .meaning = "a slip is faster than this",
-                    .evidence = "fast_10kHz: p95 2.35, 2.37, 2.32 % FS, band 93.8, 93.7, 93.6 %"},
+                    .evidence = "fast_10kHz: p95 2.34, 2.36, 2.31 % FS, band 95.0, 95.0, 94.9 %"},
                    sensor::slip_speed_m_per_s);
   visitor.constant({.name = "slip_deviations",
                     .unit = "1",
                     .meaning = "standard deviations of the noise beyond which a slip moves",
-                    .evidence = "temperature_sweep: p95 2.51, 0.27, 0.27 % FS, band 56.6, 97.1, 97.1 %"},
+                    .evidence = "temperature_sweep: p95 2.38, 0.28, 0.28 % FS, band 59.4, 97.1, 97.1 %"},
                    sensor::slip_deviations);
   visitor.constant({.name = "slip_settling_s",
                     .unit = "s",
                     .meaning = "how long friction and inertia are in motion after a slip",
-                    .evidence = "ramps_30_to_70bar: p95 0.34, 0.33, 0.32 % FS, band 94.1, 95.1, 95.9 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.31 % FS, band 94.8, 95.7, 96.2 %"},
                    sensor::slip_settling_s);
   visitor.constant(
       {.name = "credible_jump_deviations",
        .unit = "1",
        .meaning = "standard deviations of the noise up to which a change of the position signal is credible",
-       .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
+       .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 95.7, 95.7, 95.1 %"},
       sensor::credible_jump_deviations);
   visitor.constant({.name = "credible_jump_m",
                     .unit = "m",
                     .meaning = "and so much more",
-                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 95.7, 95.7, 95.1 %"},
                    sensor::credible_jump_m);
   visitor.constant(
       {.name = "position_noise_excess",
@@ -157,7 +157,7 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant({.name = "quiet_jump_m",
                     .unit = "m",
                     .meaning = "no acceleration is credible for more than this where neither changed",
-                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.33, 0.34 % FS, band 95.1, 95.1, 94.7 %"},
+                    .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 95.7, 95.7, 95.1 %"},
                    sensor::quiet_jump_m);
   visitor.constant({.name = "longest_position_fault_s",
                     .unit = "s",

@@ -136,7 +136,7 @@ bool named_time(const FileColumn& column) {
 std::string unit_of_time(const FileColumn& column) {
   const auto header = channel_header(column);
   if (header && !header->unit.empty()) return header->unit;
-  if (const std::string stated = stated_unit(column); !stated.empty()) return stated;
+  if (std::string stated = stated_unit(column); !stated.empty()) return stated;
   const std::size_t last = column.leaf.rfind('_');
   const std::string ending = last == std::string::npos ? "" : column.leaf.substr(last + 1);
   return is_time_unit(ending) ? ending : "";
