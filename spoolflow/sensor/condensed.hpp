@@ -145,8 +145,8 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   const Place<T> root = detail::find_root(closed, cells2, point.status);
   const auto by_root = onward(here, root.index * Layout::flow_cell);
   const auto [flow, flow_rise, flow_more, flow_more_rise] = four(by_root, Layout::flow);
+  const T begin_m3_per_s = line(flow, flow_rise);
   const T slope_m3_per_s = line(flow_more, flow_more_rise);
-  const T flow_m3_per_s = line(flow, flow_rise) + root.cells * slope_m3_per_s;
   const auto [pressure, pressure_rise, pressure_more, pressure_more_rise] =
       four(by_root, Layout::flow + Layout::root_pressure);
   const T root_pressure = line(pressure, pressure_rise) + root.cells * line(pressure_more, pressure_more_rise);
@@ -154,12 +154,12 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   // Band: what the forces' uncertainty means for the root, along the map's slope.
   const auto uncertain = four(here, Layout::uncertainty);
   const T uncertainty_cells2 = line(uncertain[0], uncertain[1]);
-  const T above = sqrt(cells2 + uncertainty_cells2) - root.cells;
-  const T below = root.cells - sqrt(at_least_zero(cells2 - uncertainty_cells2));
+  const T root_above = sqrt(cells2 + uncertainty_cells2);
+  const T root_below = sqrt(at_least_zero(cells2 - uncertainty_cells2));
 
-  out.flow_m3_per_s = flow_m3_per_s;
-  out.flow_lower_m3_per_s = flow_m3_per_s - valve.flow_residual_m3_per_s - below * slope_m3_per_s;
-  out.flow_upper_m3_per_s = flow_m3_per_s + valve.flow_residual_m3_per_s + above * slope_m3_per_s;
+  out.flow_m3_per_s = begin_m3_per_s + root.cells * slope_m3_per_s;
+  out.flow_lower_m3_per_s = begin_m3_per_s - valve.flow_residual_m3_per_s + root_below * slope_m3_per_s;
+  out.flow_upper_m3_per_s = begin_m3_per_s + valve.flow_residual_m3_per_s + root_above * slope_m3_per_s;
   out.pressure_difference_Pa = squared(root_pressure);
   out.magnetic_force_N = magnetic_force_N;
   out.spring_force_N = spring_force_N;

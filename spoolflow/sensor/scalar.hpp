@@ -89,6 +89,12 @@ inline double sqrt(double value) {
   return std::sqrt(value);
 }
 
+/// A float's bits as a number with a sign, which orders positive floats as they are. By way of the number without a
+/// sign that `within` compares: compilers then see that it is the same word, and fetch it once.
+constexpr std::int32_t signed_bits(float value) {
+  return static_cast<std::int32_t>(__builtin_bit_cast(std::uint32_t, value));
+}
+
 /// Whether 0 <= value < highest, where highest > 0.
 template <class T>
 constexpr Mask<T> within(T value, T highest) {
@@ -106,7 +112,7 @@ constexpr Mask<T> lies_below(T value, T limit) {
 }
 /// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
 constexpr bool lies_below(float value, float limit) {
-  return __builtin_bit_cast(std::int32_t, value) < __builtin_bit_cast(std::int32_t, limit);
+  return signed_bits(value) < signed_bits(limit);
 }
 
 /// Whether value > limit, where neither is above zero; NaN lies above nothing.
@@ -115,7 +121,7 @@ constexpr Mask<T> lies_above(T value, T limit) {
   return value > limit;
 }
 constexpr bool lies_above(float value, float limit) {
-  return __builtin_bit_cast(std::int32_t, value) < __builtin_bit_cast(std::int32_t, limit);
+  return signed_bits(value) < signed_bits(limit);
 }
 
 template <class T>
@@ -135,7 +141,7 @@ constexpr T at_least_zero(T value) {
 }
 /// The sign bit, spread over the word, takes all bits away: no comparison, no branch.
 constexpr float at_least_zero(float value) {
-  const auto bits = __builtin_bit_cast(std::int32_t, value);
+  const auto bits = signed_bits(value);
   return __builtin_bit_cast(float, bits & ~(bits >> 31));
 }
 
