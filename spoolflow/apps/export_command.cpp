@@ -33,7 +33,7 @@ struct ExportArguments {
   std::string kind;
   std::string model;
   std::string output;
-  std::string fmi = "2";
+  std::string fmi;        ///< "2", "3"; empty: 2
   std::string direction;  ///< empty: all that the model has
   std::string sensors;    ///< of parameters: "observer", "condensed"; empty: both
 };
@@ -123,19 +123,23 @@ void export_parameters(const ExportArguments& arguments) {
 void export_asked(const ExportArguments& arguments) {
   if (!arguments.sensors.empty() && arguments.kind != "parameters")
     throw std::invalid_argument(fmt::format("--sensors {}: of parameters alone; leave it away", arguments.sensors));
+  if (!arguments.fmi.empty() && arguments.kind != "fmu")
+    throw std::invalid_argument(fmt::format("--fmi {}: of FMUs alone; leave it away", arguments.fmi));
   if (arguments.kind == "fmu") return export_fmu(arguments);
   if (arguments.kind == "cpp") return export_cpp(arguments);
   export_parameters(arguments);
 }
 
-/// Whether a file is an image of parameters; standard input and pipes are not asked.
+/// Whether a file is an image of parameters, or would be one: what is named .bin, or holds nothing but what an erased
+/// flash does. Standard input and pipes are not asked.
 bool holds_image(const std::string& file) {
   std::error_code error;
   if (file == "-" || !std::filesystem::is_regular_file(file, error)) return false;
   std::ifstream in(file, std::ios::binary);
-  std::array<char, sizeof sensor::image_magic> beginning{};
+  std::array<char, sensor::image_header_bytes> beginning{};
   in.read(beginning.data(), beginning.size());
-  return exports::begins_as_image({beginning.data(), static_cast<std::size_t>(in.gcount())});
+  const std::string_view read(beginning.data(), static_cast<std::size_t>(in.gcount()));
+  return exports::begins_as_image(read) || fs::path(file).extension() == ".bin" || exports::is_erased(read);
 }
 
 template <std::size_t Room>
@@ -145,11 +149,14 @@ std::string field(const char (&text)[Room]) {
 
 void print_image(const std::string& file, const exports::ImageSummary& image) {
   const sensor::ImageHeader& header = image.header;
-  print("{}: parameters of {}, direction {}, for a flash page\n", file, field(header.valve_name),
-        field(header.direction));
-  print("layout version {}, header {} bytes, image {} bytes in a file of {}\n", header.layout_version,
-        header.header_bytes, header.total_bytes, image.file_bytes);
-  if (image.header_read) {
+  if (!image.header_read) {
+    print("{}: {} bytes, {}\n", file, image.file_bytes,
+          image.erased ? "an erased page" : "no parameters of this version");
+  } else {
+    print("{}: parameters of {}, direction {}, for a flash page\n", file, field(header.valve_name),
+          field(header.direction));
+    print("layout version {}, header {} bytes, image {} bytes in a file of {}\n", header.layout_version,
+          header.header_bytes, header.total_bytes, image.file_bytes);
     print("sensors: {}\n", exports::sensors_text(header));
     print("rated flow {:.5g} L/min, stroke {:.5g} mm\n",
           header.rated_flow_m3_per_s * units::litre_per_minute_per_m3_per_s,
@@ -170,9 +177,11 @@ void print_image(const std::string& file, const exports::ImageSummary& image) {
 
 void print_image_json(const exports::ImageSummary& image) {
   const sensor::ImageHeader& header = image.header;
-  print("{{\n \"format\": \"parameters\",\n \"accepted\": {},\n \"refusal\": {},\n \"refusal_text\": {},\n",
-        image.refusal == sensor::ImageRefusal::none, static_cast<unsigned>(image.refusal),
-        json_text(text_of(image.refusal)));
+  print(
+      "{{\n \"format\": \"parameters\",\n \"erased\": {},\n \"accepted\": {},\n \"refusal\": {},\n \"refusal_text\": "
+      "{},\n",
+      image.erased, image.refusal == sensor::ImageRefusal::none, static_cast<unsigned>(image.refusal),
+      json_text(text_of(image.refusal)));
   print(" \"valve\": {},\n \"direction\": {},\n \"layout_version\": {},\n \"image_bytes\": {},\n \"file_bytes\": {},\n",
         json_text(field(header.valve_name)), json_text(field(header.direction)), header.layout_version,
         header.total_bytes, image.file_bytes);
@@ -232,7 +241,7 @@ void add_export_command(CLI::App& program) {
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))
-      ->capture_default_str();
+      ->default_str("2");
   command
       ->add_option("--direction", arguments->direction,
                    "of a whole valve one direction alone: a (P to A) or b (P to B)")

@@ -19,13 +19,13 @@ constexpr double no_change_m = 1e-10;           // rounding of numbers
 
 /// White noise leaves differences of fourth order alike by chance only from the fifth sample on; dither and a position
 /// loop that hunts leave them alike one period later.
-constexpr std::size_t first_lag = 5, last_lag = 64, samples_for_period = 1024;
-constexpr double alike_by_chance = 0.5;
-constexpr double striking_ratio = 1.5;  // noise of one stretch over the least of those before
+constexpr std::size_t first_lag = 5, last_lag = 200, samples_for_period = 1024;
+constexpr double alike_by_chance = 0.3;  // of noise nowhere more than 0.2
+constexpr double striking_ratio = 1.5;   // noise of one stretch over the least of those before
 
-/// Whether signs come again after some lag: mean of their products.
-bool is_periodic(std::span<const double> differences_m) {
-  const std::size_t count = std::min(differences_m.size(), samples_for_period);
+/// Whether signs of one piece come again after some lag: mean of their products.
+bool comes_again(std::span<const double> differences_m) {
+  const std::size_t count = differences_m.size();
   std::array<std::int8_t, samples_for_period> sign{};
   for (std::size_t k = 0; k < count; ++k) sign[k] = differences_m[k] < 0 ? -1 : 1;
   for (std::size_t lag = first_lag; lag <= last_lag && lag + samples_for_period / 4 < count; ++lag) {
@@ -34,6 +34,13 @@ bool is_periodic(std::span<const double> differences_m) {
     if (alike > alike_by_chance * static_cast<double>(count - lag)) return true;
   }
   return false;
+}
+
+/// Whether any piece of a stretch does: a run may rest first, and dither move the spool for part of the time.
+bool is_periodic(std::span<const double> differences_m) {
+  for (; differences_m.size() > samples_for_period; differences_m = differences_m.subspan(samples_for_period))
+    if (comes_again(differences_m.first(samples_for_period))) return true;
+  return comes_again(differences_m);
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ class RunTrial {
       add_run_deviations(found, known.hydraulics, known.magnetics, part);
       std::erase_if(found, [](const Deviation& deviation) { return deviation.of == "travel"; });
       for (Deviation& deviation : found) {
+        if (deviation.of.ends_with(',')) deviation.of.pop_back();
         deviation.of += side > 0 ? ", P to B," : ", P to A,";
         out.push_back(std::move(deviation));
       }
@@ -151,13 +152,59 @@ void keep_better(std::optional<RunExplanation>& best, const RunTrial& trial, con
   if (!best || left < best->badness) best = RunExplanation{std::move(text), of_position, left, std::move(deviations)};
 }
 
+/// As the recording calls it, whose reference the relations take for the flow.
+std::string_view shown_name(Channel channel) {
+  return recording::name(channel == Channel::flow ? Channel::flow_reference : channel);
+}
+
+/// Two columns in each other's place. What stood in the second one's unit is read in the first one's.
+struct Swap {
+  Channel one, other;
+  double one_per_other = 1;  ///< SI of the first for the number that the second had, over SI of the second
+};
+
+void try_swaps(RunTrial& trial, const std::vector<Deviation>& before, std::optional<RunExplanation>& best) {
+  const double flow_per_pressure = units::m3_per_s_from_L_per_min(1) / units::Pa_from_bar(1);
+  const std::array<Swap, 6> swaps{{{Channel::current, Channel::voltage},
+                                   {Channel::current_a, Channel::current_b},
+                                   {Channel::voltage_a, Channel::voltage_b},
+                                   {Channel::position, Channel::current, units::m_from_mm(1)},
+                                   {Channel::flow, Channel::pressure_difference},
+                                   {Channel::flow, Channel::pressure_difference, flow_per_pressure}}};
+  for (const Swap& swap : swaps) {
+    if (!trial.run.has(swap.one) || !trial.run.has(swap.other)) continue;
+    std::vector<double>& one = trial.run.column(swap.one);
+    std::vector<double>& other = trial.run.column(swap.other);
+    const std::vector<double> kept_one = one, kept_other = other;
+    std::swap(one, other);
+    for (double& value : one) value *= swap.one_per_other;
+    for (double& value : other) value /= swap.one_per_other;
+    keep_better(
+        best, trial, before,
+        fmt::format("{} and {} look swapped: with each as the other", shown_name(swap.one), shown_name(swap.other)),
+        swap.one == Channel::position);
+    one = kept_one;
+    other = kept_other;
+  }
+  if (!trial.run.has(Channel::current_a) || !trial.run.has(Channel::voltage_a) || !trial.run.has(Channel::voltage_b))
+    return;
+  const auto exchange = [&] {
+    std::swap(trial.run.column(Channel::current_a), trial.run.column(Channel::current_b));
+    std::swap(trial.run.column(Channel::voltage_a), trial.run.column(Channel::voltage_b));
+  };
+  exchange();
+  keep_better(best, trial, before, "solenoids a and b look swapped: with current and voltage of each as the other's");
+  exchange();
+}
+
 std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vector<Deviation>& before) {
   std::optional<RunExplanation> best;
   for (const Channel channel :
-       {Channel::position, Channel::current, Channel::voltage, Channel::flow, Channel::pressure_difference}) {
+       {Channel::position, Channel::current, Channel::current_b, Channel::current_a, Channel::voltage,
+        Channel::voltage_b, Channel::voltage_a, Channel::flow, Channel::pressure_difference}) {
     if (!trial.run.has(channel)) continue;
     const std::vector<double> kept = trial.run.column(channel);
-    const std::string_view name = recording::name(channel == Channel::flow ? Channel::flow_reference : channel);
+    const std::string_view name = shown_name(channel);
     for (const Slip& slip : usual_slips(channel)) {
       if (slip.from_other_end && trial.both()) continue;
       for (double& value : trial.run.column(channel)) value = slip.undone(value, trial.stroke_m());
@@ -166,18 +213,7 @@ std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vecto
       trial.run.column(channel) = kept;
     }
   }
-  const std::array<std::pair<Channel, Channel>, 4> pairs{{{Channel::current, Channel::voltage},
-                                                          {Channel::current_a, Channel::current_b},
-                                                          {Channel::current_a, Channel::voltage_a},
-                                                          {Channel::flow, Channel::pressure_difference}}};
-  for (const auto& [one, other] : pairs) {
-    if (!trial.run.has(one) || !trial.run.has(other)) continue;
-    std::swap(trial.run.column(one), trial.run.column(other));
-    keep_better(
-        best, trial, before,
-        fmt::format("{} and {} look swapped: with each as the other", recording::name(one), recording::name(other)));
-    std::swap(trial.run.column(one), trial.run.column(other));
-  }
+  try_swaps(trial, before, best);
   if (best && wholly(*best)) return best;
   // A reference that is off by no number that a slip has.
   for (const Deviation& deviation : before) {
@@ -214,11 +250,29 @@ std::string coarse_position(const KnownValve& known, const PositionGrain& grain)
   return {};
 }
 
-std::string dead_channel(const Recording& run) {
-  for (const Channel channel : {Channel::position, Channel::current}) {
-    if (const std::optional<double> value = standing_value(run.column(channel)))
+/// From the lowest to the highest; 0 where there are none.
+double range_of(const std::vector<double>& values) {
+  double lowest = 1e300, highest = -1e300;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  return std::max(highest - lowest, 0.0);
+}
+
+/// A channel that stands still while what moves it does not: the voltage while the current changes, the reference flow
+/// while the spool moves.
+std::string dead_channel(const Recording& run, double stroke_m) {
+  constexpr double changing_A = 0.1, moving_share = 0.2;
+  std::vector<Channel> alive{Channel::position, Channel::current};
+  if (range_of(run.column(Channel::current)) > changing_A) alive.push_back(Channel::voltage);
+  if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
+  for (const Channel channel : alive) {
+    if (const std::optional<double> value = standing_value(run.column(channel))) {
       return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
-                         recording::name(channel), *value);
+                         shown_name(channel), *value);
+    }
   }
   return {};
 }
@@ -292,7 +346,7 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
                                       run.gaps().longest_from_s)});
   }
   RunTrial trial(valve, run.means(file));
-  if (const std::string dead = dead_channel(trial.run); !dead.empty()) {
+  if (const std::string dead = dead_channel(trial.run, trial.stroke_m()); !dead.empty()) {
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;
   }

@@ -71,7 +71,11 @@ std::span<const Slip> usual_slips(recording::Channel channel) {
     case Channel::axial_force:
       return forces;
     case Channel::current:
+    case Channel::current_a:
+    case Channel::current_b:
     case Channel::voltage:
+    case Channel::voltage_a:
+    case Channel::voltage_b:
       return electric;
     case Channel::pressure_difference:
       return pressures;

@@ -1,5 +1,6 @@
 #include "spoolflow/export/cpp_folder.hpp"
 
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -49,6 +50,14 @@ std::string in_quotes(const std::string& name) {
   return out;
 }
 
+/// As it may stand in a name of C++.
+std::string in_an_identifier(const std::string& name) {
+  std::string out;
+  for (const char letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0) out += letter;
+  return out;
+}
+
 std::string made_from(const model::Model& model) {
   return fmt::format("{} from the model of {}, direction {}, calibrated by spoolflow {} on {}.", cpp_model_mark,
                      in_a_comment(model.valve.name), in_a_comment(model.valve.direction),
@@ -79,15 +88,33 @@ std::vector<std::string> definition_names(const model::Model& model) {
   return names;
 }
 
-/// Functions with which firmware proves its flash.
+/// Functions with which firmware proves its flash: for each sensor those of its own tables, since a table that is
+/// looked at is kept by the linker.
 std::string table_check(const model::Model& model) {
-  std::string all;
-  for (const std::string& name : definition_names(model)) {
-    if (!all.empty()) all += " && ";
-    all += fmt::format("crc32_of({0}) == {0}_crc32", name);
-  }
-  return text("table_check.hpp.in") + fmt::format("inline bool tables_intact() {{\n  return {};\n}}\n\n", all);
+  std::string out = text("table_check.hpp.in");
+  const auto add = [&](const std::string& sensor, const std::string& function) {
+    std::string all;
+    for (const std::string& name : definition_names(model)) {
+      if (!name.starts_with(sensor)) continue;
+      if (!all.empty()) all += " && ";
+      all += fmt::format("crc32_of({0}) == {0}_crc32", name);
+    }
+    out += fmt::format("inline bool {}() {{\n  return {};\n}}\n", function, all);
+  };
+  add("condensed", "condensed_intact");
+  out += "/// The same of `parameters`.\n";
+  add(model.has_observer() ? "observer" : "condensed", "tables_intact");
+  return out + "\n";
 }
+
+/// `valve_model`, and in it a namespace of this model's own: where two exports meet in one program, the linker must not
+/// take the tables of one for the other's.
+std::string namespace_begin(const model::Model& model) {
+  const std::string direction = model.whole() ? "" : "_" + in_an_identifier(model.valve.direction);
+  return fmt::format("namespace valve_model {{\ninline namespace of_{}{} {{\n\n", sha256_of_model(model).substr(0, 8),
+                     direction);
+}
+constexpr std::string_view namespace_end = "}\n}  // namespace valve_model\n";
 
 /// `name`: of the definition.
 std::string condensed_definition(const model::Condensed& condensed, const std::string& name) {
@@ -140,12 +167,14 @@ TypeNames type_names(const model::Model& model) {
 }
 
 std::string sensor_includes(const model::Model& model) {
+  const std::string check = "#include \"spoolflow/sensor/parameter_image/image_check.hpp\"\n";  // its CRC-32
   if (model.whole()) {
-    return "#include \"spoolflow/sensor/whole_valve/whole_condensed.hpp\"\n"
+    return check +
+           "#include \"spoolflow/sensor/whole_valve/whole_condensed.hpp\"\n"
            "#include \"spoolflow/sensor/whole_valve/whole_valve.hpp\"\n";
   }
   return std::string("#include \"spoolflow/sensor/condensed.hpp\"\n") +
-         (model.has_observer() ? "#include \"spoolflow/sensor/observer.hpp\"\n" : "");
+         (model.has_observer() ? "#include \"spoolflow/sensor/observer.hpp\"\n" : "") + check;
 }
 
 std::string model_header(const model::Model& model) {
@@ -153,8 +182,9 @@ std::string model_header(const model::Model& model) {
   std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <cstddef>\n#include <cstdint>\n\n" +
                     sensor_includes(model);
   out +=
-      "\n/// One valve's numbers, SI. The arrays lie in flash as the sensor's structures do.\nnamespace valve_model "
-      "{\n\n";
+      "\n/// One valve's numbers, SI. The arrays lie in flash as the sensor's structures do. The namespace within is "
+      "the model's\n/// own, so that several exports may meet in one program.\n" +
+      namespace_begin(model);
   out += fmt::format("inline constexpr char name[] = \"{}\";\n", in_quotes(model.valve.name));
   out += fmt::format("inline constexpr char model_sha256[] = \"{}\";  // of the model file as spoolflow writes it\n",
                      sha256_of_model(model));
@@ -172,9 +202,9 @@ std::string model_header(const model::Model& model) {
                    "inline constexpr const auto& parameters = {};\n"
                    "using State = spoolflow::sensor::{}<float>;\n"
                    "using CondensedState = spoolflow::sensor::{}<float>;\n"
-                   "using Sample = spoolflow::sensor::{}<float>;\n\n}}  // namespace valve_model\n",
+                   "using Sample = spoolflow::sensor::{}<float>;\n\n{}",
                    has_observer ? "observer" : "condensed", has_observer ? types.observer : types.condensed,
-                   types.condensed, types.sample);
+                   types.condensed, types.sample, namespace_end);
 }
 
 std::string sample_literal(float number) {
@@ -232,7 +262,7 @@ std::string golden_header(const model::Model& model, const std::vector<GoldenPoi
   std::string out = made_from(model) + "\n#pragma once\n#include <array>\n#include <cstdint>\n#include <limits>\n\n";
   out += fmt::format(
       "#include \"cell_sums.hpp\"\n#include \"spoolflow/sensor/{}\"\n#include \"valve_model.hpp\"\n\n"
-      "namespace valve_model {{\n\n"
+      "{}"
       "/// One sample and what double precision answered on the host.\n"
       "struct GoldenPoint {{\n"
       "  spoolflow::sensor::{}<float> sample;\n"
@@ -243,7 +273,8 @@ std::string golden_header(const model::Model& model, const std::vector<GoldenPoi
       "  std::uint32_t best_status;\n"
       "}};\n\n"
       "inline constexpr float missing = std::numeric_limits<float>::quiet_NaN();\n\n",
-      model.whole() ? "whole_valve/whole_valve_sample.hpp" : "sample.hpp", type_names(model).sample);
+      model.whole() ? "whole_valve/whole_valve_sample.hpp" : "sample.hpp", namespace_begin(model),
+      type_names(model).sample);
   out += fmt::format(
       "/// In the order of time: time step s, {}, position m, oil temperature K; flow rates, band, status.\n"
       "inline constexpr std::array<GoldenPoint, {}> golden_points{{{{\n",
@@ -254,7 +285,7 @@ std::string golden_header(const model::Model& model, const std::vector<GoldenPoi
                        float_literal(point.best_lower_m3_per_s), float_literal(point.best_upper_m3_per_s),
                        static_cast<std::uint32_t>(point.best_status));
   }
-  return out + "}};\n\n" + cell_proof(model) + "}  // namespace valve_model\n";
+  return out + "}};\n\n" + cell_proof(model) + std::string(namespace_end);
 }
 
 std::string readme(const model::Model& model, const SinglePrecisionError& error) {
@@ -324,6 +355,9 @@ std::string why_not_to_overwrite(const fs::path& folder, const std::vector<Expor
     const fs::path target = folder / file.name;
     std::error_code unreadable;
     if (file.name == cpp_record_name && !record.empty()) continue;
+    if (fs::is_directory(target, unreadable)) {
+      return fmt::format("cannot write {}: a folder has that name; move it, or name another folder", target.string());
+    }
     if (!fs::exists(target, unreadable) || bytes_of(target) == file.content) continue;
     const auto exported = record.find(file.name);
     if (exported == record.end()) {

@@ -1,10 +1,13 @@
 #include "spoolflow/model/provenance.hpp"
 
 #include <array>
+#include <charconv>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -28,9 +31,23 @@ std::string sha256_of_text(std::string_view text) {
   return sum.hexadecimal();
 }
 
+namespace {
+constexpr std::int64_t last_creation_s = 7258118399;  // a page of a later date would win over all that come
+}
+
 std::int64_t creation_seconds() {
   const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
-  return epoch != nullptr ? std::strtoll(epoch, nullptr, 10) : static_cast<std::int64_t>(std::time(nullptr));
+  if (epoch == nullptr) return static_cast<std::int64_t>(std::time(nullptr));
+  const std::string_view text(epoch);
+  std::int64_t seconds = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size() || seconds < 0 || seconds > last_creation_s) {
+    throw std::invalid_argument(
+        fmt::format("SOURCE_DATE_EPOCH is {:.40}: it must be whole seconds since 1970, 0 to {} (year 2199); set it so, "
+                    "or unset it for the present time",
+                    text, last_creation_s));
+  }
+  return seconds;
 }
 
 std::string creation_time() {

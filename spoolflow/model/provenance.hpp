@@ -48,6 +48,7 @@ struct Provenance {
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
 [[nodiscard]] std::string sha256_of_text(std::string_view text);
 /// The present moment in seconds since 1970, UTC; SOURCE_DATE_EPOCH overrides it for reproducible files.
+/// Throws std::invalid_argument where that is no whole number from 0 to the end of the year 2199.
 [[nodiscard]] std::int64_t creation_seconds();
 /// The same in UTC, ISO 8601 to the second.
 [[nodiscard]] std::string creation_time();

@@ -7,6 +7,10 @@
 #include <cstdint>
 #include <type_traits>
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "a missing input is a NaN: compile without -ffast-math and -ffinite-math-only"
+#endif
+
 namespace spoolflow::sensor {
 
 enum class Status : std::uint32_t;

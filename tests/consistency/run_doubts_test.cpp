@@ -125,6 +125,36 @@ std::vector<KnownValve> as_fine_as(const recording::Recording& run) {
   return known;
 }
 
+TEST(RunDoubts, NameTwoColumnsInEachOthersPlaceEachReadInTheOthersUnit) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  const recording::Recording& sound = valve.recordings.at("ramp_60bar.csv");
+  const auto text = [&](Channel one, Channel other, double one_per_other) {
+    recording::Recording run = sound;
+    std::swap(run.column(one), run.column(other));
+    for (double& value : run.column(one)) value *= one_per_other;
+    for (double& value : run.column(other)) value /= one_per_other;
+    return all_texts(doubts_about(known, means_of(run), "run.csv"));
+  };
+  EXPECT_THAT(text(Channel::position, Channel::current, 1e-3), testing::HasSubstr("position and current look swapped"));
+  EXPECT_THAT(text(Channel::flow_reference, Channel::pressure_difference, 1 / 60e3 / 1e5),
+              testing::HasSubstr("flow_reference and pressure_difference look swapped"));
+}
+
+TEST(RunDoubts, NameAVoltageThatStandsStillWhileTheCurrentChangesAndNoneOfAnIdleValve) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  std::ranges::fill(run.column(Channel::voltage), 24.0);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "run.csv")),
+              testing::HasSubstr("voltage stands still at 24"));
+  recording::Recording idle = clip(run, 0, 500);
+  std::ranges::fill(idle.column(Channel::voltage), 0.0);
+  std::ranges::fill(idle.column(Channel::flow_reference), 0.0);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(idle), "idle.csv")),
+              testing::Not(testing::HasSubstr("stands still")));
+}
+
 TEST(RunDoubts, NameAPositionThatIsRecordedMoreCoarselyThanOnTheBench) {
   const recording::Recording run = sound_size_6().recordings.at("ramp_60bar.csv");
   const std::vector<KnownValve> known = as_fine_as(run);

@@ -63,10 +63,16 @@ bool begins_as_image(std::string_view bytes) {
   return bytes.starts_with(std::string_view(sensor::image_magic, sizeof sensor::image_magic));
 }
 
+bool is_erased(std::string_view bytes) {
+  return !bytes.empty() && (bytes.front() == '\xff' || bytes.front() == '\0') &&
+         bytes.find_first_not_of(bytes.front()) == std::string_view::npos;
+}
+
 ImageSummary image_summary(std::string_view bytes) {
   const std::vector<std::uint64_t> image = aligned(bytes);
   ImageSummary out{};
   out.file_bytes = bytes.size();
+  out.erased = is_erased(bytes);
   sensor::ValveParameters valve;
   out.refusal = parameters_from(image.data(), bytes.size(), valve);
   sensor::ImageHeader header{};

@@ -12,6 +12,8 @@ namespace spoolflow::exports {
 
 /// Whether bytes begin as an image does.
 [[nodiscard]] bool begins_as_image(std::string_view bytes);
+/// Whether there are bytes, and all are as an erased flash reads: all ones, or all zeros.
+[[nodiscard]] bool is_erased(std::string_view bytes);
 
 /// One table of an image.
 struct ImageTableSummary {
@@ -24,6 +26,7 @@ struct ImageTableSummary {
 struct ImageSummary {
   sensor::ImageRefusal refusal;
   std::size_t file_bytes;      ///< the image may be the beginning of a page
+  bool erased;                 ///< all bytes
   sensor::ImageHeader header;  ///< zeros where the bytes hold none of this version
   bool header_read;
   std::uint32_t crc32;                    ///< as reckoned here; 0 where the image is not all there

@@ -117,12 +117,15 @@ inline std::int16_t canopen_flow(float flow_m3_per_s, const FlowAnswer& answer) 
 }
 
 /// CiA 408's status word (6041h): disabled, hold, device mode active, ready are bits 0 to 3, and together name a state
-/// of the profile's device. ACTIVE where the answer is known and without fault, else FAULT HOLD. The words as in Moog's
-/// firmware manuals B99224-DV007 and B99224-DV018, the bits also as in Beckhoff's ST_CoE408_StatusWord.
+/// of the profile's device. ACTIVE where the answer is known, is a number, and without fault, else FAULT HOLD. The
+/// words as in Moog's firmware manuals B99224-DV007 and B99224-DV018, the bits also as in Beckhoff's
+/// ST_CoE408_StatusWord.
 inline constexpr std::uint16_t canopen_active = 0x000F, canopen_fault_hold = 0x0003;
 
 inline std::uint16_t canopen_status_word(const FlowAnswer& answer) {
-  return answer.is_known && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
+  std::int32_t ignored = 0;
+  const bool told = scaled_flow(answer.flow_m3_per_s, answer, 1.0F, 1, ignored);
+  return told && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
 }
 
 /// TPDO 1 of a node (1 to 127), 180h + node: status word, flow, lower and upper end of its band, little endian.
