@@ -15,6 +15,7 @@
 #include "spoolflow/apps/output_file.hpp"
 #include "spoolflow/apps/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/export/cpp/overwriting.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/embedded_parts.hpp"
 #include "spoolflow/export/parameters/image_summary.hpp"

@@ -2,27 +2,11 @@
 /// Whether a run can be of the valve that a model is of, and if not, which usual slip explains it.
 #include <vector>
 
-#include "spoolflow/consistency/campaign_doubts.hpp"
 #include "spoolflow/consistency/doubt.hpp"
+#include "spoolflow/consistency/known_valve.hpp"
 #include "spoolflow/consistency/run_means.hpp"
-#include "spoolflow/consistency/valve_curves.hpp"
-#include "spoolflow/model/model.hpp"
 
 namespace spoolflow::consistency {
-
-/// One direction of a calibrated valve, from the strokes that its model keeps as evidence.
-struct KnownValve {
-  HydraulicCurves hydraulics;
-  MagneticCurves magnetics;
-  double resistance_Ohm;        ///< of the coil as calibrated; 0: not known
-  double position_noise_m = 0;  ///< of a sample, as calibrated; 0: not known
-};
-
-/// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.
-[[nodiscard]] std::vector<KnownValve> known_valve(const model::Model& model);
-
-/// One direction straight from its bench recordings; needs spring, force map and axial-force maps.
-[[nodiscard]] KnownValve known_valve(const Benches& benches);
 
 /// Reads position, currents, voltages and time, and reference flow and pressure difference where they are there. `file`
 /// names the run. Empty where nothing speaks against it.

@@ -1,7 +1,6 @@
 #pragma once
 /// A valve's sensor as C++ for firmware: the sensor's headers as they are, and one header with the valve's numbers in
 /// single precision. No algorithm is generated.
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +23,5 @@ inline constexpr std::string_view cpp_model_mark = "// Made by `spoolflow export
 
 /// Throws std::invalid_argument where a number of the model does not fit into single precision.
 [[nodiscard]] std::vector<ExportedFile> cpp_folder(const model::Model& model);
-
-/// Files of an earlier export into that folder may be replaced as long as nobody changed them; whatever else bears a
-/// name that is needed is somebody's work. Why the files must not be written there; empty where they may.
-[[nodiscard]] std::string why_not_to_overwrite(const std::filesystem::path& folder,
-                                               const std::vector<ExportedFile>& files);
 
 }  // namespace spoolflow::exports

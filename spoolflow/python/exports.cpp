@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/export/cpp/overwriting.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"

@@ -1,4 +1,6 @@
 /// `spoolflow export`: what it leaves in folders that hold something already, and what it refuses.
+#include <cstdlib>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -104,6 +106,31 @@ TEST_F(Export, WritesParametersThatInspectReadsBackAndTellsDamageOf) {
   ASSERT_EQ(run(command + " --sensors observer").status, 0);
   EXPECT_LT(content("valve.bin").size(), 32768U);
   EXPECT_EQ(run("export cpp '" + model + "' --sensors observer -o other").status, 2);
+  EXPECT_EQ(run("export cpp '" + model + "' --fmi 3 -o other").status, 2);
+}
+
+TEST_F(Export, IsToldOfAPageThatWasNeverProgrammed) {
+  for (const char bit : {'\xff', '\0'}) {
+    write("page.rom", std::string(40000, bit));
+    const Answer answer = run("inspect page.rom");
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_THAT(answer.output, HasSubstr("an erased page"));
+    EXPECT_LT(answer.output.size() + answer.message.size(), 1000U);
+    EXPECT_EQ(run("inspect page.rom --json").status, 2);
+  }
+  write("other.bin", "GRBL, and no parameters");
+  EXPECT_EQ(run("inspect other.bin").status, 2);
+}
+
+TEST_F(Export, RefusesADateThatIsNone) {
+  for (const char* date : {"abc", "-5", "99999999999999"}) {
+    ::setenv("SOURCE_DATE_EPOCH", date, 1);
+    const Answer answer = run("export parameters '" + model + "' -o dated.bin");
+    ::unsetenv("SOURCE_DATE_EPOCH");
+    EXPECT_EQ(answer.status, 2) << date;
+    EXPECT_THAT(answer.message, HasSubstr("SOURCE_DATE_EPOCH"));
+    EXPECT_THAT(files(), Not(Contains("dated.bin")));
+  }
 }
 
 }  // namespace

@@ -84,6 +84,26 @@ bool begins_with_zeros() {
   return std::memcmp(&state, zeros.data(), sizeof state) == 0;
 }
 
+TEST(CppFolder, OfTwoModelsMeetInOneProgramAndKeepTheirNumbers) {
+  model::Model stiffer = example_model();
+  for (double& force_N : stiffer.condensed.parameters.spring.curve.values) force_N *= 1.1;
+  const ExportedFolder one(example_model()), other(stiffer);
+  const auto object = [](const ExportedFolder& folder, const std::string& name) {
+    folder.write(name + ".cpp", "#include \"valve_model.hpp\"\nconst void* " + name +
+                                    "() { return &valve_model::condensed; }\nbool " + name +
+                                    "_intact() { return valve_model::condensed_intact() && "
+                                    "valve_model::tables_intact(); }\n");
+    return folder.run(std::string("g++") + strict + "-Wno-missing-declarations -c " + name + ".cpp");
+  };
+  ASSERT_EQ(object(one, "one"), 0);
+  ASSERT_EQ(object(other, "other"), 0);
+  one.write("other.o", other.content("other.o"));
+  one.write("main.cpp",
+            "const void* one(); const void* other(); bool one_intact(); bool other_intact();\n"
+            "int main() { return one() != other() && one_intact() && other_intact() ? 0 : 1; }\n");
+  EXPECT_EQ(one.run("g++ main.cpp one.o other.o -o both && ./both"), 0);
+}
+
 TEST(CppFolder, InitialisesAStateInCAsInCpp) {
   EXPECT_TRUE(begins_with_zeros<sensor::ObserverState<float>>());
   EXPECT_TRUE(begins_with_zeros<sensor::CondensedState<float>>());
