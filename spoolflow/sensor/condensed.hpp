@@ -149,7 +149,6 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   const T slope_m3_per_s = line(flow_more, flow_more_rise);
   const auto [pressure, pressure_rise, pressure_more, pressure_more_rise] =
       four(by_root, Layout::flow + Layout::root_pressure);
-  const T root_pressure = line(pressure, pressure_rise) + root.cells * line(pressure_more, pressure_more_rise);
 
   // Band: what the forces' uncertainty means for the root, along the map's slope.
   const auto uncertain = four(here, Layout::uncertainty);
@@ -160,7 +159,8 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   out.flow_m3_per_s = begin_m3_per_s + root.cells * slope_m3_per_s;
   out.flow_lower_m3_per_s = begin_m3_per_s - valve.flow_residual_m3_per_s + root_below * slope_m3_per_s;
   out.flow_upper_m3_per_s = begin_m3_per_s + valve.flow_residual_m3_per_s + root_above * slope_m3_per_s;
-  out.pressure_difference_Pa = squared(root_pressure);
+  out.pressure_difference_Pa =
+      squared(line(pressure, pressure_rise) + root.cells * line(pressure_more, pressure_more_rise));
   out.magnetic_force_N = magnetic_force_N;
   out.spring_force_N = spring_force_N;
   out.flow_force_N = flow_force_N;
