@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,14 +57,29 @@ double over_limit_of(const std::vector<Deviation>& deviations, const Deviation& 
   return same == nullptr ? 0 : same->over_limit;
 }
 
-std::optional<double> standing_value(const std::vector<double>& values) {
-  constexpr double still = 1e-9;
+namespace {
+
+/// Lowest and highest of the finite ones; the lowest above the highest where there are none.
+std::pair<double, double> ends_of(const std::vector<double>& values) {
   double lowest = 1e300, highest = -1e300;
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
     lowest = std::min(lowest, value);
     highest = std::max(highest, value);
   }
+  return {lowest, highest};
+}
+
+}  // namespace
+
+double range_of(const std::vector<double>& values) {
+  const auto [lowest, highest] = ends_of(values);
+  return std::max(highest - lowest, 0.0);
+}
+
+std::optional<double> standing_value(const std::vector<double>& values) {
+  constexpr double still = 1e-9;
+  const auto [lowest, highest] = ends_of(values);
   const bool stands = lowest <= highest && highest - lowest <= still * std::max(std::abs(lowest), std::abs(highest));
   return stands ? std::optional(lowest) : std::nullopt;
 }

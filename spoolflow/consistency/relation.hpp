@@ -33,6 +33,8 @@ void add_travel(std::vector<Deviation>& to, const recording::Recording& means, d
 /// Of the same relation of the same file; 0 where it is not among them.
 [[nodiscard]] double over_limit_of(const std::vector<Deviation>& deviations, const Deviation& as);
 
+/// From the lowest finite value to the highest; 0 where there are none.
+[[nodiscard]] double range_of(const std::vector<double>& values);
 /// The value of a channel whose samples are all the same; nothing of one that moves or has no samples.
 [[nodiscard]] std::optional<double> standing_value(const std::vector<double>& values);
 

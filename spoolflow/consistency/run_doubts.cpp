@@ -203,17 +203,6 @@ std::string coarse_position(const KnownValve& known, const PositionGrain& grain)
   return {};
 }
 
-/// From the lowest to the highest; 0 where there are none.
-double range_of(const std::vector<double>& values) {
-  double lowest = 1e300, highest = -1e300;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    lowest = std::min(lowest, value);
-    highest = std::max(highest, value);
-  }
-  return std::max(highest - lowest, 0.0);
-}
-
 /// A channel that stands still while what moves it does not: the voltage while the current changes, the reference flow
 /// while the spool moves.
 std::string dead_channel(const Recording& run, double stroke_m) {

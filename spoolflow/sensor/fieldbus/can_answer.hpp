@@ -123,9 +123,8 @@ inline std::int16_t canopen_flow(float flow_m3_per_s, const FlowAnswer& answer) 
 inline constexpr std::uint16_t canopen_active = 0x000F, canopen_fault_hold = 0x0003;
 
 inline std::uint16_t canopen_status_word(const FlowAnswer& answer) {
-  std::int32_t ignored = 0;
-  const bool told = scaled_flow(answer.flow_m3_per_s, answer, 1.0F, 1, ignored);
-  return told && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
+  const bool is_told = canopen_flow(answer.flow_m3_per_s, answer) != canopen_not_known;
+  return is_told && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
 }
 
 /// TPDO 1 of a node (1 to 127), 180h + node: status word, flow, lower and upper end of its band, little endian.
