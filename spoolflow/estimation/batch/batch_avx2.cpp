@@ -4,10 +4,11 @@
 
 namespace spoolflow::estimation::batch {
 
-const BatchSteps condensed_avx2 = condensed_steps;
-const BatchSteps observer_avx2 = observer_steps;
-const BatchSteps whole_condensed_avx2 = whole_condensed_steps;
-const BatchSteps whole_valve_avx2 = whole_valve_steps;
+using Steps = StepsIn<packs::simd::native_simd<float>>;
+const BatchSteps condensed_avx2 = Steps::condensed;
+const BatchSteps observer_avx2 = Steps::observer;
+const BatchSteps whole_condensed_avx2 = Steps::whole_condensed;
+const BatchSteps whole_valve_avx2 = Steps::whole_valve;
 
 }  // namespace spoolflow::estimation::batch
 #else

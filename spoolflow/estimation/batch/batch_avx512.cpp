@@ -4,10 +4,11 @@
 
 namespace spoolflow::estimation::batch {
 
-const BatchSteps condensed_avx512 = condensed_steps;
-const BatchSteps observer_avx512 = observer_steps;
-const BatchSteps whole_condensed_avx512 = whole_condensed_steps;
-const BatchSteps whole_valve_avx512 = whole_valve_steps;
+using Steps = StepsIn<packs::simd::native_simd<float>>;
+const BatchSteps condensed_avx512 = Steps::condensed;
+const BatchSteps observer_avx512 = Steps::observer;
+const BatchSteps whole_condensed_avx512 = Steps::whole_condensed;
+const BatchSteps whole_valve_avx512 = Steps::whole_valve;
 
 }  // namespace spoolflow::estimation::batch
 #else

@@ -2,9 +2,10 @@
 
 namespace spoolflow::estimation::batch {
 
-const BatchSteps condensed_baseline = condensed_steps;
-const BatchSteps observer_baseline = observer_steps;
-const BatchSteps whole_condensed_baseline = whole_condensed_steps;
-const BatchSteps whole_valve_baseline = whole_valve_steps;
+using Steps = StepsIn<packs::simd::native_simd<float>>;
+const BatchSteps condensed_baseline = Steps::condensed;
+const BatchSteps observer_baseline = Steps::observer;
+const BatchSteps whole_condensed_baseline = Steps::whole_condensed;
+const BatchSteps whole_valve_baseline = Steps::whole_valve;
 
 }  // namespace spoolflow::estimation::batch

@@ -35,8 +35,8 @@ struct BatchSteps {
 
 // Where the compiler's target has none, bytes = 0.
 extern const BatchSteps condensed_baseline, condensed_avx2, condensed_avx512;
-extern const BatchSteps observer_baseline, observer_avx2, observer_avx512;
+extern const BatchSteps observer_baseline, observer_avx2, observer_avx512_eight, observer_avx512;
 extern const BatchSteps whole_condensed_baseline, whole_condensed_avx2, whole_condensed_avx512;
-extern const BatchSteps whole_valve_baseline, whole_valve_avx2, whole_valve_avx512;
+extern const BatchSteps whole_valve_baseline, whole_valve_avx2, whole_valve_avx512_eight, whole_valve_avx512;
 
 }  // namespace spoolflow::estimation::batch

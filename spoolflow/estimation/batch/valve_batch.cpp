@@ -14,25 +14,25 @@
 namespace spoolflow::estimation::batch {
 namespace {
 
-/// The steps of one kind of valve: of the baseline, AVX2 and AVX-512.
-using StepsOfSets = std::array<const BatchSteps*, 3>;
+/// The steps of one kind of valve: of the baseline, AVX2, and AVX-512 with eight and with sixteen valves.
+using StepsOfSets = std::array<const BatchSteps*, 4>;
 
 StepsOfSets all_steps(const sensor::CondensedTables<float>* /*kind*/) {
-  return {&condensed_baseline, &condensed_avx2, &condensed_avx512};
+  return {&condensed_baseline, &condensed_avx2, &condensed_avx2, &condensed_avx512};
 }
 StepsOfSets all_steps(const sensor::ObserverParameters<float>* /*kind*/) {
-  return {&observer_baseline, &observer_avx2, &observer_avx512};
+  return {&observer_baseline, &observer_avx2, &observer_avx512_eight, &observer_avx512};
 }
 StepsOfSets all_steps(const sensor::WholeCondensedTables<float>* /*kind*/) {
-  return {&whole_condensed_baseline, &whole_condensed_avx2, &whole_condensed_avx512};
+  return {&whole_condensed_baseline, &whole_condensed_avx2, &whole_condensed_avx2, &whole_condensed_avx512};
 }
 StepsOfSets all_steps(const sensor::WholeValveParameters<float>* /*kind*/) {
-  return {&whole_valve_baseline, &whole_valve_avx2, &whole_valve_avx512};
+  return {&whole_valve_baseline, &whole_valve_avx2, &whole_valve_avx512_eight, &whole_valve_avx512};
 }
 
 /// The widest steps that have no more valves at once than there are left, a multiple of valves_together.
 const BatchSteps& widest(const StepsOfSets& steps, InstructionSet instructions, std::size_t left) {
-  auto set = static_cast<std::size_t>(instructions);
+  std::size_t set = instructions == InstructionSet::avx512 ? steps.size() - 1 : static_cast<std::size_t>(instructions);
   while (steps[set]->valves > left) --set;
   return *steps[set];
 }

@@ -28,18 +28,20 @@ struct Plain {
 template <class Register, class Number, std::size_t bytes>
 inline constexpr bool is_register = std::is_same_v<typename Register::value_type, Number> && sizeof(Register) == bytes;
 
-/// Sixteen floats are compared into bits of a mask register.
+/// Floats of AVX-512 are compared into bits of a mask register.
 template <class Register>
-inline constexpr bool compares_to_bits = is_register<Register, float, 64>;
+inline constexpr bool compares_to_bits = std::is_same_v<typename Register::value_type, float> &&
+                                         sizeof(typename Register::mask_type) < sizeof(Register) / 8;
 
 /// The answers of a comparison: a bit a valve, or a whole number of which all bits are set or none.
 template <class Register>
-using Answers = std::conditional_t<compares_to_bits<Register>, std::uint16_t, typename Plain<Register>::Integers>;
+using Answers = std::conditional_t<!compares_to_bits<Register>, typename Plain<Register>::Integers,
+                                   std::conditional_t<Register::size() == 16, std::uint16_t, std::uint8_t>>;
 
 template <class Register>
 [[gnu::always_inline]] inline Answers<Register> answers(bool all) {
   if constexpr (compares_to_bits<Register>) {
-    return all ? 0xffff : 0;
+    return static_cast<Answers<Register>>(all ? -1 : 0);
   } else {
     return Answers<Register>(typename Plain<Register>::Integer{all ? -1 : 0});
   }
@@ -65,9 +67,11 @@ template <Relation relation, class Numbers>
 }
 template <Relation relation, class Register>
 [[gnu::always_inline]] inline Answers<Register> compared(const Register& a, const Register& b) {
-#if defined(__AVX512F__)
-  if constexpr (compares_to_bits<Register>)
+#if defined(__AVX512VL__)
+  if constexpr (compares_to_bits<Register> && Register::size() == 16)
     return _mm512_cmp_ps_mask(std::bit_cast<__m512>(a), std::bit_cast<__m512>(b), static_cast<int>(relation));
+  else if constexpr (compares_to_bits<Register>)
+    return _mm256_cmp_ps_mask(std::bit_cast<__m256>(a), std::bit_cast<__m256>(b), static_cast<int>(relation));
   else
 #endif
     return std::bit_cast<Answers<Register>>(related<relation>(Plain<Register>::of(a), Plain<Register>::of(b)));
@@ -75,9 +79,11 @@ template <Relation relation, class Register>
 template <Relation relation, class Register>
 [[gnu::always_inline]] inline Answers<Register> compared_integers(const typename Plain<Register>::Integers& a,
                                                                   const typename Plain<Register>::Integers& b) {
-#if defined(__AVX512F__)
-  if constexpr (compares_to_bits<Register>)
+#if defined(__AVX512VL__)
+  if constexpr (compares_to_bits<Register> && Register::size() == 16)
     return _mm512_cmp_epi32_mask(std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b), static_cast<int>(relation));
+  else if constexpr (compares_to_bits<Register>)
+    return _mm256_cmp_epi32_mask(std::bit_cast<__m256i>(a), std::bit_cast<__m256i>(b), static_cast<int>(relation));
   else
 #endif
     return std::bit_cast<Answers<Register>>(related<relation>(Plain<Register>::of(a), Plain<Register>::of(b)));
@@ -101,10 +107,13 @@ template <class Register>
 template <class Register>
 [[gnu::always_inline]] inline Register blended(const Answers<Register>& condition, const Register& yes,
                                                const Register& no) {
-#if defined(__AVX512F__)
-  if constexpr (compares_to_bits<Register>)
+#if defined(__AVX512VL__)
+  if constexpr (compares_to_bits<Register> && Register::size() == 16)
     return std::bit_cast<Register>(
         _mm512_mask_blend_ps(condition, std::bit_cast<__m512>(no), std::bit_cast<__m512>(yes)));
+  else if constexpr (compares_to_bits<Register>)
+    return std::bit_cast<Register>(
+        _mm256_mask_blend_ps(condition, std::bit_cast<__m256>(no), std::bit_cast<__m256>(yes)));
   else
 #endif
   {
@@ -130,7 +139,8 @@ template <class Register>
                                                      const Register& no) {
   if constexpr (compares_to_bits<Register>) {
     using Bits = typename Plain<Register>::Bits;
-    const Bits taken = Bits{} + static_cast<std::int32_t>(condition * 0x10001U);  // in either half of 32 bits
+    constexpr std::uint32_t once_each = Register::size() == 16 ? 0x10001U : 0x1010101U;  // as many as 32 bits hold
+    const Bits taken = Bits{} + static_cast<std::int32_t>(condition * once_each);
     return std::bit_cast<Register>((std::bit_cast<Bits>(yes) & taken) | (std::bit_cast<Bits>(no) & ~taken));
   } else {
     return blended<Register>(condition, yes, no);
@@ -140,9 +150,11 @@ template <class Register>
 /// `integers` where `condition` holds, else 0.
 template <class Register, class Integers = typename Plain<Register>::Integers>
 [[gnu::always_inline]] inline Integers only(const Answers<Register>& condition, const Integers& integers) {
-#if defined(__AVX512F__)
-  if constexpr (compares_to_bits<Register>)
+#if defined(__AVX512VL__)
+  if constexpr (compares_to_bits<Register> && Register::size() == 16)
     return std::bit_cast<Integers>(_mm512_maskz_mov_epi32(condition, std::bit_cast<__m512i>(integers)));
+  else if constexpr (compares_to_bits<Register>)
+    return std::bit_cast<Integers>(_mm256_maskz_mov_epi32(condition, std::bit_cast<__m256i>(integers)));
   else
 #endif
     return condition & integers;
