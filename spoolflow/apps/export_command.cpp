@@ -119,6 +119,12 @@ void export_parameters(const ExportArguments& arguments) {
         "with a solenoid_dynamic recording and an axial_force_map at two or more oil temperatures for both\n",
         model.valve.name);
   }
+  constexpr std::size_t room = sizeof sensor::ImageHeader::valve_name - 1;  // and a zero
+  if (model.valve.name.size() > room) {
+    say("{}: the image has room for {} of the name's {} bytes and holds its beginning; tell valves apart by the "
+        "image's model_sha256, or shorten \"name\" in the model\n",
+        model.valve.name, room, model.valve.name.size());
+  }
 }
 
 void export_asked(const ExportArguments& arguments) {

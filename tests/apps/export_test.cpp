@@ -109,6 +109,19 @@ TEST_F(Export, WritesParametersThatInspectReadsBackAndTellsDamageOf) {
   EXPECT_EQ(run("export cpp '" + model + "' --fmi 3 -o other").status, 2);
 }
 
+TEST_F(Export, TellsThatAPageHoldsTheBeginningOfALongName) {
+  std::string text = content(model);
+  const std::string before = "\"name\": \"";
+  const std::size_t at = text.find(before);
+  ASSERT_NE(at, std::string::npos);
+  text.insert(at + before.size(), std::string(63, 'L'));
+  write("long.json", text);
+  const Answer answer = run("export parameters long.json -o valve.bin");
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_THAT(answer.message, AllOf(HasSubstr("room for 63 of the name's"), HasSubstr("model_sha256")));
+  EXPECT_THAT(run("inspect valve.bin").output, HasSubstr(std::string(63, 'L') + ","));
+}
+
 TEST_F(Export, IsToldOfAPageThatWasNeverProgrammed) {
   for (const char bit : {'\xff', '\0'}) {
     write("page.rom", std::string(40000, bit));
