@@ -68,6 +68,7 @@ std::vector<KnownValve> known_valve(const model::Model& model) {
     if (!observer) return;
     out.back().resistance_Ohm = observer->parameters.actuator.coil_resistance.resistance_Ohm;
     out.back().position_noise_m = observer->parameters.position_sensor.noise_m;
+    out.back().oil_temperature_K = observer->oil_temperature_K;
   };
   add_observed(model.observer);
   if (model.whole()) {

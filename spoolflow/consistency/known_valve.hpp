@@ -12,8 +12,9 @@ namespace spoolflow::consistency {
 struct KnownValve {
   HydraulicCurves hydraulics;
   MagneticCurves magnetics;
-  double resistance_Ohm;        ///< of the coil as calibrated; 0: not known
-  double position_noise_m = 0;  ///< of a sample, as calibrated; 0: not known
+  double resistance_Ohm;                 ///< of the coil as calibrated; 0: not known
+  double position_noise_m = 0;           ///< of a sample, as calibrated; 0: not known
+  model::Range oil_temperature_K{0, 0};  ///< as calibrated; 0: not known
 };
 
 /// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.

@@ -22,6 +22,9 @@ inline constexpr double least_opening = 0.1;              ///< share of the stro
 inline constexpr double least_blocks = 50;
 inline constexpr double position_noise_factor = 2.5;  ///< more than in the campaign; below, slow motion is seen
 inline constexpr double position_step_noises = 4;     ///< steps of a position signal over the campaign's noise
+inline constexpr double hottest_usual_oil_K = 353;    ///< machines cool it at 70 degC
+inline constexpr double coldest_oil_K = 233;          ///< no hydraulic oil flows
+inline constexpr double usual_distance_K = 20;        ///< of a run's oil from what its valve was calibrated at
 inline constexpr double surely = 1.5;                 ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 

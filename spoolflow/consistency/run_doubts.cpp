@@ -11,6 +11,7 @@
 
 #include "spoolflow/consistency/bench_relations.hpp"
 #include "spoolflow/consistency/block_means.hpp"
+#include "spoolflow/consistency/oil_temperature.hpp"
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
@@ -264,6 +265,8 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;
   }
+  if (const std::string oil = temperature_in_another_unit(trial.run, valve.front().oil_temperature_K); !oil.empty())
+    out.push_back({false, fmt::format("{}: {}", name, oil)});
   const std::optional<SlipDoubt> slip = slip_doubt(trial);
   const std::string coarse = coarse_position(valve.front(), run.position_grain());
   if (!coarse.empty() && !(slip && slip->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});

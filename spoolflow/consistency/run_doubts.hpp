@@ -8,8 +8,8 @@
 
 namespace spoolflow::consistency {
 
-/// Reads position, currents, voltages and time, and reference flow and pressure difference where they are there. `file`
-/// names the run. Empty where nothing speaks against it.
+/// Reads position, currents, voltages, time and oil temperature, and reference flow and pressure difference where they
+/// are there. `file` names the run. Empty where nothing speaks against it.
 [[nodiscard]] std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunMeans& run,
                                               const std::filesystem::path& file);
 

@@ -141,6 +141,28 @@ TEST(RunDoubts, NameTwoColumnsInEachOthersPlaceEachReadInTheOthersUnit) {
               testing::HasSubstr("flow_reference and pressure_difference look swapped"));
 }
 
+TEST(RunDoubts, NameOilInAnotherUnitAndNoneOfOilThatIsOnlyColdOrHot) {
+  const RigBenches& valve = sound_size_6();
+  std::vector<KnownValve> known{known_valve(valve.benches())};
+  known.front().oil_temperature_K = {303.15, 333.15};
+  const auto of_oil_at = [&](double read_K) {
+    recording::Recording run = clip(valve.recordings.at("ramp_60bar.csv"), 0, 5000);
+    keep_what_a_sensor_reads(run);
+    run.column(Channel::oil_temperature).assign(run.size(), read_K);
+    return all_texts(doubts_about(known, means_of(run), "run.csv"));
+  };
+  const double zero_degC_K = 273.15;
+  const double true_degC = 45;
+  const double in_degF = true_degC * 9 / 5 + 32;
+  EXPECT_THAT(of_oil_at(zero_degC_K + in_degF),
+              testing::HasSubstr("oil_temperature looks in degF, not degC: so read it is 45 degC "
+                                 "and not 113; the model's valve was calibrated at 30 to 60"));
+  EXPECT_THAT(of_oil_at(2 * zero_degC_K + true_degC), testing::HasSubstr("looks in K, not degC"));
+  EXPECT_THAT(of_oil_at(true_degC), testing::HasSubstr("looks in degC where K was said"));
+  for (const double sound_degC : {-25.0, 0.0, 45.0, 79.0, 220.0})
+    EXPECT_THAT(of_oil_at(zero_degC_K + sound_degC), testing::IsEmpty()) << sound_degC;
+}
+
 TEST(RunDoubts, NameAVoltageThatStandsStillWhileTheCurrentChangesAndNoneOfAnIdleValve) {
   const RigBenches& valve = sound_size_6();
   const std::vector<KnownValve> known{known_valve(valve.benches())};
