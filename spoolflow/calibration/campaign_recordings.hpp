@@ -7,6 +7,7 @@
 
 #include "spoolflow/calibration/edges/path_of_edges.hpp"
 #include "spoolflow/recording/campaign.hpp"
+#include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {
@@ -25,7 +26,7 @@ struct CampaignRecordings {
 /// A campaign's recordings, read; addresses stay valid while more are read.
 class ReadCampaign {
  public:
-  /// Keeps a reference to the campaign.
+  /// Keeps a reference to the campaign. Throws CalibrationError where it is not complete (completeness.hpp).
   explicit ReadCampaign(const recording::Campaign& campaign);
 
   /// Reads the next of the campaign's recordings. Throws RecordingError, or CalibrationError where a run of the whole
@@ -34,7 +35,7 @@ class ReadCampaign {
 
   /// The directions of which there are bench recordings: "b", "a" or both.
   [[nodiscard]] const std::vector<std::string>& directions() const { return directions_; }
-  /// What calibration cannot do without; throws CalibrationError naming what is missing.
+  /// One of directions().
   [[nodiscard]] CampaignRecordings of(const std::string& direction) const;
   /// Operating runs of the whole valve, with the currents of both coils.
   [[nodiscard]] Recordings through_centre() const;
@@ -49,6 +50,7 @@ class ReadCampaign {
   [[nodiscard]] AxialForceMaps axial_force_maps(const std::string& direction) const;
 
   const recording::Campaign& campaign_;
+  std::vector<recording::ReadOptions> options_;
   std::vector<std::string> directions_;
   std::deque<Loaded> loaded_;
 };

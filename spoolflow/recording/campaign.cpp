@@ -216,12 +216,13 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
 Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the campaign"};
-  document.allow_only({"valve", "fluid", "instruments", "load", "recording"});
+  document.allow_only({"valve", "fluid", "instruments", "load", "channels", "recording"});
   Campaign campaign;
   campaign.file = file;
   campaign.valve = valve_of(table_of(document, "valve"));
   if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
   if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
+  if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
   if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
   const toml::array* recordings = read["recording"].as_array();
   if (recordings == nullptr || recordings->empty()) {

@@ -66,6 +66,7 @@ struct Campaign {
   CampaignFluid fluid;
   CampaignInstruments instruments;
   CampaignLoad load;
+  ChannelMap channels{};  ///< of all files that have the columns; a recording's own entries come before it
   std::vector<CampaignRecording> recordings;
 
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;

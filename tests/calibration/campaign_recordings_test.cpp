@@ -2,12 +2,16 @@
 
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "tests/recording/temporary_file.hpp"
 
 namespace spoolflow::calibration {
 namespace {
+
+using testing::HasSubstr;
 
 std::string entry(const std::string& protocol, const std::string& keys) {
   return "[[recording]]\nprotocol = \"" + protocol + "\"\nfile = \"all.csv\"\n" + keys + "\n";
@@ -38,6 +42,68 @@ TEST(CampaignRecordings, GiveEachDirectionItsEdgesAndTheFlowThatTheCylinderPasse
   EXPECT_DOUBLE_EQ(b.outlet_flow_ratio, 0.5);  // what B takes leaves A behind half the area
   EXPECT_DOUBLE_EQ(a.outlet_flow_ratio, 2);
   EXPECT_FALSE(a.edges_are_unknown());
+}
+
+/// Writes a campaign of all bench tests but those of `without`, each in a file of the given header.
+std::string refused_campaign(const std::string& top, const std::string& header, const std::string& without) {
+  std::string text = "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n" + top;
+  for (const char* protocol : {"spring", "solenoid_force_map", "axial_force_map"}) {
+    if (without.find(protocol) == std::string::npos) text += entry(protocol, "");
+  }
+  text += entry("operation", "");
+  const recording::TemporaryFile file("campaign.toml", text);
+  std::ofstream(file.folder() / "all.csv") << header << "\n0,0,9,1,20,10,0\n0.01,0.1,9.1,1,20,10,0\n";
+  const recording::Campaign campaign = recording::read_campaign(file.path());
+  try {
+    ReadCampaign read(campaign);
+    for (std::size_t k = 0; k < campaign.recordings.size(); ++k) (void)read.read_next();
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+constexpr const char* complete =
+    "time_s,position_mm,axial_force_N,current_A,force_N,pressure_difference_bar,flow_reference_L_min";
+
+TEST(CampaignRecordings, ListEveryMissingTestAndHowItIsRecordedBeforeSamplesAreRead) {
+  const std::string text = refused_campaign("", complete, "spring axial_force_map");
+  EXPECT_THAT(text, HasSubstr("no recording with protocol \"spring\": stroke the spool both ways"));
+  EXPECT_THAT(text, HasSubstr("no recording with protocol \"axial_force_map\": sweep the position"));
+}
+
+TEST(CampaignRecordings, ListEveryMissingChannelOfEveryFileAtOnce) {
+  const std::string text = refused_campaign(
+      "", "time_s,position_mm,axial_force_N,else_A,else_N,pressure_upstream_bar,flow_reference_L_min", "");
+  EXPECT_THAT(text, HasSubstr("channel current is missing"));
+  EXPECT_THAT(text, HasSubstr("channel force is missing"));
+  EXPECT_THAT(text, HasSubstr("both \"pressure_upstream\" and \"pressure_downstream\""));
+  EXPECT_THAT(text, HasSubstr("has no coil current"));
+}
+
+TEST(CampaignRecordings, OneChannelMapServesAllFilesAndEntriesThatAFileLacksAreLeftOut) {
+  const std::string own = "[recording.channels]\nposition = { column = \"x\", unit = \"mm\" }\n";
+  const std::string text =
+      "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n"
+      "[channels]\nposition = { column = \"LVDT\", unit = \"mm\" }\ncurrent = { column = \"I\", unit = \"mA\" }\n"
+      "[[recording]]\nprotocol = \"spring\"\nfile = \"spring.csv\"\n" +
+      own + entry("solenoid_force_map", "") + entry("axial_force_map", "");
+  const recording::TemporaryFile file("campaign.toml", text);
+  std::ofstream(file.folder() / "spring.csv") << "time_s,x,LVDT,axial_force_N\n0,1,5,9\n0.01,2,5,9\n";
+  std::ofstream(file.folder() / "all.csv") << "time_s,LVDT,axial_force_N,I,force_N,pressure_difference_bar,flow_L_min\n"
+                                              "0,0.5,9,1000,20,10,0\n0.01,0.6,9.1,1000,20,10,0\n";
+  const recording::Campaign campaign = recording::read_campaign(file.path());
+  ReadCampaign read(campaign);
+  EXPECT_DOUBLE_EQ(read.read_next()[recording::Channel::position][0], 1e-3);  // its own entry comes first
+  const recording::Recording& map = read.read_next();
+  EXPECT_DOUBLE_EQ(map[recording::Channel::position][0], 0.5e-3);
+  EXPECT_DOUBLE_EQ(map[recording::Channel::current][0], 1);
+}
+
+TEST(CampaignRecordings, AMisspeltEntryOfTheCampaignsChannelMapIsRefused) {
+  EXPECT_THAT(refused_campaign("[channels]\nvoltage = { column = \"curent_A\", unit = \"V\" }\n", complete, ""),
+              HasSubstr("channel voltage is mapped to column 'curent_A', which no recording of the campaign has; did "
+                        "you mean 'current_A'?"));
 }
 
 }  // namespace
