@@ -1,6 +1,9 @@
 """What the commands do, from Python: the same figures, the same words, and Ctrl-C stops it."""
 import json
+import os
+import pathlib
 import signal
+import threading
 import unittest
 
 import numpy as np
@@ -36,6 +39,7 @@ class Work(examples.InAFolder):
         self.assertEqual(figures.read_text(), examples.command("validate", "-q", examples.MODEL, examples.RAMP, "--json", "-"))
         self.assertIn("</html>", page.read_text())
         self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1)
         self.assertIn("95 % of the observer's errors lie within", found.verdict)
         self.assertEqual(repr(found), f"<Validation: {found.verdict}>")
         row = found.table()[-1]
@@ -218,6 +222,38 @@ class Interruption(examples.InAFolder):
 
         with self.assertRaisesRegex(LookupError, "enough"):
             spoolflow.validate(examples.model(), examples.RAMP, progress=tell)
+
+    def test_the_threads_are_those_of_this_kind_of_machine(self):
+        self.assertEqual(len(os.listdir("/proc/self/task")), 1)  # CMakeLists.txt leaves NumPy none
+
+
+class InterruptionBesideThreads(Interruption):
+    """As with a NumPy that starts threads, or in a notebook: another process reads the recordings."""
+
+    def setUp(self):
+        super().setUp()
+        over = threading.Event()
+        thread = threading.Thread(target=over.wait)
+        thread.start()
+        self.addCleanup(thread.join)
+        self.addCleanup(over.set)
+
+    def test_the_threads_are_those_of_this_kind_of_machine(self):
+        self.assertGreater(len(os.listdir("/proc/self/task")), 1)
+
+    def test_progress_is_that_of_one_thread(self):
+        shares = []
+        judged = spoolflow.validate(examples.model(), examples.RAMP, progress=shares.append)
+        self.assertEqual(shares, sorted(shares))
+        self.assertGreater(len(shares), 1)
+        self.assertEqual(shares[-1], 1)
+        self.assertIn("95 % of the observer's errors lie within", judged.verdict)
+
+    def test_an_interruption_leaves_no_process_behind(self):
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with self.assertRaises(KeyboardInterrupt):
+            spoolflow.calibrate(examples.EXAMPLES / "valve_a" / "campaign.toml")
+        self.assertEqual(pathlib.Path("/proc/thread-self/children").read_text(), "")
 
 
 if __name__ == "__main__":
