@@ -143,6 +143,17 @@ void add_channels(std::vector<std::string>& to, const recording::SampleTable& ta
   }
 }
 
+/// Whether a run has the currents of both coils, which makes it one of a whole valve.
+bool has_both_coils(const recording::SampleTable& table, recording::ReadOptions options, const std::string& file) {
+  options.required = {Channel::current_a, Channel::current_b};
+  options.optional = {};
+  try {
+    return !bind_channels(table, options, file).empty();
+  } catch (const recording::RecordingError&) {
+    return false;
+  }
+}
+
 /// Entries of the campaign's channel map that no file has.
 void add_unused_entries(std::vector<std::string>& to, const recording::ChannelMap& map,
                         const std::set<std::string>& columns) {
@@ -176,6 +187,7 @@ std::vector<recording::ReadOptions> complete_read_options(const recording::Campa
   std::set<std::string> columns;
   add_tests(tests, campaign);
   bool all_open = true;
+  const bool one_direction = bench_directions(campaign).size() == 1;
   for (const recording::CampaignRecording& entry : campaign.recordings) {
     const ProtocolChannels wanted = channels_of(entry.protocol);
     recording::ReadOptions options{entry.channels, wanted.required, wanted.optional, campaign.valve.stroke_m};
@@ -184,6 +196,13 @@ std::vector<recording::ReadOptions> complete_read_options(const recording::Campa
       options.channels = joined_map(entry.channels, campaign.channels, open.table->columns());
       for (const recording::FileColumn& column : open.table->columns()) columns.insert(column.name);
       add_channels(missing, *open.table, options, entry.protocol, entry.file.string());
+      if (entry.protocol == Protocol::operation && one_direction &&
+          has_both_coils(*open.table, options, entry.file.string())) {
+        missing.push_back(fmt::format(
+            "{}: has the currents of both coils, but the campaign has bench recordings of one direction; record the "
+            "bench tests in both directions, or leave this run out",
+            entry.file.string()));
+      }
     } catch (const recording::RecordingError& error) {
       missing.emplace_back(error.what());
       all_open = false;
