@@ -27,9 +27,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/live_page.hpp"
-#include "spoolflow/live/sources/datagram.hpp"
-#include "spoolflow/live/sources/intake.hpp"
-#include "spoolflow/live/sources/socket.hpp"
+#include "addons/live/sources/datagram.hpp"
+#include "addons/live/sources/intake.hpp"
+#include "addons/live/sources/socket.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 

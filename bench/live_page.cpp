@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "spoolflow/live/sources/intake.hpp"
+#include "addons/live/sources/intake.hpp"
 
 namespace spoolflow::bench {
 namespace {

@@ -15,10 +15,10 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/fleet/blocks/block.hpp"
-#include "spoolflow/fleet/models.hpp"
-#include "spoolflow/fleet/subjects.hpp"
-#include "spoolflow/fleet/transport/nats.hpp"
+#include "addons/live/blocks/block.hpp"
+#include "addons/fleet/models.hpp"
+#include "addons/fleet/subjects.hpp"
+#include "addons/fleet/transport/nats.hpp"
 #include "spoolflow/model/provenance.hpp"
 
 namespace {

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/fleet/blocks/block.hpp"
-#include "spoolflow/fleet/blocks/steps.hpp"
-#include "spoolflow/live/work_together.hpp"
+#include "addons/live/blocks/block.hpp"
+#include "addons/live/blocks/steps.hpp"
+#include "addons/live/work_together.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace {

@@ -20,9 +20,9 @@ done
 echo "== fleets whose parts are killed, 20 seeds, and one with 200 valves for ten minutes"
 ci/build.sh release fleet_reference
 for kind in single cluster; do
-  /usr/bin/python3 tests/fleet/faults_test.py build/release/bin/spoolflow build/release/tests/fleet/fleet_reference examples $kind \
+  /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/fleet_reference examples $kind \
     $(seq 1 20) || status=1
-  /usr/bin/python3 tests/fleet/faults_test.py build/release/bin/spoolflow build/release/tests/fleet/fleet_reference examples $kind 1 \
+  /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/fleet_reference examples $kind 1 \
     --tell --large || status=1
 done
 echo "== 500 valves"

@@ -63,7 +63,7 @@ if(SPOOLFLOW_PYTHON_INTERPRETER)
   list(APPEND components python)
   set(python lib/python3/dist-packages/spoolflow)
   install(TARGETS spoolflow_python LIBRARY DESTINATION ${python} COMPONENT python)
-  install(DIRECTORY python/spoolflow/ DESTINATION ${python} COMPONENT python FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed
+  install(DIRECTORY addons/python/package/spoolflow/ DESTINATION ${python} COMPONENT python FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed
           PATTERN __pycache__ EXCLUDE)
 endif()
 

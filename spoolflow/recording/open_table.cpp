@@ -11,7 +11,7 @@
 #include "spoolflow/recording/files/mat_table.hpp"
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 #include "spoolflow/recording/tdms/tdms_table.hpp"
-#include "spoolflow/recording/xlsx/xlsx_table.hpp"
+#include "addons/formats/xlsx/xlsx_table.hpp"
 
 namespace spoolflow::recording {
 namespace {

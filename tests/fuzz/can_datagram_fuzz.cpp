@@ -2,7 +2,7 @@
 /// again.
 #include <algorithm>
 
-#include "spoolflow/fieldbus/can_text.hpp"
+#include "addons/live/protocols/can_text.hpp"
 #include "tests/fuzz/input_file.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <zstd.h>
 
-#include "spoolflow/fleet/blocks/block.hpp"
+#include "addons/live/blocks/block.hpp"
 #include "spoolflow/numerics/crc32.hpp"
 #include "tests/fuzz/input_file.hpp"
 

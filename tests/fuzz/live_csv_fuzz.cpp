@@ -1,7 +1,7 @@
 /// CSV as connections and pipes bring it to `spoolflow live`: bytes, through sensor and monitor.
 #include <sys/mman.h>
 
-#include "spoolflow/live/sources/csv_stream.hpp"
+#include "addons/live/sources/csv_stream.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 #include "tests/fuzz/live_valve.hpp"
 

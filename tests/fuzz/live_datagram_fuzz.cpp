@@ -2,8 +2,8 @@
 /// with mark, version, length and checksum as they must be, so that what lies behind these checks is reached.
 #include <algorithm>
 
-#include "spoolflow/live/sources/datagram.hpp"
-#include "spoolflow/live/sources/udp_receiver.hpp"
+#include "addons/live/sources/datagram.hpp"
+#include "addons/live/sources/udp_receiver.hpp"
 #include "spoolflow/numerics/crc32.hpp"
 #include "tests/fuzz/live_valve.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <sys/socket.h>
 
-#include "spoolflow/live/door/server.hpp"
-#include "spoolflow/live/page/answer.hpp"
+#include "addons/live/http/server.hpp"
+#include "addons/live/page/answer.hpp"
 #include "tests/fuzz/live_valve.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 /// The site's file: bytes, with a model m.json and a recording run.csv beside it. Sources are read, not begun.
 #include <fstream>
 
-#include "spoolflow/live/site.hpp"
+#include "addons/live/site.hpp"
 #include "tests/fuzz/input_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

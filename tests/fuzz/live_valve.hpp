@@ -2,8 +2,8 @@
 /// A valve of `spoolflow live` for the fuzz targets of its sources.
 #include <vector>
 
-#include "spoolflow/live/sources/intake.hpp"
-#include "spoolflow/live/valve_at_work.hpp"
+#include "addons/live/sources/intake.hpp"
+#include "addons/live/valve/valve_at_work.hpp"
 #include "tests/fuzz/input_file.hpp"
 
 namespace spoolflow::fuzz {

@@ -1,6 +1,6 @@
 /// Commands to a Sparkplug node (NCMD): any bytes as a payload, and payloads of our own with the input's bytes in them,
 /// of which each is known whether it asks for a new birth.
-#include "spoolflow/fieldbus/sparkplug.hpp"
+#include "addons/live/protocols/sparkplug.hpp"
 #include "tests/fuzz/input_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

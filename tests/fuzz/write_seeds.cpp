@@ -5,9 +5,9 @@
 #include <fstream>
 #include <string>
 
-#include "spoolflow/fieldbus/can_text.hpp"
-#include "spoolflow/fieldbus/sparkplug.hpp"
-#include "tests/recording/xlsx/xlsx_file.hpp"
+#include "addons/live/protocols/can_text.hpp"
+#include "addons/live/protocols/sparkplug.hpp"
+#include "addons/formats/tests/xlsx/xlsx_file.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 """fresh_playground.py ROOT: web/built/playground.html is made of the sources as they stand. The page holds the SHA-256 of each file that
-it was made of (web/playground/build.mjs); no compiler is needed to compare them."""
+it was made of (addons/playground/wasm/build.mjs); no compiler is needed to compare them."""
 import base64
 import gzip
 import hashlib
@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 root = Path(sys.argv[1])
-RENEW = "renew it by web/playground/build.sh web/built (needs emscripten, minutes)"
+RENEW = "renew it by addons/playground/wasm/build.sh web/built (needs emscripten, minutes)"
 page = (root / "web" / "built" / "playground.html").read_text()
 part = re.search(r'<script type="text/plain" id="sources">([^<]*)</script>', page)
 if part is None:

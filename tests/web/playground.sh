@@ -23,6 +23,6 @@ command -v emcc >/dev/null || {
   exit 77
 }
 mkdir -p "$folder"
-[ -n "${SPOOLFLOW_PLAYGROUND_BUILT:-}" ] || "$root/web/playground/build.sh" "$folder"
+[ -n "${SPOOLFLOW_PLAYGROUND_BUILT:-}" ] || "$root/addons/playground/wasm/build.sh" "$folder"
 SPOOLFLOW_BROWSER=$browser SPOOLFLOW_PAGE=$folder/playground.html SPOOLFLOW_COMMAND=$command SPOOLFLOW_EXAMPLES=$root/examples \
   exec node --test playground.mjs

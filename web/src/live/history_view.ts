@@ -5,7 +5,7 @@ import { HistoryPlot, withGaps, type Curve } from './history_plot';
 
 const spans: [string, number][] = [['1 hour', 3600], ['1 day', 86400], ['1 week', 7 * 86400], ['30 days', 30 * 86400]];
 const refresh_ms = 30000;
-/** As the program thins them (spoolflow/live/store/long_history.hpp). */
+/** As the program thins them (addons/live/history/long_history.hpp). */
 const mostPoints = 600;
 
 function curveOf(one: IndicatorHistory): Curve {

@@ -1,4 +1,4 @@
-/** A valve's points as they come, over a WebSocket that comes back by itself. Layout: spoolflow/live/page/plot_frame.hpp. */
+/** A valve's points as they come, over a WebSocket that comes back by itself. Layout: addons/live/page/plot_frame.hpp. */
 export interface Point {
   time: number;
   flowMin: number;

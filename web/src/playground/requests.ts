@@ -1,7 +1,7 @@
 /** What the page and its worker tell each other. Files are paths in the worker's own folder, in memory. */
 export interface Asked {
   number: number;
-  /** `start` brings the program, `write` a file, `read` takes one, `answer` does work (spoolflow/playground/playground.hpp). */
+  /** `start` brings the program, `write` a file, `read` takes one, `answer` does work (addons/playground/requests/playground.hpp). */
   kind: 'start' | 'write' | 'read' | 'answer';
   name?: string;
   bytes?: ArrayBuffer;

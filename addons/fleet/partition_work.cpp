@@ -1,0 +1,237 @@
+#include "addons/fleet/partition_work.hpp"
+
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "addons/fleet/subjects.hpp"
+#include "spoolflow/model/model_error.hpp"
+
+namespace spoolflow::fleet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// Blocks of one fetch; of one transaction at most; of one valve that came before their turn.
+constexpr int fetched_blocks = 64;
+constexpr std::size_t committed_blocks = 512, early_blocks = 256;
+constexpr milliseconds patience{100}, retry{300};
+/// A site sends again by itself what is not covered in time; asking is quicker where a single block is missing.
+constexpr seconds ask_every{1}, tell_all_every{5};
+
+}  // namespace
+
+PartitionWork::PartitionWork(WorkerParts parts, const Claim& claim)
+    : parts_(std::move(parts)),
+      claim_(claim),
+      session_(parts_.settings.connection, fmt::format("spoolflow partition {}", claim.partition), worker_patience),
+      store_(session_, claim, parts_.settings.worker.lease_s),
+      models_(parts_.nats.subscribe(model_subject("*"))) {
+  restore();
+}
+
+void PartitionWork::restore() {
+  stream_ = store_.stream_position();
+  for (const KeptValve& kept : store_.read()) {
+    const std::string& valve = kept.position.state.valve;
+    const auto its_model = model(kept.position.model_sha256);
+    if (!its_model) {
+      throw ServerRefuses(
+          fmt::format("the model {} of {} is missing or damaged; restore a backup", kept.position.model_sha256, valve));
+    }
+    place(valve).line.restore(kept, *its_model);
+    to_tell_.insert(valve);
+  }
+}
+
+PartitionWork::Place& PartitionWork::place(const std::string& valve) {
+  const live::AlarmDelays delays{parts_.shared.raised_after_s, parts_.shared.gone_after_s};
+  return places_.try_emplace(valve, valve, parts_.program, delays).first->second;
+}
+
+/// From memory, else from the store.
+std::optional<live::SharedModel> PartitionWork::model(const std::string& sha256) {
+  if (auto found = parts_.models.find(sha256)) return found;
+  const auto kept = store_.model(sha256);
+  if (!kept) return std::nullopt;
+  return parts_.models.add(sha256, *kept);
+}
+
+/// What sites sent because it was asked for, by whomever.
+void PartitionWork::take_models() {
+  constexpr std::size_t hash_digits = 64;
+  while (const auto message = models_.next(milliseconds(0))) {
+    if (message->bytes.size() <= hash_digits) continue;
+    const std::string sha256 = message->bytes.substr(0, hash_digits);
+    if (parts_.models.find(sha256)) continue;
+    const std::vector<std::uint8_t> packed(message->bytes.begin() + hash_digits, message->bytes.end());
+    try {
+      if (parts_.models.add(sha256, packed)) store_.keep_model(sha256, packed);
+    } catch (
+        const model::ModelError&) {  // of another version of the program: its blocks wait for a worker that knows it
+    }
+  }
+}
+
+/// The stream is made anew where it is gone, and read from the beginning where it is not the one of before.
+void PartitionWork::open_stream() {
+  StreamPlace there;
+  try {
+    there = parts_.nats.stream(parts_.settings.stream.name);
+  } catch (const TransportError&) {
+    there = parts_.nats.make_stream(parts_.settings.stream);
+  }
+  const bool same = there.created_ns == stream_.created_ns && stream_.sequence <= there.last;
+  if (!same) stream_ = {there.created_ns, 0};
+  puller_.emplace(parts_.nats.pull(parts_.settings.stream.name, fmt::format("spoolflow.block.{}.>", claim_.partition),
+                                   stream_.sequence + 1, silent_readers_));
+}
+
+/// False where the stream is away.
+bool PartitionWork::fetch() {
+  try {
+    if (!puller_) open_stream();
+    for (const Message& message : puller_->fetch(fetched_blocks, patience)) take(message);
+    work();
+    return true;
+  } catch (const TransportError&) {
+    if (puller_) silent_readers_ = puller_->has_spoken() ? 0 : silent_readers_ + 1;
+    puller_.reset();
+    return false;
+  }
+}
+
+void PartitionWork::take(const Message& message) {
+  stream_.sequence = message.sequence;
+  auto read = read_block({reinterpret_cast<const std::uint8_t*>(message.bytes.data()), message.bytes.size()});
+  Block* const block = std::get_if<Block>(&read);
+  // A site speaks for its own valves alone, which the server sees to by the subject.
+  if (block == nullptr || message.subject != block_subject(claim_.partition, site_of(block->valve)) ||
+      partition_of(block->valve) != claim_.partition) {
+    return;
+  }
+  Place& at = place(block->valve);
+  if (at.gathered) work();  // whose turn it is depends on the block before
+  switch (at.line.turn(*block)) {
+    case ValveLine::Turn::next:
+      if (gather(at, *block)) return;
+      [[fallthrough]];
+    case ValveLine::Turn::early:
+      if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, std::move(*block));
+      return;
+    case ValveLine::Turn::duplicate:
+      to_tell_.insert(block->valve);  // its site seems not to have heard
+  }
+}
+
+/// False where its model is not there yet; the block is then left as it is.
+bool PartitionWork::gather(Place& at, Block& block) {
+  auto its_model = model(block.model_sha256);
+  if (!its_model) {
+    ask(block.valve, at, "model " + block.model_sha256);
+    return false;
+  }
+  at.gathered = true;
+  gathered_.push_back({&at, std::move(block), std::move(*its_model)});
+  return true;
+}
+
+/// Of what came before its turn, the block that has it now.
+void PartitionWork::gather_early(Place& at) {
+  while (!at.early.empty() && !at.gathered) {
+    const auto first = at.early.begin();
+    const ValveLine::Turn turn = at.line.turn(first->second);
+    if (turn == ValveLine::Turn::early) return;
+    if (turn == ValveLine::Turn::next && !gather(at, first->second)) return;
+    at.early.erase(first);
+  }
+}
+
+/// On all that is gathered, and on what has its turn then.
+void PartitionWork::work() {
+  while (!gathered_.empty()) {
+    const std::vector<Gathered> now = std::exchange(gathered_, {});
+    std::vector<live::SampleBlock> samples;
+    std::vector<live::ValveTurn> turns;
+    samples.reserve(now.size());
+    for (const auto& [at, block, its_model] : now) {
+      at->gathered = false;
+      if (live::ValveAtWork* const valve = at->line.begin_work(block, its_model))
+        turns.push_back({valve, &samples.emplace_back(ValveLine::samples(block))});
+    }
+    together_.work(turns);
+    for (const auto& [at, block, its_model] : now)
+      if (!block.report) at->line.end_work(block);
+    uncommitted_ += now.size();
+    for (const Gathered& one : now) gather_early(*one.at);
+  }
+}
+
+void PartitionWork::ask(const std::string& valve, Place& at, const std::string& what) {
+  const Clock::time_point now = Clock::now();
+  if (now - at.asked < ask_every) return;
+  at.asked = now;
+  parts_.nats.publish(ask_subject(site_of(valve)), what);
+}
+
+void PartitionWork::ask_for_missing() {
+  for (auto& [valve, at] : places_) gather_early(at);  // a model may have come
+  work();
+  for (auto& [valve, at] : places_) {
+    if (at.early.empty() || at.line.turn(at.early.begin()->second) != ValveLine::Turn::early) continue;
+    // Of another store of its site it misses the first.
+    const bool same_store = at.early.begin()->second.session == at.line.last().session;
+    ask(valve, at, fmt::format("blocks {} {}", id_of(valve), same_store ? at.line.last().number + 1 : 1));
+  }
+}
+
+void PartitionWork::commit() {
+  work();  // where asking failed on the way: the place in the stream is behind what is gathered
+  committed_ = Clock::now();
+  std::vector<Acknowledgement> seen = store_.acknowledgements();
+  for (Acknowledgement& one : seen) one.taken = place(one.valve).line.acknowledge(one);
+  std::vector<ValveRows> rows;
+  for (auto& [valve, at] : places_) {
+    auto one = at.line.take_rows();
+    if (!one) continue;
+    to_tell_.insert(valve);
+    rows.push_back(std::move(*one));
+  }
+  uncommitted_ = 0;
+  if (!rows.empty() || !seen.empty()) store_.commit(rows, seen, stream_);
+  tell_coverage(false);
+}
+
+/// Of what is committed alone: called behind a commit.
+void PartitionWork::tell_coverage(bool all) {
+  std::map<std::string, std::string> lines;  // by site
+  for (const auto& [valve, at] : places_) {
+    const BlockPlace& last = at.line.last();
+    if (last.session == 0 || (!all && !to_tell_.contains(valve))) continue;
+    lines[site_of(valve)] += fmt::format("{} {} {}\n", id_of(valve), last.session, last.number);
+  }
+  to_tell_.clear();
+  for (const auto& [site, text] : lines) parts_.nats.publish(coverage_subject(site), text);
+}
+
+void PartitionWork::run(const std::stop_token& stop, const std::function<void()>& moved) {
+  const auto commit_every = std::chrono::duration<double>(parts_.settings.worker.commit_s);
+  while (!stop.stop_requested()) {
+    moved();
+    if (!puller_ && uncommitted_ > 0) commit();  // what follows may wait for servers
+    if (!fetch()) std::this_thread::sleep_for(retry);
+    take_models();
+    ask_for_missing();
+    const Clock::time_point now = Clock::now();
+    if (uncommitted_ < committed_blocks && now - committed_ < commit_every) continue;
+    commit();
+    if (now - told_ < tell_all_every) continue;
+    told_ = now;
+    tell_coverage(true);
+  }
+  commit();
+}
+
+}  // namespace spoolflow::fleet

@@ -1,0 +1,85 @@
+#pragma once
+/// One partition at work: blocks from the stream, in their order through their valves, committed together, told to the
+/// sites as covered. Begins from what is kept, and ends by an exception where that is not its own any more.
+#include <chrono>
+#include <functional>
+#include <map>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "addons/fleet/models.hpp"
+#include "addons/fleet/settings.hpp"
+#include "addons/fleet/store/partition_store.hpp"
+#include "addons/fleet/transport/nats.hpp"
+#include "addons/fleet/valve_line.hpp"
+#include "addons/live/work_together.hpp"
+
+namespace spoolflow::fleet {
+
+/// What all partitions of a worker share.
+struct WorkerParts {
+  const FleetSettings& settings;
+  SharedSettings shared;
+  std::string program;  ///< name and version
+  Connection& nats;
+  Models& models;
+};
+
+class PartitionWork {
+ public:
+  /// Reads what is kept. Throws ServerAway or ServerRefuses.
+  PartitionWork(WorkerParts parts, const Claim& claim);
+  /// Until it is stopped; then all that came is committed. `moved` is called again and again, as long as nothing hangs.
+  /// Throws Fenced, ServerAway, ServerRefuses, TransportError.
+  void run(const std::stop_token& stop, const std::function<void()>& moved);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Place {
+    Place(const std::string& valve, const std::string& program, const live::AlarmDelays& delays)
+        : line(valve, program, delays) {}
+    ValveLine line;
+    std::map<std::pair<std::uint64_t, std::uint64_t>, Block> early{};  ///< by session and number
+    Clock::time_point asked{};                                         ///< for what is missing
+    bool gathered = false;                                             ///< its next block is
+  };
+  /// A block whose turn has come.
+  struct Gathered {
+    Place* at;
+    Block block;
+    live::SharedModel model;
+  };
+  Place& place(const std::string& valve);
+  void restore();
+  void open_stream();
+  bool fetch();
+  void take(const Message& message);
+  bool gather(Place& place, Block& block);
+  void gather_early(Place& place);
+  void work();
+  [[nodiscard]] std::optional<live::SharedModel> model(const std::string& sha256);
+  void take_models();
+  void ask(const std::string& valve, Place& place, const std::string& what);
+  void ask_for_missing();
+  void commit();
+  void tell_coverage(bool all);
+
+  WorkerParts parts_;
+  Claim claim_;
+  Session session_;
+  PartitionStore store_;
+  std::map<std::string, Place> places_;
+  std::vector<Gathered> gathered_;  ///< of each valve one, to be worked on together
+  live::WorkTogether together_;
+  std::set<std::string> to_tell_;  ///< valves whose coverage their sites should hear
+  std::optional<Puller> puller_;
+  int silent_readers_ = 0;  ///< in a row
+  Subscription models_;
+  StreamPosition stream_;
+  std::size_t uncommitted_ = 0;  ///< blocks
+  Clock::time_point committed_ = Clock::now(), told_ = Clock::now();
+};
+
+}  // namespace spoolflow::fleet

@@ -1,0 +1,49 @@
+#pragma once
+/// A site's side: sends the blocks that its store keeps, hears which the fleet has committed, and sends again what
+/// comes not to be covered in time.
+#include <chrono>
+#include <functional>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "addons/fleet/delivery.hpp"
+#include "addons/fleet/transport/nats.hpp"
+#include "addons/live/engine.hpp"
+
+namespace spoolflow::fleet {
+
+class Publisher {
+ public:
+  /// Of the engine's site, which must have servers and a store. Throws LoginError. `tell`: as of Worker.
+  Publisher(live::Engine& engine, std::function<void(const std::string&)> tell);
+  ~Publisher();
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void run(const std::stop_token& stop);
+  void look_for_new(live::Database& database);
+  void hear(Subscription& coverage, Subscription& asks);
+  void take_coverage(const std::string& text);
+  void answer(const std::string& ask);
+  void send_model(const std::string& sha256);
+  void send(live::Database& database);
+  void send(live::Database& database, const std::string& valve, Delivery& at);
+
+  live::Engine& engine_;
+  std::function<void(const std::string&)> tell_;
+  Connection nats_;
+  std::map<std::string, Delivery> valves_;
+  /// A model that was asked for, as it travels.
+  struct SentModel {
+    std::string packed{};
+    Clock::time_point sent{};
+  };
+  std::map<std::string, SentModel> models_;  ///< by hash
+  bool was_connected_ = false;
+  std::jthread thread_;
+};
+
+}  // namespace spoolflow::fleet

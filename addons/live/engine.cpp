@@ -1,0 +1,350 @@
+#include "addons/live/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "addons/live/valve/event_text.hpp"
+#include "addons/live/work_together.hpp"
+#include "spoolflow/parallel/pace.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
+
+namespace spoolflow::live {
+
+/// A thread that works on the samples of some of the valves.
+struct Engine::Worker {
+  std::mutex mutex;
+  std::condition_variable_any arrived;
+  std::vector<Place*> pending;
+  WorkTogether together;
+  std::array<ValveBlocks, WorkTogether::most_turns> waiting{};  ///< of the valves that are worked on now
+  std::jthread thread;                                          ///< last: it uses the others
+
+  void tell(Place& place) {
+    {
+      const std::lock_guard lock(mutex);
+      pending.push_back(&place);
+    }
+    arrived.notify_one();
+  }
+  void run(const std::stop_token& stop) {
+    std::vector<Place*> now;
+    while (!stop.stop_requested()) {
+      {
+        std::unique_lock lock(mutex);
+        arrived.wait(lock, stop, [this] { return !pending.empty(); });
+        now.clear();
+        std::swap(now, pending);
+      }
+      for (std::size_t first = 0; first < now.size(); first += WorkTogether::most_turns)
+        work_on(std::span(now).subspan(first, std::min(now.size() - first, WorkTogether::most_turns)));
+    }
+  }
+
+  /// All that waits for these valves; whatever has not come yet is not waited for.
+  void work_on(std::span<Place* const> places) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      waiting[k].valve = places[k]->valve.get();
+      places[k]->intake->take(waiting[k].blocks);
+    }
+    together.work(std::span(waiting).first(places.size()));
+  }
+};
+
+Engine::Engine(SiteSettings site, std::string program)
+    : site_(std::move(site)), program_(std::move(program)), alarms_(site_.alarms) {
+  const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, site_.valves.size());
+  for (std::size_t k = 0; k < threads; ++k) workers_.push_back(std::make_unique<Worker>());
+  for (std::size_t k = 0; k < site_.valves.size(); ++k) {
+    const ValveSettings& settings = site_.valves[k];
+    auto place = std::make_unique<Place>();
+    // Alarms are looked at each second: the oldest samples must last until then.
+    const double raw_s = site_.store.empty() ? 0 : site_.raw_before_s + site_.raw_after_s + 2;
+    place->valve = std::make_unique<ValveAtWork>(settings.id, settings.model, program_, raw_s);
+    Worker& worker = *workers_[k % threads];
+    place->intake = std::make_unique<Intake>([&worker, at = place.get()] { worker.tell(*at); });
+    valves_.push_back(std::move(place));
+  }
+  if (site_.store.empty()) return;
+  store_ = std::make_unique<Store>(site_.store);
+  restore();
+  if (!site_.fleet.servers.empty()) begin_to_publish();
+}
+
+void Engine::restore() {
+  events_.restore(store_->events(static_cast<int>(Events::most)));
+  alarms_.restore(store_->alarms(Alarms::most_cleared));
+  for (const KeptState& kept : store_->states()) {
+    const auto same = std::find_if(valves_.begin(), valves_.end(),
+                                   [&](const auto& place) { return place->valve->id() == kept.valve; });
+    if (same == valves_.end()) continue;
+    (*same)->after = {kept.session, kept.next};
+    const bool goes_on = (*same)->valve->restore(kept);
+    (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
+    if (goes_on) continue;
+    events_.add({.wall_ms = wall_ms(),
+                 .valve = kept.valve,
+                 .kind = "program",
+                 .text = "sensor and monitor begin anew: the model or the program is another than before, or what was "
+                         "kept is damaged"});
+  }
+}
+
+Engine::~Engine() {
+  try {
+    stop();
+  } catch (const std::exception&) {  // the store keeps what it has
+  }
+}
+
+void Engine::start() {
+  for (const auto& worker : workers_) {
+    worker->thread = std::jthread([at = worker.get()](const std::stop_token& stop) { at->run(stop); });
+  }
+  std::vector<UdpValve> senders;
+  for (std::size_t k = 0; k < valves_.size(); ++k) {
+    if (std::holds_alternative<UdpSettings>(site_.valves[k].source)) {
+      senders.push_back({site_.valves[k].id, valves_[k]->intake.get(), valves_[k]->after});
+    }
+  }
+  if (site_.udp) udp_ = std::make_unique<UdpReceiver>(*site_.udp, site_.allow, senders);
+  for (std::size_t k = 0; k < valves_.size(); ++k) start_source(k);
+  keeper_ = std::jthread([this](const std::stop_token& stop) { keep_each_second(stop); });
+}
+
+void Engine::start_source(std::size_t k) {
+  Place& place = *valves_[k];
+  const ValveSettings& settings = site_.valves[k];
+  const recording::ReadOptions channels = validation::sensor_channels(*settings.model.model, settings.channels);
+  if (const auto* tcp = std::get_if<TcpSettings>(&settings.source)) {
+    place.source = std::make_unique<TcpSource>(tcp->listen, site_.allow, channels, place.after, *place.intake);
+  } else if (const auto* pipe = std::get_if<PipeSettings>(&settings.source)) {
+    place.source = std::make_unique<PipeSource>(pipe->path, channels, place.after, *place.intake);
+  } else if (const auto* replay = std::get_if<ReplaySettings>(&settings.source)) {
+    place.source = std::make_unique<ReplaySource>(*replay, channels, place.after, *place.intake);
+  } else if (const auto* rig = std::get_if<RigSettings>(&settings.source)) {
+    place.source = std::make_unique<RigSource>(*rig, place.after, *place.intake);
+  }
+}
+
+void Engine::stop() {
+  const bool worked = keeper_.joinable();
+  keeper_ = {};  // it looks at the sources
+  // Sources first, so that nothing new comes while the last is worked on.
+  for (const auto& place : valves_) {
+    std::visit(
+        [](auto& source) {
+          if constexpr (requires { source->ask_to_stop(); }) {
+            if (source) source->ask_to_stop();
+          }
+        },
+        place->source);
+  }
+  for (const auto& place : valves_) place->source = std::monostate{};
+  udp_.reset();
+  for (const auto& worker : workers_) worker->thread = {};
+  if (!worked) return;
+  std::vector<SampleBlock> blocks;
+  for (const auto& place : valves_) {
+    place->intake->take(blocks);
+    for (const SampleBlock& block : blocks) place->valve->work(block);
+  }
+  if (store_) keep(true);
+}
+
+bool Engine::ended(const Place& place) const {
+  const auto* replay = std::get_if<std::unique_ptr<ReplaySource>>(&place.source);
+  return replay != nullptr && (*replay)->ended();
+}
+
+SourceView Engine::source(std::size_t k) const {
+  const Place& place = *valves_[k];
+  SourceView out;
+  out.kind = kind(site_.valves[k].source);
+  if (const auto* tcp = std::get_if<std::unique_ptr<TcpSource>>(&place.source)) out.port = (*tcp)->port();
+  out.counters = place.intake->counters();
+  out.trouble = place.intake->trouble();
+  const std::int64_t arrived_ns = place.valve->arrived_ns();
+  out.age_s =
+      arrived_ns == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e-9 * static_cast<double>(steady_ns() - arrived_ns);
+  out.stalled = !ended(place) && !(out.age_s <= site_.stalled_after_s);
+  return out;
+}
+
+ValveView Engine::view(std::size_t k) const {
+  ValveView out = valves_[k]->valve->view();
+  if (source(k).stalled) out.condition = std::max(out.condition, monitor::Ne107::function_check);
+  return out;
+}
+
+UdpCounters Engine::udp_counters() const {
+  return udp_ ? udp_->counters() : UdpCounters{};
+}
+
+Engine::StoreView Engine::store_view() const {
+  const std::lock_guard lock(trouble_mutex_);
+  return store_view_;
+}
+
+void Engine::note(const std::string& text) {
+  events_.add({.wall_ms = wall_ms(), .kind = "program", .text = text});
+  if (tell_) tell_(text);
+}
+
+/// What was known is put into a store that began anew; what was deleted or damaged meanwhile is told.
+void Engine::look_after_store(std::int64_t now_ms) {
+  if (const std::string done = store_->look_after(now_ms); !done.empty()) mended_ = done;
+  if (mended_.empty()) return;
+  store_->keep_again(events_.all(), alarms_.all());
+  note(mended_);
+  const std::lock_guard lock(trouble_mutex_);
+  store_view_.mended = std::exchange(mended_, {});
+  store_view_.mended_ms = now_ms;
+  ++store_view_.mendings;
+}
+
+/// Changes of condition and sources become events.
+void Engine::watch_for_events() {
+  for (std::size_t k = 0; k < valves_.size(); ++k) {
+    Place& place = *valves_[k];
+    const SourceView source_now = source(k);
+    // What was pushed last may still be in work for an instant; the next second comes behind it.
+    if (ended(place) && place.intake->empty() && source_now.age_s > 1 && !place.finished) {
+      place.valve->finish();
+      place.finished = true;
+    }
+    const ValveView valve = place.valve->view(false);
+    const auto add = [&](const char* kind, std::string text) {
+      events_.add(
+          {.wall_ms = wall_ms(), .valve = valve.id, .time_s = valve.time_s, .kind = kind, .text = std::move(text)});
+    };
+    if (source_now.stalled != place.told_stalled) {
+      add("source", source_now.stalled
+                        ? fmt::format("no samples{}{}", source_now.trouble.empty() ? "" : ": ", source_now.trouble)
+                        : "samples come in");
+      place.told_stalled = source_now.stalled;
+    } else if (source_now.trouble != place.told_trouble && !source_now.trouble.empty()) {
+      add("source", source_now.trouble);
+    }
+    place.told_trouble = source_now.trouble;
+    // Indicators take long: they are asked for where an alarm may keep them.
+    follow_alarms(place, valve.condition == monitor::Ne107::good ? valve : place.valve->view(), source_now.stalled);
+    keep_raw_samples(place, valve, source_now.stalled || place.finished);
+    if (valve.condition == place.told_condition) continue;
+    events_.add(condition_event(valve, place.told_condition, wall_ms()));
+    place.told_condition = valve.condition;
+  }
+}
+
+void Engine::follow_alarms(Place& place, const ValveView& valve, bool stalled) {
+  for (const AlarmChange& change : alarms_.follow(valve, troubles_of(valve, stalled), wall_ms())) {
+    const Alarm& alarm = change.alarm;
+    events_.add(alarm_event(valve, change, wall_ms()));
+    // Where nothing comes there is nothing to look at.
+    if (change.kind == AlarmChange::Kind::gone || alarm.cause == no_samples) continue;
+    place.alarms.push_back(alarm.id);
+    if (place.alarm_s) continue;
+    place.alarm_s = valve.time_s;
+    place.alarm = fmt::format("alarm {}: {}", alarm.id, alarm.cause);
+  }
+}
+
+std::optional<Alarm> Engine::acknowledge(std::int64_t alarm, const std::string& by) {
+  std::optional<Alarm> found = alarms_.acknowledge(alarm, by, wall_ms());
+  if (!found) return found;
+  events_.add({.wall_ms = wall_ms(),
+               .valve = found->valve,
+               .kind = "alarm",
+               .text = fmt::format("alarm {} acknowledged by {}: {}", found->id, by, found->cause)});
+  return found;
+}
+
+/// Once those behind the alarm have come, too, or no more come.
+void Engine::keep_raw_samples(Place& place, const ValveView& valve, bool nothing_comes) {
+  if (!place.alarm_s || !store_) return;
+  const double since_s = valve.time_s - *place.alarm_s;
+  if (since_s >= 0 && since_s < site_.raw_after_s && !nothing_comes) return;
+  KeptRecording raw{.wall_ms = wall_ms(), .valve = valve.id, .why = place.alarm};
+  raw.csv = place.valve->raw_csv(*place.alarm_s - site_.raw_before_s, *place.alarm_s + site_.raw_after_s);
+  place.alarm_s.reset();
+  const std::vector<std::int64_t> alarms = std::exchange(place.alarms, {});
+  if (raw.csv.empty()) return;
+  try {
+    const std::int64_t id = store_->keep_recording(raw);
+    for (const std::int64_t alarm : alarms) alarms_.name_recording(alarm, id);
+    events_.add({.wall_ms = wall_ms(),
+                 .valve = valve.id,
+                 .time_s = valve.time_s,
+                 .kind = "recording",
+                 .text = fmt::format("raw samples around {} are kept as recording {}", raw.why, id)});
+  } catch (const StoreError&) {  // the next commit meets the same and tells
+  }
+}
+
+void Engine::keep(bool with_indicators) {
+  std::vector<ValveCommit> commits;
+  commits.reserve(valves_.size());
+  for (const auto& place : valves_) commits.push_back(place->valve->take_commit(with_indicators));
+  const std::int64_t now_ms = wall_ms();
+  std::string trouble;
+  try {
+    look_after_store(now_ms);
+  } catch (const StoreError& error) {
+    trouble = error.what();
+  }
+  std::vector<Event> events = events_.unkept();
+  const std::vector<Alarm> alarms = alarms_.take_changed();
+  report(now_ms, commits, events, alarms);
+  try {
+    if (!trouble.empty()) throw StoreError(trouble);
+    store_->commit(now_ms, commits, events, alarms);
+    events_.kept(events);
+    for (std::size_t k = 0; k < commits.size(); ++k) {
+      if (valves_[k]->reported) valves_[k]->reported->number += commits[k].blocks.size();
+    }
+    forget_covered();
+  } catch (const StoreError& error) {
+    trouble = error.what();
+    alarms_.give_back(alarms);
+    for (std::size_t k = 0; k < commits.size(); ++k) {
+      if (valves_[k]->reported) commits[k].blocks.clear();  // it is made anew, with what comes until then
+      valves_[k]->valve->give_back(commits[k]);
+    }
+  }
+  const std::string before = store_view().trouble;
+  if (!trouble.empty() && trouble != before) note(trouble);
+  if (trouble.empty() && !before.empty()) note("the store keeps what comes again");
+  const std::lock_guard lock(trouble_mutex_);
+  store_view_.trouble = trouble;
+}
+
+void Engine::keep_each_second(const std::stop_token& stop) {
+  constexpr int indicators_every = 60, retention_every = 60;
+  parallel::SteadyTime next = std::chrono::steady_clock::now();
+  for (int second = 1;; ++second) {
+    next += std::chrono::seconds(1);
+    if (!parallel::wait_until(next, stop)) return;
+    watch_for_events();
+    if (!store_) {
+      (void)alarms_.take_changed();  // so that those of long ago can go
+      continue;
+    }
+    keep(second % indicators_every == 1);
+    if (second % retention_every != 1) continue;
+    try {
+      store_->retain(wall_ms(), site_.retention);
+      if (const std::int64_t lost = store_->drop_oldest_blocks(site_.fleet.largest_MB); lost > 0) {
+        events_.add(
+            {.wall_ms = wall_ms(),
+             .kind = "program",
+             .text = fmt::format("{} blocks that the fleet had not got were given up: they were more than {} MB", lost,
+                                 site_.fleet.largest_MB)});
+      }
+    } catch (const StoreError&) {  // the next commit meets the same and tells
+    }
+  }
+}
+
+}  // namespace spoolflow::live

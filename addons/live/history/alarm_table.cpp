@@ -1,0 +1,80 @@
+#include "addons/live/history/alarm_table.hpp"
+
+namespace spoolflow::live {
+
+void make_alarm_tables(Database& database) {
+  database.run(R"(
+CREATE TABLE IF NOT EXISTS alarm(
+  id INTEGER PRIMARY KEY, valve TEXT NOT NULL, cause TEXT NOT NULL, sign TEXT NOT NULL, raised_ms INTEGER NOT NULL,
+  gone_ms INTEGER NOT NULL, acknowledged_ms INTEGER NOT NULL, acknowledged_by TEXT NOT NULL, times INTEGER NOT NULL,
+  time_s REAL, text TEXT NOT NULL, recording INTEGER NOT NULL);
+CREATE TABLE IF NOT EXISTS alarm_indicator(
+  alarm INTEGER NOT NULL, place INTEGER NOT NULL, name TEXT NOT NULL, value REAL, uncertainty_95 REAL, baseline REAL,
+  state TEXT NOT NULL, unit TEXT NOT NULL, PRIMARY KEY(alarm, place)) WITHOUT ROWID;
+)");
+}
+
+void keep_alarms(Database& database, const std::vector<Alarm>& alarms) {
+  if (alarms.empty()) return;
+  Statement alarm(database, "INSERT OR REPLACE INTO alarm VALUES(?,?,?,?,?,?,?,?,?,?,?,?)");
+  Statement indicator(database, "INSERT OR REPLACE INTO alarm_indicator VALUES(?,?,?,?,?,?,?,?)");
+  for (const Alarm& one : alarms) {
+    alarm.put(one.id).put(std::string_view(one.valve)).put(std::string_view(one.cause)).put(std::string_view(one.sign));
+    alarm.put(one.raised_ms).put(one.gone_ms).put(one.acknowledged_ms).put(std::string_view(one.acknowledged_by));
+    alarm.put(one.times).put(one.time_s).put(std::string_view(one.text)).put(one.recording).run();
+    for (std::size_t k = 0; k < one.indicators.size(); ++k) {
+      const KeptIndicator& then = one.indicators[k];
+      indicator.put(one.id).put(static_cast<std::int64_t>(k)).put(std::string_view(then.name)).put(then.value);
+      indicator.put(then.uncertainty_95).put(then.baseline).put(std::string_view(then.state));
+      indicator.put(std::string_view(then.unit)).run();
+    }
+  }
+}
+
+std::vector<Alarm> kept_alarms(Database& database, int most_cleared) {
+  std::vector<Alarm> out;
+  Statement each(database,
+                 "SELECT id, valve, cause, sign, raised_ms, gone_ms, acknowledged_ms, acknowledged_by, times, time_s, "
+                 "text, recording FROM alarm WHERE gone_ms = 0 OR acknowledged_ms = 0 OR id IN (SELECT id FROM alarm "
+                 "WHERE gone_ms <> 0 AND acknowledged_ms <> 0 ORDER BY id DESC LIMIT ?) ORDER BY id");
+  each.put(std::int64_t{most_cleared});
+  while (each.next()) {
+    Alarm& one = out.emplace_back();
+    one.id = each.integer(0);
+    one.valve = each.text(1);
+    one.cause = each.text(2);
+    one.sign = each.text(3);
+    one.raised_ms = each.integer(4);
+    one.gone_ms = each.integer(5);
+    one.acknowledged_ms = each.integer(6);
+    one.acknowledged_by = each.text(7);
+    one.times = each.integer(8);
+    one.time_s = each.real(9);
+    one.text = each.text(10);
+    one.recording = each.integer(11);
+  }
+  Statement then(database,
+                 "SELECT name, value, uncertainty_95, baseline, state, unit FROM alarm_indicator WHERE alarm = ? ORDER "
+                 "BY place");
+  for (Alarm& one : out) {
+    then.put(one.id);
+    while (then.next()) {
+      one.indicators.push_back({then.text(0), then.real(1), then.real(2), then.real(3), then.text(4), then.text(5)});
+    }
+  }
+  return out;
+}
+
+void delete_alarms(Database& database, std::int64_t before_ms) {
+  Statement(database,
+            "DELETE FROM alarm_indicator WHERE alarm IN (SELECT id FROM alarm WHERE gone_ms <> 0 AND acknowledged_ms "
+            "<> 0 AND max(gone_ms, acknowledged_ms) < ?)")
+      .put(before_ms)
+      .run();
+  Statement(database,
+            "DELETE FROM alarm WHERE gone_ms <> 0 AND acknowledged_ms <> 0 AND max(gone_ms, acknowledged_ms) < ?")
+      .put(before_ms)
+      .run();
+}
+
+}  // namespace spoolflow::live

@@ -1,0 +1,22 @@
+#pragma once
+/// A store's file before it is used: its tables, and whether this program may use it.
+#include <string>
+
+#include "addons/live/history/sqlite.hpp"
+
+namespace spoolflow::live {
+
+/// Grows with the tables; files of another version are refused.
+inline constexpr int store_version = 2;
+
+/// A lock beside the file, held as long as the descriptor is open; SQLite's own locks let several programs write by
+/// turns. Throws StoreError where another program holds it.
+[[nodiscard]] int only_program(const std::string& path);
+
+/// Throws StoreError where the file is of another program or version.
+void check_version(Database& database);
+
+/// Makes the tables where there are none, else checks version and, unless it is large, content. Throws StoreError.
+void prepare(Database& database);
+
+}  // namespace spoolflow::live

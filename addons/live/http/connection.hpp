@@ -1,0 +1,238 @@
+#pragma once
+/// One connection of HTTP/1.1, with or without TLS, and the WebSocket that it may become. Included by server.cpp alone:
+/// Boost.Beast takes long to compile.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+
+#include "addons/live/http/door.hpp"
+#include "addons/live/http/seats.hpp"
+
+namespace spoolflow::live {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+
+using PlainStream = beast::tcp_stream;
+using TlsStream = beast::ssl_stream<beast::tcp_stream>;
+
+inline constexpr std::uint32_t largest_header = 8192;
+inline constexpr std::uint64_t largest_request_body = 1024;
+inline constexpr auto connection_patience = std::chrono::seconds(30), handshake_patience = std::chrono::seconds(10);
+inline constexpr auto frame_period = std::chrono::milliseconds(25);
+
+/// The page asks nobody but this server for anything, and no page may frame it.
+inline constexpr const char* security_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:; base-uri "
+    "'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// Requests are answered one by one in a thread beside the one that sends plots: neither the store's answers nor the
+/// hash of a password hold those up.
+struct Desk {
+  Door door;
+  asio::thread_pool thread{1};
+
+  Desk(PageContent&& content, const PageSettings& settings) : door(std::move(content), settings) {}
+  [[nodiscard]] Admission admit(const PageRequest& request) {
+    try {
+      return door.admit(request, std::chrono::steady_clock::now());
+    } catch (const std::exception& error) {
+      return {{500, media::plain, std::string(error.what()) + "\n"}};
+    }
+  }
+};
+
+/// Sends one valve's plot, a message each frame period, as long as the browser listens. A slow browser gets fewer
+/// messages, each with all that came in between.
+template <class Stream>
+class PlotStream : public std::enable_shared_from_this<PlotStream<Stream>> {
+ public:
+  PlotStream(Stream&& stream, Seats::Seat&& seat, NextFrame&& next)
+      : socket_(std::move(stream)), seat_(std::move(seat)), timer_(socket_.get_executor()), next_(std::move(next)) {}
+
+  void accept(const http::request<http::string_body>& request) {
+    beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own patience
+    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    socket_.read_message_max(largest_request_body);
+    socket_.async_accept(request, [self = this->shared_from_this()](beast::error_code error) {
+      if (error) return;
+      self->listen();
+      self->send();
+    });
+  }
+
+ private:
+  /// Nothing is expected; reading notices the end.
+  void listen() {
+    socket_.async_read(heard_, [self = this->shared_from_this()](beast::error_code error, std::size_t) {
+      self->heard_.clear();
+      if (error) {
+        self->timer_.cancel();
+        self->ended_ = true;
+        return;
+      }
+      self->listen();
+    });
+  }
+  void send() {
+    if (ended_) return;
+    frame_ = next_();
+    socket_.binary(true);
+    socket_.async_write(asio::buffer(frame_), [self = this->shared_from_this()](beast::error_code error, std::size_t) {
+      if (error || self->ended_) return;
+      self->timer_.expires_after(frame_period);
+      self->timer_.async_wait([self](beast::error_code ended) {
+        if (!ended) self->send();
+      });
+    });
+  }
+
+  websocket::stream<Stream, false> socket_;  // frames are not compressed
+  Seats::Seat seat_;
+  asio::steady_timer timer_;
+  NextFrame next_;
+  beast::flat_buffer heard_;
+  std::vector<std::uint8_t> frame_;
+  bool ended_ = false;
+};
+
+/// Answers the requests of one connection, one after the other.
+template <class Stream>
+class Connection : public std::enable_shared_from_this<Connection<Stream>> {
+ public:
+  static constexpr bool encrypted = std::is_same_v<Stream, TlsStream>;
+
+  Connection(Stream&& stream, Seats::Seat&& seat, Desk& desk)
+      : stream_(std::move(stream)), seat_(std::move(seat)), desk_(desk) {}
+
+  void begin() {
+    if constexpr (encrypted) {
+      beast::get_lowest_layer(stream_).expires_after(handshake_patience);
+      stream_.async_handshake(asio::ssl::stream_base::server,
+                              [self = this->shared_from_this()](beast::error_code error) {
+                                if (!error) self->read();
+                              });
+    } else {
+      read();
+    }
+  }
+
+ private:
+  using Request = http::request<http::string_body>;
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(largest_header);
+    parser_->body_limit(largest_request_body);
+    beast::get_lowest_layer(stream_).expires_after(connection_patience);
+    http::async_read(stream_, heard_, *parser_,
+                     [self = this->shared_from_this()](beast::error_code error, std::size_t) {
+                       if (!error) self->ask();
+                     });
+  }
+
+  [[nodiscard]] PageRequest asked(const Request& request) const {
+    const auto field = [&](http::field name) { return std::string(request[name]); };
+    return {.method = std::string(request.method_string()),
+            .target = std::string(request.target()),
+            .host = field(http::field::host),
+            .origin = field(http::field::origin),
+            .cookie = field(http::field::cookie),
+            .authorization = field(http::field::authorization),
+            .body = request.body(),
+            .peer = seat_.peer(),
+            .upgrade = websocket::is_upgrade(request),
+            .encrypted = encrypted};
+  }
+
+  /// At the desk, and back in this thread with its answer.
+  void ask() {
+    auto request = std::make_shared<Request>(parser_->release());
+    asio::post(desk_.thread, [self = this->shared_from_this(), request, page = asked(*request)]() mutable {
+      Admission admission = self->desk_.admit(page);
+      const auto executor = self->stream_.get_executor();
+      asio::post(executor, [self = std::move(self), request, admission = std::move(admission)]() mutable {
+        self->admitted(*request, std::move(admission));
+      });
+    });
+  }
+
+  void admitted(const Request& request, Admission&& admission) {
+    if (!admission.stream) {
+      reply(request, std::move(admission.answer));
+      return;
+    }
+    std::make_shared<PlotStream<Stream>>(std::move(stream_), std::move(seat_), std::move(admission.stream))
+        ->accept(request);
+  }
+
+  void reply(const Request& request, PageAnswer&& answer) {
+    reply_ = {};
+    reply_.version(request.version());
+    reply_.result(answer.status);
+    reply_.keep_alive(request.keep_alive());
+    reply_.set(http::field::content_type, beast::string_view(answer.type.data(), answer.type.size()));
+    reply_.set("Content-Security-Policy", security_policy);
+    reply_.set("X-Content-Type-Options", "nosniff");
+    reply_.set("Referrer-Policy", "no-referrer");
+    reply_.set("Cross-Origin-Resource-Policy", "same-origin");
+    reply_.set(http::field::cache_control, "no-store");
+    if (encrypted) reply_.set(http::field::strict_transport_security, "max-age=31536000");
+    for (const auto& [header, value] : answer.headers) reply_.set(header, value);
+    const std::size_t length = answer.body.size();
+    if (request.method() != http::verb::head) reply_.body() = std::move(answer.body);
+    reply_.content_length(length);
+    beast::get_lowest_layer(stream_).expires_after(connection_patience);
+    const auto next = [self = this->shared_from_this()](beast::error_code error, std::size_t) {
+      if (error) return;
+      if (self->reply_.need_eof()) {
+        self->end();
+      } else {
+        self->read();
+      }
+    };
+    if (request.method() == http::verb::head) {
+      head_.emplace(reply_);
+      http::async_write_header(stream_, *head_, next);
+    } else {
+      http::async_write(stream_, reply_, next);
+    }
+  }
+
+  void end() {
+    if constexpr (encrypted) {
+      stream_.async_shutdown([self = this->shared_from_this()](beast::error_code) {});
+    } else {
+      beast::error_code ignored;
+      stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    }
+  }
+
+  Stream stream_;
+  Seats::Seat seat_;
+  Desk& desk_;
+  beast::flat_buffer heard_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  http::response<http::string_body> reply_;
+  std::optional<http::response_serializer<http::string_body>> head_;
+};
+
+}  // namespace spoolflow::live

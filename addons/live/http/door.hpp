@@ -1,0 +1,49 @@
+#pragma once
+/// Where a request comes in: by which name it calls the server, who sent it, what they may do; and its answer.
+#include <string>
+#include <string_view>
+
+#include "addons/live/http/access.hpp"
+#include "addons/live/http/page_content.hpp"
+
+namespace spoolflow::live {
+
+/// A WebSocket that is to be opened has `stream`; everything else its answer.
+struct Admission {
+  PageAnswer answer;
+  NextFrame stream{};
+};
+
+/// To be used by one thread.
+class Door {
+ public:
+  /// Throws SiteError where an account cannot be used.
+  Door(PageContent content, const PageSettings& settings)
+      : content_(std::move(content)), settings_(settings), access_(settings) {}
+
+  /// Accounts, names and the like from now on; see Access::change().
+  void change(const PageSettings& settings) {
+    settings_ = settings;
+    access_.change(settings);
+  }
+
+  [[nodiscard]] Admission admit(const PageRequest& request, Access::Time now);
+
+ private:
+  [[nodiscard]] bool knows_host(std::string_view host) const;
+  [[nodiscard]] bool is_own_page(const PageRequest& request) const;
+  [[nodiscard]] PageAnswer login(const PageRequest& request, Access::Time now);
+  [[nodiscard]] PageAnswer logout(const PageRequest& request);
+  [[nodiscard]] PageAnswer acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm);
+  [[nodiscard]] PageAnswer posted(const PageRequest& request, const Visitor& visitor);
+
+  PageContent content_;
+  PageSettings settings_;
+  Access access_;
+};
+
+/// Whether the name by which a browser called the server is one of this machine alone: a page of another site that
+/// pretends to be here by its name's address is refused.
+[[nodiscard]] bool is_own_host(std::string_view host);
+
+}  // namespace spoolflow::live

@@ -1,0 +1,31 @@
+#pragma once
+/// What stands behind the door of a page: a site's, or a fleet's.
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "addons/live/http/request.hpp"
+
+namespace spoolflow::live {
+
+/// The next message of a WebSocket; of the server's thread, and quick.
+using NextFrame = std::function<std::vector<std::uint8_t>()>;
+
+/// Each is called by one thread at a time.
+struct PageContent {
+  std::string name;  ///< of the program, for browsers: "spoolflow live"
+  /// What those who may read are told; `target` as the request has it.
+  std::function<PageAnswer(std::string_view method, std::string_view target)> answer;
+  /// Whether it is one of the files that the page is made of, which tell nothing of what is behind it.
+  std::function<bool(std::string_view path)> is_file;
+  /// Acknowledges an alarm; `alarm` is what stands between /api/v1/alarms/ and /acknowledge. Nothing where that is no
+  /// alarm's name.
+  std::function<std::optional<PageAnswer>(std::string_view alarm, const std::string& by)> acknowledge;
+  /// Empty where no plot is streamed at that path.
+  std::function<NextFrame(std::string_view path)> stream;
+};
+
+}  // namespace spoolflow::live

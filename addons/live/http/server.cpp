@@ -1,0 +1,169 @@
+/// The only file that sees Boost.Beast, which takes long to compile.
+#include "addons/live/http/server.hpp"
+
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+#include <openssl/err.h>
+
+#include "addons/live/http/connection.hpp"
+#include "addons/live/http/settings_watch.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+std::string reason(const beast::system_error& error) {
+  return error.code().message();
+}
+
+/// Throws SiteError. TLS 1.2 at least.
+std::shared_ptr<asio::ssl::context> tls_context(const PageSettings& settings) {
+  if (!settings.has_tls()) return nullptr;
+  auto context = std::make_shared<asio::ssl::context>(asio::ssl::context::tls_server);
+  SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
+  SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
+  // A key with a password would ask for it at the terminal.
+  context->set_password_callback([](std::size_t, asio::ssl::context::password_purpose) { return std::string(); });
+  const std::string certificate = settings.certificate.string(), key = settings.key.string();
+  try {
+    context->use_certificate_chain_file(certificate);
+  } catch (const beast::system_error& error) {
+    throw SiteError(
+        fmt::format("{}: no certificate can be read from it ({}); it must be a PEM file with the server's "
+                    "certificate first",
+                    certificate, reason(error)));
+  }
+  std::error_code ignored;
+  const auto rights = std::filesystem::status(settings.key, ignored).permissions();
+  const bool is_there = rights != std::filesystem::perms::unknown;
+  if (is_there && (rights & std::filesystem::perms::others_read) != std::filesystem::perms::none) {
+    throw SiteError(fmt::format("{0}: everybody on this machine may read the key; `chmod 600 {0}`", key));
+  }
+  try {
+    context->use_private_key_file(key, asio::ssl::context::pem);
+  } catch (const beast::system_error& error) {
+    throw SiteError(fmt::format("{}: is no key of the certificate {} ({}); it must be a PEM file without password", key,
+                                certificate, reason(error)));
+  }
+  return context;
+}
+
+/// Whose wrong passwords and connections are counted together: an IPv4 address, or the network of an IPv6 one.
+std::string peer_of(const asio::ip::address& address) {
+  if (address.is_v4()) return address.to_string();
+  asio::ip::address_v6 whole = address.to_v6();
+  if (whole.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, whole).to_string();
+  asio::ip::address_v6::bytes_type bytes = whole.to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+  return asio::ip::address_v6(bytes).to_string();
+}
+
+SettingsWatch::Files watched_files(const PageOrigin& origin, const PageSettings& settings) {
+  SettingsWatch::Files out;
+  for (const std::filesystem::path& file : {origin.file, settings.certificate, settings.key}) {
+    if (!file.empty()) out.push_back(file);
+  }
+  return out;
+}
+
+constexpr auto look_period = std::chrono::seconds(1);
+
+}  // namespace
+
+struct PageServer::Parts {
+  Seats seats;                              ///< before the context, whose last handlers leave them
+  std::shared_ptr<asio::ssl::context> tls;  ///< of connections from now on; each keeps what it began with
+  PageSettings settings;
+  PageOrigin origin;
+  SettingsWatch watch;
+  asio::io_context context{1};
+  Desk desk;
+  tcp::acceptor acceptor{context};
+  asio::steady_timer next_look{context};
+  std::jthread thread{};
+
+  Parts(PageContent&& content, const PageSettings& page, PageOrigin&& from)
+      : tls(tls_context(page)),
+        settings(page),
+        origin(std::move(from)),
+        watch(watched_files(origin, page)),
+        desk(std::move(content), page) {}
+
+  void look_again() {
+    next_look.expires_after(look_period);
+    next_look.async_wait([this](beast::error_code ended) {
+      if (ended) return;
+      if (watch.changed()) read_anew();
+      look_again();
+    });
+  }
+  /// All of it or nothing.
+  void read_anew() {
+    std::string told;
+    try {
+      PageSettings now = origin.file.empty() ? settings : read_page_of(origin.file);
+      now.listen = settings.listen;  // another address needs a new start
+      check_reach(now);
+      check_secrets(now);
+      if (now.has_tls() != settings.has_tls()) {
+        throw SiteError(fmt::format("{}: a page with TLS instead of one without, or the other way, needs a new start",
+                                    origin.file.string()));
+      }
+      tls = tls_context(now);
+      settings = now;
+      watch.follow(watched_files(origin, now));
+      asio::post(desk.thread, [this, now] { desk.door.change(now); });
+      told = fmt::format("accounts and certificate were read anew: {} accounts", now.accounts.size());
+    } catch (const std::exception& error) {
+      told = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
+    }
+    if (origin.tell) origin.tell(told);
+  }
+
+  void accept() {
+    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+      if (error == asio::error::operation_aborted) return;
+      if (!error) take(std::move(socket));
+      accept();
+    });
+  }
+  void take(tcp::socket&& socket) {
+    beast::error_code error;
+    const auto other = socket.remote_endpoint(error);
+    if (error) return;
+    auto seat = seats.take(peer_of(other.address()), other.address().is_loopback());
+    if (!seat) return;
+    if (tls) {
+      std::make_shared<Connection<TlsStream>>(TlsStream(std::move(socket), *tls), std::move(*seat), desk)->begin();
+    } else {
+      std::make_shared<Connection<PlainStream>>(PlainStream(std::move(socket)), std::move(*seat), desk)->begin();
+    }
+  }
+};
+
+PageServer::PageServer(PageContent content, const PageSettings& settings, PageOrigin origin) {
+  check_reach(settings);
+  parts_ = std::make_unique<Parts>(std::move(content), settings, std::move(origin));
+  BoundSocket bound = bind_socket(settings.listen, Transport::tcp);
+  const bool is_6 = settings.listen.host.find(':') != std::string::npos;
+  parts_->acceptor.assign(is_6 ? tcp::v6() : tcp::v4(), bound.descriptor.release());
+  parts_->accept();
+  parts_->look_again();
+  parts_->thread = std::jthread([parts = parts_.get()] { parts->context.run(); });
+}
+
+PageServer::~PageServer() {
+  parts_->context.stop();
+  parts_->thread = {};
+  // What is still asked at the desk goes with the context.
+  parts_->desk.thread.stop();
+  parts_->desk.thread.join();
+}
+
+std::uint16_t PageServer::port() const {
+  beast::error_code ignored;
+  return parts_->acceptor.local_endpoint(ignored).port();
+}
+
+}  // namespace spoolflow::live

@@ -1,0 +1,43 @@
+#include "addons/live/page/alarm_text.hpp"
+
+#include <algorithm>
+
+#include "addons/live/page/api_text.hpp"
+
+namespace spoolflow::live {
+
+Json json_of(const Alarm& alarm) {
+  Json indicators = Json::array();
+  for (const KeptIndicator& then : alarm.indicators) {
+    indicators.push_back({{"name", then.name},
+                          {"value", then.value},
+                          {"unit", then.unit},
+                          {"uncertainty_95", then.uncertainty_95},
+                          {"baseline", then.baseline},
+                          {"state", then.state}});
+  }
+  return {{"id", alarm.id},
+          {"valve", alarm.valve},
+          {"cause", alarm.cause},
+          {"ne107", alarm.sign},
+          {"state", state_of(alarm)},
+          {"raised", utc(alarm.raised_ms)},
+          {"times", alarm.times},
+          {"gone", utc_or_null(alarm.gone_ms)},
+          {"acknowledged", utc_or_null(alarm.acknowledged_ms)},
+          {"acknowledged_by", alarm.acknowledged_by.empty() ? Json(nullptr) : Json(alarm.acknowledged_by)},
+          {"time_s", rounded(alarm.time_s, 6)},
+          {"text", alarm.text},
+          {"recording", alarm.recording == 0 ? Json(nullptr) : Json(alarm.recording)},
+          {"indicators", std::move(indicators)}};
+}
+
+std::string alarms_json(const Engine& engine) {
+  Json out = Json::array();
+  std::vector<Alarm> alarms = engine.alarms();
+  std::reverse(alarms.begin(), alarms.end());
+  for (const Alarm& alarm : alarms) out.push_back(json_of(alarm));
+  return written(Json{{"alarms", std::move(out)}});
+}
+
+}  // namespace spoolflow::live

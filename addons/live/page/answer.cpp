@@ -1,0 +1,151 @@
+#include "addons/live/page/answer.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include "addons/live/http/target.hpp"
+#include "addons/live/page/alarm_text.hpp"
+#include "addons/live/page/api_text.hpp"
+#include "addons/live/page/history_text.hpp"
+#include "addons/live/page/page_files.hpp"
+#include "addons/live/page/plot_frame.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+using media::json;
+using media::plain;
+
+std::string page_file(std::string_view name) {
+  for (const EmbeddedFile& file : page_files()) {
+    if (file.name == name) return std::string(file.bytes);
+  }
+  return {};
+}
+
+/// The number of /api/v1/recordings/NUMBER.csv.
+std::optional<std::int64_t> recording_asked(std::string_view path) {
+  constexpr std::string_view before = "/api/v1/recordings/", behind = ".csv";
+  if (!path.starts_with(before) || !path.ends_with(behind)) return std::nullopt;
+  if (path.size() <= before.size() + behind.size()) return std::nullopt;
+  path = path.substr(before.size(), path.size() - before.size() - behind.size());
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), number);
+  return error == std::errc() && end == path.data() + path.size() ? std::optional(number) : std::nullopt;
+}
+
+PageAnswer recording_answer(const Engine& engine, std::int64_t number) {
+  const auto recording = engine.site().store.empty() ? std::nullopt : read_recording(engine.site().store, number);
+  if (!recording) return {404, plain, "there is no recording of this number\n"};
+  return {200, media::csv, recording->csv};
+}
+
+PageAnswer found(const Engine& engine, std::string_view path);
+
+std::optional<std::size_t> place_of(const Engine& engine, std::string_view id) {
+  for (std::size_t k = 0; k < engine.size(); ++k) {
+    if (engine.valve(k).id() == id) return k;
+  }
+  return std::nullopt;
+}
+
+std::string indicator_days(const Engine& engine, std::size_t valve, const Span& span) {
+  const ValveView view = engine.view(valve);
+  IndicatorHistories kept;
+  if (!engine.site().store.empty()) kept = read_indicators(engine.site().store, view.id, span);
+  std::vector<IndicatorDays> out;
+  for (const monitor::Indicator& one : view.indicators) {  // in the monitor's order
+    std::vector<IndicatorPoint>& points = kept[std::string(one.name)];
+    if (one.state == monitor::IndicatorState::counts || points.empty()) continue;
+    out.push_back({std::string(one.name), std::string(one.unit), std::move(points)});
+  }
+  return indicator_days_json(view.id, span, out);
+}
+
+std::string flow_days(const Engine& engine, std::size_t valve, const Span& span) {
+  const std::string& id = engine.valve(valve).id();
+  return flow_days_json(
+      id, span, engine.site().store.empty() ? std::vector<FlowPoint>() : read_flow(engine.site().store, id, span));
+}
+
+/// /api/v1/valves/ID/indicators and /api/v1/valves/ID/history; nothing where it is neither.
+std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, std::string_view target) {
+  const auto indicators = valve_asked(path, "indicators");
+  const auto asked = indicators ? indicators : valve_asked(path, "history");
+  if (!asked) return std::nullopt;
+  const auto valve = place_of(engine, *asked);
+  if (!valve) return PageAnswer{404, plain, "there is no valve of this name\n"};
+  const auto span = span_asked(target);
+  if (!span) return no_span();
+  return PageAnswer{200, json, indicators ? indicator_days(engine, *valve, *span) : flow_days(engine, *valve, *span)};
+}
+
+}  // namespace
+
+PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_view target) {
+  if (method != "GET" && method != "HEAD") return {405, plain, "only GET is answered\n"};
+  const std::string_view path = target.substr(0, target.find('?'));
+  try {
+    if (auto days = days_of(engine, path, target)) return std::move(*days);
+    return found(engine, path);
+  } catch (const StoreError& error) {
+    return {503, plain, std::string(error.what()) + "\n"};
+  }
+}
+
+namespace {
+
+PageAnswer found(const Engine& engine, std::string_view path) {
+  if (path == "/") return {200, "text/html; charset=utf-8", page_file("live.html")};
+  if (path == "/live.js") return {200, "text/javascript; charset=utf-8", page_file("live.js")};
+  if (path == "/live.css") return {200, "text/css; charset=utf-8", page_file("live.css")};
+  if (path == "/api/v1/valves") return {200, json, valves_json(engine)};
+  if (path == "/api/v1/events") return {200, json, events_json(engine)};
+  if (path == "/api/v1/alarms") return {200, json, alarms_json(engine)};
+  if (path == "/api/v1/recordings") return {200, json, recordings_json(engine)};
+  if (const auto number = recording_asked(path)) return recording_answer(engine, *number);
+  if (path == "/api/v1/site") return {200, json, site_json(engine)};
+  if (path == "/api/v1/openapi.json") return {200, json, page_file("openapi.json")};
+  if (path == "/metrics") return {200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(engine)};
+  return {404, plain, "there is nothing here; see /, /api/v1/valves, /api/v1/events, /api/v1/site and /metrics\n"};
+}
+
+}  // namespace
+
+namespace {
+
+/// With each message what came since the one before.
+NextFrame plot_of(const ValveAtWork& valve) {
+  return [&valve, next = std::uint64_t{0}]() mutable {
+    const ValveAtWork::TracePart part = valve.trace_from(next);
+    next = part.first + part.points.size();
+    if (next > 0) --next;  // the last point may still grow
+    return plot_frame(part, steady_ns());
+  };
+}
+
+std::optional<PageAnswer> acknowledge(Engine& engine, std::string_view alarm, const std::string& by) {
+  std::int64_t id = 0;
+  const auto [end, error] = std::from_chars(alarm.data(), alarm.data() + alarm.size(), id);
+  if (error != std::errc() || end != alarm.data() + alarm.size()) return std::nullopt;
+  const auto found = engine.acknowledge(id, by);
+  if (!found) return PageAnswer{404, plain, "there is no alarm of this number\n"};
+  return PageAnswer{200, json, written(json_of(*found))};
+}
+
+}  // namespace
+
+PageContent site_page(Engine& engine) {
+  return {.name = "spoolflow live",
+          .answer = [&](std::string_view method, std::string_view target) { return answer_to(engine, method, target); },
+          .is_file = [](std::string_view path) { return path == "/" || path == "/live.js" || path == "/live.css"; },
+          .acknowledge = [&](std::string_view alarm, const std::string& by) { return acknowledge(engine, alarm, by); },
+          .stream =
+              [&](std::string_view path) {
+                const auto asked = valve_asked(path, "stream");
+                const auto valve = asked ? place_of(engine, *asked) : std::nullopt;
+                return valve ? plot_of(engine.valve(*valve)) : NextFrame();
+              }};
+}
+
+}  // namespace spoolflow::live

@@ -1,0 +1,284 @@
+#include "addons/live/page/api_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "addons/live/http/json_text.hpp"
+#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+using units::litre_per_minute_per_m3_per_s;
+
+Json status_of(const ValveView& valve, const SourceView& source) {
+  Json out = Json::array();
+  for (const sensor::StatusName& entry : sensor::status_names) {
+    if (sensor::has(valve.answer.status, entry.bit)) out.push_back(entry.name);
+  }
+  if (sensor::has(valve.answer.status, sensor::monitor_status_name.bit))
+    out.push_back(sensor::monitor_status_name.name);
+  if (source.stalled) out.push_back("stalled");
+  return out;
+}
+
+Json source_of(const SourceView& source) {
+  const IntakeCounters& counted = source.counters;
+  Json out{{"kind", source.kind},
+           {"stalled", source.stalled},
+           {"age_s", rounded(source.age_s, 3)},
+           {"trouble", source.trouble},
+           {"received", counted.received},
+           {"dropped", counted.dropped},
+           {"lost", counted.lost},
+           {"repeated", counted.repeated},
+           {"unreadable", counted.unreadable},
+           {"connections", counted.connections}};
+  if (source.port != 0) out["port"] = source.port;
+  return out;
+}
+
+Json causes_of(const ValveView& valve) {
+  Json out = Json::array();
+  for (const monitor::Cause& cause : valve.causes) {
+    out.push_back({{"cause", monitor::name(cause.fault)}, {"odds", cause.odds}});
+  }
+  return out;
+}
+
+Json indicators_of(const ValveView& valve) {
+  Json out = Json::array();
+  for (const monitor::Indicator& one : valve.indicators) {
+    out.push_back({{"name", one.name},
+                   {"value", one.value},
+                   {"unit", one.unit},
+                   {"uncertainty_95", one.uncertainty_95},
+                   {"baseline", one.baseline},
+                   {"state", monitor::name(one.state)}});
+  }
+  return out;
+}
+
+Json valve_of(const Engine& engine, std::size_t k) {
+  const ValveView valve = engine.view(k);
+  const SourceView source = engine.source(k);
+  const bool known = std::isfinite(valve.time_s);
+  const auto flow = [&](double m3_per_s) {
+    return known ? rounded(m3_per_s * litre_per_minute_per_m3_per_s, 6) : Json(nullptr);
+  };
+  return {{"id", valve.id},
+          {"time_s", rounded(valve.time_s, 6)},
+          {"flow_L_min", flow(valve.answer.flow_m3_per_s)},
+          {"flow_lower_L_min", flow(valve.answer.flow_lower_m3_per_s)},
+          {"flow_upper_L_min", flow(valve.answer.flow_upper_m3_per_s)},
+          {"pressure_difference_bar", rounded(valve.answer.pressure_difference_Pa / units::pascal_per_bar, 4)},
+          {"rated_flow_L_min", rounded(valve.rated_flow_m3_per_s * litre_per_minute_per_m3_per_s, 6)},
+          {"status", status_of(valve, source)},
+          {"ne107", monitor::name(valve.condition)},
+          {"causes", causes_of(valve)},
+          {"samples", valve.samples},
+          {"energy_J", valve.energy_J},
+          {"indicators", indicators_of(valve)},
+          {"source", source_of(source)}};
+}
+
+/// Of what goes out beside the page; each name once.
+Json outputs_of(const Engine& engine) {
+  Json out = Json::object();
+  for (const OutputView& one : engine.outputs().views()) {
+    out[one.name] = {{"sent", one.sent},       {"received", one.received},   {"dropped", one.dropped},
+                     {"waiting", one.waiting}, {"connected", one.connected}, {"trouble", one.trouble}};
+  }
+  return out;
+}
+
+/// The text as a label's value may hold it; ids hold nothing else.
+std::string label(const std::string& id) {
+  return fmt::format("{{valve=\"{}\"}}", id);
+}
+
+}  // namespace
+
+std::string valves_json(const Engine& engine) {
+  Json valves = Json::array();
+  for (std::size_t k = 0; k < engine.size(); ++k) valves.push_back(valve_of(engine, k));
+  return written(Json{{"valves", std::move(valves)}});
+}
+
+std::string events_json(const Engine& engine) {
+  Json out = Json::array();
+  std::vector<Event> events = engine.events();
+  std::reverse(events.begin(), events.end());
+  for (const Event& event : events) {
+    out.push_back({{"id", event.id},
+                   {"time", utc(event.wall_ms)},
+                   {"valve", event.valve},
+                   {"time_s", rounded(event.time_s, 6)},
+                   {"kind", event.kind},
+                   {"text", event.text}});
+  }
+  return written(Json{{"events", std::move(out)}});
+}
+
+std::string recordings_json(const Engine& engine) {
+  Json out = Json::array();
+  if (!engine.site().store.empty()) {
+    for (const KeptRecording& one : list_recordings(engine.site().store, 1000)) {
+      out.push_back({{"id", one.id}, {"time", utc(one.wall_ms)}, {"valve", one.valve}, {"why", one.why}});
+    }
+  }
+  return written(Json{{"recordings", std::move(out)}});
+}
+
+std::string site_json(const Engine& engine) {
+  double flow_m3_per_s = 0, power_W = 0;
+  std::size_t stalled = 0, doubted = 0;
+  std::array<std::size_t, 5> signs{};
+  for (std::size_t k = 0; k < engine.size(); ++k) {
+    const ValveView valve = engine.view(k);
+    ++signs.at(static_cast<std::size_t>(valve.condition));
+    doubted += sensor::has(valve.answer.status, sensor::Status::model_doubt) ? 1 : 0;
+    if (engine.source(k).stalled) {
+      ++stalled;
+      continue;
+    }
+    const double flow = std::abs(valve.answer.flow_m3_per_s);
+    const double power = flow * valve.answer.pressure_difference_Pa;
+    if (std::isfinite(flow)) flow_m3_per_s += flow;
+    if (std::isfinite(power)) power_W += power;
+  }
+  Json with_sign = Json::object();
+  for (std::size_t k = 0; k < signs.size(); ++k)
+    with_sign[std::string(monitor::name(static_cast<monitor::Ne107>(k)))] = signs[k];
+  const UdpCounters udp = engine.udp_counters();
+  const Engine::StoreView store = engine.store_view();
+  return written(
+      Json{{"valves", engine.size()},
+           {"stalled", stalled},
+           {"model_doubt", doubted},
+           {"ne107", std::move(with_sign)},
+           {"flow_L_min", rounded(flow_m3_per_s * litre_per_minute_per_m3_per_s, 3)},
+           {"hydraulic_power_W", rounded(power_W, 1)},
+           {"store", engine.site().store},
+           {"store_trouble", store.trouble},
+           {"store_mended",
+            store.mended.empty() ? Json(nullptr) : Json{{"time", utc(store.mended_ms)}, {"text", store.mended}}},
+           {"outputs", outputs_of(engine)},
+           {"udp",
+            {{"port", engine.udp_port()},
+             {"datagrams", udp.datagrams},
+             {"unreadable", udp.unreadable},
+             {"unknown_valve", udp.unknown_valve},
+             {"not_allowed", udp.not_allowed}}}});
+}
+
+namespace {
+
+std::string alarm_metrics(const Engine& engine) {
+  std::size_t there = 0, unacknowledged = 0;
+  for (const Alarm& alarm : engine.alarms()) {
+    if (alarm.gone_ms == 0) ++there;
+    if (alarm.acknowledged_ms == 0) ++unacknowledged;
+  }
+  return fmt::format(
+      "# HELP spoolflow_alarms_raised Alarms that are not gone.\n# TYPE spoolflow_alarms_raised gauge\n"
+      "spoolflow_alarms_raised {}\n# HELP spoolflow_alarms_unacknowledged Alarms that nobody has acknowledged.\n"
+      "# TYPE spoolflow_alarms_unacknowledged gauge\nspoolflow_alarms_unacknowledged {}\n",
+      there, unacknowledged);
+}
+
+/// Nothing where there is no store.
+std::string store_metrics(const Engine& engine) {
+  if (engine.site().store.empty()) return {};
+  const Engine::StoreView store = engine.store_view();
+  return fmt::format(
+      "# HELP spoolflow_store_failing 1 where nothing is kept at present.\n# TYPE spoolflow_store_failing gauge\n"
+      "spoolflow_store_failing {}\n# HELP spoolflow_store_mended_total Times that the store's file was deleted or "
+      "damaged while the program ran.\n# TYPE spoolflow_store_mended_total counter\nspoolflow_store_mended_total "
+      "{}\n",
+      store.trouble.empty() ? 0 : 1, store.mendings);
+}
+
+/// Nothing where all are off.
+std::string output_metrics(const Engine& engine) {
+  const std::vector<OutputView> outputs = engine.outputs().views();
+  std::string out;
+  const auto family = [&](const char* name, const char* type, const char* help, auto&& value) {
+    out += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
+    for (const OutputView& one : outputs) out += fmt::format("{}{{output=\"{}\"}} {}\n", name, one.name, value(one));
+  };
+  if (outputs.empty()) return out;
+  family("spoolflow_output_sent_total", "counter", "Frames, answers or messages that went out.",
+         [](const OutputView& one) { return one.sent; });
+  family("spoolflow_output_received_total", "counter", "Frames, requests or commands that came in.",
+         [](const OutputView& one) { return one.received; });
+  family("spoolflow_output_dropped_total", "counter", "What found no room or was given up.",
+         [](const OutputView& one) { return one.dropped; });
+  family("spoolflow_output_waiting", "gauge", "Records that are kept until they can be sent.",
+         [](const OutputView& one) { return one.waiting; });
+  family("spoolflow_output_failing", "gauge", "1 where nothing goes out at present.",
+         [](const OutputView& one) { return one.trouble.empty() ? 0 : 1; });
+  return out;
+}
+
+}  // namespace
+
+std::string metrics_text(const Engine& engine) {
+  struct Row {
+    ValveView valve;
+    SourceView source;
+  };
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < engine.size(); ++k) rows.push_back({engine.view(k), engine.source(k)});
+  std::string out = alarm_metrics(engine);
+  const auto family = [&](const char* name, const char* type, const char* help, auto&& value) {
+    out += fmt::format("# HELP {0} {2}\n# TYPE {0} {1}\n", name, type, help);
+    for (const Row& row : rows) {
+      const double now = static_cast<double>(value(row));
+      out += std::isnan(now) ? fmt::format("{}{} NaN\n", name, label(row.valve.id))
+                             : fmt::format("{}{} {}\n", name, label(row.valve.id), now);
+    }
+  };
+  family("spoolflow_flow_cubic_metres_per_second", "gauge", "Flow rate of this instant, signed for whole valves.",
+         [](const Row& row) { return row.valve.answer.flow_m3_per_s; });
+  family("spoolflow_flow_lower_cubic_metres_per_second", "gauge", "Lower end of the 95 % band of the flow rate.",
+         [](const Row& row) { return row.valve.answer.flow_lower_m3_per_s; });
+  family("spoolflow_flow_upper_cubic_metres_per_second", "gauge", "Upper end of the 95 % band of the flow rate.",
+         [](const Row& row) { return row.valve.answer.flow_upper_m3_per_s; });
+  family("spoolflow_pressure_difference_pascals", "gauge", "Pressure difference over the open edge, as believed.",
+         [](const Row& row) { return row.valve.answer.pressure_difference_Pa; });
+  family("spoolflow_ne107", "gauge", "NAMUR NE 107: 0 good, 1 maintenance, 2 out of specification, 3 check, 4 failure.",
+         [](const Row& row) { return static_cast<int>(row.valve.condition); });
+  family("spoolflow_stalled", "gauge", "1 where no samples come in.",
+         [](const Row& row) { return row.source.stalled ? 1 : 0; });
+  family("spoolflow_samples_total", "counter", "Samples worked on since the store began.",
+         [](const Row& row) { return row.valve.samples; });
+  family("spoolflow_energy_joules_total", "counter", "Hydraulic energy through the edge since the store began.",
+         [](const Row& row) { return row.valve.energy_J; });
+  family("spoolflow_received_samples_total", "counter", "Samples that came in since the program started.",
+         [](const Row& row) { return row.source.counters.received; });
+  family("spoolflow_dropped_samples_total", "counter", "Of them, those that found no room.",
+         [](const Row& row) { return row.source.counters.dropped; });
+  family("spoolflow_lost_samples_total", "counter", "Samples that were sent and never came.",
+         [](const Row& row) { return row.source.counters.lost; });
+  family("spoolflow_repeated_samples_total", "counter", "Samples that had come before.",
+         [](const Row& row) { return row.source.counters.repeated; });
+  family("spoolflow_unreadable_total", "counter", "Lines that are no samples.",
+         [](const Row& row) { return row.source.counters.unreadable; });
+  out += store_metrics(engine);
+  out += output_metrics(engine);
+  const UdpCounters udp = engine.udp_counters();
+  const auto single = [&](const char* name, const char* help, std::uint64_t value) {
+    out += fmt::format("# HELP {0} {1}\n# TYPE {0} counter\n{0} {2}\n", name, help, value);
+  };
+  single("spoolflow_udp_datagrams_total", "Datagrams that came in.", udp.datagrams);
+  single("spoolflow_udp_unreadable_total", "Datagrams that are none of spoolflow.", udp.unreadable);
+  single("spoolflow_udp_unknown_valve_total", "Datagrams of no valve of this site.", udp.unknown_valve);
+  single("spoolflow_udp_not_allowed_total", "Datagrams from addresses that may not send.", udp.not_allowed);
+  return out;
+}
+
+}  // namespace spoolflow::live

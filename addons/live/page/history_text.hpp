@@ -1,0 +1,30 @@
+#pragma once
+/// Days of a valve as JSON: a column each figure, so that they are short and ready to plot. Of one machine's store or
+/// of a fleet's. Formats: docs/live.md.
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "addons/live/http/request.hpp"
+#include "addons/live/history/long_history.hpp"
+
+namespace spoolflow::live {
+
+/// What ?from=…&to=… asks for; without them the last day. Nothing where they are no instants in their order.
+[[nodiscard]] std::optional<Span> span_asked(std::string_view target);
+/// The answer to such ones.
+[[nodiscard]] PageAnswer no_span();
+
+struct IndicatorDays {
+  std::string name, unit;
+  std::vector<IndicatorPoint> points;
+};
+/// JSON of /api/v1/valves/ID/indicators.
+[[nodiscard]] std::string indicator_days_json(const std::string& valve, const Span& span,
+                                              const std::vector<IndicatorDays>& indicators);
+/// JSON of /api/v1/valves/ID/history.
+[[nodiscard]] std::string flow_days_json(const std::string& valve, const Span& span,
+                                         const std::vector<FlowPoint>& points);
+
+}  // namespace spoolflow::live

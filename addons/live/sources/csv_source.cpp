@@ -1,0 +1,91 @@
+#include "addons/live/sources/csv_source.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "addons/live/sources/peer.hpp"
+#include "spoolflow/parallel/pace.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+constexpr int look_up_ms = 100;
+
+}  // namespace
+
+TcpSource::TcpSource(const Address& address, std::vector<std::string> allowed, recording::ReadOptions options,
+                     SourcePosition after, Intake& intake)
+    : socket_(bind_socket(address, Transport::tcp)),
+      allowed_(std::move(allowed)),
+      options_(std::move(options)),
+      next_(after.next),
+      intake_(intake) {
+  options_.runs_on = true;
+  intake_.tell("nobody is connected");
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+bool TcpSource::somebody_calls(int patience_ms) const {
+  pollfd waiting{socket_.descriptor.number(), POLLIN, 0};
+  return ::poll(&waiting, 1, patience_ms) > 0;
+}
+
+void TcpSource::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    if (!somebody_calls(look_up_ms)) continue;
+    sockaddr_storage peer{};
+    socklen_t length = sizeof peer;
+    Descriptor connection(
+        ::accept4(socket_.descriptor.number(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_CLOEXEC));
+    if (connection.number() < 0) continue;
+    if (!may_send(allowed_, peer)) {
+      intake_.tell(fmt::format("{} tried to connect and is not allowed to", peer_host(peer)));
+      continue;
+    }
+    intake_.count_connection();
+    const auto given_up = [&] { return stop.stop_requested() || somebody_calls(0); };
+    next_ = read_csv(std::make_unique<recording::InputBytes>(connection.release(), peer_host(peer), given_up), options_,
+                     next_, intake_);
+    if (intake_.trouble().empty()) intake_.tell("nobody is connected");
+  }
+}
+
+PipeSource::PipeSource(std::filesystem::path path, recording::ReadOptions options, SourcePosition after, Intake& intake)
+    : path_(std::move(path)), options_(std::move(options)), next_(after.next), intake_(intake) {
+  options_.runs_on = true;
+  struct stat status {};
+  if (path_ != "-" && (::stat(path_.c_str(), &status) != 0 || !S_ISFIFO(status.st_mode))) {
+    throw SiteError(
+        fmt::format("{}: is no pipe; make it with mkfifo, or replay a file with kind = \"replay\"", path_.string()));
+  }
+  intake_.tell("nobody writes to the pipe");
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void PipeSource::run(const std::stop_token& stop) {
+  const bool once = path_ == "-";
+  const auto given_up = [&] { return stop.stop_requested(); };
+  Descriptor held;  // until the pipe is open again: what a sender writes in between must find a reader, and stay
+  while (!stop.stop_requested()) {
+    const int opened =
+        once ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (opened < 0) {
+      intake_.tell("the pipe cannot be opened");
+      if (!parallel::wait_for(std::chrono::milliseconds(1000), stop) || once) return;
+      continue;
+    }
+    held = Descriptor(::fcntl(opened, F_DUPFD_CLOEXEC, 0));
+    intake_.count_connection();
+    next_ =
+        read_csv(std::make_unique<recording::InputBytes>(opened, path_.string(), given_up), options_, next_, intake_);
+    if (intake_.trouble().empty()) intake_.tell(once ? "standard input has ended" : "nobody writes to the pipe");
+    if (once) return;
+    parallel::wait_for(std::chrono::milliseconds(10), stop);  // a writer that ends at once must not keep a core busy
+  }
+}
+
+}  // namespace spoolflow::live

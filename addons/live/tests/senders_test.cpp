@@ -1,0 +1,120 @@
+/// What comes from real senders by TCP, UDP and pipes, and what does not.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "addons/live/tests/engine_site.hpp"
+
+namespace spoolflow::live {
+namespace {
+
+using ::testing::HasSubstr;
+
+using SendersTest = EngineTest;
+
+TEST_F(SendersTest, AnswersWhatComesByTcp) {
+  Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
+  engine.start();
+  const std::uint16_t port = engine.source(0).port;
+  {
+    const Sender sender(port);
+    sender.send(engine_header + rows(0, 50));
+    ASSERT_TRUE(has(engine, 0, 50));  // though the connection stays open
+    sender.send("rubbish\n0.05,what?,4.8,1.0,50\n" + rows(51, 52));
+    ASSERT_TRUE(has(engine, 0, 52));
+    EXPECT_NEAR(engine.view(0).time_s, 0.051, 1e-9);
+    EXPECT_EQ(engine.source(0).counters.unreadable, 1U);
+  }
+  const Sender next(port);  // the next connection goes on, with a header of its own
+  next.send(engine_header + rows(60, 70));
+  ASSERT_TRUE(has(engine, 0, 62));
+  const Sender stronger(port);  // and the newest takes the place of the one before
+  stronger.send(engine_header + rows(80, 90));
+  ASSERT_TRUE(has(engine, 0, 72));
+  EXPECT_EQ(engine.source(0).counters.connections, 3U);
+}
+
+TEST_F(SendersTest, OneSourceOfRubbishDisturbsNoOther) {
+  Engine engine(site({{"bad", TcpSettings{{"127.0.0.1", 0}}}, {"good", TcpSettings{{"127.0.0.1", 0}}}}), "test");
+  engine.start();
+  const Sender bad(engine.source(0).port);
+  bad.send(std::string(5000, '\xff') + "\n\n" + std::string(1000, '\0') + "\n1,2,3\n");
+  const Sender good(engine.source(1).port);
+  good.send(engine_header + rows(0, 20));
+  ASSERT_TRUE(has(engine, 1, 20));
+  EXPECT_TRUE(comes_true([&] { return !engine.source(0).trouble.empty(); }));
+  EXPECT_EQ(engine.view(0).samples, 0U);
+  EXPECT_EQ(engine.view(0).condition, monitor::Ne107::function_check);  // stalled
+  const Sender again(engine.source(0).port);
+  again.send(engine_header + rows(0, 20));
+  EXPECT_TRUE(has(engine, 0, 20));
+}
+
+TEST_F(SendersTest, AnswersDatagramsAndCountsWhatIsNone) {
+  Engine engine(site({{"u", UdpSettings{}}}), "test");
+  engine.start();
+  send_datagrams(engine, 0, 20);
+  ASSERT_TRUE(has(engine, 0, 20));
+  send_datagrams(engine, 30, 20);  // ten are lost
+  ASSERT_TRUE(has(engine, 0, 40));
+  send_datagrams(engine, 30, 20);  // came before
+  send_bytes(engine, {1, 2, 3});
+  ASSERT_TRUE(comes_true([&] { return engine.udp_counters().datagrams == 4; }));
+  EXPECT_TRUE(comes_true([&] { return engine.udp_counters().unreadable == 1; }));
+  const IntakeCounters counters = engine.source(0).counters;
+  EXPECT_EQ(counters.lost, 10U);
+  EXPECT_EQ(counters.repeated, 20U);
+  EXPECT_EQ(engine.view(0).samples, 40U);
+  EXPECT_GT(engine.view(0).answer.flow_m3_per_s, 0);
+}
+
+TEST_F(SendersTest, ReadsAPipeAgainAndAgain) {
+  ASSERT_EQ(::mkfifo(path("fifo").c_str(), 0600), 0);
+  Engine engine(site({{"p", PipeSettings{path("fifo")}}}), "test");
+  engine.start();
+  for (int round = 1; round <= 3; ++round) {
+    const Descriptor writer(::open(path("fifo").c_str(), O_WRONLY | O_CLOEXEC));
+    const std::string text = engine_header + rows(100 * round, 100 * round + 10);
+    ASSERT_EQ(::write(writer.number(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    ASSERT_TRUE(has(engine, 0, static_cast<std::uint64_t>(10 * round)));
+  }
+  write("file", "");
+  EXPECT_THAT(refusal([&] {
+                Engine other(site({{"p", PipeSettings{path("file")}}}), "test");
+                other.start();
+              }),
+              HasSubstr("is no pipe; make it with mkfifo"));
+}
+
+// A sender that writes and leaves at once, as a script of echo lines does: each finds a reader, and no row is lost.
+TEST_F(SendersTest, ReadsSendersThatFollowEachOtherAtOnce) {
+  ASSERT_EQ(::mkfifo(path("fifo").c_str(), 0600), 0);
+  Engine engine(site({{"p", PipeSettings{path("fifo")}}}), "test");
+  engine.start();
+  constexpr int senders = 200;
+  for (int k = 0; k < senders; ++k) {
+    const Descriptor writer(::open(path("fifo").c_str(), O_WRONLY | O_CLOEXEC));
+    const std::string text = engine_header + rows(10 * k, 10 * k + 10);
+    ASSERT_EQ(::write(writer.number(), text.data(), text.size()), static_cast<ssize_t>(text.size())) << k;
+  }
+  ASSERT_TRUE(has(engine, 0, 10 * senders));
+  EXPECT_EQ(engine.view(0).samples, 10U * senders);  // no header was taken for a sample
+  EXPECT_NEAR(engine.view(0).time_s, 0.001 * (10 * senders - 1), 1e-9);
+}
+
+TEST_F(SendersTest, AHeaderOfOtherColumnsInTheMiddleIsToldAndNotMisread) {
+  Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  sender.send(engine_header + rows(0, 10));
+  ASSERT_TRUE(has(engine, 0, 10));
+  sender.send("time_s,voltage_V,current_A,position_mm,oil_temperature_C\n" + rows(10, 20));
+  EXPECT_TRUE(comes_true([&] { return engine.source(0).trouble.find("in another order") != std::string::npos; }));
+  EXPECT_EQ(engine.view(0).samples, 10U);
+}
+
+}  // namespace
+}  // namespace spoolflow::live

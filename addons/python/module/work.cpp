@@ -1,0 +1,266 @@
+#include <fstream>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <sstream>
+
+#include "spoolflow/analysis/analysis.hpp"
+#include "spoolflow/analysis/dither_study.hpp"
+#include "spoolflow/apps/work/analysed_run.hpp"
+#include "spoolflow/apps/work/corrected_model.hpp"
+#include "spoolflow/apps/work/monitored_recording.hpp"
+#include "spoolflow/apps/work/readable_model.hpp"
+#include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/parallel/for_each.hpp"
+#include "addons/python/module/bindings.hpp"
+#include "addons/python/module/models.hpp"
+#include "addons/python/module/signal_check.hpp"
+#include "spoolflow/report/analysis/analysis_report.hpp"
+#include "spoolflow/report/analysis/dither_report.hpp"
+#include "spoolflow/report/json/analysis_json.hpp"
+#include "spoolflow/report/json/dither_json.hpp"
+#include "spoolflow/report/json/metrics_json.hpp"
+#include "spoolflow/report/json/monitor_json.hpp"
+#include "spoolflow/report/monitor/monitor_report.hpp"
+#include "spoolflow/report/validation/validation_report.hpp"
+#include "spoolflow/validation/validate.hpp"
+
+namespace spoolflow::python {
+namespace {
+
+namespace py = pybind11;
+using Path = std::filesystem::path;
+
+/// What is wanted of a page, and in which units.
+using PageUnits = std::optional<std::vector<std::string>>;
+
+/// What `write` writes.
+template <class Write>
+std::string text_of(const Write& write) {
+  std::ostringstream out;
+  write(out);
+  return std::move(out).str();
+}
+
+/// The page where it is wanted.
+template <class Write>
+std::optional<std::string> page_of(const PageUnits& units, const Write& write) {
+  if (!units) return std::nullopt;
+  const report::ReaderUnits in(*units);
+  return text_of([&](std::ostream& out) { write(out, in); });
+}
+
+/// Figures as the command writes them as JSON, the page, and what else was asked for.
+struct Judgement {
+  std::string figures;
+  std::optional<std::string> page;
+  std::optional<std::string> more{};  ///< a model file's text; which columns had a time of their own
+  [[nodiscard]] py::tuple tuple() const { return py::make_tuple(figures, page, more); }
+};
+
+recording::ChannelMap channel_map(const std::optional<Path>& file) {
+  return file ? recording::read_channel_map(*file) : recording::ChannelMap{};
+}
+
+py::tuple calibrate(const Path& file, bool allow_outside, bool despite_doubts, const PageUnits& units,
+                    const py::object& tell) {
+  struct Made {
+    SharedModel model;
+    std::optional<std::string> page;
+    std::vector<std::string> notes;
+  };
+  const Made made = at_work([&](SignalCheck& check) {
+    const recording::Campaign campaign = recording::read_campaign(
+        file, allow_outside ? recording::OutsideFiles::allowed : recording::OutsideFiles::refused);
+    const model::Model model = calibration::calibrate(
+        campaign, SPOOLFLOW_VERSION, [&](const std::string& step, double share) { check(tell, step, share); },
+        despite_doubts ? calibration::Contradictions::noted : calibration::Contradictions::refused);
+    Made out;
+    for (const model::InputFile& input : model.provenance.inputs) {
+      if (!input.resampled.empty()) out.notes.push_back(input.file + ": " + input.resampled);
+    }
+    out.page = page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
+      report::write_calibration_report(page, model, in);
+    });
+    out.model = std::make_shared<KeptModel>(apps::readable_text(model, "the model"), "the model");
+    return out;
+  });
+  return py::make_tuple(made.model, made.page, made.notes);
+}
+
+std::vector<estimation::Estimator> chosen(const std::string& name, const model::Model& model) {
+  if (name == "both") return estimation::all_estimators(model);
+  if (name == "condensed") return {estimation::Estimator::condensed};
+  if (name == "observer") return {estimation::Estimator::observer};
+  throw std::invalid_argument("estimator: " + name + " not in {both,condensed,observer}");
+}
+
+py::tuple validate(const SharedModel& kept, const std::vector<Path>& recordings, const std::optional<Path>& channels,
+                   const std::string& estimator, const std::optional<Path>& requirements,
+                   const std::optional<double>& reference_lag_s, bool apply_reference_lag,
+                   const std::vector<Path>& compare, const PageUnits& units, const py::object& tell) {
+  return at_work([&](SignalCheck& check) {
+           const model::Model& model = kept->model;
+           std::vector<report::ComparedValidation> others;
+           for (const Path& metrics : compare) others.push_back(report::read_compared(metrics));
+           validation::ValidationOptions options{chosen(estimator, model), channel_map(channels), reference_lag_s,
+                                                 apply_reference_lag};
+           if (requirements) options.requirements = validation::read_requirements(*requirements);
+           const validation::Validation found =
+               validation::validate(model, recordings, options, [&](double share) { check(tell, share); });
+           return Judgement{text_of([&](std::ostream& json) { report::write_metrics(json, model, found); }),
+                            page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
+                              report::write_validation_report(page, model, found, others, in);
+                            })};
+         })
+      .tuple();
+}
+
+py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& recordings,
+                             const std::optional<Path>& channels, const std::string& baseline,
+                             double false_alarms_per_year, bool adapt, const PageUnits& units, const py::object& tell) {
+  return at_work([&](SignalCheck& check) {
+           const model::Model& model = kept->model;
+           const recording::ChannelMap map = channel_map(channels);
+           monitor::Watch watch(model, {false_alarms_per_year}, apps::read_baseline(baseline));
+           apps::MonitoredRuns done;
+           apps::Monitored from{model, model::sha256_of_text(kept->text), recordings, {}, SPOOLFLOW_VERSION};
+           std::uint64_t before_it = 0;
+           for (const Path& recording : recordings) {
+             const auto tell_share = [&](std::optional<double> share) {
+               const auto before = static_cast<double>(done.runs.size());
+               check(tell, (before + share.value_or(0)) / static_cast<double>(recordings.size()));
+             };
+             apps::monitor_recording(model, recording.string(), map, watch, done.trend, done.band, tell_share);
+             done.runs.push_back({recording.stem().string(), watch.condition(), watch.causes(), watch.indicators()});
+             from.samples.push_back(watch.usage().samples - before_it);
+             before_it = watch.usage().samples;
+           }
+           Judgement out{text_of([&](std::ostream& json) {
+                           report::write_monitor_json(json, model, watch, done.runs, done.band.figures());
+                         }),
+                         page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
+                           report::write_monitor_report(page, model, watch, done.runs, done.trend, in);
+                         })};
+           if (adapt) out.more = apps::readable_text(apps::corrected_model(from, watch), "the corrected model");
+           return out;
+         })
+      .tuple();
+}
+
+/// What is analysed beside the scenario's file.
+struct AnalysisRequest {
+  std::optional<Path> scenario;
+  std::optional<std::uint32_t> samples;
+  std::optional<std::uint64_t> seed;
+  std::optional<bool> study;
+  unsigned workers;
+  std::string direction;
+  std::optional<Path> recording;  ///< a run along which the budget is made up as well
+  std::optional<Path> channels;
+  [[nodiscard]] unsigned threads() const { return workers == 0 ? parallel::cores() : workers; }
+};
+
+analysis::Scenario scenario_of(const AnalysisRequest& asked) {
+  analysis::Scenario out;
+  if (asked.scenario) out = analysis::read_scenario(*asked.scenario);
+  if (asked.samples) out.study.base_samples = *asked.samples;
+  if (asked.seed) out.seed = *asked.seed;
+  if (asked.study) out.study.skip = !*asked.study;
+  return out;
+}
+
+model::Model analysed_model(const SharedModel& kept, const std::string& direction) {
+  return kept->model.whole() ? model::of_direction(kept->model, direction) : kept->model;
+}
+
+py::tuple analyse(const SharedModel& kept, const AnalysisRequest& asked, const PageUnits& units,
+                  const py::object& tell) {
+  return at_work([&](SignalCheck& check) {
+           const model::Model model = analysed_model(kept, asked.direction);
+           const unsigned workers = asked.threads();
+           std::optional<apps::AnalysedRun> run;
+           if (asked.recording) {
+             run = apps::read_analysed_run(model, asked.recording->string(), channel_map(asked.channels));
+           }
+           analysis::Analysis results{scenario_of(asked), {}, {}, {}, {}};
+           const bool whole = !results.scenario.study.skip;
+           std::optional<rig::ValveAndCampaign> valve;
+           if (whole) valve = analysis::study_valve(model, results.scenario);
+           const double of_points = whole ? 0.25 : 1;
+           results.points = analysis::analyse_points(model, results.scenario, workers, [&](double share) {
+             check(tell, "uncertainty budget", of_points * 0.7 * share);
+           });
+           results.maps = analysis::operating_maps(model, results.scenario, workers, [&](double share) {
+             check(tell, "operating maps", of_points * (0.7 + 0.3 * share));
+           });
+           if (run) {
+             results.run = analysis::analyse_run(model, run->samples, results.scenario, workers,
+                                                 [&](double) { check(tell, "budget along the run", of_points); });
+           }
+           if (whole) {
+             analysis::StudyWork work{.identity = SPOOLFLOW_VERSION, .workers = workers};
+             work.progress = [&](const std::string& task, double share) {
+               check(tell, task, of_points + (1 - of_points) * share);
+             };
+             results.study = analysis::global_study(model, results.scenario, *valve, work);
+           }
+           return Judgement{text_of([&](std::ostream& json) { report::write_analysis_json(json, model, results); }),
+                            page_of(units,
+                                    [&](std::ostream& page, const report::ReaderUnits& in) {
+                                      report::write_analysis_report(page, model, results, in);
+                                    }),
+                            run ? run->resampled : ""};
+         })
+      .tuple();
+}
+
+/// How to dither.
+py::tuple dither(const SharedModel& kept, const AnalysisRequest& asked, const std::string& shape,
+                 double ripple_limit_share, const PageUnits& units) {
+  return at_work([&](SignalCheck&) {
+           const model::Model model = analysed_model(kept, asked.direction);
+           analysis::DitherQuestion question;
+           question.points = scenario_of(asked).points;
+           question.shape = shape == "sine" ? analysis::DitherShape::sine : analysis::DitherShape::square;
+           question.ripple_limit_share = ripple_limit_share;
+           const analysis::DitherStudy found = analysis::dither_study(model, question, asked.threads());
+           const report::DitherVerdict said = report::dither_verdict(model, found);
+           return Judgement{text_of([&](std::ostream& json) { report::write_dither_json(json, model, found); }),
+                            page_of(units,
+                                    [&](std::ostream& page, const report::ReaderUnits& in) {
+                                      report::write_dither_report(page, model, found, in);
+                                    }),
+                            said.sentence.str()};
+         })
+      .tuple();
+}
+
+}  // namespace
+
+void add_work(py::module_& module) {
+  module.def("calibrate", &calibrate);
+  module.def("campaign_files", [](const Path& file) {
+    std::vector<Path> out;
+    for (const recording::CampaignRecording& each :
+         recording::read_campaign(file, recording::OutsideFiles::allowed).recordings)
+      out.push_back(each.file);
+    return out;
+  });
+  module.def("validate", &validate);
+  module.def("monitor", &monitor_recordings);
+  module.def("analyse", [](const SharedModel& model, const std::optional<Path>& scenario,
+                           const std::optional<std::uint32_t>& samples, const std::optional<std::uint64_t>& seed,
+                           const std::optional<bool>& study, unsigned workers, const std::string& direction,
+                           const std::optional<Path>& recording, const std::optional<Path>& channels,
+                           const PageUnits& units, const py::object& tell) {
+    return analyse(model, {scenario, samples, seed, study, workers, direction, recording, channels}, units, tell);
+  });
+  module.def("dither", [](const SharedModel& model, const std::optional<Path>& scenario, unsigned workers,
+                          const std::string& direction, const std::string& shape, double ripple_limit_share,
+                          const PageUnits& units) {
+    return dither(model, {scenario, {}, {}, {}, workers, direction, {}, {}}, shape, ripple_limit_share, units);
+  });
+}
+
+}  // namespace spoolflow::python
