@@ -26,10 +26,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/live_page.hpp"
 #include "addons/live/sources/datagram.hpp"
 #include "addons/live/sources/intake.hpp"
 #include "addons/live/sources/socket.hpp"
+#include "bench/live_page.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 

@@ -15,10 +15,10 @@
 
 #include <fmt/format.h>
 
-#include "addons/live/blocks/block.hpp"
 #include "addons/fleet/models.hpp"
 #include "addons/fleet/subjects.hpp"
 #include "addons/fleet/transport/nats.hpp"
+#include "addons/live/blocks/block.hpp"
 #include "spoolflow/model/provenance.hpp"
 
 namespace {

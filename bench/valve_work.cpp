@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/estimation/estimator.hpp"
 #include "addons/live/blocks/block.hpp"
 #include "addons/live/blocks/steps.hpp"
 #include "addons/live/work_together.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace {

@@ -17,7 +17,7 @@ help_of() {
   echo
   echo "Made by \`ci/cli_page.sh\` from \`spoolflow --help\`; a test keeps it fresh."
   help_of spoolflow
-  for command in $("$spoolflow" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
+  for command in $("$spoolflow" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
     help_of "spoolflow $command" "$command"
   done
 } >"$made"

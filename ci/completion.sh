@@ -5,7 +5,7 @@ spoolflow=$1
 options_of() {
   "$spoolflow" "$@" --help | sed -n '/^Options:/,/^$/s/^  \(-[^ ]*\).*/\1/p' | tr ',\n' '  ' | sed 's/ *$//'
 }
-commands=$("$spoolflow" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p' | tr '\n' ' ' | sed 's/ $//')
+commands=$("$spoolflow" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p' | tr '\n' ' ' | sed 's/ $//')
 
 cat <<END
 # Made by ci/completion.sh from the help of the command.

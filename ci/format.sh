@@ -3,4 +3,4 @@
 set -eu
 cd "$(dirname "$0")/.."
 mode=${1:---dry-run}
-find spoolflow tests bench examples web/*.cpp -name '*.[ch]pp' 2>/dev/null | sort | xargs clang-format "$mode" --Werror
+find spoolflow addons tests bench examples web/*.cpp -name '*.[ch]pp' 2>/dev/null | sort | xargs clang-format "$mode" --Werror

@@ -3,8 +3,8 @@
 # found, an hour together where no time is given. Prints executions and coverage; the corpus grows in build/fuzz/corpus.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
-ci/packages.sh
-ci/build.sh fuzz fuzz_targets
+ci/packages.sh tests
+ci/build.sh fuzz fuzz_targets "-DSPOOLFLOW_ADDONS=formats;live"
 seconds=${1:-3600}
 [ $# -eq 0 ] || shift
 [ $# -gt 0 ] || set -- $(find tests/fuzz -name '*_fuzz.cpp' -printf '%f\n' | sed 's/_fuzz.cpp//' | sort)

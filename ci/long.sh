@@ -6,8 +6,7 @@ set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
 status=0
-ci/packages.sh
-ci/packages.sh long
+ci/packages.sh tests long
 ci/build.sh release apps_test
 ci/build.sh release benchmarks
 echo "== clang-tidy"

@@ -40,7 +40,7 @@ spoolflow \\- soft flow\\-rate sensor for solenoid\\-operated spool valves
 END
 roff_of
 echo '.SH COMMANDS'
-for command in $("$spoolflow" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
+for command in $("$spoolflow" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
   echo ".SS spoolflow $command"
   roff_of "$command"
 done

@@ -1,14 +1,18 @@
 #!/bin/sh
-# Installs what packages.txt lists and this machine lacks: for building and tests; `ci/packages.sh run` for building alone,
-# `ci/packages.sh long` for the long acceptance runs, too.
+# ci/packages.sh [ADDON|tests|long]…: installs what the core needs (packages.txt) and this machine lacks, and what each add-on
+# named needs; `tests`: what all tests need, the add-ons among it; `long`: the long acceptance runs, too.
 set -eu
-list="$(dirname "$0")/../packages.txt"
-case "${1:-}" in
-  run) begin='# Building and running' ;;
-  long) begin='# Long acceptance runs only' ;;
-  *) begin='# Tests only' ;;
-esac
-wanted=$(sed -e "1,/^$begin/d" -e '/^#/d' "$list")
+cd "$(dirname "$0")/.."
+lists=packages.txt
+for name in "$@"; do
+  case "$name" in
+    tests) for addon in formats cross live fleet python; do lists="$lists addons/$addon/packages.txt"; done; lists="$lists tests/packages.txt" ;;
+    long) lists="$lists addons/playground/packages.txt tests/packages_long.txt" ;;
+    fleet) lists="$lists addons/live/packages.txt addons/fleet/packages.txt" ;;
+    *) lists="$lists addons/$name/packages.txt" ;;
+  esac
+done
+wanted=$(cat $lists | sed '/^#/d' | sort -u)
 
 if ! command -v dpkg-query >/dev/null; then
   echo "this is not a Debian system: the packages of packages.txt must be there by other means" >&2

@@ -15,19 +15,25 @@ foreach(page IN ITEMS man_page:spoolflow.1 completion:spoolflow.bash)
     OUTPUT ${made}/${file}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${made}
     COMMAND ${PROJECT_SOURCE_DIR}/ci/${script}.sh ${page_command} > ${made}/${file}
-    DEPENDS spoolflow ${PROJECT_SOURCE_DIR}/ci/${script}.sh)
+    DEPENDS spoolflow_programs ${PROJECT_SOURCE_DIR}/ci/${script}.sh)
 endforeach()
 add_custom_command(OUTPUT ${made}/spoolflow.1.gz COMMAND gzip -9n < spoolflow.1 > spoolflow.1.gz DEPENDS ${made}/spoolflow.1
                    WORKING_DIRECTORY ${made})
 add_custom_target(spoolflow_pages ALL DEPENDS ${made}/spoolflow.1.gz ${made}/spoolflow.bash)
 # All that is installed, for those who build no tests.
-add_custom_target(installable DEPENDS spoolflow spoolflow_pages spoolflow_c_shared spoolflow_c_static)
+add_custom_target(installable DEPENDS spoolflow_programs spoolflow_pages spoolflow_c_shared spoolflow_c_static)
 if(SPOOLFLOW_PYTHON_INTERPRETER)
-  add_dependencies(installable spoolflow_python)
+  add_dependencies(installable addons_python_module)
 endif()
 
 # The tool.
-install(TARGETS spoolflow RUNTIME COMPONENT tool)
+set(programs spoolflow)
+foreach(program IN ITEMS spoolflow_live spoolflow_fleet)
+  if(TARGET ${program})
+    list(APPEND programs ${program})
+  endif()
+endforeach()
+install(TARGETS ${programs} RUNTIME COMPONENT tool)
 install(FILES ${made}/spoolflow.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
 install(FILES ${made}/spoolflow.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME spoolflow
         COMPONENT tool)
@@ -62,7 +68,7 @@ if(SPOOLFLOW_PYTHON_INTERPRETER)
   list(APPEND packages python:python3-spoolflow)
   list(APPEND components python)
   set(python lib/python3/dist-packages/spoolflow)
-  install(TARGETS spoolflow_python LIBRARY DESTINATION ${python} COMPONENT python)
+  install(TARGETS addons_python_module LIBRARY DESTINATION ${python} COMPONENT python)
   install(DIRECTORY addons/python/package/spoolflow/ DESTINATION ${python} COMPONENT python FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed
           PATTERN __pycache__ EXCLUDE)
 endif()

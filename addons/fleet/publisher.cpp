@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "addons/live/blocks/block.hpp"
 #include "addons/fleet/models.hpp"
 #include "addons/fleet/settings.hpp"
 #include "addons/fleet/subjects.hpp"
+#include "addons/live/blocks/block.hpp"
 #include "spoolflow/model/provenance.hpp"
 
 namespace spoolflow::fleet {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "addons/live/blocks/block.hpp"
 #include "addons/fleet/store/rows.hpp"
+#include "addons/live/blocks/block.hpp"
 #include "addons/live/valve/alarms.hpp"
 #include "addons/live/valve/valve_at_work.hpp"
 

@@ -12,13 +12,13 @@
 #include <thread>
 #include <vector>
 
-#include "addons/live/valve/alarms.hpp"
-#include "addons/live/valve/events.hpp"
 #include "addons/live/outputs.hpp"
 #include "addons/live/site.hpp"
 #include "addons/live/sources/csv_source.hpp"
 #include "addons/live/sources/intake.hpp"
 #include "addons/live/sources/udp_receiver.hpp"
+#include "addons/live/valve/alarms.hpp"
+#include "addons/live/valve/events.hpp"
 #include "addons/live/valve/valve_at_work.hpp"
 
 namespace spoolflow::live {

@@ -6,14 +6,14 @@
 #include <variant>
 #include <vector>
 
-#include "addons/live/valve/alarms.hpp"
 #include "addons/live/fieldbus_settings.hpp"
+#include "addons/live/history/store.hpp"
 #include "addons/live/page_settings.hpp"
 #include "addons/live/publish_settings.hpp"
 #include "addons/live/sources/replay_source.hpp"
 #include "addons/live/sources/rig_source.hpp"
 #include "addons/live/sources/socket.hpp"
-#include "addons/live/history/store.hpp"
+#include "addons/live/valve/alarms.hpp"
 #include "addons/live/valve/valve_at_work.hpp"
 #include "spoolflow/recording/channel_map.hpp"
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "spoolflow/estimation/running_group.hpp"
 #include "addons/live/valve/valve_at_work.hpp"
+#include "spoolflow/estimation/running_group.hpp"
 
 namespace spoolflow::live {
 

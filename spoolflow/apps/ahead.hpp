@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "spoolflow/apps/interruption.hpp"
+#include "spoolflow/apps/terminal/interruption.hpp"
 
 namespace spoolflow::apps {
 

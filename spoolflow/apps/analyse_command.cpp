@@ -9,12 +9,11 @@
 #include "spoolflow/analysis/ishigami.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/output_file.hpp"
-#include "addons/fleet/pieces/piece_kinds.hpp"
-#include "addons/fleet/pieces/study_pieces.hpp"
-#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/elsewhere.hpp"
 #include "spoolflow/apps/suggestion.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/analysed_run.hpp"
 #include "spoolflow/parallel/for_each.hpp"
@@ -133,7 +132,7 @@ analysis::RunSamples run_of(const model::Model& model, const AnalyseArguments& a
 }
 
 analysis::Study study(const model::Model& model, const analysis::Scenario& scenario, const rig::ValveAndCampaign& valve,
-                      const AnalyseArguments& arguments, FleetWork* fleet, Progress& progress) {
+                      const AnalyseArguments& arguments, analysis::RunsWork done_elsewhere, Progress& progress) {
   analysis::StudyWork work{.identity = std::string(tool_version()), .workers = workers(arguments)};
   const std::optional<std::filesystem::path> state = state_file(arguments);
   if (state) {
@@ -148,8 +147,7 @@ analysis::Study study(const model::Model& model, const analysis::Scenario& scena
     progress.task(task);
     progress.update(budget_share + (1 - budget_share) * share);
   };
-  if (fleet != nullptr)
-    work.elsewhere = runs_by_fleet(*fleet, {arguments.model, model.valve.direction, scenario, arguments.scenario});
+  work.elsewhere = std::move(done_elsewhere);
   return analysis::global_study(model, scenario, valve, work);
 }
 
@@ -204,8 +202,11 @@ void analyse(const AnalyseArguments& arguments) {
   if (!arguments.recording.empty()) run = run_of(model, arguments);
   std::optional<rig::ValveAndCampaign> valve;
   if (whole) valve = analysis::study_valve(model, results.scenario);
-  std::optional<FleetWork> fleet;
-  if (whole && !arguments.fleet.empty()) fleet.emplace(arguments.fleet, tool_version(), say_line);
+  analysis::RunsWork done_elsewhere;
+  if (whole && !arguments.fleet.empty()) {
+    done_elsewhere = elsewhere().study(
+        {arguments.fleet, arguments.model, model.valve.direction, results.scenario, arguments.scenario});
+  }
   {
     const double share_of_budget = whole ? budget_share : 1;
     Progress progress("uncertainty budget", arguments.quiet);
@@ -223,7 +224,7 @@ void analyse(const AnalyseArguments& arguments) {
         progress.update(share_of_budget * (run_from + (1 - run_from) * share));
       });
     }
-    if (whole) results.study = study(model, results.scenario, *valve, arguments, fleet ? &*fleet : nullptr, progress);
+    if (whole) results.study = study(model, results.scenario, *valve, arguments, std::move(done_elsewhere), progress);
   }
   if (page) report::write_analysis_report(page->stream(), model, results, units);
   if (figures) report::write_analysis_json(figures->stream(), model, results);
@@ -303,7 +304,6 @@ void add_analyse_command(CLI::App& program) {
       ->check(CLI::IsMember({"ishigami"}));
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
-  add_piece_kind("study", [](const fleet::Piece& piece) { return do_study_piece(piece, std::string(tool_version())); });
   command->callback([arguments] { analyse(*arguments); });
 }
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::apps {

@@ -18,4 +18,17 @@ void throw_together(const std::vector<std::exception_ptr>& failures) {
   throw all;
 }
 
+void add_core_commands(CLI::App& program) {
+  add_demo_command(program);
+  add_inspect_command(program);
+  add_calibrate_command(program);
+  add_estimate_command(program);
+  add_validate_command(program);
+  add_monitor_command(program);
+  add_simulate_command(program);
+  add_campaign_command(program);
+  add_analyse_command(program);
+  add_export_command(program);
+}
+
 }  // namespace spoolflow::apps

@@ -1,7 +1,7 @@
 #pragma once
-/// Every command of the program, one file each. A new one is declared here, defined in NAME_command.cpp and named in
-/// main.cpp; its callback does the work and throws where it cannot (std::invalid_argument: unusable input, status 2;
-/// anything else: status 1; SeveralFailures: what went wrong with each of several inputs).
+/// Every command of the core, one file each. A new one is declared here, defined in NAME_command.cpp and named in
+/// commands.cpp; its callback does the work and throws where it cannot (std::invalid_argument: unusable input, status
+/// 2; anything else: status 1; SeveralFailures: what went wrong with each of several inputs).
 #include <exception>
 #include <string>
 #include <vector>
@@ -37,11 +37,8 @@ void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
 void add_analyse_command(CLI::App& program);
 void add_export_command(CLI::App& program);
-void add_live_command(CLI::App& program);
-void add_history_command(CLI::App& program);
-void add_account_command(CLI::App& program);
-void add_worker_command(CLI::App& program);
-void add_fleet_command(CLI::App& program);
+/// All of the above, in the order of the work, which is the order of the overview.
+void add_core_commands(CLI::App& program);
 /// Last: it knows the commands that were added before it.
 void add_completion_command(CLI::App& program);
 

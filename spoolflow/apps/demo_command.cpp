@@ -9,8 +9,8 @@
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/demo_files.hpp"
-#include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/report/text/reader_units.hpp"
 
 namespace spoolflow::apps {

@@ -12,8 +12,8 @@
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/export/cpp/overwriting.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
@@ -80,8 +80,8 @@ bool names_valve(const std::string& name) {
 
 void export_fmu(const ExportArguments& arguments) {
   if (!exports::windows_is_served()) {
-    say("this program was built without MinGW: the FMU runs on Linux alone; for Windows compile its sources there, "
-        "or build spoolflow where x86_64-w64-mingw32-g++-posix is installed\n");
+    say("the FMU runs on this kind of machine alone: the add-on 'cross' brings libraries for Windows and Arm; in the "
+        "sources `./run export fmu` builds it; or compile the FMU's sources there\n");
   }
   const exports::FmiVersion version = arguments.fmi == "3" ? exports::FmiVersion::fmi3 : exports::FmiVersion::fmi2;
   if (names_valve(arguments.model)) {

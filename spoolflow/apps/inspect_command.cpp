@@ -4,9 +4,9 @@
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/progress.hpp"
 #include "spoolflow/apps/suggestion.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/units/conversion.hpp"

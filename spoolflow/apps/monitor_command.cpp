@@ -3,7 +3,6 @@
 #include <functional>
 #include <memory>
 #include <numeric>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,85 +10,22 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/output_file.hpp"
-#include "addons/fleet/pieces/fleet_work.hpp"
-#include "addons/fleet/pieces/piece_kinds.hpp"
-#include "addons/fleet/pieces/watch_text.hpp"
-#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/elsewhere.hpp"
 #include "spoolflow/apps/suggestion.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/corrected_model.hpp"
 #include "spoolflow/apps/work/monitored_recording.hpp"
-#include "addons/fleet/jobs/contents.hpp"
 #include "spoolflow/report/json/monitor_json.hpp"
 #include "spoolflow/report/monitor/monitor_report.hpp"
 
 namespace spoolflow::apps {
 namespace {
 
-/// By workers of a fleet: a piece a recording, each from the state that the one before has left.
-class MonitorByFleet {
- public:
-  explicit MonitorByFleet(const MonitorArguments& arguments)
-      : arguments_(arguments), fleet_(arguments.fleet, tool_version(), say_line) {
-    if (std::ranges::count(arguments.recordings, "-") > 0)
-      throw std::invalid_argument("--fleet sends whole recordings; name a file instead of -");
-  }
-  /// The next recording; what is known behind it.
-  Watched next(const std::string& recording) {
-    SentPiece piece{{.kind = "monitor"}};
-    fleet_.add(piece, arguments_.model);
-    fleet_.add(piece, recording);
-    if (!arguments_.channels.empty()) fleet_.add(piece, arguments_.channels);
-    if (!arguments_.baseline.empty()) fleet_.add(piece, arguments_.baseline);
-    if (state_) FleetWork::add_kept(piece, "watched", *state_);
-    piece.piece.arguments = fmt::format("{} {:d} {:d} {:d}", arguments_.false_alarms_per_year,
-                                        !arguments_.channels.empty(), !arguments_.baseline.empty(), state_.has_value());
-    fleet_.ask(std::move(piece));
-    Watched out;
-    fleet_.wait([&](std::size_t, const fleet::Outcome& outcome) {
-      throw_failure(outcome);
-      state_ = outcome.files.at(0);
-      out = read_watched(fleet_.content(*state_));
-    });
-    return out;
-  }
-
- private:
-  const MonitorArguments& arguments_;
-  FleetWork fleet_;
-  std::optional<fleet::PieceFile> state_;
-};
-
 void go_on(monitor::Watch& watch, const Watched& from) {
-  if (!watch.set_state(from.state)) throw fleet::PieceError("the state of a watch is of another version");
-}
-
-/// One recording on a worker.
-fleet::Outcome do_monitor_piece(const fleet::Piece& piece) {
-  std::istringstream arguments(piece.arguments);
-  double false_alarms_per_year = 1;
-  bool has_channels = false, has_baseline = false, goes_on = false;
-  arguments >> false_alarms_per_year >> has_channels >> has_baseline >> goes_on;
-  const model::Model model = model::read_model(path_of(piece, 0));
-  std::size_t next = 2;
-  recording::ChannelMap channels;
-  if (has_channels) channels = recording::read_channel_map(path_of(piece, next++));
-  const std::string baseline = has_baseline ? path_of(piece, next++) : std::string();
-  monitor::Watch watch(model, {false_alarms_per_year}, read_baseline(baseline));
-  Watched watched;
-  if (goes_on) {
-    watched = read_watched(fleet::whole_file(path_of(piece, next)));
-    go_on(watch, watched);
-  }
-  BandWatch band(watched.band);
-  monitor_recording(model, path_of(piece, 1), channels, watch, watched.trend, band, [](std::optional<double>) {});
-  watched.state = watch.state();
-  watched.band = band.figures();
-  constexpr const char* output = "watched";
-  write_piece_file(output, bytes_of(watched));
-  return {.files = {{output}}};
+  if (!watch.set_state(from.state)) throw std::runtime_error("the state of a watch is of another version");
 }
 
 void write_corrected(std::ostream& out, const MonitorArguments& arguments, Monitored from,
@@ -146,8 +82,8 @@ void monitor_recordings(const MonitorArguments& arguments) {
     inputs.emplace_back(arguments.json);
     corrected.emplace(arguments.adapt, inputs);
   }
-  std::optional<MonitorByFleet> fleet;
-  if (!arguments.fleet.empty()) fleet.emplace(arguments);
+  std::function<Watched(const std::string&)> watched_elsewhere;
+  if (!arguments.fleet.empty()) watched_elsewhere = elsewhere().monitor(arguments);
   std::vector<std::uint64_t> samples;
   std::vector<report::MonitoredRun> runs;
   std::vector<report::TrendPoint> trend;
@@ -157,8 +93,8 @@ void monitor_recordings(const MonitorArguments& arguments) {
     Progress progress("monitoring", arguments.quiet);
     for (const std::string& recording : arguments.recordings) {
       const auto before = static_cast<double>(runs.size());
-      if (fleet) {
-        Watched watched = fleet->next(recording);
+      if (watched_elsewhere) {
+        Watched watched = watched_elsewhere(recording);
         go_on(watch, watched);
         trend = std::move(watched.trend);
         band = BandWatch(watched.band);
@@ -213,7 +149,6 @@ void add_monitor_command(CLI::App& program) {
       ->check(CLI::Range(1e-6, 1e4))
       ->capture_default_str();
   add_fleet_option(*command, arguments->fleet, "file by file");
-  add_piece_kind("monitor", do_monitor_piece);
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { monitor_recordings(*arguments); });

@@ -7,8 +7,8 @@
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/scenario.hpp"
 

@@ -1,17 +1,25 @@
 #include "spoolflow/export/embedded_parts.hpp"
 
-#include <stdexcept>
+#include <span>
+#include <string_view>
 
 #include "spoolflow/export/fmu_binaries.hpp"
 
 namespace spoolflow::exports {
 
+std::span<const EmbeddedFile>& foreign_fmu_binaries() {
+  static std::span<const EmbeddedFile> of_the_program;
+  return of_the_program;
+}
+
 FmuParts embedded_parts(const std::string& name, std::span<const EmbeddedFile> sources) {
-  const auto binary = [](const std::string& file) {
-    for (const EmbeddedFile& each : fmu_binaries()) {
-      if (each.name == file) return each.bytes;
+  const auto binary = [](const std::string& file) -> std::string_view {
+    for (const std::span<const EmbeddedFile> binaries : {fmu_binaries(), foreign_fmu_binaries()}) {
+      for (const EmbeddedFile& each : binaries) {
+        if (each.name == file) return each.bytes;
+      }
     }
-    throw std::logic_error("no embedded binary " + file);
+    return {};
   };
   return {binary(name + ".so"), binary(name + ".dll"), binary(name + "_aarch64.so"), sources};
 }

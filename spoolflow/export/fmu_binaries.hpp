@@ -5,7 +5,8 @@
 
 namespace spoolflow::exports {
 
-/// Shared libraries of the FMUs for both platforms: "sensor_fmu.so", "sensor_fmu.dll" and the valve's.
+/// Shared libraries of the FMUs for the platform that this program is built for: "sensor_fmu.so" and the valve's, on
+/// 64-bit Arm "sensor_fmu_aarch64.so".
 [[nodiscard]] std::span<const EmbeddedFile> fmu_binaries();
 
 }  // namespace spoolflow::exports

@@ -11,10 +11,16 @@
 #include "spoolflow/recording/files/mat_table.hpp"
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 #include "spoolflow/recording/tdms/tdms_table.hpp"
-#include "addons/formats/xlsx/xlsx_table.hpp"
 
 namespace spoolflow::recording {
 namespace {
+
+std::unique_ptr<VectorTable> refuse_workbook(const std::filesystem::path& file) {
+  throw RecordingError(
+      fmt::format("{}: is a zip archive, such as an Excel workbook, which the add-on 'formats' reads, and that is not "
+                  "built in; in the sources `./run formats` builds it; or save the sheet as CSV",
+                  file.string()));
+}
 
 /// Of formats that a process of few rights reads.
 OpenVectors opener(FileFormat format) {
@@ -26,13 +32,18 @@ OpenVectors opener(FileFormat format) {
     case FileFormat::tdms:
       return open_tdms_table;
     case FileFormat::xlsx:
-      return open_xlsx_table;
+      return workbook_opener() != nullptr ? workbook_opener() : refuse_workbook;
     default:
       return open_hdf5_table;
   }
 }
 
 }  // namespace
+
+OpenVectors& workbook_opener() {
+  static OpenVectors of_the_program = nullptr;
+  return of_the_program;
+}
 
 bool takes_a_process(const std::filesystem::path& file) {
   std::error_code failure;

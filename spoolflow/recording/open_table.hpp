@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "spoolflow/recording/file_format.hpp"
+#include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/csv_table.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
 
 namespace spoolflow::recording {
+
+/// Of Excel workbooks; null where the add-on `formats` is not built in: then they are refused.
+[[nodiscard]] OpenVectors& workbook_opener();
 
 struct OpenTable {
   FileFormat format;

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "tests/apps/command_line.hpp"
 
 namespace spoolflow::apps {

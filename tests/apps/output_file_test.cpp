@@ -1,4 +1,4 @@
-#include "spoolflow/apps/output_file.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/apps/interruption.hpp"
+#include "spoolflow/apps/terminal/interruption.hpp"
 
 namespace spoolflow::apps {
 namespace {

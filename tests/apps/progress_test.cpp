@@ -1,4 +1,4 @@
-#include "spoolflow/apps/progress.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
 
 #include <gtest/gtest.h>
 

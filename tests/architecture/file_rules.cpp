@@ -60,7 +60,7 @@ void check_content(const fs::path& file, const fs::path& place, std::vector<std:
 
 std::vector<std::string> file_violations(const fs::path& root) {
   std::vector<std::string> violations;
-  for (const char* folder : {"spoolflow", "tests", "bench", "examples"}) {
+  for (const char* folder : {"spoolflow", "addons", "tests", "bench", "examples"}) {
     if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (!is_source(entry.path())) continue;

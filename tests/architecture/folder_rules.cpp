@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tests/architecture/sources.hpp"
+
 namespace spoolflow::architecture {
 namespace {
 
@@ -24,11 +26,9 @@ std::string subject_of(fs::path place) {
 Subjects subjects_below(const fs::path& root) {
   static const std::regex include(R"re(^\s*#\s*include\s*"([^"]+)")re");
   Subjects subjects;
-  for (const auto& entry : fs::recursive_directory_iterator(root / "spoolflow")) {
-    const fs::path extension = entry.path().extension();
-    if (extension != ".hpp" && extension != ".cpp") continue;
-    std::set<std::string>& included = subjects[subject_of(fs::relative(entry.path(), root))];
-    std::ifstream in(entry.path());
+  for (const fs::path& source : sources_below(root)) {
+    std::set<std::string>& included = subjects[subject_of(source.lexically_relative(root))];
+    std::ifstream in(source);
     for (std::string line; std::getline(in, line);) {
       std::smatch match;
       if (std::regex_search(line, match, include)) included.insert(subject_of(match[1].str()));

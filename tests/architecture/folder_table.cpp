@@ -11,6 +11,8 @@
 namespace spoolflow::architecture {
 namespace {
 
+const std::string addons = "addons/";
+
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" `");
   if (first == std::string::npos) return {};
@@ -104,7 +106,8 @@ std::string row_of(const FolderTable& table, const std::string& folder) {
 
 bool allows(const FolderRule& rule, const std::string& other) {
   const std::vector<std::string> names = with_those_above(other);
-  return rule.all_folders || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  return (rule.all_folders && !other.starts_with("addons/")) ||
+         std::any_of(names.begin(), names.end(), [&](const std::string& name) {
            return rule.folders.contains(name) && (name == other || name != rule.house);
          });
 }
@@ -123,8 +126,8 @@ FolderTable read_folder_table(const std::filesystem::path& architecture_page) {
     if (!line.starts_with('|')) break;
     if (cells.size() != 7) throw std::runtime_error("a row of the folder table has not five columns: " + line);
     FolderRule rule = read_rule(cells[3], cells[4], cells[5]);
-    rule.house = cells[1].substr(0, cells[1].find('/'));
-    if (rule.house == cells[1]) rule.house.clear();
+    const std::size_t house = cells[1].find('/', cells[1].starts_with(addons) ? addons.size() : 0);
+    if (house != std::string::npos) rule.house = cells[1].substr(0, house);
     table.emplace(cells[1], std::move(rule));
   }
   if (table.empty()) throw std::runtime_error("no folder table in " + architecture_page.string());

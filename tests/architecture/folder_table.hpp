@@ -10,14 +10,14 @@ namespace spoolflow::architecture {
 
 struct FolderRule {
   std::string house{};              ///< that the row is a room of, whose name means it alone here; empty: none
-  std::set<std::string> folders;    ///< of spoolflow/, beside itself: "rig/plant", or "rig" for all its rooms
+  std::set<std::string> folders;    ///< beside itself: "rig/plant", "rig" for all its rooms, "addons/live"
   std::set<std::string> libraries;  ///< names as in the table: "fmt", "CLI11", "POSIX"
   std::set<std::string> never;      ///< forbidden words of the last column
-  bool all_folders = false;
-  bool freestanding = false;  ///< of the standard library only what a bare-metal compiler has
+  bool all_folders = false;         ///< of the core; never of an add-on
+  bool freestanding = false;        ///< of the standard library only what a bare-metal compiler has
 };
 
-/// By the folder's name below spoolflow/: "units", "rig/plant".
+/// By the folder's name below spoolflow/, or from addons/ on: "units", "rig/plant", "addons/live/http".
 using FolderTable = std::map<std::string, FolderRule>;
 
 /// `folder` and the folders that it stands in, from the inside out: "rig/plant", "rig".

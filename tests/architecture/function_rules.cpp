@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/architecture/sources.hpp"
+
 namespace spoolflow::architecture {
 namespace {
 
@@ -75,10 +77,8 @@ void check_functions(const fs::path& file, const std::string& name, std::vector<
 
 std::vector<std::string> function_violations(const fs::path& root) {
   std::vector<std::string> violations;
-  for (const auto& entry : fs::recursive_directory_iterator(root / "spoolflow")) {
-    if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
-    check_functions(entry.path(), fs::relative(entry.path(), root).generic_string(), violations);
-  }
+  for (const fs::path& source : sources_below(root))
+    check_functions(source, source.lexically_relative(root).generic_string(), violations);
   std::sort(violations.begin(), violations.end());
   return violations;
 }

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/architecture/sources.hpp"
+
 namespace spoolflow::architecture {
 namespace {
 
@@ -55,9 +57,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 33> library_
     {"pthread.h", "POSIX"},
 }};
 
-/// Below spoolflow/: "rig/plant" of "spoolflow/rig/plant/coil.hpp".
+/// As the table names it: "rig/plant" of "spoolflow/rig/plant/coil.hpp", "addons/live" of "addons/live/engine.hpp".
 std::string folder_of(const fs::path& place) {
-  return place.parent_path().lexically_relative("spoolflow").generic_string();
+  const fs::path folder = place.parent_path();
+  return (*place.begin() == "addons" ? folder : folder.lexically_relative("spoolflow")).generic_string();
 }
 
 class Checker {
@@ -93,7 +96,7 @@ class Checker {
 
   void own_header(const std::string& folder, const FolderRule& rule, const std::string& header, const fs::path& root) {
     const fs::path path(header);
-    if (*path.begin() != "spoolflow" || !fs::exists(root / path)) {
+    if ((*path.begin() != "spoolflow" && *path.begin() != "addons") || !fs::exists(root / path)) {
       violation(fmt::format("\"{}\" is no path from the project's root", header));
       return;
     }
@@ -135,10 +138,7 @@ std::optional<std::string> library_of(const std::string& header) {
 std::vector<std::string> include_violations(const FolderTable& table, const fs::path& root) {
   std::vector<std::string> violations;
   Checker checker(table, violations);
-  for (const auto& entry : fs::recursive_directory_iterator(root / "spoolflow")) {
-    const fs::path extension = entry.path().extension();
-    if (extension == ".hpp" || extension == ".cpp") checker.file(root, entry.path());
-  }
+  for (const fs::path& source : sources_below(root)) checker.file(root, source);
   std::sort(violations.begin(), violations.end());
   return violations;
 }

@@ -36,12 +36,12 @@ const std::map<std::string, std::string> library_of_target{
     {"Python3::Module", "pybind11"},
 };
 
-const std::string prefix = "spoolflow_";
+const std::string prefix = "spoolflow_", addon_prefix = "addons_";
 
-/// The row of a target: "rig/plant" of spoolflow_rig_plant. Empty: none.
+/// The row of a target: "rig/plant" of spoolflow_rig_plant, "addons/live" of addons_live. Empty: none.
 std::string row_of_target(const FolderTable& table, const std::string& target) {
   for (const auto& [row, rule] : table) {
-    std::string name = prefix + row;
+    std::string name = row.starts_with("addons/") ? row : prefix + row;
     std::replace(name.begin(), name.end(), '/', '_');
     if (name == target) return row;
   }
@@ -50,7 +50,7 @@ std::string row_of_target(const FolderTable& table, const std::string& target) {
 
 std::string violation(const FolderTable& table, const std::string& folder, const std::string& link) {
   const FolderRule& rule = table.at(folder);
-  if (link.starts_with(prefix)) {
+  if (link.starts_with(prefix) || link.starts_with(addon_prefix)) {
     if (link == "spoolflow_settings" || link == "spoolflow_warnings") return {};
     const std::string other = row_of_target(table, link);
     if (other.empty()) return fmt::format("{} links {}, which is no folder of the table", folder, link);

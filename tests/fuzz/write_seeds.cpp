@@ -5,9 +5,9 @@
 #include <fstream>
 #include <string>
 
+#include "addons/formats/tests/xlsx/xlsx_file.hpp"
 #include "addons/live/protocols/can_text.hpp"
 #include "addons/live/protocols/sparkplug.hpp"
-#include "addons/formats/tests/xlsx/xlsx_file.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 /// Excel workbooks as their reader takes them, in this process: the input as it is where it begins as a zip archive,
 /// and else as the parts of one, whose checksums and lengths are right, so that what lies behind these is reached.
+#include "addons/formats/tests/xlsx/xlsx_file.hpp"
 #include "addons/formats/xlsx/xlsx_table.hpp"
 #include "tests/fuzz/vector_file.hpp"
-#include "addons/formats/tests/xlsx/xlsx_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace spoolflow;

@@ -7,8 +7,8 @@
 #include "addons/fleet/page/fleet_page_files.hpp"
 #include "addons/fleet/page/fleet_text.hpp"
 #include "addons/live/http/target.hpp"
-#include "addons/live/valve/events.hpp"
 #include "addons/live/page/history_text.hpp"
+#include "addons/live/valve/events.hpp"
 #include "spoolflow/model/model_error.hpp"
 
 namespace spoolflow::fleet {

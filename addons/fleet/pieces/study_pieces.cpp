@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "addons/fleet/pieces/fleet_work.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -38,9 +43,11 @@ PieceOfStudy read_study(const fleet::Piece& piece) {
 
 }  // namespace
 
-analysis::RunsWork runs_by_fleet(FleetWork& fleet, const StudyInputs& inputs) {
-  return [&fleet, inputs](const analysis::StudyRuns& runs, const std::string& own_model,
-                          const std::vector<std::size_t>& numbers, const auto& finished) {
+analysis::RunsWork study_by_fleet(const StudyInputs& inputs) {
+  const auto work = std::make_shared<FleetWork>(inputs.fleet, tool_version(), say_line);
+  return [work, inputs](const analysis::StudyRuns& runs, const std::string& own_model,
+                        const std::vector<std::size_t>& numbers, const auto& finished) {
+    FleetWork& fleet = *work;
     SentPiece common{{.kind = "study"}};
     fleet.add(common, inputs.model_file);
     if (!own_model.empty()) fleet.add_text(common, "virtual_valve.json", own_model);

@@ -10,18 +10,18 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "spoolflow/apps/command.hpp"
-#include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/interruption.hpp"
-#include "addons/fleet/pieces/piece_kinds.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
-#include "spoolflow/apps/tool_version.hpp"
 #include "addons/fleet/jobs/job_worker.hpp"
 #include "addons/fleet/jobs/piece_process.hpp"
 #include "addons/fleet/page/fleet_page.hpp"
+#include "addons/fleet/pieces/piece_kinds.hpp"
+#include "addons/fleet/program/fleet_commands.hpp"
 #include "addons/fleet/server_configuration.hpp"
 #include "addons/fleet/worker.hpp"
 #include "addons/live/http/server.hpp"
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/terminal/interruption.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 
 namespace spoolflow::apps {
 namespace {

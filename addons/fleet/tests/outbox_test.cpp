@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "addons/live/blocks/block.hpp"
-#include "addons/live/valve/valve_at_work.hpp"
 #include "addons/live/tests/temporary_folder.hpp"
+#include "addons/live/valve/valve_at_work.hpp"
 
 namespace spoolflow::fleet {
 namespace {

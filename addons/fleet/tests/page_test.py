@@ -21,7 +21,7 @@ from servers import make_certificates, until  # noqa: E402
 from synthetic_fleet import SyntheticFleet  # noqa: E402
 
 COMMAND = os.path.abspath(sys.argv[1])
-DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs")
+DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "docs")
 VALVES = int(sys.argv[2]) if len(sys.argv) > 2 else 2000
 
 

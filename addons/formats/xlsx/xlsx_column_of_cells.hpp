@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "spoolflow/recording/files/clock_time.hpp"
 #include "addons/formats/xlsx/xlsx_rows.hpp"
+#include "spoolflow/recording/files/clock_time.hpp"
 
 namespace spoolflow::recording {
 

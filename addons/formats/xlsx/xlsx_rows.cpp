@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/files/decimal_number.hpp"
 #include "addons/formats/xlsx/xml_events.hpp"
+#include "spoolflow/recording/files/decimal_number.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/files/declared_size.hpp"
 #include "addons/formats/xlsx/xlsx_column_of_cells.hpp"
 #include "addons/formats/xlsx/xlsx_header.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/declared_size.hpp"
 
 namespace spoolflow::recording {
 namespace {

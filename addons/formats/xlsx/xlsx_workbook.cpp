@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/channels/recording_error.hpp"
 #include "addons/formats/xlsx/xml_events.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "spoolflow/estimation/running_sensor.hpp"
 #include "addons/live/blocks/site_report.hpp"
+#include "spoolflow/estimation/running_sensor.hpp"
 
 namespace spoolflow::fleet {
 

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "addons/live/protocols/canopen_device.hpp"
-#include "addons/live/protocols/j1939_address.hpp"
 #include "addons/live/fieldbus/can_ports.hpp"
 #include "addons/live/fieldbus/plant_answers.hpp"
+#include "addons/live/protocols/canopen_device.hpp"
+#include "addons/live/protocols/j1939_address.hpp"
 #include "spoolflow/parallel/pace.hpp"
 
 namespace spoolflow::live {

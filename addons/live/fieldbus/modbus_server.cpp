@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "addons/live/protocols/modbus_map.hpp"
 #include "addons/live/fieldbus/plant_answers.hpp"
+#include "addons/live/protocols/modbus_map.hpp"
 
 namespace spoolflow::live {
 namespace {

@@ -13,8 +13,8 @@
 
 #include <fmt/format.h>
 
-#include "addons/live/protocols/sparkplug.hpp"
 #include "addons/live/fieldbus/plant_answers.hpp"
+#include "addons/live/protocols/sparkplug.hpp"
 #include "spoolflow/parallel/pace.hpp"
 
 namespace spoolflow::live {

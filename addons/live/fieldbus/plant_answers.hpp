@@ -1,7 +1,7 @@
 #pragma once
 /// What the valves of a site tell fieldbus and plant at this instant.
-#include "addons/live/protocols/plant_answer.hpp"
 #include "addons/live/engine.hpp"
+#include "addons/live/protocols/plant_answer.hpp"
 
 namespace spoolflow::live {
 

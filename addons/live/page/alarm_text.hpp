@@ -2,8 +2,8 @@
 /// Alarms as JSON. Formats: docs/live.md. Included by the files that write JSON only.
 #include <string>
 
-#include "addons/live/valve/alarms.hpp"
 #include "addons/live/http/json_text.hpp"
+#include "addons/live/valve/alarms.hpp"
 
 namespace spoolflow::live {
 

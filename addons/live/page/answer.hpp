@@ -2,8 +2,8 @@
 /// What is told to those who may read.
 #include <string_view>
 
-#include "addons/live/http/page_content.hpp"
 #include "addons/live/engine.hpp"
+#include "addons/live/http/page_content.hpp"
 
 namespace spoolflow::live {
 

@@ -1,8 +1,8 @@
 #include "addons/live/page/history_text.hpp"
 
+#include "addons/live/engine.hpp"
 #include "addons/live/http/json_text.hpp"
 #include "addons/live/http/target.hpp"
-#include "addons/live/engine.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::live {

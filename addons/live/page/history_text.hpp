@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "addons/live/http/request.hpp"
 #include "addons/live/history/long_history.hpp"
+#include "addons/live/http/request.hpp"
 
 namespace spoolflow::live {
 

@@ -12,11 +12,11 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "spoolflow/apps/command.hpp"
-#include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/output_file.hpp"
-#include "spoolflow/estimation/status_text.hpp"
 #include "addons/live/history/store.hpp"
+#include "addons/live/program/live_commands.hpp"
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/recording/files/csv_writer.hpp"
 #include "spoolflow/units/conversion.hpp"
 

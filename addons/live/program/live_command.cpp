@@ -12,18 +12,18 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "spoolflow/apps/command.hpp"
-#include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/interruption.hpp"
-#include "spoolflow/apps/terminal_text.hpp"
-#include "spoolflow/apps/tool_version.hpp"
-#include "addons/fleet/publisher.hpp"
-#include "addons/live/http/secret_hash.hpp"
-#include "addons/live/http/server.hpp"
 #include "addons/live/engine.hpp"
 #include "addons/live/fieldbus/fieldbus_outputs.hpp"
+#include "addons/live/http/secret_hash.hpp"
+#include "addons/live/http/server.hpp"
 #include "addons/live/page/answer.hpp"
 #include "addons/live/page/plotjuggler.hpp"
+#include "addons/live/program/live_commands.hpp"
+#include "spoolflow/apps/addon_programs.hpp"
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/terminal/interruption.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/recording/open_table.hpp"
 
 namespace spoolflow::apps {
@@ -79,6 +79,7 @@ void live_command(const LiveArguments& arguments) {
   if (!arguments.publish.empty()) site.fleet.servers = live::read_servers(arguments.publish, "--publish");
   check_publishing(site);
   live::check_built_in(site);
+  if (!site.fleet.servers.empty() && !publisher_maker()) go_on_as("fleet");
   live::PageSettings page = site.page;
   live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
@@ -95,9 +96,9 @@ void live_command(const LiveArguments& arguments) {
     for (const std::string& one : fieldbus.where()) say("{}\n", one);
     page.listen.port = server.port();
     tell_where(engine, page);
-    std::optional<fleet::Publisher> publisher;
+    std::shared_ptr<void> publisher;
     if (!engine.site().fleet.servers.empty()) {
-      publisher.emplace(engine, [](const std::string& text) { say("{}\n", text); });
+      publisher = publisher_maker()(engine, [](const std::string& text) { say("{}\n", text); });
     }
     wait_for_the_end();
   }
@@ -182,6 +183,11 @@ void account_command(const AccountArguments& arguments) {
 }
 
 }  // namespace
+
+PublisherMaker& publisher_maker() {
+  static PublisherMaker of_the_program;
+  return of_the_program;
+}
 
 void add_live_command(CLI::App& program) {
   auto arguments = std::make_shared<LiveArguments>();

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "addons/live/demo_model.hpp"
-#include "addons/live/http/target.hpp"
 #include "addons/live/engine.hpp"
-#include "addons/live/page/answer.hpp"
-#include "addons/live/page/plotjuggler.hpp"
 #include "addons/live/history/long_history.hpp"
 #include "addons/live/history/store.hpp"
+#include "addons/live/http/target.hpp"
+#include "addons/live/page/answer.hpp"
+#include "addons/live/page/plotjuggler.hpp"
 #include "addons/live/tests/temporary_folder.hpp"
 
 namespace spoolflow::live {

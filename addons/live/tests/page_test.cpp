@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "addons/live/demo_model.hpp"
-#include "addons/live/http/server.hpp"
 #include "addons/live/engine.hpp"
+#include "addons/live/http/server.hpp"
 #include "addons/live/page/answer.hpp"
 #include "addons/live/page/plot_frame.hpp"
 #include "addons/live/tests/temporary_folder.hpp"

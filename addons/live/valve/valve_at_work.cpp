@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/estimation/estimator.hpp"
 #include "addons/live/blocks/steps.hpp"
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/numerics/crc32.hpp"
 #include "spoolflow/numerics/padding.hpp"
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/estimation/running_sensor.hpp"
+#include "addons/live/history/store.hpp"
+#include "addons/live/sources/sample_block.hpp"
 #include "addons/live/valve/block_cutter.hpp"
 #include "addons/live/valve/plot_trace.hpp"
 #include "addons/live/valve/raw_trace.hpp"
-#include "addons/live/sources/sample_block.hpp"
-#include "addons/live/history/store.hpp"
+#include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/monitor/watch.hpp"
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/model/model.hpp"
 #include "addons/playground/requests/played_json.hpp"
 #include "addons/playground/requests/virtual_valve.hpp"
+#include "spoolflow/model/model.hpp"
 
 namespace spoolflow::playground {
 

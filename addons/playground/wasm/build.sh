@@ -1,10 +1,9 @@
 #!/bin/sh
-# addons/playground/wasm/build.sh [OUT]: makes OUT/playground.html (out/playground otherwise), the page that works in a browser alone;
-# `addons/playground/wasm/build.sh web/built` renews the one that is checked in. Needs
+# addons/playground/wasm/build.sh [OUT]: makes OUT/playground.html (out/playground otherwise), the page that works in a browser alone. Needs
 # emscripten (Debian: emscripten), cmake, ninja, node and npm; its working files are in build/playground. No part of ./run or ./test.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-root=$(cd "$here/../.." && pwd)
+root=$(cd "$here/../../.." && pwd)
 out=${1:-$root/out/playground}
 work=$root/build/playground
 command -v emcc >/dev/null || {

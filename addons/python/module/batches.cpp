@@ -4,13 +4,13 @@
 #include <pybind11/stl.h>
 #include <tuple>
 
-#include "spoolflow/estimation/batch/running_batch.hpp"
-#include "spoolflow/numerics/single_precision.hpp"
-#include "spoolflow/parallel/for_each.hpp"
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/columns.hpp"
 #include "addons/python/module/models.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/estimation/batch/running_batch.hpp"
+#include "spoolflow/numerics/single_precision.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 
 namespace spoolflow::python {
 namespace {

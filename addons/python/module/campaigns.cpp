@@ -2,10 +2,10 @@
 #include <pybind11/stl.h>
 #include <sstream>
 
-#include "spoolflow/parallel/for_each.hpp"
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/read_recording.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 

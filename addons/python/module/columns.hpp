@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "spoolflow/estimation/columns.hpp"
 #include "addons/python/module/fresh_array.hpp"
+#include "spoolflow/estimation/columns.hpp"
 
 namespace spoolflow::python {
 

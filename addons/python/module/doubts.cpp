@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/consistency/run_doubts.hpp"
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/columns.hpp"
 #include "addons/python/module/models.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/recording/plausibility.hpp"
 
 namespace spoolflow::python {

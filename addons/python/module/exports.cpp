@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "addons/python/module/bindings.hpp"
+#include "addons/python/module/models.hpp"
+#include "addons/python/module/signal_check.hpp"
 #include "spoolflow/export/cpp/overwriting.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
-#include "addons/python/module/bindings.hpp"
-#include "addons/python/module/models.hpp"
-#include "addons/python/module/signal_check.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 
 namespace spoolflow::python {

@@ -5,9 +5,9 @@
 #include <pybind11/stl/filesystem.h>
 #include <string>
 
-#include "spoolflow/apps/work/inspection_text.hpp"
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/apps/work/inspection_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 
 namespace spoolflow::python {

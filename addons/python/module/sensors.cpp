@@ -10,13 +10,13 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/estimation/status_text.hpp"
-#include "spoolflow/model/json_limits.hpp"
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/columns.hpp"
 #include "addons/python/module/models.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/status_text.hpp"
+#include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::python {

@@ -14,9 +14,9 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spoolflow/apps/work/estimate_table.hpp"
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/signal_check.hpp"
+#include "spoolflow/apps/work/estimate_table.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
 
 namespace spoolflow::python {

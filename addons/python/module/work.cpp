@@ -4,6 +4,9 @@
 #include <pybind11/stl/filesystem.h>
 #include <sstream>
 
+#include "addons/python/module/bindings.hpp"
+#include "addons/python/module/models.hpp"
+#include "addons/python/module/signal_check.hpp"
 #include "spoolflow/analysis/analysis.hpp"
 #include "spoolflow/analysis/dither_study.hpp"
 #include "spoolflow/apps/work/analysed_run.hpp"
@@ -12,9 +15,6 @@
 #include "spoolflow/apps/work/readable_model.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/parallel/for_each.hpp"
-#include "addons/python/module/bindings.hpp"
-#include "addons/python/module/models.hpp"
-#include "addons/python/module/signal_check.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/dither_report.hpp"
 #include "spoolflow/report/json/analysis_json.hpp"

@@ -17,7 +17,7 @@ import sysconfig
 import tarfile
 import zipfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 NAME = "spoolflow"
 
 
@@ -44,9 +44,9 @@ def _built():
     build = pathlib.Path(os.environ.get("SPOOLFLOW_BUILD", ROOT / "build" / "wheel"))
     if not (build / "build.ninja").exists():
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCMAKE_UNITY_BUILD=ON", "-DSPOOLFLOW_TESTS=OFF", "-DSPOOLFLOW_BENCH=OFF", "-DSPOOLFLOW_PYTHON=ON",
+                        "-DCMAKE_UNITY_BUILD=ON", "-DSPOOLFLOW_TESTS=OFF", "-DSPOOLFLOW_BENCH=OFF", "-DSPOOLFLOW_ADDONS=python;formats;cross",
                         f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
-    subprocess.run(["cmake", "--build", build, "--target", "spoolflow_python"], check=True)
+    subprocess.run(["cmake", "--build", build, "--target", "addons_python_module"], check=True)
     return build / "python" / NAME
 
 
@@ -76,7 +76,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     if not (built / module).exists():
         raise SystemExit(f"{built / module} was not built: the build folder is for another Python than {sys.executable}")
     files = {}
-    for path in sorted((ROOT / "python" / NAME).iterdir()):
+    for path in sorted((ROOT / "addons" / "python" / "package" / NAME).iterdir()):
         if path.suffix in (".py", ".pyi") or path.name == "py.typed":
             files[f"{NAME}/{path.name}"] = path.read_bytes()
     files[f"{NAME}/{module}"] = (built / module).read_bytes()

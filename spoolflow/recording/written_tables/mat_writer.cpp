@@ -92,8 +92,8 @@ class MatWriter final : public TableWriter {
     for (char& c : text) c = static_cast<unsigned char>(c) < 128 && c >= ' ' ? c : '?';
     constexpr std::size_t text_bytes = 116, version_at = 124;
     text.resize(text_bytes, ' ');
+    text.resize(version_at, '\0');
     Bytes out(text.begin(), text.end());
-    out.resize(version_at);
     numerics::put_little_endian(out, std::uint16_t{0x0100});
     numerics::put_little_endian(out, std::uint16_t{0x4D49});
     return out;

@@ -12,7 +12,7 @@ namespace {
 /// Formats that people may hope for and that are not written.
 constexpr auto promises = std::to_array<std::string_view>(
     {"xlsx", "xls", "ods", "tdms", "mf4",   "mdf",  "nc", "feather", "arrow", "bag", "db3", "npz",
-     "npy",  "pkl", "orc", "json", "jsonl", "html", "pq", "hdf",     "zip",   "gz",  "zst"});
+     "npy",  "pkl", "orc", "json", "jsonl", "html", "pq", "hdf",     "zip",   "gz",  "zst", "mcap"});
 
 std::string small_letters(std::string_view text) {
   std::string out(text);
@@ -25,7 +25,7 @@ std::string small_letters(std::string_view text) {
 }  // namespace
 
 std::string_view suffix(TableFormat format) {
-  constexpr std::array<std::string_view, all_table_formats.size()> suffixes{"csv", "parquet", "mcap", "h5", "mat"};
+  constexpr std::array<std::string_view, all_table_formats.size()> suffixes{"csv", "parquet", "h5", "mat"};
   return suffixes[static_cast<std::size_t>(format)];
 }
 
@@ -45,7 +45,7 @@ TableFormat table_format_of(const std::filesystem::path& file) {
   if (std::find(promises.begin(), promises.end(), small_letters(name)) == promises.end()) return TableFormat::csv;
   throw std::invalid_argument(
       fmt::format("cannot write {}: {} is no format that is written here; name a file that ends in .csv, .parquet, "
-                  ".mcap, .h5 or .mat",
+                  ".h5 or .mat",
                   file.string(), extension));
 }
 

@@ -7,12 +7,12 @@
 namespace spoolflow::recording {
 
 /// What a table can be written as.
-enum class TableFormat { csv, parquet, mcap, hdf5, mat };
+enum class TableFormat { csv, parquet, hdf5, mat };
 
-inline constexpr std::array all_table_formats{TableFormat::csv, TableFormat::parquet, TableFormat::mcap,
-                                              TableFormat::hdf5, TableFormat::mat};
+inline constexpr std::array all_table_formats{TableFormat::csv, TableFormat::parquet, TableFormat::hdf5,
+                                              TableFormat::mat};
 
-/// "csv", "parquet", "mcap", "h5", "mat": also the suffix of its files.
+/// "csv", "parquet", "h5", "mat": also the suffix of its files.
 [[nodiscard]] std::string_view suffix(TableFormat format);
 /// By such a name, or "hdf5"; capitals are read as small letters. Nothing where no format has it.
 [[nodiscard]] std::optional<TableFormat> table_format(std::string_view name);

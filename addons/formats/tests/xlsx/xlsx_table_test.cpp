@@ -7,14 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "addons/formats/tests/xlsx/xlsx_file.hpp"
+#include "addons/formats/xlsx/xlsx_styles.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "addons/formats/xlsx/xlsx_styles.hpp"
 #include "tests/recording/column_of.hpp"
 #include "tests/recording/refusal.hpp"
 #include "tests/recording/temporary_file.hpp"
-#include "addons/formats/tests/xlsx/xlsx_file.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -27,7 +27,7 @@ dpkg-deb --fsys-tarfile "$(find_package)" | tar -x -C unpacked --wildcards './bo
 for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan; do
   cp unpacked/lib/modules/*/kernel/$module.ko machine/modules
 done
-for program in "$command" "$(command -v candump)" "$(command -v cansend)"; do
+for program in "$command" "$(dirname "$command")/spoolflow-live" "$(command -v candump)" "$(command -v cansend)"; do
   cp -L "$program" machine/bin
   for library in $(ldd "$program" | grep -o '/[^ ]*'); do
     mkdir -p "machine$(dirname "$library")"

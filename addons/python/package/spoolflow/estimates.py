@@ -140,7 +140,7 @@ class Estimate:
         })
 
     def write(self, path: PathLike) -> None:
-        """Writes what `spoolflow estimate` writes, as CSV, Parquet, MCAP, HDF5 or MATLAB by the suffix: .csv, .parquet, .mcap,
+        """Writes what `spoolflow estimate` writes, as CSV, Parquet, HDF5 or MATLAB by the suffix: .csv, .parquet,
         .h5 or .mat (docs/formats/estimate.md). The file appears when it is complete, in place of what was there.
         """
         columns = [self.time_s, self.flow_m3_per_s, self.flow_lower_m3_per_s, self.flow_upper_m3_per_s,

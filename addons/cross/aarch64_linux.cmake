@@ -1,0 +1,16 @@
+# Toolchain for Debian on 64-bit Arm: SPOOLFLOW_SYSROOT holds its libraries (addons/cross/arm64_packages.sh makes it).
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SPOOLFLOW_SYSROOT)
+set(CMAKE_SYSROOT ${SPOOLFLOW_SYSROOT})
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+foreach(kind LIBRARY INCLUDE PACKAGE)
+  set(CMAKE_FIND_ROOT_PATH_MODE_${kind} ONLY)
+endforeach()
+# CMake asks HDF5's compiler, which is this machine's, where Debian keeps its serial library.
+set(HDF5_C_COMPILER_EXECUTABLE /bin/false CACHE FILEPATH "")
+set(CMAKE_LIBRARY_PATH ${SPOOLFLOW_SYSROOT}/usr/lib/aarch64-linux-gnu/hdf5/serial)
+set(CMAKE_INCLUDE_PATH ${SPOOLFLOW_SYSROOT}/usr/include/hdf5/serial)

@@ -1,0 +1,14 @@
+/// Makes the libraries for other platforms known to the export of every program that this file is linked into.
+#include "addons/cross/embedded_foreign_binaries.hpp"
+#include "spoolflow/export/embedded_parts.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+[[maybe_unused]] const bool known = [] {
+  foreign_fmu_binaries() = embedded_foreign_binaries();
+  return true;
+}();
+
+}  // namespace
+}  // namespace spoolflow::exports

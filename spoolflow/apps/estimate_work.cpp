@@ -1,0 +1,113 @@
+#include "spoolflow/apps/estimate_work.hpp"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "spoolflow/apps/ahead.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/estimate_table.hpp"
+#include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/written_tables/table_writers.hpp"
+#include "spoolflow/validation/sensor_channels.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+/// Samples as they were read, and how far that is.
+struct ReadBlock {
+  recording::SampleBlock samples;
+  recording::ReadNotes notes;
+  std::optional<double> share;
+};
+
+/// What became of them.
+struct EstimatedBlock {
+  std::vector<double> time_s;
+  std::vector<sensor::Estimate<double>> estimates;
+  recording::ReadNotes notes;
+  std::optional<double> share;
+};
+
+}  // namespace
+
+EstimateTask estimate_task(const EstimateArguments& arguments) {
+  EstimateTask task{model::read_model(arguments.model),
+                    {},
+                    {},
+                    {},
+                    {arguments.model},
+                    recording::table_format(arguments.format),
+                    arguments.quiet};
+  task.known = consistency::known_valve(task.model);
+  task.estimator = estimation::best_estimator(task.model);
+  if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;
+  if (arguments.estimator == "observer") task.estimator = estimation::Estimator::observer;
+  if (!arguments.channels.empty()) {
+    task.channels = recording::read_channel_map(arguments.channels);
+    task.inputs.emplace_back(arguments.channels);
+  }
+  task.inputs.insert(task.inputs.end(), arguments.recordings.begin(), arguments.recordings.end());
+  return task;
+}
+
+recording::TableFormat format_for(const EstimateTask& task, const std::filesystem::path& target) {
+  return task.format ? *task.format : recording::table_format_of(target);
+}
+
+validation::EstimateSummary estimate_recording(const EstimateTask& task, const std::string& recording,
+                                               const std::filesystem::path& target, bool beside) {
+  const bool runs_on = recording == "-";
+  recording::ReadOptions channels = validation::sensor_channels(task.model, task.channels);
+  channels.runs_on = runs_on;
+  const auto reader = validation::open_sensor_channels(recording, channels);
+  estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
+  recording::TableHead head = estimate_table(task.model, task.estimator, fmt::format("spoolflow {}", tool_version()));
+  OutputFile output(target, task.inputs);  // first, as an input in its place is the worse slip
+  const recording::TableFormat format = format_for(task, target);
+  validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
+  consistency::RunMeans means;
+  {
+    Progress progress("estimating", task.quiet);
+    const auto writer = recording::table_writer(format, std::move(head), output);
+    Ahead<ReadBlock> reading(
+        [&](ReadBlock& block) {
+          const bool more = reader->next(block.samples);
+          if (more) means.take(block.samples);  // here, as the sensor has most to do
+          block.notes = reader->notes();
+          block.share = reader->progress();
+          return more;
+        },
+        beside);
+    Ahead<EstimatedBlock> estimating(
+        [&](EstimatedBlock& block) {
+          ReadBlock* const read = reading.next();
+          if (read == nullptr) return false;
+          block.estimates.resize(read->samples.rows);
+          estimation::run(sensor, validation::sensor_columns(read->samples), block.estimates);
+          std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
+          block.notes = read->notes;
+          block.share = read->share;
+          return true;
+        },
+        beside);
+    recording::TableRows rows;
+    while (const EstimatedBlock* block = estimating.next()) {
+      put_estimates(rows, block->time_s, block->estimates);
+      writer->write(rows);
+      summary.add(block->estimates);
+      if (runs_on) writer->hand_over();  // whoever reads waits for these rows
+      summary.notes = block->notes;
+      progress.update(block->share, block->notes.rows);
+    }
+    writer->finish();
+  }
+  output.commit();
+  for (consistency::Doubt& doubt : consistency::doubts_about(task.known, means, recording))
+    summary.doubts.push_back(std::move(doubt.text));
+  return summary;
+}
+
+}  // namespace spoolflow::apps

@@ -1,0 +1,167 @@
+#include "spoolflow/apps/program.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/addon_programs.hpp"
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/suggestion.hpp"
+#include "spoolflow/apps/terminal/interruption.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+constexpr int done = 0, work_failed = 1, wrong_usage = 2;
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command :
+       program.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+const CLI::App* chosen(const CLI::App& program) {
+  const auto parsed = program.get_subcommands();
+  return parsed.empty() ? nullptr : parsed.front();
+}
+
+std::string speaker(const CLI::App& program) {
+  const CLI::App* command = chosen(program);
+  return command == nullptr ? program.get_name() : program.get_name() + " " + command->get_name();
+}
+
+/// What was typed wrong, in one line that says what to do next.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App* command = chosen(program);
+  for (const std::string& word : program.remaining(true)) {
+    if (word.size() > 1 && word.front() == '-') {
+      const std::string name = word.substr(0, word.find('='));
+      return fmt::format("there is no option {}{}", name, suggestion(name, option_names(command ? *command : program)));
+    }
+    if (command == nullptr) {
+      return fmt::format("there is no command '{}'{}", word, suggestion(word, command_names(program)));
+    }
+    return fmt::format("one argument too many: {}", word);
+  }
+  return error.what();
+}
+
+int help_or_refuse(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == done) {
+    OutputFile output("-");
+    const CLI::App* command = chosen(program);
+    if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
+      output.stream() << program.get_name() << ' ' << tool_version() << '\n';
+    } else {
+      output.stream() << (command ? command->help(program.get_name()) : program.help());
+    }
+    output.commit();
+    return done;
+  }
+  say("{}: {}; see {} --help\n", speaker(program), usage_message(program, error), speaker(program));
+  return wrong_usage;
+}
+
+/// `spoolflow help calibrate` is `spoolflow calibrate --help`; CLI11 takes arguments from the back.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::ranges::reverse(words);
+  return words;
+}
+
+int run(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(arguments_of(argc, argv));
+    if (chosen(program) != nullptr) {
+      flush_standard_output();
+      return done;
+    }
+    say("{0}: no command given; see {0} --help\n", program.get_name());
+    return wrong_usage;
+  } catch (const CLI::ParseError& error) {
+    return help_or_refuse(program, error);
+  }
+}
+
+/// Ends as a program does that was told of the closed pipe by its signal: silently.
+[[noreturn]] void end_by_sigpipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  std::_Exit(work_failed);
+}
+
+/// Every failure becomes one line and an exit status.
+int run_and_report(void (*add_commands)(CLI::App&), int argc, char** argv) {
+  CLI::App program("Soft flow-rate sensor for solenoid-operated spool valves: from rig recordings to a flow rate.",
+                   "spoolflow");
+  shape_help_page(program);
+  program.set_version_flag("--version", std::string(tool_version()), "print the version");
+  program.require_subcommand(0, 1);
+  program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
+  add_commands(program);
+  const auto tell = [&program](const std::string& message) { say("{}: {}\n", speaker(program), message); };
+  try {
+    return run(program, argc, argv);
+  } catch (const ReaderGone&) {
+    end_by_sigpipe();
+  } catch (const SeveralFailures& failures) {
+    for (const std::string& message : failures.messages) tell(message);
+    return failures.of_the_work ? work_failed : wrong_usage;
+  } catch (const std::invalid_argument& error) {
+    tell(error.what());
+    return wrong_usage;
+  } catch (const std::filesystem::filesystem_error& error) {  // a name that leads nowhere, such as a loop of links
+    tell(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+    return wrong_usage;
+  } catch (const std::bad_alloc&) {
+    tell("out of memory; try a shorter recording or a machine with more");
+    return work_failed;
+  } catch (const std::exception& error) {
+    tell(error.what());
+    return work_failed;
+  }
+}
+
+}  // namespace
+
+int run_program(void (*add_commands)(CLI::App&), int argc, char** argv) {
+  hold_standard_streams();
+  keep_arguments(argv);
+  try {
+    end_cleanly_when_interrupted("spoolflow");
+    return run_and_report(add_commands, argc, argv);
+  } catch (...) {
+    std::fputs("spoolflow: a failure that could not even be told\n", stderr);
+    return work_failed;
+  }
+}
+
+}  // namespace spoolflow::apps
