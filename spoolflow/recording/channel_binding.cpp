@@ -110,6 +110,13 @@ class Binder {
   std::size_t column_named(Channel channel, const std::string& wanted) const {
     const auto same = [&wanted](const FileColumn& column) { return column.name == wanted; };
     const auto first = std::find_if(columns_.begin(), columns_.end(), same);
+    const auto numbered = std::ranges::find(columns_, wanted + " #1", &FileColumn::name);
+    if (first == columns_.end() && numbered != columns_.end()) {
+      throw RecordingError(
+          fmt::format("{}: channel {} is mapped to column '{}', of which {} has more than one; choose '{} #1', '{} #2' "
+                      "or a later one in the channel map",
+                      map_place(), name(channel), wanted, file_, wanted, wanted));
+    }
     if (first == columns_.end()) {
       throw RecordingError(
           fmt::format("{}: channel {} is mapped to column '{}', which {} does not have{}{}; its columns "
@@ -117,12 +124,6 @@ class Binder {
                       map_place(), name(channel), wanted, file_, unread_column(wanted),
                       unread_column(wanted).empty() ? did_you_mean(wanted, column_names()) : "",
                       columns_.empty() ? "none" : listed(column_names())));
-    }
-    if (std::find_if(first + 1, columns_.end(), same) != columns_.end()) {
-      throw RecordingError(
-          fmt::format("{}: has more than one column named '{}', which channel {} is mapped to; rename "
-                      "one of them",
-                      file_, wanted, name(channel)));
     }
     return static_cast<std::size_t>(first - columns_.begin());
   }

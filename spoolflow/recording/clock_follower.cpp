@@ -17,13 +17,29 @@ constexpr std::size_t steps_for_median = 2000;
 constexpr double longest_gap_steps = 10;
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
+/// The step is that of the stretch of most samples.
+ClockSpan even_span(const ColumnClock& clock, const std::string& file) {
+  const std::vector<EvenStretch>& stretches = clock.wave.stretches();
+  ClockSpan out{clock.wave.at(0), clock.wave.at(clock.samples > 0 ? clock.samples - 1 : 0), 0};
+  std::uint64_t most = 0;
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    const std::uint64_t end = k + 1 < stretches.size() ? stretches[k + 1].first : clock.samples;
+    if (end - stretches[k].first >= most) most = end - stretches[k].first, out.step_s = stretches[k].step_s;
+    if (k == 0) continue;
+    const double last_s = clock.wave.at(stretches[k].first - 1);
+    if (stretches[k].begin_s >= last_s) continue;
+    throw RecordingError(fmt::format(
+        "{}, sample {}: time runs backwards, from {:.9g} to {:.9g} s, as wf_start_time and wf_start_offset state it; "
+        "cut the recording there",
+        file, stretches[k].first + 1, last_s, stretches[k].begin_s));
+  }
+  return out;
+}
+
 }  // namespace
 
 ClockSpan span_of(SampleTable& table, const ColumnClock& clock, TimeScale scale, const std::string& file) {
-  if (!clock.time) {
-    const auto steps = static_cast<double>(clock.samples > 0 ? clock.samples - 1 : 0);
-    return {clock.begin_s, clock.begin_s + steps * clock.step_s, clock.step_s};
-  }
+  if (!clock.time) return even_span(clock, file);
   const std::string& name = table.columns()[*clock.time].name;
   table.select({*clock.time});
   std::vector<double> block(fetched_samples), steps;
@@ -73,8 +89,7 @@ bool ClockFollower::fetch() {
   for (std::vector<double>& column : block_) into.push_back(column.data());
   const std::size_t rows = table_->read(into, fetched_samples);
   for (std::size_t row = 0; row < rows; ++row) {
-    times_s_.push_back(clock_.time ? scale_.gain * block_.back()[row] + scale_.offset
-                                   : clock_.begin_s + static_cast<double>(read_ + row) * clock_.step_s);
+    times_s_.push_back(clock_.time ? scale_.gain * block_.back()[row] + scale_.offset : clock_.wave.at(read_ + row));
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k].push_back(block_[k][row]);
   }
   read_ += rows;

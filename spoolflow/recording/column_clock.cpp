@@ -86,9 +86,7 @@ class Search {
       if (const auto found = chosen(beside, usual)) return by(*found);
       if (group.empty()) break;
     }
-    if (at(column_).wave_step_s > 0) {
-      return ColumnClock{std::nullopt, at(column_).wave_begin_s, at(column_).wave_step_s, samples_};
-    }
+    if (!at(column_).wave.empty()) return ColumnClock{std::nullopt, at(column_).wave, samples_};
     if (usual && table_.samples_of(*usual) == samples_) return by(*usual);
     if (times_.size() == 1) return by(times_.front());
     return std::nullopt;
@@ -96,7 +94,7 @@ class Search {
 
  private:
   [[nodiscard]] const FileColumn& at(std::size_t column) const { return table_.columns()[column]; }
-  [[nodiscard]] ColumnClock by(std::size_t time) const { return {time, 0, 0, samples_}; }
+  [[nodiscard]] ColumnClock by(std::size_t time) const { return {time, {}, samples_}; }
 
   /// Of times of one group.
   [[nodiscard]] std::optional<std::size_t> chosen(std::vector<std::size_t> times,

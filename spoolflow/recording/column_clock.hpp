@@ -9,10 +9,10 @@
 
 namespace spoolflow::recording {
 
-/// When a column was sampled: by a column of time stamps, or evenly from a beginning on.
+/// When a column was sampled: by a column of time stamps, or at times that the file states of it.
 struct ColumnClock {
   std::optional<std::size_t> time;  ///< column of the time stamps
-  double begin_s = 0, step_s = 0;   ///< where there is none
+  EvenTimes wave{};                 ///< where there is none
   std::uint64_t samples = 0;
 
   [[nodiscard]] bool operator==(const ColumnClock&) const = default;

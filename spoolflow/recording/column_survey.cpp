@@ -12,7 +12,8 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::size_t most_columns = 64, most_lengths = 16, kept_samples = 20'000, block_samples = 4096;
+constexpr std::size_t most_columns = 1024, columns_at_once = 64, most_lengths = 16, kept_samples = 20'000,
+                      block_samples = 4096;
 constexpr std::size_t least_samples = 50;
 constexpr int most_lag = 100;           // samples
 constexpr double along = 0.5;           // correlation from which two columns go together
@@ -32,11 +33,14 @@ std::vector<std::vector<std::size_t>> equally_long(const SampleTable& table) {
   return out;
 }
 
-void take(SurveyedColumn& column, const std::vector<double>& values, std::size_t rows, double& last) {
+void take(SurveyedColumn& column, const std::vector<double>& values, std::size_t rows, double& last, bool kept) {
+  const std::uint64_t before = column.rows;
   column.rows += rows;
   for (std::size_t k = 0; k < rows; ++k) {
-    const double value = values[k];
-    if (column.beginning.size() < kept_samples) column.beginning.push_back(value);
+    const bool infinite = std::isinf(values[k]);
+    if (infinite) column.infinite.take(values[k], before + k + 1);
+    const double value = infinite ? std::numeric_limits<double>::quiet_NaN() : values[k];
+    if (kept && column.beginning.size() < kept_samples) column.beginning.push_back(value);
     if (std::isnan(value)) {
       column.rises = false;
       continue;
@@ -55,7 +59,7 @@ void take(SurveyedColumn& column, const std::vector<double>& values, std::size_t
 
 bool stated_as(const SurveyedColumn& column, units::Dimension dimension) {
   const auto unit = units::unit_named(column.unit);
-  return !unit || unit->dimension == dimension;
+  return column.unit.empty() || (unit && unit->dimension == dimension);
 }
 
 double range_of(const SurveyedColumn& column) {
@@ -143,13 +147,24 @@ class Guesser {
   }
   [[nodiscard]] const std::string& name(std::size_t column) const { return columns_[column].name; }
 
+  /// The column of which that holds; nothing where it holds of several, of which the first is none the better.
+  template <class Holds>
+  [[nodiscard]] std::optional<std::size_t> only_one(Holds&& holds) const {
+    std::optional<std::size_t> out;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      if (!holds(k)) continue;
+      if (out) return std::nullopt;
+      out = k;
+    }
+    return out;
+  }
+
   void time() {
     if (column_of(Channel::time)) return;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      const SurveyedColumn& column = columns_[k];
-      if (!free(k, units::Dimension::time) || !column.rises || column.samples < 2) continue;
-      return choose(Channel::time, k, "it rises with every sample");
-    }
+    const auto rises = [this](std::size_t k) {
+      return free(k, units::Dimension::time) && columns_[k].rises && columns_[k].samples >= 2;
+    };
+    if (const auto only = only_one(rises)) choose(Channel::time, *only, "it rises with every sample");
   }
 
   /// `anchor` is known; the wanted one comes later (position after current) or earlier.
@@ -212,11 +227,13 @@ class Guesser {
 
   void oil_temperature() {
     if (column_of(Channel::oil_temperature)) return;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      if (!free(k, units::Dimension::temperature) || !drifts(columns_[k]) || columns_[k].rises) continue;
-      return choose(Channel::oil_temperature, k,
-                    fmt::format("it drifts slowly between {:.3g} and {:.3g}", columns_[k].lowest, columns_[k].highest));
-    }
+    const auto warms = [this](std::size_t k) {
+      return free(k, units::Dimension::temperature) && drifts(columns_[k]) && !columns_[k].rises;
+    };
+    const auto only = only_one(warms);
+    if (!only) return;
+    choose(Channel::oil_temperature, *only,
+           fmt::format("it drifts slowly between {:.3g} and {:.3g}", columns_[*only].lowest, columns_[*only].highest));
   }
 
   const std::vector<SurveyedColumn>& columns_;
@@ -225,7 +242,7 @@ class Guesser {
   std::map<Channel, DataGuess> out_;
 };
 
-void survey(SampleTable& table, const std::vector<std::size_t>& chosen, std::vector<SurveyedColumn>& out) {
+void survey(SampleTable& table, const std::vector<std::size_t>& chosen, std::vector<SurveyedColumn>& out, bool kept) {
   table.select(chosen);
   std::vector<std::vector<double>> block(chosen.size(), std::vector<double>(block_samples));
   std::vector<double*> places;
@@ -233,8 +250,10 @@ void survey(SampleTable& table, const std::vector<std::size_t>& chosen, std::vec
   std::vector<double> last(chosen.size(), 0.0);
   for (const std::size_t k : chosen) out[k].rises = true;
   for (std::size_t rows = table.read(places, block_samples); rows > 0; rows = table.read(places, block_samples)) {
-    for (std::size_t k = 0; k < chosen.size(); ++k) take(out[chosen[k]], block[k], rows, last[k]);
+    for (std::size_t k = 0; k < chosen.size(); ++k) take(out[chosen[k]], block[k], rows, last[k], kept);
   }
+  const std::span<const std::uint64_t> text_cells = table.text_cells();
+  for (std::size_t k = 0; k < text_cells.size(); ++k) out[chosen[k]].text_cells = text_cells[k];
 }
 
 }  // namespace
@@ -249,9 +268,13 @@ std::vector<SurveyedColumn> survey_columns(const std::function<std::unique_ptr<S
     each.lowest = each.highest = std::numeric_limits<double>::quiet_NaN();
   }
   for (const std::vector<std::size_t>& chosen : equally_long(*table)) {
-    if (!table) table = open();
-    survey(*table, chosen, out);
-    table.reset();
+    for (std::size_t first = 0; first < chosen.size(); first += columns_at_once) {
+      const auto begin = chosen.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto count = static_cast<std::ptrdiff_t>(std::min(columns_at_once, chosen.size() - first));
+      if (!table) table = open();
+      survey(*table, {begin, begin + count}, out, first == 0);
+      table.reset();
+    }
   }
   return out;
 }
@@ -261,8 +284,23 @@ std::map<Channel, DataGuess> guess_by_data(const std::vector<SurveyedColumn>& co
   return Guesser(columns, std::move(known)).guesses();
 }
 
+namespace {
+
+std::string no_numbers(const SurveyedColumn& column) {
+  if (column.rows == 0) return "no samples of it were looked at, or it has none";
+  const std::uint64_t missing = column.rows - column.text_cells - column.infinite.count;
+  const auto all_of = [&column](std::uint64_t count) { return count == column.rows; };
+  if (all_of(column.text_cells)) return fmt::format("no numbers: text in all {} cells", column.rows);
+  if (all_of(missing)) return fmt::format("no numbers: all {} samples are missing", column.rows);
+  if (all_of(column.infinite.count)) return fmt::format("no numbers: all {} are infinite", column.rows);
+  return fmt::format("no numbers: of {} samples {} are missing, {} text, {} infinite", column.rows, missing,
+                     column.text_cells, column.infinite.count);
+}
+
+}  // namespace
+
 std::string character_of(const SurveyedColumn& column) {
-  if (column.samples == 0) return "no numbers";
+  if (column.samples == 0) return no_numbers(column);
   if (column.lowest == column.highest) return "stands still";
   if (column.rises) return "rises with every sample";
   if (!column.unit.empty()) return {};

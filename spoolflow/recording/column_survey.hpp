@@ -9,21 +9,25 @@
 
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/open_table.hpp"
+#include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::recording {
 
 /// A column as the file holds it: in its own unit, whatever that is.
 struct SurveyedColumn {
-  std::string name, unit;           ///< unit: as the file states it; empty where it does not
-  double lowest = 0, highest = 0;   ///< NaN without numbers
-  std::uint64_t samples = 0;        ///< numbers
+  std::string name, unit;          ///< unit: as the file states it; empty where it does not
+  double lowest = 0, highest = 0;  ///< NaN without numbers
+  std::uint64_t samples = 0;       ///< finite numbers
+  std::uint64_t text_cells = 0;    ///< that hold text instead of a number
+  InfiniteSamples infinite{};
   std::uint64_t rows = 0;           ///< with the missing ones; only columns of as many are compared
   bool rises = false;               ///< each number lies above the one before
   std::vector<double> beginning{};  ///< at most 20,000 samples; NaN where one is missing
 };
 
-/// Reads every column, those of each length by an opening of their own; at most 64 columns of a length, and of 16
-/// lengths (the others: no samples). Throws RecordingError as reading does.
+/// Reads every column, 64 of a length by an opening of their own; at most 1024 columns of a length, and of 16 lengths
+/// (the others: no rows). Those beyond the first 64 of a length have no `beginning`. `open`: tables that let infinite
+/// numbers pass. Throws RecordingError as reading does.
 [[nodiscard]] std::vector<SurveyedColumn> survey_columns(const std::function<std::unique_ptr<SampleTable>()>& open);
 
 struct DataGuess {
@@ -34,12 +38,13 @@ struct DataGuess {
 /// For those channels of time, current, voltage, position and oil temperature that `known` (channel to column) lacks,
 /// the column among those that are not known which behaves like it: time rises with every sample; the current rises
 /// before the position does; the voltage goes along with the current, not after it; an oil temperature drifts slowly
-/// between 5 and 120 degC or 278 and 393 K. None where no column does. The unit of a column, where stated, must fit.
+/// between 5 and 120 degC or 278 and 393 K. None where no column does, and none where several rise with every sample or
+/// drift: their order in the file says nothing. The unit of a column, where stated, must fit.
 [[nodiscard]] std::map<Channel, DataGuess> guess_by_data(const std::vector<SurveyedColumn>& columns,
                                                          std::map<Channel, std::size_t> known);
 
-/// What else a column could be, in words; empty where nothing can be said: "stands still", "could be a pressure in
-/// bar".
+/// What else a column could be, or why it holds no numbers, in words; empty where nothing can be said: "stands still",
+/// "could be a pressure in Pa", "no numbers: all 300 samples are missing".
 [[nodiscard]] std::string character_of(const SurveyedColumn& column);
 
 }  // namespace spoolflow::recording

@@ -58,7 +58,7 @@ bool propose_leading_time(ChannelMap& proposal, const SampleTable& table, const 
   const auto leading = leading_column(table, proposal);
   if (!leading) {
     return !proposal.sources.contains(Channel::time) &&
-           std::ranges::any_of(table.columns(), [](const FileColumn& column) { return column.wave_step_s > 0; });
+           std::ranges::any_of(table.columns(), [](const FileColumn& column) { return !column.wave.empty(); });
   }
   if (!table.samples_of(*leading)) return false;
   const auto named = column_of(table, proposal, Channel::time);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "spoolflow/numerics/median.hpp"
+#include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/column_survey.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/proposal.hpp"
@@ -92,15 +93,25 @@ class Steps {
   std::vector<std::pair<double, double>> learned_;
 };
 
-bool has_own_names(const FileContents& contents) {
+/// What the columns' own names say of their channels.
+struct OwnNames {
+  bool of_a_unit = false, of_time = false;
+  bool suffice = true;  ///< each with its unit, and none of two columns
+};
+
+OwnNames own_names(const FileContents& contents, const Proposal& proposal) {
+  OwnNames out;
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    const std::string& column = contents.columns[k];
-    const std::size_t last = column.find_last_of("./");
-    const std::string leaf = last == std::string::npos ? column : column.substr(last + 1);
-    const auto header = channel_header({column, leaf, contents.units[k]});
-    if (header && !header->unit.empty()) return true;
+    const auto header = channel_header(contents.column(k));
+    if (!header) continue;
+    out.of_a_unit = out.of_a_unit || !header->unit.empty();
+    if (header->channel == Channel::time) {  // of which each rate may have one, some without a unit
+      out.of_time = true;
+    } else if (header->unit.empty() || proposal.as_well.contains(header->channel)) {
+      out.suffice = false;
+    }
   }
-  return false;
+  return out;
 }
 
 /// A channel map can be read where it tells all units and no raw signal.
@@ -112,18 +123,23 @@ ChannelMap known_units(ChannelMap map) {
   return map;
 }
 
-bool names_time(const FileContents& contents) {
-  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]});
-    if (header && header->channel == Channel::time) return true;
-  }
-  return false;
+std::string how_known(const FileColumn& column, Channel channel) {
+  const auto header = channel_header(column);
+  if (header && header->channel == channel) return "its own name";
+  return column.name.ends_with(column.leaf) ? "by its name" : "by its label '" + column.leaf + "'";
 }
 
-std::string how_known(const FileContents& contents, std::size_t column, Channel channel) {
-  const auto header = channel_header({contents.columns[column], contents.columns[column], contents.units[column]});
-  if (header && header->channel == channel) return "its own name";
-  return "by its name";
+/// Says of each channel that several columns could be which ones those are. Times of several rates are no such case.
+void say_what_could_be_it(Inspection& out, const Proposal& proposal) {
+  for (const auto& [channel, columns] : proposal.as_well) {
+    const auto source = out.proposal.sources.find(channel);
+    if (source == out.proposal.sources.end() || (channel == Channel::time && !out.clocks.empty())) continue;
+    std::vector<std::string> quoted;
+    for (const std::string& column : columns) {
+      if (column != source->second.column) quoted.push_back("'" + column + "'");
+    }
+    if (!quoted.empty()) out.remarks.emplace(channel, "a guess, check it: it could be " + listed(quoted) + " as well");
+  }
 }
 
 /// What every sensor needs.
@@ -141,8 +157,11 @@ void find_missing(Inspection& out) {
 
 /// Guesses by data what names do not tell, and says of every column what it is taken for.
 void look_at_columns(Inspection& out, const RepeatedInput& input) {
-  std::vector<SurveyedColumn> columns =
-      survey_columns([&] { return open_sample_table(input.open(), CsvTable::Text::counted).table; });
+  std::vector<SurveyedColumn> columns = survey_columns([&] {
+    auto table = open_sample_table(input.open(), CsvTable::Text::counted).table;
+    table->let_infinite_pass();
+    return table;
+  });
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {
@@ -162,6 +181,7 @@ void look_at_columns(Inspection& out, const RepeatedInput& input) {
     InspectedColumn& each = out.columns.emplace_back();
     each.name = columns[k].name, each.unit = columns[k].unit;
     each.lowest = columns[k].lowest, each.highest = columns[k].highest;
+    if (columns[k].infinite.count > 0) out.infinite.emplace(each.name, columns[k].infinite);
     const auto taken = std::ranges::find_if(known, [&](const auto& entry) { return entry.second == k; });
     each.times_others = std::ranges::count(out.clocks, each.name, &InspectedClock::time) > 0;
     if (taken == known.end() && each.times_others) {
@@ -170,12 +190,16 @@ void look_at_columns(Inspection& out, const RepeatedInput& input) {
     }
     if (taken == known.end()) {
       each.why = character_of(columns[k]);
+      const FileColumn named = out.contents.column(k);
+      if (!named.name.ends_with(named.leaf))
+        each.why += (each.why.empty() ? "" : "; ") + ("labelled '" + named.leaf + "'");
       continue;
     }
     each.channel = taken->first;
     const auto guess = guesses.find(taken->first);
     each.guessed = guess != guesses.end();
-    each.why = each.guessed ? guess->second.why : how_known(out.contents, k, taken->first);
+    each.why = each.guessed ? guess->second.why : how_known(out.contents.column(k), taken->first);
+    if (columns[k].samples == 0) each.why += "; " + character_of(columns[k]);
   }
 }
 
@@ -186,7 +210,8 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   const RepeatedInput input(file);
   Inspection out;
   out.contents = contents_of(input.open());
-  out.proposal = propose_channels(out.contents);
+  Proposal proposal = propose_channels(out.contents);
+  out.proposal = proposal.map;
   const auto open_table = [&input] { return open_sample_table(input.open(), CsvTable::Text::counted).table; };
   bool even = false;  // sampled evenly, as the file says, without a column of time
   {
@@ -196,12 +221,15 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   out.clocks =
       inspected_clocks(options.channels.sources.empty() ? out.proposal : options.channels, open_table, file.string());
   if (options.channels.sources.empty()) {
+    say_what_could_be_it(out, proposal);
     look_at_columns(out, input);
     find_missing(out);
     if (even) std::erase(out.missing, Channel::time);
   }
   ReadOptions channels = options;
-  const bool tells = has_own_names(out.contents) && (names_time(out.contents) || even);
+  channels.infinite_is_missing = true;
+  const OwnNames own = own_names(out.contents, proposal);
+  const bool tells = own.suffice && own.of_a_unit && (own.of_time || even);
   if (options.channels.sources.empty() && !tells) {  // names alone do not, but with units of their own they may
     channels.channels = known_units(out.proposal);
     const bool timed = even || channels.channels.sources.contains(Channel::time);
@@ -223,6 +251,10 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   out.samples = reader->notes().rows;
   out.resampled = reader->notes().resampled;
   out.duplicate_times = reader->notes().duplicate_times;
+  for (const auto& [channel, infinite] : reader->notes().infinite) {
+    const auto source = options.channels.sources.find(channel);
+    if (source != options.channels.sources.end()) out.infinite.emplace(source->second.column, infinite);
+  }
   for (const Channel channel : all_channels()) {
     if (reader->has(channel)) out.channels.push_back(followers[static_cast<std::size_t>(channel)].summary(channel));
   }

@@ -43,18 +43,20 @@ struct Inspection {
   std::uint64_t gap_count = 0;
   std::vector<Gap> gaps;  ///< the first ten: time steps of more than three times the median
   std::vector<ChannelSummary> channels;
-  ChannelMap proposal;                     ///< by names, then by numbers
+  ChannelMap proposal;                     ///< by names, then by numbers; estimate takes it once its units are known
   std::map<Channel, std::string> remarks;  ///< of channels of the proposal that are guesses
   std::vector<InspectedColumn> columns;    ///< in the file's order; none where a channel map was given
   std::vector<InspectedClock> clocks;      ///< where columns are of several; else none
-  std::string resampled;                   ///< what was brought onto the time of the current (ReadNotes)
-  std::vector<Channel> missing;            ///< that every sensor needs, and the proposal lacks
-  std::vector<Channel> helpful;            ///< likewise, without which the answer is worse or cannot be judged
+  std::map<std::string, InfiniteSamples> infinite;  ///< of each column that was looked at and has some
+  std::string resampled;                            ///< what was brought onto the time of the current (ReadNotes)
+  std::vector<Channel> missing;                     ///< that every sensor needs, and the proposal lacks
+  std::vector<Channel> helpful;                     ///< likewise, without which the answer is worse or cannot be judged
 };
 
 /// "-" is standard input, of which a copy is kept on disk while it is read more than once. Reads the channels that
 /// `options` or the headers name; memory does not grow with the recording. Where no channel can be told, only contents
-/// and proposal are filled. Throws RecordingError as reading does.
+/// and proposal are filled. An infinite number is a missing sample here, and said. Throws RecordingError as reading
+/// does.
 [[nodiscard]] Inspection inspect(const std::filesystem::path& file, const ReadOptions& options,
                                  const std::function<void(std::optional<double>, std::uint64_t)>& progress);
 

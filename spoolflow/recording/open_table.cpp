@@ -8,7 +8,7 @@
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/confined_table.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
-#include "spoolflow/recording/files/mat_table.hpp"
+#include "spoolflow/recording/matlab/mat_table.hpp"
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 #include "spoolflow/recording/tdms/tdms_table.hpp"
 

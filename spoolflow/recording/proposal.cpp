@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -143,25 +144,32 @@ bool may_have(Channel channel, const std::string& unit_name) {
 
 }  // namespace
 
-ChannelMap propose_channels(const FileContents& contents) {
-  ChannelMap out;
-  for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    if (const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]}))
-      out.sources.try_emplace(header->channel, ChannelSource{contents.columns[k], header->unit, 1.0, 0.0, {}});
+Proposal propose_channels(const FileContents& contents) {
+  Proposal out;
+  std::set<Channel> found;  // in this pass; what one before it has found is not in question
+  const auto propose = [&](Channel channel, const std::string& column, const std::string& unit) {
+    if (out.map.sources.try_emplace(channel, ChannelSource{column, unit, 1.0, 0.0, {}}).second) {
+      found.insert(channel);
+    } else if (found.contains(channel)) {
+      out.as_well[channel].push_back(column);
+    }
+  };
+  std::vector<bool> own(contents.columns.size(), false);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const auto header = channel_header(contents.column(k));
+    own[k] = header.has_value();
+    if (header) propose(header->channel, contents.columns[k], header->unit);
   }
   for (const bool with_unit : {true, false}) {
-    for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-      const std::string& column = contents.columns[k];
-      const bool taken =
-          std::ranges::any_of(out.sources, [&](const auto& entry) { return entry.second.column == column; });
-      if (taken || channel_header({column, column, contents.units[k]})) continue;
-      const NameParts parts = parts_of(column, contents.units[k]);
-      if (parts.unit.empty() == with_unit) continue;
+    found.clear();
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const NameParts parts = parts_of(contents.leaves[k], contents.units[k]);
+      if (own[k] || parts.unit.empty() == with_unit) continue;
       for (const Words& entry : vocabulary) {
         if (!names_it(entry, parts.word) || !may_have(entry.channel, parts.unit)) continue;
         if (parts.word == "t" && parts.unit.empty() && parts.capital != (entry.channel == Channel::oil_temperature))
           continue;
-        out.sources.try_emplace(entry.channel, ChannelSource{column, parts.unit, 1.0, 0.0, {}});
+        propose(entry.channel, contents.columns[k], parts.unit);
         break;
       }
     }

@@ -9,10 +9,16 @@
 
 namespace spoolflow::recording {
 
+struct Proposal {
+  ChannelMap map;
+  /// Columns that could be a channel of the map as well as the one that is proposed, in the file's order.
+  std::map<Channel, std::vector<std::string>> as_well{};
+};
+
 /// At most one column a channel; columns whose meaning or unit cannot be told are left out. Where a column names no
 /// unit, `unit` stays empty: it must be filled in by hand.
 /// Own names come before known words, words with a unit before words without; "T" is a temperature, "t" a time.
-[[nodiscard]] ChannelMap propose_channels(const FileContents& contents);
+[[nodiscard]] Proposal propose_channels(const FileContents& contents);
 
 /// The map as TOML text, ready to be pasted. `remarks` stand behind their channels; channels of `missing` are lines of
 /// comment.

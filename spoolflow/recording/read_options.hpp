@@ -18,6 +18,8 @@ struct ReadOptions {
   /// Of a source that runs on, whose samples are judged one by one: what is no number is missing, lines of another
   /// length are left out, times that are missing or run back are passed on, and nothing is called implausible.
   bool runs_on = false;
+  /// An infinite number is a missing sample, where else it is refused (to inspect).
+  bool infinite_is_missing = false;
 };
 
 }  // namespace spoolflow::recording

@@ -29,10 +29,12 @@ class ChannelReader final : public Reader {
       : file_(std::move(file)),
         bound_(bind_channels(*table, options, file_)),
         plausibility_(file_, bound_, options.stroke_m),
-        runs_on_(options.runs_on) {
+        runs_on_(options.runs_on),
+        infinite_is_missing_(options.infinite_is_missing) {
+    if (infinite_is_missing_) table->let_infinite_pass();
     const std::string unread = unread_channels(*table, options, bound_, file_);
     OneClock clocked = on_one_clock(
-        std::move(table), bound_, [this] { return open_sample_table(file_).table; }, file_);
+        std::move(table), bound_, [this] { return open_again(); }, file_);
     table_ = std::move(clocked.table);
     for (const std::string& note : {table_->lost(), unread, clocked.resampled}) {
       if (!note.empty()) notes_.resampled += (notes_.resampled.empty() ? "" : "; ") + note;
@@ -72,6 +74,13 @@ class ChannelReader final : public Reader {
     for (const BoundColumn& column : bound_) {
       auto& values = block.columns[index(column.channel)];
       values.resize(rows);
+      if (infinite_is_missing_) {
+        for (std::size_t row = 0; row < rows; ++row) {
+          if (!std::isinf(values[row])) continue;
+          notes_.infinite[column.channel].take(values[row], notes_.rows + row + 1);
+          values[row] = std::numeric_limits<double>::quiet_NaN();
+        }
+      }
       if (column.gain == 1.0 && column.offset == 0.0) continue;
       for (double& value : values) value = column.gain * value + column.offset;
     }
@@ -133,6 +142,12 @@ class ChannelReader final : public Reader {
                     place, last_time_s_, time_s));
   }
 
+  [[nodiscard]] std::unique_ptr<SampleTable> open_again() const {
+    std::unique_ptr<SampleTable> out = open_sample_table(file_).table;
+    if (infinite_is_missing_) out->let_infinite_pass();
+    return out;
+  }
+
   std::string file_;
   std::unique_ptr<SampleTable> table_;
   std::vector<BoundColumn> bound_;
@@ -140,6 +155,7 @@ class ChannelReader final : public Reader {
   std::vector<double*> raw_;
   Plausibility plausibility_;
   bool runs_on_;
+  bool infinite_is_missing_;
   ReadNotes notes_;
   double last_time_s_ = -std::numeric_limits<double>::infinity();
 };
@@ -152,9 +168,10 @@ FileContents contents_of(const std::filesystem::path& file) {
 
 FileContents contents_of(std::unique_ptr<InputBytes> input) {
   const OpenTable open = open_sample_table(std::move(input));
-  FileContents out{std::string(name(open.format)), {}, {}, {}};
+  FileContents out{std::string(name(open.format)), {}, {}, {}, {}};
   for (const FileColumn& column : open.table->columns()) {
     out.columns.push_back(column.name);
+    out.leaves.push_back(column.leaf);
     out.units.push_back(stated_unit(column));
   }
   for (const UnreadPart& part : open.table->unread()) out.unread.push_back(part.what);

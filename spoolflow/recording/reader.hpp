@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 #include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -24,17 +26,29 @@ struct SampleBlock {
   }
 };
 
+/// Infinite numbers among a column's samples.
+struct InfiniteSamples {
+  std::uint64_t count = 0;
+  std::uint64_t first = 0;  ///< number of the first one's sample, from 1 on
+  double value = 0;         ///< of the first one
+
+  void take(double number, std::uint64_t sample) {
+    if (count++ == 0) first = sample, value = number;
+  }
+};
+
 /// What was met while reading and is told rather than swallowed.
 struct ReadNotes {
   std::uint64_t rows = 0;
-  std::uint64_t duplicate_times = 0;  ///< equal to the time stamp before
-  std::uint64_t missing_values = 0;   ///< empty cells in channels that were asked for, but for time
-  std::uint64_t missing_times = 0;    ///< these and what follows only of a source that runs on
-  std::uint64_t backward_times = 0;   ///< before the time stamp before
-  std::uint64_t left_out = 0;         ///< lines that could not be read
-  std::string resampled{};            ///< which columns had a time of their own, from which rate to which, and how;
-                                      ///< before it what of the file is missing (SampleTable::lost), and channels that
-                                      ///< were asked for where they can be had, but cannot be read
+  std::uint64_t duplicate_times = 0;              ///< equal to the time stamp before
+  std::uint64_t missing_values = 0;               ///< empty cells in channels that were asked for, but for time
+  std::uint64_t missing_times = 0;                ///< these and what follows only of a source that runs on
+  std::uint64_t backward_times = 0;               ///< before the time stamp before
+  std::uint64_t left_out = 0;                     ///< lines that could not be read
+  std::map<Channel, InfiniteSamples> infinite{};  ///< that were taken as missing (ReadOptions::infinite_is_missing)
+  std::string resampled{};  ///< which columns had a time of their own, from which rate to which, and how;
+                            ///< before it what of the file is missing (SampleTable::lost), and channels that
+                            ///< were asked for where they can be had, but cannot be read
 };
 
 /// Streams a recording; memory does not grow with its length (CSV; others are read in slabs).
@@ -62,8 +76,13 @@ class Reader {
 struct FileContents {
   std::string format;  ///< "CSV", "MATLAB", "HDF5", "TDMS"
   std::vector<std::string> columns;
+  /// What each column's name is looked for in: the last part of its name, or what the file labels it with.
+  std::vector<std::string> leaves;
   std::vector<std::string> units;   ///< as a units row or an attribute says; empty where nothing does
   std::vector<std::string> unread;  ///< what else it holds, and why that is not read
+
+  /// As a reader finds it.
+  [[nodiscard]] FileColumn column(std::size_t index) const { return {columns[index], leaves[index], units[index], {}}; }
 };
 [[nodiscard]] FileContents contents_of(const std::filesystem::path& file);
 [[nodiscard]] FileContents contents_of(std::unique_ptr<InputBytes> input);

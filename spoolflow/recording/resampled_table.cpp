@@ -103,7 +103,7 @@ class ResampledTable final : public SampleTable {
     double* const time = out[slot_of_.at(time_)];
     if (!clock_.time) {
       for (std::size_t row = 0; row < count; ++row) {
-        time[row] = clock_.begin_s + static_cast<double>(read_ + row) * clock_.step_s;
+        time[row] = clock_.wave.at(read_ + row);
       }
     }
     read_ += count;
@@ -143,8 +143,8 @@ class Clocks {
     const std::size_t lead = leading_channel(bound)->column;
     const bool by_column = time_.column < table.columns().size();
     const FileColumn& leading = table.columns()[lead];
-    own_ = by_column ? ColumnClock{time_.column, 0, 0, *table.samples_of(time_.column)}
-                     : ColumnClock{std::nullopt, leading.wave_begin_s, leading.wave_step_s, *table.samples_of(lead)};
+    own_ = by_column ? ColumnClock{time_.column, {}, *table.samples_of(time_.column)}
+                     : ColumnClock{std::nullopt, leading.wave, *table.samples_of(lead)};
     if (*table.samples_of(lead) != own_.samples) {
       throw RecordingError(
           fmt::format("{}: '{}' holds {} samples but its time '{}' holds {}; name the time of '{}' in a channel map, "

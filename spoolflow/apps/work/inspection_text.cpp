@@ -93,6 +93,17 @@ void add_columns(std::string& out, const recording::Inspection& found) {
   add(out, "\n");
 }
 
+/// Samples that no estimate takes, in whatever column.
+void add_infinite(std::string& out, const recording::Inspection& found) {
+  for (const auto& [column, infinite] : found.infinite) {
+    add(out,
+        "'{}' holds {} infinite {}, the first one ({}) at sample {}; write NaN where a sample is missing before the "
+        "column is used\n",
+        column, infinite.count, infinite.count == 1 ? "value" : "values", infinite.value, infinite.first);
+  }
+  if (!found.infinite.empty()) add(out, "\n");
+}
+
 void add_missing(std::string& out, const recording::Inspection& found) {
   if (!found.missing.empty()) add(out, "Needed and not found: {}\n", names_of(found.missing));
   if (!found.helpful.empty()) {
@@ -176,6 +187,7 @@ void add_text(std::string& out, const InspectedFile& inspected) {
     add(out, "\n");
   }
   add_unread(out, found);
+  add_infinite(out, found);
   if (inspected.map_file.empty()) {
     add_proposal(out, found);
   } else if (const std::vector<std::string> columns = columns_left_out(inspected.map, found); columns.empty()) {
@@ -202,6 +214,13 @@ void add_column_json(std::string& out, const recording::Inspection& found) {
         json_number(column.lowest), json_number(column.highest),
         column.channel ? json_text(std::string(recording::name(*column.channel))) : "null", column.guessed,
         json_text(column.why));
+  }
+  add(out, "\n ],\n");
+  add(out, " \"infinite\": [");
+  for (const auto& [column, infinite] : found.infinite) {
+    add(out, "{}\n  {{\"column\": {}, \"count\": {}, \"first_sample\": {}, \"negative\": {}}}",
+        column == found.infinite.begin()->first ? "" : ",", json_text(column), infinite.count, infinite.first,
+        infinite.value < 0);
   }
   add(out, "\n ],\n");
   add_names_json(out, "missing", found.missing);

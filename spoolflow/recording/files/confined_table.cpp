@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/numbered_names.hpp"
 #include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
 
@@ -143,8 +144,11 @@ std::string listing_of(const VectorTable& table) {
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
     const FileColumn& column = table.columns()[k];
     for (const std::string* text : {&column.name, &column.leaf, &column.unit}) out.text(*text);
-    for (const double value : {column.wave_begin_s, column.wave_step_s})
-      out.number(std::bit_cast<std::uint64_t>(value));
+    out.number(column.wave.stretches().size());
+    for (const EvenStretch& stretch : column.wave.stretches()) {
+      out.number(stretch.first);
+      for (const double value : {stretch.begin_s, stretch.step_s}) out.number(std::bit_cast<std::uint64_t>(value));
+    }
     out.number(table.length(k));
   }
   return out.content();
@@ -221,14 +225,20 @@ class ConfinedTable final : public VectorTable {
       unread_.push_back(std::move(part));
     }
     lost_ = content.text();
-    const std::uint64_t columns = content.number();
-    for (std::uint64_t k = 0; k < columns; ++k) {
-      FileColumn column;
+    std::vector<FileColumn> columns;
+    std::vector<std::uint64_t> lengths;
+    for (std::uint64_t left = content.number(); left > 0; --left) {
+      FileColumn& column = columns.emplace_back();
       for (std::string* text : {&column.name, &column.leaf, &column.unit}) *text = content.text();
-      for (double* value : {&column.wave_begin_s, &column.wave_step_s})
-        *value = std::bit_cast<double>(content.number());
-      add({std::move(column), content.number()});
+      for (std::uint64_t stretches = content.number(); stretches > 0; --stretches) {
+        EvenStretch stretch{content.number()};
+        for (double* value : {&stretch.begin_s, &stretch.step_s}) *value = std::bit_cast<double>(content.number());
+        column.wave.add(stretch);
+      }
+      lengths.push_back(content.number());
     }
+    number_equal_names(columns);
+    for (std::size_t k = 0; k < columns.size(); ++k) add({std::move(columns[k]), lengths[k]});
   }
 
   [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }

@@ -9,6 +9,7 @@
 #include "spoolflow/recording/files/clock_time.hpp"
 #include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/files/numbered_names.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
@@ -195,6 +196,7 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
                     file, dialect.header_lines));
   }
   dialect.columns = columns_named(names);
+  number_equal_names(dialect.columns);
 
   const CsvDialect without_units = dialect;
   std::string_view after = rest;

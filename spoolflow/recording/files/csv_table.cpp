@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t block_bytes = std::size_t{256} << 10;
 constexpr std::size_t longest_line = std::size_t{4} << 20;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -171,6 +172,9 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
     if (!clock_origin_) clock_origin_ = clock;
     return clock->since(*clock_origin_);
   }
+  if (infinite_passes_ && digits == Digits::not_finite) {
+    return cell.find('-') == std::string_view::npos ? infinity : -infinity;
+  }
   if (text_ != Text::refused) {
     ++text_cells_[slot];
     return missing;
@@ -210,7 +214,7 @@ bool CsvTable::header_again(std::string_view line) const {
     last = cell.last;
     double number = 0.0;
     if (cell.text.empty() || read_number(cell.text, point_, number) == Digits::number) return false;
-    const auto named = std::ranges::find(dialect_.columns, cell.text, &FileColumn::name);
+    const auto named = std::ranges::find(dialect_.columns, cell.text, &FileColumn::leaf);
     if (named == dialect_.columns.end()) continue;
     ++(named - dialect_.columns.begin() == static_cast<std::ptrdiff_t>(column) ? same : elsewhere);
   }

@@ -32,7 +32,8 @@ class CsvTable final : public SampleTable {
   [[nodiscard]] char delimiter() const { return dialect_.delimiter; }
   [[nodiscard]] char decimal_sign() const { return point_; }
   /// Cells of each chosen column that were no number, with Text::counted.
-  [[nodiscard]] const std::vector<std::uint64_t>& text_cells() const { return text_cells_; }
+  [[nodiscard]] std::span<const std::uint64_t> text_cells() const override { return text_cells_; }
+  void let_infinite_pass() override { infinite_passes_ = true; }
 
  private:
   void take_bytes();
@@ -58,6 +59,7 @@ class CsvTable final : public SampleTable {
   CsvDialect dialect_;
   char point_ = '.';
   bool point_known_ = false;
+  bool infinite_passes_ = false;
   bool quotes_ = false;  ///< a quote in the buffer: every row is read carefully
   std::vector<std::size_t> chosen_;
   std::vector<Step> steps_;

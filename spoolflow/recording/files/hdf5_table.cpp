@@ -5,13 +5,17 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/clock_time.hpp"
 #include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
 #include "spoolflow/recording/files/hdf5_other_files.hpp"
+#include "spoolflow/recording/files/hdf5_unread.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
 
@@ -61,6 +65,14 @@ double number_attribute(hid_t object, const char* name, double otherwise) {
   return value;
 }
 
+/// The instant of a waveform's beginning, as text or as a number of seconds.
+std::optional<ClockTime> start_attribute(hid_t object) {
+  if (const std::string text = text_attribute(object, "wf_start_time"); !text.empty()) return read_clock_time(text);
+  const double second = number_attribute(object, "wf_start_time", 0.0);
+  if (!(second > 0) || !std::isfinite(second)) return std::nullopt;
+  return ClockTime{0, second};
+}
+
 class Hdf5Table final : public VectorTable {
  public:
   explicit Hdf5Table(const std::filesystem::path& path)
@@ -79,6 +91,7 @@ class Hdf5Table final : public VectorTable {
       throw RecordingError(fmt::format(
           "{}: is damaged or cut short: its table of contents cannot be read; copy or record it again", file()));
     }
+    add_listed();
   }
 
   [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
@@ -127,22 +140,15 @@ class Hdf5Table final : public VectorTable {
 
   void list(hid_t file_id, const std::string& path) {
     const Hdf5Handle dataset(H5Dopen2(file_id, path.c_str(), H5P_DEFAULT), H5Dclose);
-    const Hdf5Handle type(dataset.valid() ? H5Dget_type(dataset.id()) : -1, H5Tclose);
-    const Hdf5Handle space(dataset.valid() ? H5Dget_space(dataset.id()) : -1, H5Sclose);
-    if (!type.valid() || !space.valid()) {
-      keep(unread_, {path, fmt::format("dataset '{}' is damaged or cut short", path)});
+    if (std::string why = why_unread(dataset.id(), path); !why.empty()) {
+      keep(unread_, {path, std::move(why)});
       return;
     }
-    const H5T_class_t kind = H5Tget_class(type.id());
+    const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose);
+    const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
     const int rank = H5Sget_simple_extent_ndims(space.id());
     std::array<hsize_t, 2> size{1, 1};
-    if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || rank < 1 || rank > 2 ||
-        H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) < 0) {
-      keep(unread_, {path, fmt::format("dataset '{}' is no vector or matrix of numbers; write one dataset of numbers a "
-                                       "channel",
-                                       path)});
-      return;
-    }
+    H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
     declared_.add(path, size[0], size[1], H5Tget_size(type.id()));
     std::string unit = text_attribute(dataset.id(), "unit");
     if (unit.empty()) unit = text_attribute(dataset.id(), "units");
@@ -151,12 +157,26 @@ class Hdf5Table final : public VectorTable {
     const double step_s = number_attribute(dataset.id(), "wf_increment", 0.0);
     if (step_s > 0 && std::isfinite(step_s)) {
       const double begin_s = number_attribute(dataset.id(), "wf_start_offset", 0.0);
-      if (std::isfinite(begin_s)) column.wave_begin_s = begin_s, column.wave_step_s = step_s;
+      if (std::isfinite(begin_s)) column.wave = EvenTimes(begin_s, step_s);
     }
+    const std::optional<ClockTime> start = step_s > 0 ? start_attribute(dataset.id()) : std::nullopt;
+    if (start && (!origin_ || start->since(*origin_) < 0)) origin_ = start;
     for (MatrixPart& part : matrix_parts(column, size[0], size[1])) {
       sources_.push_back({path, rank, part.is_row, part.index});
-      add(std::move(part.vector));
+      listed_.emplace_back(std::move(part.vector), start);
     }
+  }
+
+  /// Times of all waveforms count from the earliest instant that one of them states.
+  void add_listed() {
+    for (auto& [vector, start] : listed_) {
+      if (start && !vector.column.wave.empty()) {
+        const EvenStretch stated = vector.column.wave.stretches().front();
+        vector.column.wave = EvenTimes(stated.begin_s + start->since(*origin_), stated.step_s);
+      }
+      add(std::move(vector));
+    }
+    listed_.clear();
   }
 
   [[noreturn]] void refuse_damaged(const Source& source, std::uint64_t first) const {
@@ -184,6 +204,8 @@ class Hdf5Table final : public VectorTable {
   std::vector<Source> sources_;
   std::map<std::size_t, Dataset> datasets_;  ///< of the chosen columns
   std::vector<UnreadPart> unread_;
+  std::vector<std::pair<Vector, std::optional<ClockTime>>> listed_;  ///< each with its wf_start_time
+  std::optional<ClockTime> origin_;                                  ///< the earliest of them
   DeclaredSize declared_;
   std::exception_ptr failure_;  ///< of list()
 };

@@ -27,7 +27,9 @@ BracketedName split_brackets(std::string_view name) {
   const char open = close == ']' ? '[' : close == ')' ? '(' : '\0';
   const std::size_t at = open == '\0' ? std::string_view::npos : name.rfind(open);
   if (at == std::string_view::npos) return {name, {}};
-  return {trimmed(name.substr(0, at)), trimmed(name.substr(at + 1, name.size() - at - 2))};
+  const std::string_view inside = name.substr(at + 1, name.size() - at - 2);
+  if (inside.find_first_not_of("0123456789:, ") == std::string_view::npos && inside != "1") return {name, {}};
+  return {trimmed(name.substr(0, at)), trimmed(inside)};
 }
 
 bool is_units_row(const std::vector<std::string_view>& cells) {

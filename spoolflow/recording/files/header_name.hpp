@@ -10,7 +10,8 @@
 
 namespace spoolflow::recording {
 
-/// A unit in brackets at the end of a name: "I_sol [mA]" or "p1 (bar)" give "I_sol" and "mA", "p1" and "bar".
+/// A unit in brackets at the end of a name, where indices such as (:,2) are none: "I_sol [mA]" or "p1 (bar)" give
+/// "I_sol" and "mA", "p1" and "bar".
 struct BracketedName {
   std::string_view stem;
   std::string_view unit;  ///< empty: no brackets

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "spoolflow/recording/channels/even_times.hpp"
 #include "spoolflow/recording/files/unread_part.hpp"
 
 namespace spoolflow::recording {
@@ -14,9 +15,10 @@ namespace spoolflow::recording {
 /// A column of a file before anything is known about its meaning.
 struct FileColumn {
   std::string name;  ///< as a channel map names it: CSV header, `struct.field`, `rig/time`
-  std::string leaf;  ///< the last part of the name, which <channel>_<unit> is looked for in
+  /// The last part of the name, or what the file labels the column with: <channel>_<unit> is looked for in it.
+  std::string leaf;
   std::string unit;  ///< written in the file beside the name (units row, attribute); empty where it is not
-  double wave_begin_s = 0, wave_step_s = 0;  ///< sampled evenly, as attributes of it say; step 0 where none does
+  EvenTimes wave{};  ///< as attributes of it state them; empty where none does
 };
 
 /// One open file. A new format implements this, and open_sample_table() tells it by its content.
@@ -37,8 +39,13 @@ class SampleTable {
   /// Chooses the columns that read() fills, by index, each at most once. Once, before the first read().
   virtual void select(const std::vector<std::size_t>& columns) = 0;
   /// Fills `out[k]` (room for `rows` numbers) from the k-th chosen column; returns the number of rows, 0 at the end.
-  /// Numbers are finite, or NaN where the sample is missing. Throws RecordingError with file, place and value.
+  /// Numbers are finite, or NaN where the sample is missing; infinite ones only after let_infinite_pass(). Throws
+  /// RecordingError with file, place and value.
   virtual std::size_t read(std::span<double* const> out, std::size_t rows) = 0;
+  /// Infinite numbers, which are refused else, are read as they stand from here on (to inspect).
+  virtual void let_infinite_pass() {}
+  /// Cells of each chosen column that hold text instead of a number, where text is counted; none where it is refused.
+  [[nodiscard]] virtual std::span<const std::uint64_t> text_cells() const { return {}; }
   /// Rows that could not be read and were left out so far; nothing is where the table refuses them.
   [[nodiscard]] virtual std::uint64_t left_out() const { return 0; }
   /// Where row `row` of the last read() stands: "run.csv, line 17" or "run.mat, sample 16".

@@ -20,6 +20,7 @@ class VectorTable : public SampleTable {
   void select(const std::vector<std::size_t>& columns) final;
   std::size_t read(std::span<double* const> out, std::size_t rows) final;
   [[nodiscard]] std::string place(std::size_t row) const final;
+  void let_infinite_pass() final { infinite_passes_ = true; }
   [[nodiscard]] std::optional<double> progress() const final;
   [[nodiscard]] std::optional<std::uint64_t> samples_of(std::size_t column) const final { return lengths_[column]; }
   /// Samples of the column.
@@ -49,6 +50,7 @@ class VectorTable : public SampleTable {
   std::uint64_t rows_ = 0;
   std::uint64_t next_ = 0;
   std::uint64_t first_of_block_ = 0;
+  bool infinite_passes_ = false;
 };
 
 }  // namespace spoolflow::recording

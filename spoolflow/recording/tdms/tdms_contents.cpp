@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -161,7 +162,23 @@ class Segments {
     } else if (head != none && head != as_before) {
       refuse(fmt::format("'{}' is no channel, but is said to have samples", path));
     }
-    out_.properties[path].read(bytes, order, what_);
+    TdmsProperties& said = out_.properties[path];
+    said.read(bytes, order, what_);
+    if (names->size() == 2) note_wave(out_.channels[channel_of(path, *names)], said);
+  }
+
+  /// What the properties say of the samples to come.
+  static void note_wave(TdmsChannel& channel, const TdmsProperties& said) {
+    const double* const step = said.number("wf_increment");
+    if (step == nullptr || !(*step > 0) || !std::isfinite(*step)) return;
+    const double* const offset = said.number("wf_start_offset");
+    const TdmsTime* const start = said.time("wf_start_time");
+    TdmsWave wave{channel.samples, {}, 0, *step};
+    if (offset != nullptr && std::isfinite(*offset)) wave.offset_s = *offset;
+    if (start != nullptr && start->second > 0) wave.start = *start;
+    if (!channel.waves.empty() && channel.waves.back().says_the_same(wave)) return;
+    if (!channel.waves.empty() && channel.waves.back().first == wave.first) channel.waves.pop_back();
+    channel.waves.push_back(wave);
   }
 
   void leave_out(std::size_t channel) {

@@ -2,6 +2,7 @@
 /// A TDMS file from its first segment to its last: its objects and where their samples stand.
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,26 @@
 
 namespace spoolflow::recording {
 
+/// What the wf_ properties of a channel say from one of its samples on.
+struct TdmsWave {
+  std::uint64_t first = 0;
+  std::optional<TdmsTime> start{};
+  double offset_s = 0, step_s = 0;
+
+  [[nodiscard]] bool says_the_same(const TdmsWave& other) const {
+    return start == other.start && offset_s == other.offset_s && step_s == other.step_s;
+  }
+};
+
 struct TdmsChannel {
   std::string group, name;
   std::string path;           ///< as the file writes it: /'group'/'name'
   std::uint64_t samples = 0;  ///< in all runs
   std::string unread{};       ///< why it cannot be read: "text"; empty where it can
   bool of_time = false;       ///< its samples are times
+  /// Of even steps, one where the properties change: where the recording was stopped and went on, each segment has a
+  /// wf_start_time of its own.
+  std::vector<TdmsWave> waves{};
 };
 
 struct TdmsContents {

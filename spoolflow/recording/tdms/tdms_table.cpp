@@ -70,8 +70,9 @@ class TdmsTable final : public VectorTable {
     };
     for (std::size_t k = 0; k < contents_.channels.size(); ++k) {
       const TdmsChannel& channel = contents_.channels[k];
-      const TdmsTime* const start = contents_.of(channel.path).time("wf_start_time");
-      if (start != nullptr && start->second > 0 && is_wave(channel)) take(*start);
+      for (const TdmsWave& wave : channel.waves) {
+        if (wave.start) take(*wave.start);
+      }
       if (!channel.of_time || channel.samples == 0) continue;
       for (const TdmsRun& run : contents_.runs) {
         const TdmsPart* const part = run.chunk->part_of(k);
@@ -80,11 +81,6 @@ class TdmsTable final : public VectorTable {
         break;
       }
     }
-  }
-
-  [[nodiscard]] bool is_wave(const TdmsChannel& channel) const {
-    const double* const step = contents_.of(channel.path).number("wf_increment");
-    return step != nullptr && *step > 0 && std::isfinite(*step);
   }
 
   void list(std::size_t index, const TdmsProperties& of_file) {
@@ -104,7 +100,7 @@ class TdmsTable final : public VectorTable {
     if (const std::string* const unit = said.text("unit_string"); unit != nullptr && !channel.of_time) {
       column.unit = *unit;
     }
-    if (is_wave(channel)) add_wave(column, said);
+    column.wave = times_of(channel);
     add({std::move(column), channel.samples});
     sources_.push_back({index, std::move(scale)});
   }
@@ -116,12 +112,21 @@ class TdmsTable final : public VectorTable {
     return out + "'";
   }
 
-  void add_wave(FileColumn& column, const TdmsProperties& said) const {
-    const double* const offset = said.number("wf_start_offset");
-    const TdmsTime* const start = said.time("wf_start_time");
-    column.wave_step_s = *said.number("wf_increment");
-    column.wave_begin_s = offset != nullptr && std::isfinite(*offset) ? *offset : 0.0;
-    if (start != nullptr && start->second > 0 && origin_) column.wave_begin_s += start->since(*origin_);
+  /// What is said behind the last sample counts only where nothing was said before.
+  [[nodiscard]] EvenTimes times_of(const TdmsChannel& channel) const {
+    EvenTimes out;
+    const TdmsWave* before = nullptr;
+    for (const TdmsWave& wave : channel.waves) {
+      if (before != nullptr && wave.first >= channel.samples) break;
+      double begin_s = wave.offset_s;
+      if (wave.start && origin_) begin_s += wave.start->since(*origin_);
+      const bool other_rate_alone =
+          before != nullptr && before->start == wave.start && before->offset_s == wave.offset_s;
+      if (other_rate_alone) begin_s = out.at(wave.first);
+      out.go_on({wave.first, begin_s, wave.step_s});
+      before = &wave;
+    }
+    return out;
   }
 
   [[nodiscard]] TdmsTime time_at(const TdmsPart& part, std::uint64_t at) const {

@@ -8,7 +8,7 @@
 #include <matio.h>
 
 #include "spoolflow/recording/files/hdf5_table.hpp"
-#include "spoolflow/recording/files/mat_table.hpp"
+#include "spoolflow/recording/matlab/mat_table.hpp"
 #include "tests/recording/temporary_file.hpp"
 #include "tests/recording/written_tables/table_in_memory.hpp"
 
@@ -79,7 +79,9 @@ TEST(MatWriter, WritesAVariableAColumnAndTellsUnitsAndNames) {
                           0, 3, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 6, 0, 0, 0, 't', 'i', 'm', 'e', '_', 's', 0, 0, 9, 0,
                           0, 0, 24, 0, 0, 0));
   const TemporaryFile file("small.mat", text_of(bytes));
-  expect_small_rows(*open_mat_table(file.path()));
+  const auto small = open_mat_table(file.path());
+  small->look();
+  expect_small_rows(*small);
   mat_t* const mat = Mat_Open(file.path().c_str(), MAT_ACC_RDONLY);
   ASSERT_NE(mat, nullptr);
   matvar_t* const units = Mat_VarRead(mat, "run_units");
@@ -110,6 +112,7 @@ TEST(MatWriter, BringsStripsOfRowsTogether) {
   writer->finish();
   const TemporaryFile file("strips.mat", text_of(output.bytes()));
   const auto table = open_mat_table(file.path());
+  table->look();
   const std::size_t count = 5 * rows.count();
   const auto times = values(*table, "time_s", count), flows = values(*table, "flow_L_min", count),
              words = values(*table, "status", count);

@@ -15,7 +15,7 @@
 
 #include "spoolflow/estimation/status_text.hpp"
 #include "spoolflow/recording/files/hdf5_table.hpp"
-#include "spoolflow/recording/files/mat_table.hpp"
+#include "spoolflow/recording/matlab/mat_table.hpp"
 #include "tests/apps/command_line.hpp"
 
 namespace spoolflow::apps {
@@ -70,6 +70,7 @@ class EstimateFormats : public CommandLine {
   [[nodiscard]] static Table from_vectors(recording::VectorTable& table, std::size_t rows) {
     Table out;
     estimation::StatusText text;
+    table.look();
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
       std::vector<double> values(rows);
       const std::string& name = table.columns()[k].name;

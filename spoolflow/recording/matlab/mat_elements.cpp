@@ -1,4 +1,4 @@
-#include "spoolflow/recording/files/mat_elements.hpp"
+#include "spoolflow/recording/matlab/mat_elements.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,9 @@
-#include "spoolflow/recording/files/mat_table.hpp"
+#include "spoolflow/recording/matlab/mat_table.hpp"
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <matio.h>
@@ -10,9 +12,10 @@
 #include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/hdf5_handle.hpp"
 #include "spoolflow/recording/files/hdf5_other_files.hpp"
-#include "spoolflow/recording/files/mat_elements.hpp"
 #include "spoolflow/recording/files/matrix_names.hpp"
 #include "spoolflow/recording/files/vector_table.hpp"
+#include "spoolflow/recording/matlab/mat_elements.hpp"
+#include "spoolflow/recording/matlab/mat_labels.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -64,11 +67,62 @@ Convert converter(matio_classes numbers) {
   }
 }
 
-/// "log.signals(2).values" as the steps to it: variable, then field and element.
-struct Step {
-  std::string field;
-  std::size_t element;
+/// A variable's numbers as a matrix. Of more dimensions than two the last one is taken for time, as Simulink logs the
+/// signals of a matrix; rows 0 where it is no matrix and no such log.
+struct Shape {
+  std::uint64_t rows = 0, columns = 0;
+
+  bool operator==(const Shape&) const = default;
 };
+
+Shape shape_of(const matvar_t& variable) {
+  if (variable.dims == nullptr || variable.rank < 2) return {};
+  if (variable.rank == 2) return {variable.dims[0], variable.dims[1]};
+  constexpr std::uint64_t most = 256;
+  std::uint64_t each = 1;
+  for (int k = 0; k + 1 < variable.rank; ++k) {
+    if (variable.dims[k] > most) return {};
+    each *= variable.dims[k];
+    if (each > most) return {};
+  }
+  const std::uint64_t samples = variable.dims[variable.rank - 1];
+  return each < samples ? Shape{each, samples} : Shape{};
+}
+
+std::string size_of(const matvar_t& variable) {
+  std::string out;
+  for (int k = 0; variable.dims != nullptr && k < variable.rank; ++k)
+    out += fmt::format("{}{}", k == 0 ? "" : " x ", variable.dims[k]);
+  return out;
+}
+
+/// "holds text; ...", with what to do; empty where it is a vector or matrix of real numbers.
+std::string why_unread(const matvar_t& variable) {
+  switch (variable.class_type) {
+    case MAT_C_CHAR:
+      return "holds text; write its numbers as numbers";
+    case MAT_C_CELL:
+      return "is a cell array; write its numbers as a matrix (cell2mat)";
+    case MAT_C_SPARSE:
+      return "is a sparse matrix; write it whole (full)";
+    case MAT_C_EMPTY:
+      return "is empty; record it again";
+    default:
+      break;
+  }
+  if (converter(variable.class_type) == nullptr) return "holds no numbers; write one vector of numbers a channel";
+  if (variable.isComplex != 0) return "holds complex numbers; write the real numbers of one channel";
+  for (int k = 0; variable.dims != nullptr && k < variable.rank; ++k) {
+    if (variable.dims[k] == 0) return "is empty; record it again";
+  }
+  if (shape_of(variable).rows > 0) return {};
+  return fmt::format("is an array of {}; write one vector a channel, or a matrix of one column a channel",
+                     size_of(variable));
+}
+
+bool named_as_time(std::string_view field) {
+  return field == "time" || field == "Time";
+}
 
 class MatTable final : public VectorTable {
  public:
@@ -83,10 +137,15 @@ class MatTable final : public VectorTable {
     refuse_cut_mat_file(path);
     mat_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!mat_) refuse_damaged("MATLAB's format is not found in it");
+  }
+
+  void look() override {
     while (const Variable variable{Mat_VarReadNextInfo(mat_.get())}) {
       if (variable->name != nullptr) list(*variable, variable->name, {{variable->name, 0}});
     }
-    if (columns().empty() && unread_.empty()) refuse_damaged("no variable can be read from it");
+    if (sources_.empty() && unread_.empty()) refuse_damaged("no variable can be read from it");
+    label();
+    for (const Source& source : sources_) add(source.part.vector);
   }
 
   [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
@@ -94,7 +153,7 @@ class MatTable final : public VectorTable {
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {
     const Source& source = sources_[column];
     const matvar_t& variable = loaded(source);
-    const std::uint64_t rows = variable.dims[0];
+    const std::uint64_t rows = source.shape.rows;
     const Convert convert = converter(variable.class_type);
     if (source.part.is_row) {
       convert(variable.data, source.part.index + first * rows, rows, count, out);
@@ -105,10 +164,10 @@ class MatTable final : public VectorTable {
 
  private:
   struct Source {
-    std::vector<Step> path;
+    std::vector<MatStep> path;
     MatrixPart part;
-    std::uint64_t rows;
-    std::uint64_t columns;
+    std::size_t number, parts;  ///< which part of how many
+    Shape shape;
   };
 
   [[noreturn]] void refuse_damaged(const std::string& what) const {
@@ -118,7 +177,7 @@ class MatTable final : public VectorTable {
                     file(), what));
   }
 
-  void list(matvar_t& variable, const std::string& name, const std::vector<Step>& path) {
+  void list(matvar_t& variable, const std::string& name, const std::vector<MatStep>& path) {
     if (variable.class_type == MAT_C_STRUCT) {
       list_struct(variable, name, path);
     } else if (variable.class_type == MAT_C_OBJECT || variable.class_type == MAT_C_OPAQUE ||
@@ -129,30 +188,59 @@ class MatTable final : public VectorTable {
                         "its columns as vectors, with s = table2struct({0}, 'ToScalar', true); save(..., '-struct', "
                         "'s'), of a timeseries with t = {0}.Time; x = {0}.Data",
                         name)});
-    } else if (converter(variable.class_type) == nullptr || variable.isComplex != 0 || variable.rank != 2 ||
-               variable.dims == nullptr) {
-      keep(unread_, {name, fmt::format("'{}' is no vector or matrix of real numbers", name)});
+    } else if (const std::string why = why_unread(variable); !why.empty()) {
+      keep(unread_, {name, fmt::format("'{}' {}", name, why)});
     } else {
-      declared_.add(name, variable.dims[0], variable.dims[1], Mat_SizeOfClass(variable.class_type));
+      const Shape shape = shape_of(variable);
+      declared_.add(name, shape.rows, shape.columns, Mat_SizeOfClass(variable.class_type));
       const FileColumn column{name, path.back().field, {}};
-      for (MatrixPart& part : matrix_parts(column, variable.dims[0], variable.dims[1])) {
-        add(part.vector);
-        sources_.push_back({path, std::move(part), variable.dims[0], variable.dims[1]});
-      }
+      const std::vector<MatrixPart> parts = matrix_parts(column, shape.rows, shape.columns);
+      for (std::size_t k = 0; k < parts.size(); ++k) sources_.push_back({path, parts[k], k, parts.size(), shape});
     }
   }
 
-  void list_struct(matvar_t& variable, const std::string& name, const std::vector<Step>& path) {
+  /// Columns of structs are called what the structs say of them. Reads those structs whole, one at a time.
+  void label() {
+    std::set<std::string> labelled;
+    for (const Source& source : sources_) {
+      if (source.path.size() > 1 && is_labelled_field(source.path.back().field))
+        labelled.insert(source.path.front().field);
+    }
+    Variable whole;
+    std::string read;
+    for (Source& source : sources_) {
+      if (source.path.size() < 2 || !labelled.contains(source.path.front().field)) continue;
+      if (const std::string& wanted = source.path.front().field; wanted != read) {
+        whole.reset();  // not both in memory
+        whole.reset(Mat_VarRead(mat_.get(), wanted.c_str()));
+        read = wanted;
+      }
+      if (!whole) continue;
+      FileColumn& column = source.part.vector.column;
+      const std::string& field = source.path.back().field;
+      if (named_as_time(field)) column.unit = unit_of_time_in(*whole, source.path);
+      if (!is_labelled_field(field)) continue;
+      const MatLabel label = label_of(*whole, source.path, source.number, source.parts);
+      column.unit = label.unit;
+      if (label.name.empty()) continue;
+      column.leaf = label.name + (label.of_all ? column.leaf.substr(field.size()) : "");
+    }
+  }
+
+  void list_struct(matvar_t& variable, const std::string& name, const std::vector<MatStep>& path) {
     if (path.size() > deepest_struct || variable.dims == nullptr || variable.rank != 2) return;
     const std::size_t elements = variable.dims[0] * variable.dims[1];
     char* const* const fields = Mat_VarGetStructFieldnames(&variable);
     if (fields == nullptr) return;
+    const unsigned count = Mat_VarGetNumberOfFields(&variable);
+    const bool labelled = std::any_of(fields, fields + count,
+                                      [](const char* field) { return field != nullptr && is_labelled_field(field); });
     for (std::size_t element = 0; element < std::min(elements, most_structs); ++element) {
       const std::string prefix = elements > 1 ? fmt::format("{}({}).", name, element + 1) : name + ".";
-      for (unsigned k = 0; k < Mat_VarGetNumberOfFields(&variable); ++k) {
+      for (unsigned k = 0; k < count; ++k) {
         matvar_t* const field = Mat_VarGetStructFieldByIndex(&variable, k, element);
-        if (field == nullptr || fields[k] == nullptr) continue;
-        std::vector<Step> deeper = path;
+        if (field == nullptr || fields[k] == nullptr || (labelled && is_annotation(fields[k]))) continue;
+        std::vector<MatStep> deeper = path;
         deeper.push_back({fields[k], element});
         list(*field, prefix + fields[k], deeper);
       }
@@ -170,10 +258,9 @@ class MatTable final : public VectorTable {
         at = Mat_VarGetStructFieldByName(at, source.path[k].field.c_str(), source.path[k].element);
       }
     }
-    const bool whole = at != nullptr && at->data != nullptr && converter(at->class_type) != nullptr && at->rank == 2 &&
-                       at->dims != nullptr && at->dims[0] == source.rows && at->dims[1] == source.columns &&
-                       at->isComplex == 0 &&
-                       at->nbytes == source.rows * source.columns * Mat_SizeOfClass(at->class_type);
+    const bool whole = at != nullptr && at->data != nullptr && converter(at->class_type) != nullptr &&
+                       shape_of(*at) == source.shape && at->isComplex == 0 &&
+                       at->nbytes == source.shape.rows * source.shape.columns * Mat_SizeOfClass(at->class_type);
     if (!whole) refuse_damaged(fmt::format("'{}' cannot be read", source.part.vector.column.name));
     return *at;
   }
