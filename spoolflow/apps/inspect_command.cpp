@@ -1,6 +1,11 @@
 /// `spoolflow inspect`: what a recording holds, and a channel map for foreign column names.
 
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
@@ -8,6 +13,7 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"
+#include "spoolflow/apps/work/protocol_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -17,13 +23,23 @@ namespace {
 struct InspectArguments {
   std::string file;
   std::string channels;
+  std::string protocol;
   double stroke_mm = 0;
   bool json = false;
   bool quiet = false;
 };
 
+recording::Protocol protocol_named(const std::string& written) {
+  return *std::ranges::find(recording::all_protocols, written,
+                            [](recording::Protocol protocol) { return recording::name(protocol); });
+}
+
 void inspect(const InspectArguments& arguments) {
-  if (inspect_image(arguments.file, arguments.json)) return;
+  if (arguments.protocol.empty() && inspect_image(arguments.file, arguments.json)) return;
+  if (!arguments.protocol.empty() && arguments.file == "-") {
+    throw std::invalid_argument(
+        "--protocol is for a recording that is named, not for standard input; write it to a file");
+  }
   refuse_other_kinds("inspect", {{arguments.file, FileKind::recording}});
   recording::ReadOptions options;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
@@ -34,13 +50,23 @@ void inspect(const InspectArguments& arguments) {
     found = recording::inspect(arguments.file, options,
                                [&](std::optional<double> share, std::uint64_t rows) { progress.update(share, rows); });
   }
+  std::optional<calibration::ProtocolFit> fit;
+  if (!arguments.protocol.empty()) {
+    fit = fit_of_inspected(arguments.file, options, found, protocol_named(arguments.protocol));
+  }
   if (arguments.json) {
-    print_text(inspection_json(found));
+    print_text(inspection_json(found, fit ? protocol_json(*fit) : ""));
   } else {
     print_text(inspection_text({.file = arguments.file == "-" ? "standard input" : arguments.file,
                                 .map_file = arguments.channels,
                                 .map = options.channels,
                                 .found = found}));
+    if (fit) print_text(protocol_text(*fit));
+  }
+  if (fit && !fit->missing.empty()) {
+    throw std::runtime_error(fmt::format("{} does not serve protocol {}: {} of its channels {}, as said above",
+                                         arguments.file, arguments.protocol, fit->missing.size(),
+                                         fit->missing.size() == 1 ? "is missing" : "are missing"));
   }
 }
 
@@ -58,7 +84,8 @@ void add_inspect_command(CLI::App& program) {
        "numbers, what is missing, and a channel map to paste. Of parameters: valve, model, versions, tables, whether "
        "the "
        "sensor takes them; where it does not, the exit status is 2",
-       {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml", "spoolflow inspect valve.bin"}});
+       {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml",
+        "spoolflow inspect spring.csv --protocol spring", "spoolflow inspect valve.bin"}});
   command->add_option("file", arguments->file, "recording, or parameters")->required();
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
@@ -66,6 +93,13 @@ void add_inspect_command(CLI::App& program) {
   command->add_option("--stroke-mm", arguments->stroke_mm, "the valve's stroke, for positions in percent")
       ->type_name("MM")
       ->check(CLI::Range(0.01, 50.0));
+  std::vector<std::string> protocols;
+  for (const recording::Protocol protocol : recording::all_protocols) protocols.emplace_back(recording::name(protocol));
+  command
+      ->add_option("--protocol", arguments->protocol,
+                   "whether the file serves this protocol of a campaign; exit status 1 where it does not")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(protocols));
   command->add_flag("--json", arguments->json, "print JSON instead of text");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { inspect(*arguments); });

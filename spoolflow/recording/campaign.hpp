@@ -1,5 +1,6 @@
 #pragma once
 /// The bench recordings that together describe one valve (campaign.toml).
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,6 +13,8 @@
 namespace spoolflow::recording {
 
 enum class Protocol : std::uint8_t { spring, solenoid_force_map, solenoid_dynamic, axial_force_map, operation };
+inline constexpr std::array all_protocols{Protocol::spring, Protocol::solenoid_force_map, Protocol::solenoid_dynamic,
+                                          Protocol::axial_force_map, Protocol::operation};
 [[nodiscard]] std::string_view name(Protocol protocol);
 
 struct CampaignValve {

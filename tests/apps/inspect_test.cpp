@@ -103,5 +103,107 @@ TEST_F(Inspect, TakesACapitalTForATemperatureAndASmallOneForTime) {
   EXPECT_THAT(output, HasSubstr("oil_temperature = { column = \"log/T\""));
 }
 
+/// Three channels of one group, 0.3 s at 1 kHz, with their units beside their names; `more`: a fourth one.
+std::string grouped_run(const std::string& more = "", double third = 0) {
+  using recording::TdmsMetadata;
+  constexpr std::size_t samples = 300;
+  TdmsMetadata metadata;
+  std::vector<double> values;
+  const auto add = [&](const std::string& name, const std::string& unit, double (*value)(double)) {
+    metadata.channel("/'Bench'/'" + name + "'", TdmsMetadata::f64, samples).property("unit_string", unit);
+    for (std::size_t k = 0; k < samples; ++k) values.push_back(value(1e-3 * static_cast<double>(k)));
+  };
+  add("time_s", "s", [](double time_s) { return time_s; });
+  add("current_A", "A", [](double time_s) { return 1 + time_s; });
+  add("position_mm", "mm", [](double time_s) { return 0.5 + time_s; });
+  if (!more.empty()) add(more, "", [](double time_s) { return 2 + time_s; });
+  if (!more.empty()) values[3 * samples + 2] = third;
+  return recording::tdms_segment(metadata.content(), recording::tdms_samples<double>(values));
+}
+
+TEST_F(Inspect, KnowsChannelsInAGroupWhoseUnitStandsBesideTheName) {
+  write("rig.tdms", grouped_run());
+  const std::string output = run("inspect rig.tdms").output;
+  EXPECT_THAT(output, HasSubstr("current = { column = \"Bench/current_A\", unit = \"A\" }\n"));
+  EXPECT_THAT(output, HasSubstr("position = { column = \"Bench/position_mm\", unit = \"mm\" }\n"));
+  EXPECT_THAT(output, Not(HasSubstr("Needed and not found")));
+  EXPECT_THAT(output, Not(HasSubstr("current_a")));
+}
+
+TEST_F(Inspect, SaysWhichColumnCouldBeAChannelAsWell) {
+  write("two.csv", "t [s];strom [A];i [A];x [mm]\n0;1;2;1\n0.001;1;2;1\n0.002;1;2;1\n");
+  const std::string output = run("inspect two.csv").output;
+  EXPECT_THAT(output, HasSubstr("current = { column = \"strom [A]\", unit = \"A\" }  # a guess, check it: it could be "
+                                "'i [A]' as well"));
+}
+
+TEST_F(Inspect, OfTwoColumnsOfOneNameProposesAMapThatNamesOne) {
+  write("rig.csv", "t [s];I [A];I [A];x [mm]\n0;1;2;1\n0.001;1;2;1\n0.002;1.1;2;1.1\n");
+  const std::string output = run("inspect rig.csv").output;
+  EXPECT_THAT(output, HasSubstr("current = { column = \"I [A] #1\", unit = \"A\" }  # a guess, check it: it could be "
+                                "'I [A] #2' as well"));
+  write("map.toml", output.substr(output.find("[channels]")));
+  EXPECT_EQ(run("inspect rig.csv --channels map.toml").status, 0);
+  write("map.toml", "[channels]\ntime = { column = \"t [s]\", unit = \"s\" }\ncurrent = { column = \"I [A]\" }\n");
+  EXPECT_THAT(run("inspect rig.csv --channels map.toml").message, HasSubstr("choose 'I [A] #1', 'I [A] #2'"));
+}
+
+TEST_F(Inspect, NamesAColumnWithAnInfiniteValueAndShowsTheOthers) {
+  write("rig.tdms", grouped_run("gain", -INFINITY));
+  write("rig.csv", "time_s,current_A,position_mm,gain\n0,1,1,3\n0.001,1,1,3\n0.002,1.1,1.1,-inf\n");
+  for (const char* const file : {"rig.tdms", "rig.csv"}) {
+    const Answer answer = run(std::string("inspect ") + file);
+    EXPECT_EQ(answer.status, 0) << answer.message;
+    EXPECT_THAT(answer.output, HasSubstr("gain' holds 1 infinite value, the first one (-inf) at sample 3"));
+    EXPECT_THAT(answer.output, HasSubstr("current_A"));
+  }
+  EXPECT_THAT(run("inspect --json rig.csv").output,
+              HasSubstr("{\"column\": \"gain\", \"count\": 1, \"first_sample\": 3, \"negative\": true}"));
+}
+
+TEST_F(Inspect, NamesAnInfiniteValueOfAChannelThatAMapNames) {
+  write("rig.csv", "t,cur,x\n0,1,1\n0.001,inf,1\n0.002,1.1,1.1\n");
+  write("map.toml",
+        "[channels]\ntime = { column = \"t\", unit = \"s\" }\ncurrent = { column = \"cur\", unit = \"A\" }\n");
+  const Answer answer = run("inspect rig.csv --channels map.toml");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output, HasSubstr("'cur' holds 1 infinite value, the first one (inf) at sample 2"));
+}
+
+TEST_F(Inspect, SaysWhyAColumnHoldsNoNumbers) {
+  write("rig.csv", "time_s,current_A,remark,spare,mixed\n0,1,a,,a\n0.001,1,b,,\n0.002,1.1,c,,inf\n");
+  const std::string output = run("inspect rig.csv").output;
+  EXPECT_THAT(output, HasSubstr("not used; no numbers: text in all 3 cells"));
+  EXPECT_THAT(output, HasSubstr("not used; no numbers: all 3 samples are missing"));
+  EXPECT_THAT(output, HasSubstr("not used; no numbers: of 3 samples 1 are missing, 1 text, 1 infinite"));
+}
+
+TEST_F(Inspect, SaysWhetherAFileServesAProtocol) {
+  write("spring.csv", "time_s,position_mm,axial_force_N\n0,0,1\n0.01,0.1,2\n0.02,0.2,3\n");
+  const Answer serves = run("inspect spring.csv --protocol spring");
+  EXPECT_EQ(serves.status, 0) << serves.message;
+  EXPECT_THAT(serves.output, HasSubstr("the file serves it"));
+  const Answer lacks = run("inspect spring.csv --protocol solenoid_force_map");
+  EXPECT_EQ(lacks.status, 1);
+  EXPECT_THAT(lacks.output, HasSubstr("the file does not serve it"));
+  EXPECT_THAT(lacks.output, HasSubstr("current                  needed         not found"));
+  EXPECT_THAT(lacks.output, HasSubstr("Missing: spring.csv: channel force is missing"));
+  EXPECT_THAT(run("inspect spring.csv --protocol operation").output, HasSubstr("has no flow of a reference meter"));
+  EXPECT_THAT(run("inspect --json spring.csv --protocol spring").output,
+              HasSubstr("\"protocol\": {\"name\": \"spring\", \"serves\": true"));
+  EXPECT_EQ(run("inspect spring.csv --protocol springs").status, 2);
+}
+
+TEST_F(Inspect, JudgesAProtocolByTheProposedMapAndByWhatTheColumnsHold) {
+  write("lab.csv", "t [s];weg [mm];Fax [N]\n0;0;1\n0.01;0.1;2\n0.02;0.2;3\n");
+  EXPECT_EQ(run("inspect lab.csv --protocol spring").status, 0);
+  write("lab.csv", "t [s];weg [mm];Fax\n0;0;1\n0.01;0.1;2\n0.02;0.2;3\n");
+  EXPECT_THAT(run("inspect lab.csv --protocol spring").output,
+              HasSubstr("column 'Fax' could be channel axial_force, whose unit the file does not state"));
+  write("lab.csv", "time_s,position_mm,axial_force_N\n0,0,inf\n0.01,0.1,2\n0.02,0.2,3\n");
+  EXPECT_THAT(run("inspect lab.csv --protocol spring").output,
+              HasSubstr("column 'axial_force_N' holds 1 infinite values, the first at sample 1"));
+}
+
 }  // namespace
 }  // namespace spoolflow::apps

@@ -257,7 +257,7 @@ void add_map_json(std::string& out, const recording::ChannelMap& map) {
   add(out, "\n }},\n");
 }
 
-void add_json(std::string& out, const recording::Inspection& found) {
+void add_json(std::string& out, const recording::Inspection& found, const std::string& more) {
   add(out, "{{\n \"format\": {},\n \"columns\": [", json_text(found.contents.format));
   for (const std::string& column : found.contents.columns) {
     add(out, "{}{}", &column == found.contents.columns.data() ? "" : ", ", json_text(column));
@@ -289,6 +289,7 @@ void add_json(std::string& out, const recording::Inspection& found) {
   add_clocks_json(out, found);
   add_column_json(out, found);
   add_map_json(out, found.proposal);
+  out += more;
   add(out, " \"proposed_channel_map\": {}\n}}\n",
       json_text(recording::written(found.proposal, found.remarks, found.missing)));
 }
@@ -301,9 +302,9 @@ std::string inspection_text(const InspectedFile& inspected) {
   return out;
 }
 
-std::string inspection_json(const recording::Inspection& found) {
+std::string inspection_json(const recording::Inspection& found, const std::string& more) {
   std::string out;
-  add_json(out, found);
+  add_json(out, found, more);
   return out;
 }
 

@@ -15,7 +15,7 @@ struct InspectedFile {
 
 /// For people.
 [[nodiscard]] std::string inspection_text(const InspectedFile& inspected);
-/// For programs, `inspect --json`.
-[[nodiscard]] std::string inspection_json(const recording::Inspection& found);
+/// For programs, `inspect --json`. `more`: further members of the object, each with a comma behind it.
+[[nodiscard]] std::string inspection_json(const recording::Inspection& found, const std::string& more = "");
 
 }  // namespace spoolflow::apps

@@ -50,13 +50,14 @@ bool can_unpack(H5Z_filter_t filter) {
 bool is_left_out(hid_t dataset, unsigned filter) {
   constexpr hsize_t most = 1024;  // each is sought from the first on
   hsize_t chunks = 0;
-  if (H5Dget_num_chunks(dataset, H5S_ALL, &chunks) < 0 || chunks > most) return false;
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  if (!space.valid() || H5Dget_num_chunks(dataset, space.id(), &chunks) < 0 || chunks > most) return false;
   for (hsize_t k = 0; k < chunks; ++k) {
     std::array<hsize_t, H5S_MAX_RANK> offset{};
     unsigned left_out = 0;
     haddr_t at = 0;
     hsize_t bytes = 0;
-    if (H5Dget_chunk_info(dataset, H5S_ALL, k, offset.data(), &left_out, &at, &bytes) < 0) return false;
+    if (H5Dget_chunk_info(dataset, space.id(), k, offset.data(), &left_out, &at, &bytes) < 0) return false;
     if ((left_out >> filter & 1U) == 0) return false;
   }
   return true;

@@ -40,6 +40,16 @@ class GroupedFile {
     H5Dclose(data), H5Sclose(space), H5Pclose(links);
     return *this;
   }
+  /// An attribute of a dataset that is there.
+  GroupedFile& say(const std::string& path, const char* name, const std::string& text) {
+    const hid_t data = H5Dopen2(id_, path.c_str(), H5P_DEFAULT), space = H5Screate(H5S_SCALAR);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, text.size());
+    const hid_t made = H5Acreate2(data, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(made, type, text.data());
+    H5Aclose(made), H5Tclose(type), H5Sclose(space), H5Dclose(data);
+    return *this;
+  }
   const std::filesystem::path& close() {
     if (id_ >= 0) H5Fclose(id_);
     id_ = -1;
@@ -158,6 +168,20 @@ TEST(ClocksOfGroups, WaveformAttributesGiveTheTime) {
   ASSERT_EQ(run.size(), 4000U);
   EXPECT_NEAR(run[Channel::time][1], 0.501, 1e-12);
   EXPECT_NEAR(run[Channel::pressure_difference][1234], 1e5 * pressure_bar(1.734), 1e-3);
+}
+
+TEST(ClocksOfGroups, WaveformsThatBeginAtOtherInstantsAreNotLaidOverEachOther) {
+  GroupedFile file;
+  const auto time_s = times(0, 1e-3, 4000), slow_s = times(0.5, 0.1, 35);
+  file.add("coil/current_A", of(time_s, ramp), 1e-3).add("coil/position_mm", of(time_s, ramp), 1e-3);
+  file.add("oil/pressure_difference_bar", of(slow_s, pressure_bar), 0.1);
+  for (const char* channel : {"coil/current_A", "coil/position_mm"})
+    file.say(channel, "wf_start_time", "2026-11-22T10:00:00.250000");
+  file.say("oil/pressure_difference_bar", "wf_start_time", "2026-11-22T10:00:00.750000");
+  const Recording run = read(file);
+  EXPECT_NEAR(run[Channel::time][1], 0.001, 1e-9);
+  EXPECT_TRUE(std::isnan(run[Channel::pressure_difference][400]));
+  EXPECT_NEAR(run[Channel::pressure_difference][1234], 1e5 * pressure_bar(1.234), 1e-3);
 }
 
 TEST(ClocksOfGroups, WhatCannotBeToldIsRefused) {

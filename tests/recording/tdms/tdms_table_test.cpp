@@ -216,6 +216,71 @@ TEST(TdmsTable, WhatIsNoNumberIsToldWhereAChannelIsMissing) {
               HasSubstr("channel 'g/note' holds text, which is not read; write it as numbers in its unit"));
 }
 
+/// One segment of the current with these wf_ properties, the start in seconds since 1904 (0: not said again).
+std::string wave_segment(const std::vector<double>& values, std::int64_t start, std::uint64_t fraction = 0,
+                         double offset_s = 0, double step_s = 0) {
+  Meta metadata;
+  metadata.channel("/'g'/'current_A'", Meta::f64, values.size());
+  if (start > 0) metadata.start(start, fraction);
+  if (offset_s > 0) metadata.property("wf_start_offset", offset_s);
+  if (step_s > 0) metadata.property("wf_increment", step_s);
+  return tdms_segment(metadata.content(), tdms_samples<double>(values));
+}
+
+std::vector<double> times_of(const std::string& bytes) {
+  const TemporaryFile file("run.tdms", bytes);
+  return read_recording(file.path(), {.channels = {}, .required = {Channel::current}, .optional = {}, .stroke_m = {}})
+      .column(Channel::time);
+}
+
+constexpr std::int64_t noon = 3'800'000'000;
+
+TEST(TdmsWaves, ASegmentThatStartsFiveSecondsLaterLeavesAGap) {
+  const std::string bytes = wave_segment({1, 1, 1}, noon, 0, 0, 0.25) + wave_segment({1, 1}, noon + 5);
+  EXPECT_THAT(times_of(bytes), ElementsAre(0, 0.25, 0.5, 5, 5.25));
+  const TemporaryFile file("run.tdms", wave_segment(std::vector<double>(50, 1), noon, 0, 0, 0.01) +
+                                           wave_segment(std::vector<double>(50, 1), noon + 5));
+  const Inspection found = inspect(file.path(), {}, [](std::optional<double>, std::uint64_t) {});
+  EXPECT_EQ(found.gap_count, 1U);
+  EXPECT_NEAR(found.end_s, 5.49, 1e-9);
+}
+
+TEST(TdmsWaves, SegmentsThatSayTheSameStartOrFollowOnEachOtherHaveNoGap) {
+  const std::uint64_t half = std::uint64_t{1} << 63U;
+  const std::vector<double> two{1, 1};
+  EXPECT_THAT(times_of(wave_segment(two, noon, 0, 0, 0.25) + wave_segment(two, noon) + wave_segment(two, 0)),
+              ElementsAre(0, 0.25, 0.5, 0.75, 1, 1.25));
+  EXPECT_THAT(
+      times_of(wave_segment(two, noon, 0, 0, 0.25) + wave_segment(two, noon, half) + wave_segment(two, noon + 1)),
+      ElementsAre(0, 0.25, 0.5, 0.75, 1, 1.25));
+}
+
+TEST(TdmsWaves, AStartOffsetOfALaterSegmentCounts) {
+  EXPECT_THAT(times_of(wave_segment({1, 1}, noon, 0, 0, 0.25) + wave_segment({1, 1}, 0, 0, 3)),
+              ElementsAre(0, 0.25, 3, 3.25));
+}
+
+TEST(TdmsWaves, AnotherIncrementChangesTheRateFromThereOn) {
+  EXPECT_THAT(times_of(wave_segment({1, 1}, noon, 0, 0, 0.25) + wave_segment({1, 1, 1}, 0, 0, 0, 0.125)),
+              ElementsAre(0, 0.25, 0.5, 0.625, 0.75));
+  EXPECT_THAT(times_of(wave_segment({1, 1}, noon, 0, 0, 0.25) + wave_segment({1, 1}, noon + 2, 0, 0, 0.125)),
+              ElementsAre(0, 0.25, 2, 2.125));
+}
+
+TEST(TdmsWaves, AClockReadAFewStepsEarlyDoesNotTurnTheTimeBackButALongWayBackIsRefused) {
+  const std::vector<double> many(20, 1);
+  const std::uint64_t tenth = ~std::uint64_t{0} / 10;
+  const std::vector<double> even = times_of(wave_segment(many, noon, 0, 0, 0.05) + wave_segment(many, noon, 9 * tenth));
+  EXPECT_NEAR(even.at(20), 1.0, 1e-9);  // said to be 0.9 s
+  EXPECT_THAT(refusal([&] { (void)times_of(wave_segment(many, noon, 0, 0, 0.05) + wave_segment(many, noon - 60)); }),
+              HasSubstr("sample 21: time runs backwards"));
+}
+
+TEST(TdmsWaves, WhatIsSaidBehindTheLastSampleDoesNotMoveTheSamples) {
+  const std::string closing = tdms_segment(Meta().without("/'g'/'current_A'").start(noon + 60).content(), "");
+  EXPECT_THAT(times_of(wave_segment({1, 1}, noon, 0, 0, 0.25) + closing), ElementsAre(0, 0.25));
+}
+
 TEST(TdmsTable, DamagedFilesAreRefused) {
   EXPECT_THAT(refused("TDSh" + std::string(40, '\0')), HasSubstr("name the file that ends in .tdms"));
   EXPECT_THAT(refused(tdms_segment(Meta().channel("/'g'/'a'", Meta::f64, std::uint64_t{1} << 50U).content(), "x")),
