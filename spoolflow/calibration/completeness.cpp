@@ -10,6 +10,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/protocol_channels.hpp"
+#include "spoolflow/recording/channel_binding.hpp"
 #include "spoolflow/recording/channels/allowed_names.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/open_table.hpp"
