@@ -35,7 +35,9 @@ std::vector<std::vector<std::size_t>> equally_long(const SampleTable& table) {
 void take(SurveyedColumn& column, const std::vector<double>& values, std::size_t rows, double& last) {
   column.rows += rows;
   for (std::size_t k = 0; k < rows; ++k) {
-    const double value = values[k];
+    const bool infinite = std::isinf(values[k]);
+    if (infinite && ++column.infinite == 1) column.first_infinite = column.rows - rows + k + 1;
+    const double value = infinite ? std::numeric_limits<double>::quiet_NaN() : values[k];
     if (column.beginning.size() < kept_samples) column.beginning.push_back(value);
     if (std::isnan(value)) {
       column.rises = false;
@@ -262,6 +264,10 @@ std::map<Channel, DataGuess> guess_by_data(const std::vector<SurveyedColumn>& co
 }
 
 std::string character_of(const SurveyedColumn& column) {
+  if (column.infinite > 0) {
+    return fmt::format("{} infinite, the first in sample {}; a reader refuses it", column.infinite,
+                       column.first_infinite);
+  }
   if (column.samples == 0) return "no numbers";
   if (column.lowest == column.highest) return "stands still";
   if (column.rises) return "rises with every sample";

@@ -14,12 +14,14 @@ namespace spoolflow::recording {
 
 /// A column as the file holds it: in its own unit, whatever that is.
 struct SurveyedColumn {
-  std::string name, unit;           ///< unit: as the file states it; empty where it does not
-  double lowest = 0, highest = 0;   ///< NaN without numbers
-  std::uint64_t samples = 0;        ///< numbers
-  std::uint64_t rows = 0;           ///< with the missing ones; only columns of as many are compared
-  bool rises = false;               ///< each number lies above the one before
-  std::vector<double> beginning{};  ///< at most 20,000 samples; NaN where one is missing
+  std::string name, unit;            ///< unit: as the file states it; empty where it does not
+  double lowest = 0, highest = 0;    ///< NaN without numbers
+  std::uint64_t samples = 0;         ///< numbers
+  std::uint64_t rows = 0;            ///< with the missing ones; only columns of as many are compared
+  std::uint64_t infinite = 0;        ///< infinite numbers, which count as missing
+  std::uint64_t first_infinite = 0;  ///< row of the first of them, from 1
+  bool rises = false;                ///< each number lies above the one before
+  std::vector<double> beginning{};   ///< at most 20,000 samples; NaN where one is missing
 };
 
 /// Reads every column, those of each length by an opening of their own; at most 64 columns of a length, and of 16

@@ -94,10 +94,7 @@ class Steps {
 
 bool has_own_names(const FileContents& contents) {
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    const std::string& column = contents.columns[k];
-    const std::size_t last = column.find_last_of("./");
-    const std::string leaf = last == std::string::npos ? column : column.substr(last + 1);
-    const auto header = channel_header({column, leaf, contents.units[k]});
+    const auto header = channel_header(column_of(contents, k));
     if (header && !header->unit.empty()) return true;
   }
   return false;
@@ -114,14 +111,14 @@ ChannelMap known_units(ChannelMap map) {
 
 bool names_time(const FileContents& contents) {
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]});
+    const auto header = channel_header(column_of(contents, k));
     if (header && header->channel == Channel::time) return true;
   }
   return false;
 }
 
 std::string how_known(const FileContents& contents, std::size_t column, Channel channel) {
-  const auto header = channel_header({contents.columns[column], contents.columns[column], contents.units[column]});
+  const auto header = channel_header(column_of(contents, column));
   if (header && header->channel == channel) return "its own name";
   return "by its name";
 }

@@ -107,9 +107,11 @@ NameParts parts_of(std::string name, const std::string& told_unit) {
     if (out.unit.empty()) out.unit = split_brackets(name).unit;
     name.resize(open);
   } else {
+    const auto told = units::unit_named(told_unit);
     for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
-      if (out.unit.empty() && at > 0 && units::unit_named(name.substr(at + 1))) {
-        out.unit = name.substr(at + 1);
+      const auto unit = at > 0 ? units::unit_named(name.substr(at + 1)) : std::nullopt;
+      if (unit && (out.unit.empty() || (told && told->name == unit->name))) {
+        if (out.unit.empty()) out.unit = name.substr(at + 1);
         name.resize(at);
         break;
       }
@@ -143,10 +145,18 @@ bool may_have(Channel channel, const std::string& unit_name) {
 
 }  // namespace
 
+FileColumn column_of(const FileContents& contents, std::size_t index) {
+  const std::string& column = contents.columns[index];
+  const std::size_t bracket = column.find_first_of("[(");
+  const std::size_t last = column.substr(0, bracket).find_last_of("./");
+  const bool is_path = last != std::string::npos && last + 1 < std::min(bracket, column.size());
+  return {column, is_path ? column.substr(last + 1) : column, contents.units[index]};
+}
+
 ChannelMap propose_channels(const FileContents& contents) {
   ChannelMap out;
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
-    if (const auto header = channel_header({contents.columns[k], contents.columns[k], contents.units[k]}))
+    if (const auto header = channel_header(column_of(contents, k)))
       out.sources.try_emplace(header->channel, ChannelSource{contents.columns[k], header->unit, 1.0, 0.0, {}});
   }
   for (const bool with_unit : {true, false}) {
@@ -154,7 +164,7 @@ ChannelMap propose_channels(const FileContents& contents) {
       const std::string& column = contents.columns[k];
       const bool taken =
           std::ranges::any_of(out.sources, [&](const auto& entry) { return entry.second.column == column; });
-      if (taken || channel_header({column, column, contents.units[k]})) continue;
+      if (taken || channel_header(column_of(contents, k))) continue;
       const NameParts parts = parts_of(column, contents.units[k]);
       if (parts.unit.empty() == with_unit) continue;
       for (const Words& entry : vocabulary) {

@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/recording/files/sample_table.hpp"
 #include "spoolflow/recording/reader.hpp"
 
 namespace spoolflow::recording {
+
+/// A column of the file with the last part of its path: "current_A" of "bench/current_A".
+[[nodiscard]] FileColumn column_of(const FileContents& contents, std::size_t index);
 
 /// At most one column a channel; columns whose meaning or unit cannot be told are left out. Where a column names no
 /// unit, `unit` stays empty: it must be filled in by hand.

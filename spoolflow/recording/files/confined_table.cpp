@@ -185,7 +185,7 @@ void read_in_child(const ReadingOrder& order, Connection& parent) {
     const std::unique_ptr<VectorTable> table = open(file);
     give_up_opening();
     table->look();
-    if (text_is_missing) table->take_text_as_missing();
+    if (text_is_missing) table->take_all();
     if (send(parent, Message::listing, listing_of(*table))) send_blocks(*table, numbers, parent);
   } catch (const RecordingError& error) {
     (void)send(parent, Message::refusal, error.what());

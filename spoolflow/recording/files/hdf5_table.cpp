@@ -61,6 +61,22 @@ double number_attribute(hid_t object, const char* name, double otherwise) {
   return value;
 }
 
+/// The filter by which a dataset is packed and that this HDF5 lacks, by its name; empty where it can unpack all.
+std::string missing_filter(hid_t dataset) {
+  const Hdf5Handle plan(H5Dget_create_plist(dataset), H5Pclose);
+  const int filters = plan.valid() ? H5Pget_nfilters(plan.id()) : 0;
+  for (int k = 0; k < filters; ++k) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    std::array<char, 64> name{};
+    const H5Z_filter_t filter = H5Pget_filter2(plan.id(), static_cast<unsigned>(k), &flags, &values, nullptr,
+                                               name.size() - 1, name.data(), nullptr);
+    if (filter < 0 || H5Zfilter_avail(filter) > 0) continue;
+    return name[0] == '\0' ? fmt::format("filter {}", filter) : fmt::format("{} (filter {})", name.data(), filter);
+  }
+  return {};
+}
+
 class Hdf5Table final : public VectorTable {
  public:
   explicit Hdf5Table(const std::filesystem::path& path)
@@ -141,6 +157,13 @@ class Hdf5Table final : public VectorTable {
       keep(unread_, {path, fmt::format("dataset '{}' is no vector or matrix of numbers; write one dataset of numbers a "
                                        "channel",
                                        path)});
+      return;
+    }
+    if (const std::string filter = missing_filter(dataset.id()); !filter.empty()) {
+      keep(unread_, {path, fmt::format("dataset '{}' is compressed by {}, which is not unpacked here; repack the file: "
+                                       "h5repack -f GZIP=4 FILE NEW_FILE, where that filter is installed, or record "
+                                       "with gzip",
+                                       path, filter)});
       return;
     }
     declared_.add(path, size[0], size[1], H5Tget_size(type.id()));

@@ -27,14 +27,19 @@ class VectorTable : public SampleTable {
   /// Reads what tells its columns, where the constructor only opens the file: a process of few rights opens nothing any
   /// more then. Once, before all else. Throws RecordingError.
   virtual void look() {}
-  /// Text in the place of a number is a missing sample from here on (to inspect), where else it is refused.
-  virtual void take_text_as_missing() {}
+  /// To inspect: from here on text in the place of a number is a missing sample, and an infinite number is handed on;
+  /// else both are refused.
+  void take_all() {
+    refuses_infinity_ = false;
+    take_text_as_missing();
+  }
   /// Copies `count` numbers from `first` on; the format's own slab may be larger. Throws RecordingError.
   virtual void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) = 0;
 
  protected:
   explicit VectorTable(std::string file) : file_(std::move(file)) {}
   void add(Vector vector);
+  virtual void take_text_as_missing() {}
   /// Told once, before the first copy().
   virtual void chosen(const std::vector<std::size_t>&) {}
   /// How many samples from `first` on copy() may be asked for at once.
@@ -49,6 +54,7 @@ class VectorTable : public SampleTable {
   std::uint64_t rows_ = 0;
   std::uint64_t next_ = 0;
   std::uint64_t first_of_block_ = 0;
+  bool refuses_infinity_ = true;
 };
 
 }  // namespace spoolflow::recording
