@@ -301,7 +301,9 @@ class ConfinedTable final : public VectorTable {
 std::unique_ptr<SampleTable> open_confined(const std::filesystem::path& file, std::uint64_t file_bytes,
                                            OpenVectors open, bool text_is_missing) {
   try {
-    return std::make_unique<ConfinedTable>(file, file_bytes, open, text_is_missing);
+    auto table = std::make_unique<ConfinedTable>(file, file_bytes, open, text_is_missing);
+    if (text_is_missing) table->take_all();
+    return table;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
   }
