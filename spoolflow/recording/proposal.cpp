@@ -23,7 +23,8 @@ struct Words {
   std::array<std::string_view, 20> words;
 };
 constexpr std::array<Words, 19> vocabulary{{
-    {Channel::time, {"time", "t", "zeit", "timestamp", "seconds", "temps", "tempo", "tiempo", "jikan", "zeitstempel"}},
+    {Channel::time,
+     {"time", "t", "zeit", "timestamp", "seconds", "temps", "tempo", "tiempo", "jikan", "zeitstempel", "xvalue"}},
     {Channel::current,
      {"current", "i", "strom", "isol", "icoil", "coilcurrent", "courant", "corrente", "corriente", "denryu",
       "spulenstrom", "magnetstrom", "solenoidcurrent", "courantbobine", "correntebobina"}},

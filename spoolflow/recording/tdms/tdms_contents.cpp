@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -161,7 +162,25 @@ class Segments {
     } else if (head != none && head != as_before) {
       refuse(fmt::format("'{}' is no channel, but is said to have samples", path));
     }
-    out_.properties[path].read(bytes, order, what_);
+    TdmsProperties& properties = out_.properties[path];
+    const TdmsTime* const before = properties.time("wf_start_time");
+    const std::optional<TdmsTime> start = before == nullptr ? std::nullopt : std::optional(*before);
+    properties.read(bytes, order, what_);
+    if (names->size() == 2 && start) note_pause(out_.channels[channel_of(path, *names)], properties, *start);
+  }
+
+  /// A waveform that begins again, later than its samples so far last.
+  void note_pause(const TdmsChannel& channel, const TdmsProperties& properties, const TdmsTime& start) {
+    const TdmsTime* const again = properties.time("wf_start_time");
+    const double* const step_s = properties.number("wf_increment");
+    if (!out_.pause.empty() || channel.samples == 0 || again == nullptr || step_s == nullptr || !(*step_s > 0)) return;
+    const double pause_s = again->since(start) - static_cast<double>(channel.samples) * *step_s;
+    if (std::abs(pause_s) < 2 * *step_s) return;
+    out_.pause = fmt::format(
+        "its acquisition paused for {:.4g} s before sample {} of '{}/{}' (wf_start_time), and the time of the file "
+        "goes "
+        "on there without the gap; cut the file there, or write a channel of time",
+        pause_s, channel.samples + 1, channel.group, channel.name);
   }
 
   void leave_out(std::size_t channel) {

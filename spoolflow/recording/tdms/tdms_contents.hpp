@@ -25,6 +25,9 @@ struct TdmsContents {
   std::vector<TdmsRun> runs;                         ///< in the file's order
   std::string lost{};                                ///< what of the last segment is missing; empty where nothing is
 
+  /// A pause between two segments of a waveform, as their start times tell it; empty where there is none.
+  std::string pause{};
+
   /// Empty where the object says nothing.
   [[nodiscard]] const TdmsProperties& of(const std::string& path) const;
 };

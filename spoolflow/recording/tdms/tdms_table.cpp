@@ -42,7 +42,8 @@ class TdmsTable final : public VectorTable {
 
   [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
   [[nodiscard]] std::string lost() const override {
-    return contents_.lost.empty() ? "" : fmt::format("lacks {}; what stands before is read", contents_.lost);
+    if (contents_.lost.empty()) return contents_.pause;
+    return fmt::format("lacks {}; what stands before is read", contents_.lost);
   }
 
   void copy(std::size_t column, std::uint64_t first, std::size_t count, double* out) override {

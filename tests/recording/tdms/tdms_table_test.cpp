@@ -16,9 +16,11 @@
 namespace spoolflow::recording {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::vector<double> column(const std::string& bytes, const std::string& name) {
   return column_of("run.tdms", bytes, name);
@@ -168,6 +170,20 @@ TEST(TdmsTable, UnfinishedLastSegmentIsReadAsFarAsItGoesAndTold) {
   const TemporaryFile file("run.tdms", bytes);
   EXPECT_THAT(read_recording(file.path(), {}).resampled,
               HasSubstr("lacks the end of its last segment, which was never finished"));
+}
+
+TEST(TdmsTable, APauseBetweenTwoSegmentsOfAWaveformIsReported) {
+  constexpr std::int64_t begin_s = 3870000000;
+  const auto segment = [&](std::int64_t start_s) {
+    return tdms_segment(
+        Meta().channel("/'g'/'current_A'", Meta::f64, 4).property("wf_increment", 0.25).start(start_s).content(),
+        tdms_samples<double>({1, 2, 3, 4}));
+  };
+  const TemporaryFile paused("run.tdms", segment(begin_s) + segment(begin_s + 6));
+  EXPECT_THAT(read_recording(paused.path(), {}).resampled,
+              AllOf(HasSubstr("paused for 5 s before sample 5 of 'g/current_A'"), HasSubstr("cut the file there")));
+  const TemporaryFile joined("run.tdms", segment(begin_s) + segment(begin_s + 1));
+  EXPECT_THAT(read_recording(joined.path(), {}).resampled, Not(HasSubstr("paused")));
 }
 
 TEST(TdmsTable, ZerosBehindTheLastSegmentAreWhatAMachineThatWentDownLeaves) {
