@@ -53,7 +53,8 @@ class Binder {
     std::string hint;
     for (const FileColumn& column : columns_) {
       const std::string_view leaf = split_brackets(column.leaf).stem;
-      if (leaf.starts_with(name(channel)) && leaf.size() > name(channel).size() + 1 && !channel_header(column)) {
+      if (leaf.starts_with(name(channel)) && leaf.size() > name(channel).size() + 1 &&
+          leaf[name(channel).size()] == '_' && !channel_header(column)) {
         const std::string_view unit = leaf.substr(name(channel).size() + 1);
         hint = fmt::format("; '{}' would be it, but '{}' is no known unit{}", column.name, unit,
                            did_you_mean(unit, unit_names(channel)));

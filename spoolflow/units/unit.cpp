@@ -10,12 +10,13 @@ namespace spoolflow::units {
 namespace {
 
 // Factors of the SI brochure; psi, degF, inch, lbf, kgf and US gallons by NIST SP 811, appendix B.8.
-constexpr std::array<Unit, 39> table{{
+constexpr std::array<Unit, 40> table{{
     {"1", "1", Dimension::ratio, 1.0},
     {"percent", "percent", Dimension::ratio, 0.01},
     {"s", "s", Dimension::time, 1.0},
     {"ms", "ms", Dimension::time, 1e-3},
     {"us", "us", Dimension::time, 1e-6},
+    {"ns", "ns", Dimension::time, 1e-9},
     {"A", "A", Dimension::current, 1.0},
     {"mA", "mA", Dimension::current, 1e-3},
     {"V", "V", Dimension::voltage, 1.0},
@@ -53,7 +54,7 @@ constexpr std::array<Unit, 39> table{{
 }};
 
 // Other spellings, in small letters, after plain() has brought them to ASCII.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 95> spellings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 97> spellings{{
     {"-", "1"},
     {"%", "percent"},
     {"pct", "percent"},
@@ -63,6 +64,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 95> spelling
     {"msec", "ms"},
     {"milliseconds", "ms"},
     {"microseconds", "us"},
+    {"nsec", "ns"},
+    {"nanoseconds", "ns"},
     {"amp", "A"},
     {"ampere", "A"},
     {"volt", "V"},

@@ -145,8 +145,36 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
     beast::get_lowest_layer(stream_).expires_after(connection_patience);
     http::async_read(stream_, heard_, *parser_,
                      [self = this->shared_from_this()](beast::error_code error, std::size_t) {
-                       if (!error) self->ask();
+                       if (!error) {
+                         self->ask();
+                       } else if (error == http::error::header_limit) {
+                         self->refuse(431, "the request's head is longer than 8 KiB");
+                       } else if (error == http::error::body_limit) {
+                         self->refuse(413, "the request's body is longer than 1 KiB");
+                       } else if (error.category() == http::make_error_code(http::error::bad_method).category() &&
+                                  error != http::error::end_of_stream) {
+                         self->refuse(400, "this is no request of HTTP/1.1");
+                       }
                      });
+  }
+
+  /// Whether everybody on the way sees the request end where this server does, and for the same host (RFC 9112 sections
+  /// 3.2 and 6.3).
+  [[nodiscard]] static bool is_unambiguous(const Request& request) {
+    if (request.version() >= 11 && request.count(http::field::host) != 1) return false;
+    if (request.count(http::field::host) > 1 || request.count(http::field::content_length) > 1) return false;
+    const std::size_t codings = request.count(http::field::transfer_encoding);
+    if (codings == 0) return true;
+    return codings == 1 && beast::iequals(request[http::field::transfer_encoding], "chunked") &&
+           request.count(http::field::content_length) == 0;
+  }
+
+  /// Says why, and ends the connection: what follows may be no request.
+  void refuse(unsigned status, const char* why) {
+    Request none;
+    none.version(11);
+    none.keep_alive(false);
+    reply(none, {status, media::plain, std::string(why) + "\n"});
   }
 
   [[nodiscard]] PageRequest asked(const Request& request) const {
@@ -165,6 +193,10 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
 
   /// At the desk, and back in this thread with its answer.
   void ask() {
+    if (!is_unambiguous(parser_->get())) {
+      refuse(400, "the request's end or its host is ambiguous: one Host, and of Transfer-Encoding chunked alone");
+      return;
+    }
     auto request = std::make_shared<Request>(parser_->release());
     asio::post(desk_.thread, [self = this->shared_from_this(), request, page = asked(*request)]() mutable {
       Admission admission = self->desk_.admit(page);

@@ -227,6 +227,8 @@ std::string output_metrics(const Engine& engine) {
 }  // namespace
 
 std::string metrics_text(const Engine& engine) {
+  // Before the first sample nothing is known, and zero would be a flow.
+  const auto known = [](const ValveView& valve, double value) { return valve.samples == 0 ? NAN : value; };
   struct Row {
     ValveView valve;
     SourceView source;
@@ -243,13 +245,13 @@ std::string metrics_text(const Engine& engine) {
     }
   };
   family("spoolflow_flow_cubic_metres_per_second", "gauge", "Flow rate of this instant, signed for whole valves.",
-         [](const Row& row) { return row.valve.answer.flow_m3_per_s; });
+         [&](const Row& row) { return known(row.valve, row.valve.answer.flow_m3_per_s); });
   family("spoolflow_flow_lower_cubic_metres_per_second", "gauge", "Lower end of the 95 % band of the flow rate.",
-         [](const Row& row) { return row.valve.answer.flow_lower_m3_per_s; });
+         [&](const Row& row) { return known(row.valve, row.valve.answer.flow_lower_m3_per_s); });
   family("spoolflow_flow_upper_cubic_metres_per_second", "gauge", "Upper end of the 95 % band of the flow rate.",
-         [](const Row& row) { return row.valve.answer.flow_upper_m3_per_s; });
+         [&](const Row& row) { return known(row.valve, row.valve.answer.flow_upper_m3_per_s); });
   family("spoolflow_pressure_difference_pascals", "gauge", "Pressure difference over the open edge, as believed.",
-         [](const Row& row) { return row.valve.answer.pressure_difference_Pa; });
+         [&](const Row& row) { return known(row.valve, row.valve.answer.pressure_difference_Pa); });
   family("spoolflow_ne107", "gauge", "NAMUR NE 107: 0 good, 1 maintenance, 2 out of specification, 3 check, 4 failure.",
          [](const Row& row) { return static_cast<int>(row.valve.condition); });
   family("spoolflow_stalled", "gauge", "1 where no samples come in.",

@@ -3,6 +3,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -80,6 +81,29 @@ TEST_F(PageTest, ValvesAreAsTheInterfaceSays) {
   EXPECT_TRUE(nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/events").body)["events"].is_array());
   EXPECT_EQ(nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/site?x=1").body)["valves"], 2);
   EXPECT_THAT(answer_to(engine, "GET", "/metrics").body, HasSubstr("spoolflow_stalled{valve=\"a\"} 1\n"));
+}
+
+TEST_F(PageTest, MetricsStateNoFlowBeforeTheFirstSample) {
+  const std::string metrics = answer_to(engine, "GET", "/metrics").body;
+  for (const char* name : {"flow_cubic_metres_per_second", "flow_lower_cubic_metres_per_second",
+                           "flow_upper_cubic_metres_per_second", "pressure_difference_pascals"})
+    EXPECT_THAT(metrics, HasSubstr(fmt::format("spoolflow_{}{{valve=\"a\"}} NaN\n", name)));
+}
+
+TEST_F(PageTest, RefusesRequestsWhoseEndAProxyCouldSeeElsewhere) {
+  const PageServer server(site_page(engine), at("127.0.0.1", 0));
+  const std::string next = "GET /api/v1/valves HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+  for (const std::string lines :
+       {"Host: localhost\r\nTransfer-Encoding: gzip\r\n", "Host: localhost\r\nTransfer-Encoding: xchunked\r\n",
+        "Host: localhost\r\nTransfer-Encoding: gzip\r\nContent-Length: 3\r\n",
+        "Host: localhost\r\nContent-Length: 3\r\nTransfer-Encoding: gzip\r\n",
+        "Host: localhost\r\nTransfer-Encoding: chunked, gzip\r\n", "Host: localhost\r\nHost: localhost\r\n",
+        "Host: localhost\r\nHost: other.example\r\n", ""}) {
+    const std::string answer = asked(server.port(), "POST /login HTTP/1.1\r\n" + lines + "\r\nabc" + next);
+    EXPECT_THAT(answer, Not(HasSubstr("HTTP/1.1 200"))) << lines;
+    EXPECT_TRUE(answer.empty() || answer.starts_with("HTTP/1.1 400")) << lines << answer;
+  }
+  EXPECT_THAT(get(server.port(), "/"), StartsWith("HTTP/1.1 200"));
 }
 
 TEST_F(PageTest, NothingButWhatIsKnownIsAnswered) {

@@ -88,9 +88,51 @@ std::optional<std::int64_t> date(Pieces& pieces, std::string_view text) {
   return year_first ? day_of(*first, *month, *last) : day_of(*last, *month, *first);
 }
 
+/// One digit or two.
+std::optional<int> short_number(Pieces& pieces) {
+  if (const auto two = pieces.digits(2)) return two;
+  return pieces.digits(1);
+}
+
+/// 3/4/2025 11:59:59.700 AM: month, day, year, as programs with American settings write them. Without AM or PM nothing
+/// tells which comes first.
+std::optional<ClockTime> american(std::string_view text) {
+  const bool after_noon = text.ends_with("PM") || text.ends_with("pm");
+  if (!after_noon && !text.ends_with("AM") && !text.ends_with("am")) return std::nullopt;
+  text.remove_suffix(2);
+  if (text.ends_with(' ')) text.remove_suffix(1);
+  Pieces pieces(text);
+  ClockTime out;
+  if (text.find('/') != std::string_view::npos) {
+    const auto month = short_number(pieces);
+    if (!month || !pieces.sign("/")) return std::nullopt;
+    const auto day = short_number(pieces);
+    if (!day || !pieces.sign("/")) return std::nullopt;
+    const auto year = pieces.digits(4);
+    if (!year || !pieces.sign(" ")) return std::nullopt;
+    const auto date = day_of(*year, *month, *day);
+    if (!date) return std::nullopt;
+    out.day = *date;
+  }
+  const auto hour = short_number(pieces);
+  if (!hour || *hour < 1 || *hour > 12 || !pieces.sign(":")) return std::nullopt;
+  const auto minute = pieces.digits(2);
+  if (!minute || *minute > 59) return std::nullopt;
+  out.second = 3600.0 * (*hour % 12 + (after_noon ? 12 : 0)) + 60.0 * *minute;
+  if (pieces.sign(":")) {
+    const auto second = pieces.digits(2);
+    if (!second || *second > 60) return std::nullopt;
+    out.second += *second + (pieces.sign(".,") ? pieces.share() : 0.0);
+  }
+  if (!pieces.done()) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 std::optional<ClockTime> read_clock_time(std::string_view text) {
+  if (text.size() < 5) return std::nullopt;
+  if (const auto out = american(text)) return out;
   Pieces pieces(text);
   ClockTime out;
   const bool dated = text.size() > 8 && text[2] != ':';

@@ -17,8 +17,8 @@ struct ClockTime {
 };
 
 /// ISO 8601 (2026-11-22T10:15:30.250, a space for T, Z or +01:00 behind it), 22.11.2026 10:15:30,250, and 10:15:30.250
-/// alone; seconds and their share may be left out, with comma or point. Nothing where the text is none of these or no
-/// such day or time exists.
+/// alone; 3/4/2025 11:59:59.700 AM, month first; seconds and their share may be left out, with comma or point. Nothing
+/// where the text is none of these or no such day or time exists.
 [[nodiscard]] std::optional<ClockTime> read_clock_time(std::string_view text);
 
 }  // namespace spoolflow::recording

@@ -10,6 +10,7 @@
 #include "spoolflow/recording/files/decimal_number.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/files/numbered_names.hpp"
+#include "spoolflow/recording/files/utf16.hpp"
 #include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
@@ -96,12 +97,41 @@ std::size_t title_lines(std::string_view beginning) {
   return 0;
 }
 
+/// LabVIEW's measurement files (.lvm): lines of settings, the last of them "***End_of_Header***", stand above the
+/// names.
+constexpr std::string_view labview_mark = "LabVIEW Measurement", labview_end = "***End_of_Header***";
+
+/// Takes them off from the front, how many they are; the line of units among them, cell by cell.
+std::size_t take_labview_settings(std::string_view& text, std::vector<std::string>& units) {
+  if (!text.starts_with(labview_mark)) return 0;
+  std::size_t lines = 0;
+  for (bool more = text.find(labview_end) != std::string_view::npos; more; ++lines) {
+    more = !text.starts_with(labview_end) || text.find(labview_end, labview_end.size()) != std::string_view::npos;
+    const std::string_view line = take_line(text);
+    if (!line.starts_with("Y_Unit_Label")) continue;
+    for (const std::string_view cell : cells_of(line, line.find('\t') == std::string_view::npos ? ',' : '\t'))
+      units.push_back(utf8_of(cell));
+  }
+  return lines;
+}
+
+void refuse_other_programs_exports(std::string_view beginning, const std::string& file) {
+  const std::string_view first = beginning.substr(0, 2048);
+  if (!first.starts_with("Name") || first.find("of export") == std::string_view::npos) return;
+  throw RecordingError(fmt::format(
+      "{}: is an export of TwinCAT Scope, whose first lines are settings and whose signals have a time each; cut "
+      "all above the samples, write one line of names there, such as time_ms,current_A,position_mm, and "
+      "leave one column of time",
+      file));
+}
+
 /// As the header writes them, doubled quotes as one.
 std::vector<FileColumn> columns_named(const std::vector<std::string_view>& names) {
   std::vector<FileColumn> out;
   for (const std::string_view name : names) {
     std::string written(name);
     for (std::size_t at = 0; (at = written.find("\"\"", at)) != std::string::npos; ++at) written.erase(at, 1);
+    written = utf8_of(written);
     out.push_back({written, written, {}});
   }
   return out;
@@ -159,7 +189,10 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
   std::string_view rest = beginning;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
 
-  for (std::size_t titles = title_lines(rest); titles > 0; --titles) {
+  refuse_other_programs_exports(rest, file);
+  std::vector<std::string> labview_units;
+  dialect.header_lines = take_labview_settings(rest, labview_units);
+  for (std::size_t titles = dialect.header_lines > 0 ? 0 : title_lines(rest); titles > 0; --titles) {
     (void)take_line(rest);
     ++dialect.header_lines;
   }
@@ -197,12 +230,15 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
   }
   dialect.columns = columns_named(names);
   number_equal_names(dialect.columns);
+  for (std::size_t k = 1; k < std::min(labview_units.size(), dialect.columns.size()); ++k)
+    dialect.columns[k].unit = labview_units[k];
+  if (dialect.header_lines > 1 && dialect.columns.front().name == "X_Value") dialect.columns.front().unit = "s";
 
   const CsvDialect without_units = dialect;
   std::string_view after = rest;
   const std::vector<std::string_view> second = cells_of(next_line(after), dialect.delimiter);
   if (second.size() <= names.size() && is_units_row(second)) {
-    for (std::size_t k = 0; k < second.size(); ++k) dialect.columns[k].unit = second[k];
+    for (std::size_t k = 0; k < second.size(); ++k) dialect.columns[k].unit = utf8_of(second[k]);
     rest = after;
   } else {
     dialect = without_units;

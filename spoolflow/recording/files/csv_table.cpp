@@ -68,6 +68,7 @@ void CsvTable::take_bytes() {
 void CsvTable::select(const std::vector<std::size_t>& columns) {
   chosen_ = columns;
   text_cells_.assign(columns.size(), 0);
+  midnights_.assign(columns.size(), {});
   slot_of_column_.assign(dialect_.columns.size(), -1);
   for (std::size_t slot = 0; slot < columns.size(); ++slot) {
     slot_of_column_[columns[slot]] = static_cast<std::ptrdiff_t>(slot);
@@ -170,7 +171,7 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   if (digits == Digits::empty) return missing;
   if (const std::optional<ClockTime> clock = read_clock_time(cell)) {
     if (!clock_origin_) clock_origin_ = clock;
-    return clock->since(*clock_origin_);
+    return clock->day == 0 ? past_midnight(clock->since(*clock_origin_), slot) : clock->since(*clock_origin_);
   }
   if (infinite_passes_ && digits == Digits::not_finite) {
     return cell.find('-') == std::string_view::npos ? infinity : -infinity;
@@ -193,6 +194,14 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
       fmt::format("{}: '{}' is not a number (decimal sign here: '{}'); correct it, or leave the cell "
                   "empty where a sample is missing",
                   place, shown, point_));
+}
+
+double CsvTable::past_midnight(double time_s, std::size_t slot) {
+  constexpr double day_s = 86400;
+  Midnights& passed = midnights_[slot];
+  if (time_s + passed.days * day_s < passed.last_s - 0.5 * day_s) ++passed.days;
+  passed.last_s = time_s + passed.days * day_s;
+  return passed.last_s;
 }
 
 void CsvTable::refuse_length(std::size_t cells) const {

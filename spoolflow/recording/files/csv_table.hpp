@@ -43,6 +43,8 @@ class CsvTable final : public SampleTable {
   bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
   [[nodiscard]] bool header_again(std::string_view line) const;
   bool careful_row(std::string_view line, std::span<double* const> out, std::size_t row);
+  /// A time of day that falls by more than half a day has passed midnight.
+  double past_midnight(double time_s, std::size_t slot);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
   [[noreturn]] void refuse_length(std::size_t cells) const;
 
@@ -65,6 +67,12 @@ class CsvTable final : public SampleTable {
   std::vector<Step> steps_;
   std::vector<std::ptrdiff_t> slot_of_column_;
   std::vector<std::uint64_t> text_cells_;
+  /// Of a column of times of day without a date.
+  struct Midnights {
+    double last_s = 0;
+    int days = 0;
+  };
+  std::vector<Midnights> midnights_;
   std::uint64_t left_out_ = 0;
 
   std::vector<char> buffer_;  ///< [cursor_, lines_end_) whole lines, [lines_end_, filled_) the beginning of the next

@@ -26,9 +26,11 @@ std::string_view bare(std::string_view text) {
 
 /// How programs write that there is no number.
 bool says_missing(std::string_view text) {
-  constexpr std::array<std::string_view, 10> words{"nan",  "null", "-",   "na",   "n/a",
-                                                   "#n/a", "--",   "---", "none", "1.#qnan"};
-  constexpr std::size_t longest_word = 8;
+  constexpr std::array<std::string_view, 19> words{
+      "nan", "null", "-", "na", "n/a", "#n/a", "--", "---", "none", "-nan",
+      // Of C libraries: glibc and Microsoft's, which tells the kind of NaN.
+      "+nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "nan(snan)", "1.#snan"};
+  constexpr std::size_t longest_word = 9;
   if (text.size() > longest_word) return false;
   std::array<char, longest_word> small{};
   std::ranges::transform(text, small.begin(),

@@ -1,5 +1,5 @@
 #pragma once
-/// UTF-16 text, as spreadsheets and Windows programs save it, into UTF-8 (Unicode 15, chapter 3.9).
+/// Text as spreadsheets and Windows programs save it, in UTF-16 or in eight bits, into UTF-8 (Unicode 15, chapter 3.9).
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,5 +24,9 @@ class Utf16 {
   std::optional<unsigned char> half_{};     ///< the first byte of a unit whose second has not come
   std::optional<std::uint16_t> leading_{};  ///< the first half of a pair
 };
+
+/// Text of a file in eight bits as UTF-8: as it is where it is UTF-8 already, else read as Windows-1252, in which
+/// German and French Windows save; bytes that mean nothing there become U+FFFD.
+[[nodiscard]] std::string utf8_of(std::string_view text);
 
 }  // namespace spoolflow::recording

@@ -131,6 +131,62 @@ TEST(CsvReading, CountsTimesOfTheClockFromTheFirst) {
   EXPECT_THAT(refused("time_s,position_mm\n0,1\n2026-13-41T10:00:00,1\n"), HasSubstr("is not a number"));
 }
 
+TEST(CsvReading, CountsATimeOfDayOnPastMidnight) {
+  const Recording run = read(
+      "Date,time,position_mm\n2025-03-04,23:59:59.700,1\n2025-03-04,23:59:59.950,2\n"
+      "2025-03-05,00:00:00.200,3\n2025-03-05,00:00:00.450,4\n");
+  ASSERT_EQ(run.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(run[Channel::time][k], 0.25 * static_cast<double>(k), 1e-9);
+  EXPECT_THAT(refused("time,position_mm\n10:00:01,1\n10:00:00,2\n"), HasSubstr("time runs backwards"));
+}
+
+TEST(CsvReading, ReadsAmericanDatesWithAMAndPMOverNoonAndMidnight) {
+  for (const std::string text : {
+           "time,position_mm\n3/4/2025 11:59:59.900 AM,1\n3/4/2025 12:00:00.150 PM,2\n3/4/2025 12:00:00.400 PM,3\n",
+           "time,position_mm\n12/31/2025 11:59:59.900 PM,1\n1/1/2026 12:00:00.150 AM,2\n1/1/2026 12:00:00.400 AM,3\n",
+           "time,position_mm\n9:59:59.900 am,1\n10:00:00.150 am,2\n10:00:00.400 am,3\n",
+       }) {
+    const Recording run = read(text);
+    ASSERT_EQ(run.size(), 3u) << text;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(run[Channel::time][k], 0.25 * static_cast<double>(k), 1e-9) << text;
+  }
+  // Without AM or PM nothing tells the day from the month.
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n3/4/2025 11:59:59,1\n"),
+              HasSubstr("'3/4/2025 11:59:59' is not a number"));
+  EXPECT_THAT(refused("time_s,position_mm\n0,1\n13/4/2025 11:59:59 AM,1\n"), HasSubstr("is not a number"));
+}
+
+TEST(CsvReading, FindsColumnsOfAFileInWindows1252ByTheirNamesInUtf8) {
+  ReadOptions options{{}, {Channel::time, Channel::oil_temperature}, {}, {}};
+  options.channels.sources.emplace(Channel::oil_temperature,
+                                   ChannelSource{"\xC3\x96ltemp. [\xC2\xB0\x43]", "C", 1, 0, {}});
+  const Recording run = read("time_s;\xD6ltemp. [\xB0\x43]\n0;50,5\n0,001;51,5\n", options);
+  EXPECT_NEAR(run[Channel::oil_temperature][1], 273.15 + 51.5, 1e-9);
+}
+
+TEST(CsvReading, ReadsLabViewMeasurementFilesBelowTheirSettings) {
+  for (const std::string point : {".", ","}) {
+    std::string text = "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t" + point +
+                       "\n***End_of_Header***\t\n\t\nChannels\t2\t\t\t\nY_Unit_Label\tA\tmm\t\t\n"
+                       "X_Dimension\tTime\tTime\t\t\n***End_of_Header***\t\t\t\t\nX_Value\tcurrent\tposition\tComment\n"
+                       "0_000\t1_25\t0_5\t\n0_001\t1_50\t0_75\t\n";
+    for (char& c : text) c = c == '_' && text[static_cast<std::size_t>(&c - text.data()) - 1] < ':' ? point[0] : c;
+    ReadOptions options{{}, {Channel::time, Channel::current, Channel::position}, {}, {}};
+    options.channels.sources.emplace(Channel::time, ChannelSource{"X_Value", "s", 1, 0, {}});
+    const Recording run = read(text, options);
+    EXPECT_THAT(column(run, Channel::time), ElementsAre(0.0, 0.001)) << point;
+    EXPECT_THAT(column(run, Channel::current), ElementsAre(1.25, 1.5)) << point;
+    EXPECT_THAT(column(run, Channel::position), ElementsAre(0.0005, 0.00075)) << point;
+  }
+}
+
+TEST(CsvReading, SaysWhatToDoWithAnExportOfTwinCatScope) {
+  EXPECT_THAT(
+      refused("Name\tYT Scope\nFile\tbench.csv\nStarttime of export\t1332\tTuesday\t10:12\n\nName\tI_coil\tName\tx\n"
+              "0\t1.0\t0\t0.6\n"),
+      testing::AllOf(HasSubstr("TwinCAT Scope"), HasSubstr("one line of names")));
+}
+
 TEST(CsvReading, FindsTheHeaderBelowLinesOfTitle) {
   const Recording plain = read("time_s,position_mm\n0,1\n0.001,1.5\n");
   for (const std::string text : {

@@ -71,5 +71,18 @@ TEST(DecimalNumber, LeavesWhatIsNoBareNumber) {
   EXPECT_FALSE(number_of_cell(std::string(401, '1')));  // no number of a recording is longer
 }
 
+TEST(DecimalNumber, IsMissingHoweverACLibraryWritesThatThereIsNone) {
+  for (const char* const cell : {"nan", "-nan", "+nan", "NaN", "-NaN", "nan(ind)", "-nan(ind)", "1.#QNAN", "-1.#QNAN",
+                                 "1.#IND", "-1.#IND", "nan(snan)", " -nan ", "\"-1.#IND\""}) {
+    double value = 7;
+    EXPECT_EQ(read_number(cell, '.', value), Digits::empty) << cell;
+    EXPECT_EQ(value, 7) << cell;
+  }
+  for (const char* const cell : {"inf", "-inf", "1.#INF", "nano", "-nan(", "nan nan"}) {
+    double value = 7;
+    EXPECT_NE(read_number(cell, '.', value), Digits::empty) << cell;
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::recording
