@@ -97,7 +97,7 @@ void add_inspect_command(CLI::App& program) {
   for (const recording::Protocol protocol : recording::all_protocols) protocols.emplace_back(recording::name(protocol));
   command
       ->add_option("--protocol", arguments->protocol,
-                   "whether the file serves this protocol of a campaign; exit status 1 where it does not")
+                   "whether the file serves this test of a campaign; status 1 if not")
       ->type_name("NAME")
       ->check(CLI::IsMember(protocols));
   command->add_flag("--json", arguments->json, "print JSON instead of text");

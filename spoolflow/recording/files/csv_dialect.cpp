@@ -125,6 +125,19 @@ void refuse_other_programs_exports(std::string_view beginning, const std::string
       file));
 }
 
+/// The names that a header line holds.
+std::vector<std::string_view> header_names(std::string_view header, const CsvDialect& dialect,
+                                           const std::string& file) {
+  std::vector<std::string_view> names = cells_of(header, dialect.delimiter);
+  if (std::all_of(names.begin(), names.end(), is_number)) {
+    throw RecordingError(
+        fmt::format("{}, line {}: has no header, its first line is numbers; insert a first line that "
+                    "names the columns, such as time_s,current_A,position_mm",
+                    file, dialect.header_lines));
+  }
+  return names;
+}
+
 /// As the header writes them, doubled quotes as one.
 std::vector<FileColumn> columns_named(const std::vector<std::string_view>& names) {
   std::vector<FileColumn> out;
@@ -221,13 +234,7 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file)
     throw RecordingError(fmt::format("{}: its lines end with carriage returns only; save it with line feeds", file));
   }
   dialect.delimiter = declared.value_or(delimiter_of(header, rest));
-  const std::vector<std::string_view> names = cells_of(header, dialect.delimiter);
-  if (std::all_of(names.begin(), names.end(), is_number)) {
-    throw RecordingError(
-        fmt::format("{}, line {}: has no header, its first line is numbers; insert a first line that "
-                    "names the columns, such as time_s,current_A,position_mm",
-                    file, dialect.header_lines));
-  }
+  const std::vector<std::string_view> names = header_names(header, dialect, file);
   dialect.columns = columns_named(names);
   number_equal_names(dialect.columns);
   for (std::size_t k = 1; k < std::min(labview_units.size(), dialect.columns.size()); ++k)
