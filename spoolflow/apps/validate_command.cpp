@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/command_arguments.hpp"
@@ -33,14 +34,24 @@ void print_row(const std::string& run, estimation::Estimator estimator, const va
         all.error.p95 * percent, all.error.rms * percent, all.error.largest * percent, 100 * all.band_coverage);
 }
 
-/// What each run shows of its meter.
+/// What is known of each run's meter.
 void print_meters(const validation::Validation& validation) {
-  bool first = true;
+  std::vector<std::string> lines, unknown;
   for (const validation::RunResult& run : validation.runs) {
-    if (!run.reference_meter_uncertainty) continue;
-    if (std::exchange(first, false)) print("\n");
-    print("Reference meter of {}: lag {} (95 %)\n", run.name, report::reference_meter_text(run));
+    const validation::MeterSource source = run.reference_meter.source;
+    if (!run.has_reference || source == validation::MeterSource::given) continue;
+    if (source == validation::MeterSource::none) {
+      unknown.push_back(run.name);
+    } else {
+      lines.push_back(fmt::format("Reference meter of {}: lag {}{}\n", run.name, report::reference_meter_text(run),
+                                  run.reference_meter.uncertainty ? " (95 %)" : ""));
+    }
   }
+  if (!unknown.empty()) {
+    lines.push_back(fmt::format("Reference meter of {}: its lag does not show and counts as 0 (--reference-lag-ms)\n",
+                                fmt::join(unknown, ", ")));
+  }
+  if (!lines.empty()) print("\n{}", fmt::join(lines, ""));
 }
 
 void print_figures(const model::Model& model, const validation::Validation& validation) {

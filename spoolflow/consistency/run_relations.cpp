@@ -150,7 +150,8 @@ FlowFit compared_late(const Recording& run, std::span<const double> expected, Fl
     for (double& value : shown) value *= found.ratio;
     if (std::isfinite(reference.front())) shown.front() = reference.front();
     const numerics::MeterLag meter =
-        numerics::find_meter_lag(time_s, shown, reference, static_cast<std::size_t>(least_blocks));
+        numerics::find_meter_lag(time_s, shown, reference, static_cast<std::size_t>(least_blocks))
+            .value_or(numerics::MeterLag{});
     numerics::apply_lag<double>(time_s, shown, meter);
     for (double& value : shown) value /= found.ratio;
     found = compared(run, shown);

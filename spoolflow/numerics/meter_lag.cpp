@@ -53,12 +53,12 @@ class UnexplainedChanges {
 
 }  // namespace
 
-MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> flow, std::span<const double> reference,
-                        std::size_t least_samples) {
+std::optional<MeterLag> find_meter_lag(std::span<const double> time_s, std::span<const double> flow,
+                                       std::span<const double> reference, std::size_t least_samples) {
   std::size_t both = 0;
   for (std::size_t k = 0; k < time_s.size(); ++k)
     both += std::isfinite(flow[k]) && std::isfinite(reference[k]) ? 1U : 0U;
-  if (both < least_samples) return {};
+  if (both < least_samples) return std::nullopt;
   UnexplainedChanges unexplained(time_s, flow, reference);
   MeterLag best;
   double least = unexplained(best);
@@ -83,7 +83,8 @@ MeterLag find_meter_lag(std::span<const double> time_s, std::span<const double> 
     factor = 1 + 0.5 * (factor - 1);
     dead_step_s *= 0.5;
   }
-  return least < most_unexplained_share * unexplained.of_reference() ? best : MeterLag{};
+  if (least < most_unexplained_share * unexplained.of_reference()) return best;
+  return std::nullopt;
 }
 
 }  // namespace spoolflow::numerics

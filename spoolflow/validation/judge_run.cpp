@@ -166,8 +166,8 @@ DirectionProfile empty_direction(const model::Valve& valve) {
   return DirectionProfile({valve.stroke_m, valve.rated_flow_m3_per_s, valve.direction == "both"});
 }
 
-JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options,
-                    std::size_t traced_values) {
+JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const KnownMeter& meter,
+                    const ValidationOptions& options, std::size_t traced_values) {
   JudgedRun out;
   RunResult& result = out.result;
   result.samples = run.time_s.size();
@@ -196,15 +196,9 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
     result.pressure_difference_line_Pa = thinned(run.time_s, run.pressure_difference_Pa, drawn_stretches);
   }
   const Phases phases = phases_of_position(run.time_s, run.position_m, valve.stroke_m);
-  if (result.has_reference) {
-    result.reference_meter = options.reference_lag_s ? numerics::MeterLag{.lag_s = *options.reference_lag_s}
-                                                     : meter_lag(run, run.answers.back());
-    if (!options.reference_lag_s) {
-      result.reference_meter_uncertainty = meter_lag_uncertainty(run, run.answers.back(), result.reference_meter);
-    }
-  }
+  if (result.has_reference) result.reference_meter = meter;
   if (result.has_reference && options.apply_reference_lag) {
-    for (Answers& answers : run.answers) apply_lag(run.time_s, answers, result.reference_meter);
+    for (Answers& answers : run.answers) apply_lag(run.time_s, answers, meter.meter);
   }
   if (result.has_reference) {
     result.reference_scale =
@@ -216,7 +210,7 @@ JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const Validation
     if (result.has_reference) {
       out.compared.push_back(compare(each, run, phases, answers, valve));
       each.frequency_response = frequency_response({run.time_s, run.reference_m3_per_s, answers.flow_m3_per_s,
-                                                    options.apply_reference_lag ? 0 : result.reference_meter.lag_s});
+                                                    options.apply_reference_lag ? 0 : meter.meter.lag_s});
     }
     draw(each, run, answers);
   }

@@ -15,9 +15,9 @@ struct JudgedRun {
 [[nodiscard]] std::vector<ErrorProfile> empty_profiles(const model::Valve& valve);
 [[nodiscard]] DirectionProfile empty_direction(const model::Valve& valve);
 
-/// Compares what the estimators answered with the reference. Lags `run`'s answers first where the options ask for it.
-/// `traced_values`: the most numbers in the run's trace.
-[[nodiscard]] JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const ValidationOptions& options,
-                                  std::size_t traced_values);
+/// Compares what the estimators answered with the reference. Lags `run`'s answers as `meter` does first where the
+/// options ask for it. `traced_values`: the most numbers in the run's trace.
+[[nodiscard]] JudgedRun judge_run(const model::Valve& valve, RunSamples& run, const KnownMeter& meter,
+                                  const ValidationOptions& options, std::size_t traced_values);
 
 }  // namespace spoolflow::validation

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/validation/direction_profile.hpp"
 #include "spoolflow/validation/error_profile.hpp"
 #include "spoolflow/validation/frequency_response.hpp"
+#include "spoolflow/validation/known_meter.hpp"
 #include "spoolflow/validation/metrics.hpp"
 #include "spoolflow/validation/reference_scale.hpp"
 #include "spoolflow/validation/run_trace.hpp"
@@ -87,10 +87,9 @@ struct SolenoidPoint {
 };
 
 struct RunResult {
-  numerics::MeterLag reference_meter;  ///< as given, or as the run shows it beside the leading estimator
-  std::optional<numerics::MeterLag> reference_meter_uncertainty;  ///< half widths of 95 %; of a lag that was found
-  std::optional<ReferenceScale> reference_scale;                  ///< beside the leading estimator; told, never applied
-  std::string name;                                               ///< file name without its ending
+  KnownMeter reference_meter;
+  std::optional<ReferenceScale> reference_scale;  ///< beside the leading estimator; told, never applied
+  std::string name;                               ///< file name without its ending
   std::string file;
   std::string sha256;            ///< empty for standard input
   bool calibrated_with = false;  ///< the model names this very file among its inputs

@@ -91,17 +91,14 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
   return run;
 }
 
-numerics::MeterLag meter_lag(const RunSamples& run, const Answers& answers) {
+KnownMeter meter_of(const RunSamples& run) {
+  if (run.reference_m3_per_s.empty()) return {};
+  const Answers& answers = run.answers.back();
   const std::vector<double> flow(answers.flow_m3_per_s.begin(), answers.flow_m3_per_s.end());
   const std::vector<double> reference(run.reference_m3_per_s.begin(), run.reference_m3_per_s.end());
-  return numerics::find_meter_lag(run.time_s, flow, reference);
-}
-
-std::optional<numerics::MeterLag> meter_lag_uncertainty(const RunSamples& run, const Answers& answers,
-                                                        const numerics::MeterLag& found) {
-  const std::vector<double> flow(answers.flow_m3_per_s.begin(), answers.flow_m3_per_s.end());
-  const std::vector<double> reference(run.reference_m3_per_s.begin(), run.reference_m3_per_s.end());
-  return numerics::meter_lag_uncertainty(run.time_s, flow, reference, found);
+  const std::optional<numerics::MeterLag> found = numerics::find_meter_lag(run.time_s, flow, reference);
+  if (!found) return {};
+  return {*found, numerics::meter_lag_uncertainty(run.time_s, flow, reference, *found), MeterSource::this_run};
 }
 
 void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter) {

@@ -9,6 +9,7 @@
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/recording/reader.hpp"
+#include "spoolflow/validation/known_meter.hpp"
 
 namespace spoolflow::validation {
 
@@ -39,12 +40,8 @@ struct RunSamples {
                                       const std::vector<estimation::Estimator>& estimators,
                                       const std::function<void(double)>& progress);
 
-/// The reference meter's dead time and lag, as the run shows them beside the answers.
-[[nodiscard]] numerics::MeterLag meter_lag(const RunSamples& run, const Answers& answers);
-
-/// Half widths of their 95 % intervals (numerics/meter_lag_uncertainty.hpp).
-[[nodiscard]] std::optional<numerics::MeterLag> meter_lag_uncertainty(const RunSamples& run, const Answers& answers,
-                                                                      const numerics::MeterLag& found);
+/// The reference meter, as the run shows it beside the leading estimator; of source `none` where it does not.
+[[nodiscard]] KnownMeter meter_of(const RunSamples& run);
 
 /// Shows flow and band as the reference meter would.
 void apply_lag(std::span<const double> time_s, Answers& answers, const numerics::MeterLag& meter);

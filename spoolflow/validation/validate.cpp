@@ -1,6 +1,8 @@
 #include "spoolflow/validation/validate.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,15 +55,94 @@ PooledResult pooled_result(Pool pool, estimation::Estimator estimator) {
   return out;
 }
 
-/// `before`: the runs that came before it.
-void add_doubts(RunResult& result, const std::vector<RunResult>& before, const std::vector<consistency::Doubt>& found) {
+/// `before`: the runs that stand before it.
+void add_doubts(RunResult& result, std::span<const RunName> before, const std::vector<consistency::Doubt>& found) {
   for (const consistency::Doubt& doubt : found) result.doubts.push_back(doubt.text);
   const auto same = std::ranges::find_if(
-      before, [&](const RunResult& run) { return !result.sha256.empty() && run.sha256 == result.sha256; });
+      before, [&](const RunName& run) { return !result.sha256.empty() && run.sha256 == result.sha256; });
   if (same != before.end()) {
     const auto [first, second] = std::minmax(result.file, same->file);
     result.doubts.push_back(fmt::format("{}: the same run as {}, byte for byte; it counts twice", second, first));
   }
+}
+
+/// Judges runs, each once and in any order.
+class Judge {
+ public:
+  Judge(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
+        const ValidationOptions& options)
+      : model_(model),
+        options_(options),
+        known_(consistency::known_valve(model)),
+        pools_(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
+                                           empty_profiles(model.valve),
+                                           empty_direction(model.valve),
+                                           {}}) {
+    for (const std::filesystem::path& recording : recordings) names_.push_back(name_of(model, recording));
+    out_.reference_lag_applied = options.apply_reference_lag;
+    out_.held_out = std::ranges::any_of(names_, [](const RunName& run) { return !run.calibrated_with; });
+    out_.runs.resize(recordings.size());
+  }
+
+  /// `k`: which of the recordings it is.
+  void judge(std::size_t k, const std::filesystem::path& recording, RunSamples& samples, const KnownMeter& meter) {
+    const RunName& named = names_[k];
+    JudgedRun judged = judge_run(model_.valve, samples, meter, options_, options_.traced_values / names_.size());
+    judged.result.name = named.name;
+    judged.result.file = named.file;
+    judged.result.sha256 = named.sha256;
+    judged.result.calibrated_with = named.calibrated_with;
+    add_doubts(judged.result, std::span(names_).first(k), consistency::doubts_about(known_, samples.means, recording));
+    if (!named.calibrated_with || !out_.held_out) pool(judged);
+    out_.runs[k] = std::move(judged.result);
+  }
+
+  /// `meter`: of all runs together.
+  Validation finish(const KnownMeter& meter) {
+    out_.reference_lag_s = meter.meter.lag_s;
+    for (std::size_t e = 0; e < pools_.size(); ++e) {
+      out_.pooled.push_back(pooled_result(std::move(pools_[e]), options_.estimators[e]));
+    }
+    if (options_.requirements) {
+      out_.requirements_file = options_.requirements->file;
+      out_.limits = validation::judge(*options_.requirements, out_, model_.valve.rated_flow_m3_per_s);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void pool(JudgedRun& judged) {
+    for (std::size_t e = 0; e < judged.compared.size(); ++e) {
+      pools_[e].samples.append(judged.compared[e]);
+      for (std::size_t q = 0; q < quantities.size(); ++q) {
+        pools_[e].profiles[q].append(judged.result.results[e].profiles[q]);
+      }
+      if (judged.result.results[e].direction) pools_[e].direction.append(*judged.result.results[e].direction);
+      if (const auto& sign = judged.result.results[e].sign) {
+        if (!pools_[e].sign) pools_[e].sign.emplace();
+        pools_[e].sign->append(*sign);
+      }
+    }
+  }
+
+  const model::Model& model_;
+  const ValidationOptions& options_;
+  std::vector<consistency::KnownValve> known_;
+  std::vector<Pool> pools_;
+  std::vector<RunName> names_;
+  Validation out_;
+};
+
+/// The one meter behind several runs: medians of what they show.
+KnownMeter common_meter(const std::vector<numerics::MeterLag>& shown) {
+  if (shown.empty()) return {};
+  std::vector<double> dead_times_s, lags_s;
+  for (const numerics::MeterLag& meter : shown) {
+    dead_times_s.push_back(meter.dead_time_s);
+    lags_s.push_back(meter.lag_s);
+  }
+  return {
+      {numerics::median(std::move(dead_times_s)), numerics::median(std::move(lags_s))}, {}, MeterSource::other_runs};
 }
 
 }  // namespace
@@ -73,52 +154,25 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     for (const std::filesystem::path& recording : recordings) runs.push_back(run_name(recording));
     check_names(*options.requirements, runs, options.estimators);
   }
-  Validation out{{}, {}, 0, options.apply_reference_lag, {}, {}};
-  std::vector<RunName> names;
-  for (const std::filesystem::path& recording : recordings) names.push_back(name_of(model, recording));
-  out.held_out = std::ranges::any_of(names, [](const RunName& run) { return !run.calibrated_with; });
-  std::vector<double> lags_s;
-  std::vector<Pool> pools(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
-                                                      empty_profiles(model.valve),
-                                                      empty_direction(model.valve),
-                                                      {}});
-  const std::vector<consistency::KnownValve> known = consistency::known_valve(model);
+  Judge judge(model, recordings, options);
+  std::vector<numerics::MeterLag> shown;
+  std::vector<std::pair<std::size_t, RunSamples>> without_meter;
   const auto total = static_cast<double>(recordings.size());
-  for (const std::filesystem::path& recording : recordings) {
-    const RunName& named = names[out.runs.size()];
-    const auto before = static_cast<double>(out.runs.size());
-    RunSamples samples = estimate_run(model, recording, options.channels, options.estimators,
-                                      [&](double share) { progress((before + share) / total); });
-    JudgedRun judged = judge_run(model.valve, samples, options, options.traced_values / recordings.size());
-    if (judged.result.has_reference) lags_s.push_back(judged.result.reference_meter.lag_s);
-    judged.result.name = named.name;
-    judged.result.file = named.file;
-    judged.result.sha256 = named.sha256;
-    judged.result.calibrated_with = named.calibrated_with;
-    add_doubts(judged.result, out.runs, consistency::doubts_about(known, samples.means, recording));
-    const bool counts = !named.calibrated_with || !out.held_out;
-    for (std::size_t e = 0; counts && e < judged.compared.size(); ++e) {
-      pools[e].samples.append(judged.compared[e]);
-      for (std::size_t q = 0; q < quantities.size(); ++q) {
-        pools[e].profiles[q].append(judged.result.results[e].profiles[q]);
-      }
-      if (judged.result.results[e].direction) pools[e].direction.append(*judged.result.results[e].direction);
-      if (const auto& sign = judged.result.results[e].sign) {
-        if (!pools[e].sign) pools[e].sign.emplace();
-        pools[e].sign->append(*sign);
-      }
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    RunSamples samples = estimate_run(model, recordings[k], options.channels, options.estimators,
+                                      [&](double share) { progress((static_cast<double>(k) + share) / total); });
+    KnownMeter meter{{.lag_s = options.reference_lag_s.value_or(0)}, {}, MeterSource::given};
+    if (!options.reference_lag_s) meter = meter_of(samples);
+    if (meter.source == MeterSource::none && !samples.reference_m3_per_s.empty()) {
+      without_meter.emplace_back(k, std::move(samples));
+      continue;
     }
-    out.runs.push_back(std::move(judged.result));
+    if (!samples.reference_m3_per_s.empty()) shown.push_back(meter.meter);
+    judge.judge(k, recordings[k], samples, meter);
   }
-  if (!lags_s.empty()) out.reference_lag_s = numerics::median(std::move(lags_s));
-  for (std::size_t e = 0; e < pools.size(); ++e) {
-    out.pooled.push_back(pooled_result(std::move(pools[e]), options.estimators[e]));
-  }
-  if (options.requirements) {
-    out.requirements_file = options.requirements->file;
-    out.limits = judge(*options.requirements, out, model.valve.rated_flow_m3_per_s);
-  }
-  return out;
+  const KnownMeter common = common_meter(shown);
+  for (auto& [k, samples] : without_meter) judge.judge(k, recordings[k], samples, common);
+  return judge.finish(common);
 }
 
 }  // namespace spoolflow::validation

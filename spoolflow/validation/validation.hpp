@@ -13,7 +13,8 @@ namespace spoolflow::validation {
 struct ValidationOptions {
   std::vector<estimation::Estimator> estimators;  ///< the leading one last
   recording::ChannelMap channels;
-  /// Of the reference meter, without dead time; else dead time and lag are found from each run.
+  /// Of the reference meter, without dead time; else dead time and lag are those that each run shows. A run that shows
+  /// none takes the median of the other runs.
   std::optional<double> reference_lag_s = {};
   bool apply_reference_lag = true;  ///< lag the estimate likewise before comparing
   /// Numbers that the traces of all runs together may hold: 3.5 million are 9 MiB of the report.
@@ -34,7 +35,7 @@ struct PooledResult {
 struct Validation {
   std::vector<RunResult> runs;
   std::vector<PooledResult> pooled;  ///< in the order of the options; of the runs that the calibration did not know
-  double reference_lag_s = 0;        ///< of the runs, the median
+  double reference_lag_s = 0;        ///< of the runs that show it, the median
   bool reference_lag_applied = false;
   std::string requirements_file;    ///< empty: nothing was asked
   std::vector<JudgedLimit> limits;  ///< in the file's order

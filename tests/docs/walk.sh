@@ -17,3 +17,8 @@ sh -eux "$folder/commands.sh"
 # Reports and figures that were written are whole.
 for page in $(find . -name '*.html' -not -path './examples/*'); do grep -q '</html>' "$page"; done
 for file in $(find . -name '*.json' -not -path './examples/*'); do /usr/bin/python3 -m json.tool "$file" >/dev/null; done
+# The limits that a walk writes are met.
+for file in $(find . -name 'metrics.json' -not -path './examples/*'); do
+  /usr/bin/python3 -c 'import json, sys
+for limit in json.load(open(sys.argv[1])).get("requirements", {}).get("limits", []): assert limit["met"], limit' "$file"
+done

@@ -207,6 +207,40 @@ TEST_F(Validate, AppliesTheMetersLagToTheEstimateOnRequest) {
   EXPECT_LT(largest(true), 0.01);
 }
 
+/// What a meter with a lag of 0.05 s shows of strokes between two flows; `own_L_min`: what the flow itself is off by,
+/// to and fro, which the sensor does not see.
+std::string strokes(double own_L_min) {
+  std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n";
+  double meter_L_min = 60 * std::sqrt(10.0 / 50);
+  for (int k = 0; k < 20000; ++k) {
+    const bool high = k / 1000 % 2 == 1;
+    const double flow = 60 * std::sqrt((high ? 30.0 : 10.0) / 50) + ((k / 150) % 2 == 0 ? own_L_min : -own_L_min);
+    meter_L_min += (1 - std::exp(-1e-3 / 0.05)) * (flow - meter_L_min);
+    text += number(k * 1e-3) + (high ? ",2.0,1," : ",1.0,1,") + number(meter_L_min) + "\n";
+  }
+  return text;
+}
+
+TEST_F(Validate, ARunThatDoesNotShowItsMetersLagTakesThatOfTheOtherRuns) {
+  const fs::path clear = write("clear.csv", strokes(0)), unclear = write("unclear.csv", strokes(3));
+  const RunResult alone = run({unclear}).runs.front();
+  EXPECT_EQ(alone.reference_meter.source, MeterSource::none);
+  EXPECT_EQ(alone.reference_meter.meter.lag_s, 0);
+  for (const std::vector<fs::path>& order : {std::vector{clear, unclear}, std::vector{unclear, clear}}) {
+    const Validation both = run(order);
+    const std::size_t k = order.front() == unclear ? 0 : 1;
+    const RunResult& beside = both.runs[k];
+    EXPECT_EQ(beside.name, "unclear");
+    EXPECT_EQ(both.runs[1 - k].reference_meter.source, MeterSource::this_run);
+    EXPECT_EQ(beside.reference_meter.source, MeterSource::other_runs);
+    EXPECT_NEAR(beside.reference_meter.meter.lag_s, 0.05, 0.002);
+    EXPECT_EQ(both.reference_lag_s, beside.reference_meter.meter.lag_s);
+    const auto rms = [](const RunResult& of) { return of.results.front().metrics->all.error.rms; };
+    EXPECT_LT(rms(beside), 0.8 * rms(alone));
+    EXPECT_GT(rms(beside), rms(both.runs[1 - k]));
+  }
+}
+
 TEST_F(Validate, SaysThatARunWasAlreadyUsedForTheCalibration) {
   const fs::path file = write("run.csv", "time_s,current_A,position_mm,flow_reference_L_min\n0,1.5,1,30\n");
   EXPECT_FALSE(run({file}).runs.front().calibrated_with);

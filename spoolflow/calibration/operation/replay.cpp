@@ -54,7 +54,7 @@ std::vector<OperatingRun> with_meters(const sensor::ObserverParameters<double>& 
       flow_m3_per_s.push_back(sample.shown.flow);
       reference_m3_per_s.push_back(sample.reference_m3_per_s);
     });
-    run.meter = numerics::find_meter_lag(time_s, flow_m3_per_s, reference_m3_per_s);
+    run.meter = numerics::find_meter_lag(time_s, flow_m3_per_s, reference_m3_per_s).value_or(numerics::MeterLag{});
   }
   return runs;
 }

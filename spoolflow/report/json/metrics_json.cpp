@@ -14,6 +14,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const char* source_name(validation::MeterSource source) {
+  switch (source) {
+    case validation::MeterSource::given:
+      return "given";
+    case validation::MeterSource::this_run:
+      return "this_run";
+    case validation::MeterSource::other_runs:
+      return "other_runs";
+    case validation::MeterSource::none:
+      break;
+  }
+  return "none";
+}
+
 class MetricsJson {
  public:
   explicit MetricsJson(double full_scale_m3_per_s) : percent_(100 / full_scale_m3_per_s) {}
@@ -173,8 +187,9 @@ Json MetricsJson::run(const validation::RunResult& run) const {
   Json out{{"file", run.file},
            {"sha256", run.sha256},
            {"samples", run.samples},
-           {"reference_lag_s", run.reference_meter.lag_s},
-           {"reference_dead_time_s", run.reference_meter.dead_time_s},
+           {"reference_lag_s", run.reference_meter.meter.lag_s},
+           {"reference_dead_time_s", run.reference_meter.meter.dead_time_s},
+           {"reference_lag_source", source_name(run.reference_meter.source)},
            {"duration_s", run.duration_s},
            {"missing_values", run.missing_values},
            {"duplicate_times", run.duplicate_times},
@@ -182,9 +197,9 @@ Json MetricsJson::run(const validation::RunResult& run) const {
            {"has_reference", run.has_reference},
            {"also_calibrated_with", run.calibrated_with},
            {"estimators", Json::array()}};
-  if (run.reference_meter_uncertainty) {
-    out["reference_lag_uncertainty_s"] = run.reference_meter_uncertainty->lag_s;
-    out["reference_dead_time_uncertainty_s"] = run.reference_meter_uncertainty->dead_time_s;
+  if (const auto& uncertainty = run.reference_meter.uncertainty) {
+    out["reference_lag_uncertainty_s"] = uncertainty->lag_s;
+    out["reference_dead_time_uncertainty_s"] = uncertainty->dead_time_s;
   }
   for (const validation::EstimatorResult& result : run.results) out["estimators"].push_back(estimator(result));
   if (run.step_response) out["step_response"] = steps(*run.step_response);

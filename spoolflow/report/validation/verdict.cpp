@@ -298,10 +298,14 @@ Verdict verdict(const model::Model& model, const validation::Validation& validat
 
 std::string reference_meter_text(const validation::RunResult& run) {
   const auto ms = [](double time_s) { return fixed(1e3 * time_s, 1); };
-  const numerics::MeterLag& meter = run.reference_meter;
-  if (!run.reference_meter_uncertainty)
-    return fmt::format("{} ms after {} ms of dead time", ms(meter.lag_s), ms(meter.dead_time_s));
-  const numerics::MeterLag& width = *run.reference_meter_uncertainty;
+  const auto& [meter, uncertainty, source] = run.reference_meter;
+  if (source == validation::MeterSource::none) return "not shown by the run, and counted as 0";
+  if (!uncertainty) {
+    return fmt::format(
+        "{} ms after {} ms of dead time{}", ms(meter.lag_s), ms(meter.dead_time_s),
+        source == validation::MeterSource::other_runs ? " as in the other runs, since this one shows none" : "");
+  }
+  const numerics::MeterLag& width = *uncertainty;
   return fmt::format("{} \u00b1 {} ms after {} \u00b1 {} ms of dead time", ms(meter.lag_s), ms(width.lag_s),
                      ms(meter.dead_time_s), ms(width.dead_time_s));
 }

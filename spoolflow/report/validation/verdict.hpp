@@ -17,8 +17,8 @@ struct Verdict {
 /// The same of a model alone: what was calibrated and how well the maps hold.
 [[nodiscard]] Verdict calibration_verdict(const model::Model& model);
 
-/// Lag and dead time of a run's reference meter, with their 95 % uncertainty where they were found from the run: "29 ±
-/// 2 ms after 0 ± 1 ms of dead time".
+/// Lag and dead time of a run's reference meter, with their 95 % uncertainty where the run shows them: "29 ± 2 ms after
+/// 0 ± 1 ms of dead time"; and where they are from, if not from the run or the user.
 [[nodiscard]] std::string reference_meter_text(const validation::RunResult& run);
 
 }  // namespace spoolflow::report
