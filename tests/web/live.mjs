@@ -4,7 +4,7 @@ import { spawn, spawnSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, afterEach, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
 
 const command = process.env.SPOOLFLOW_COMMAND, examples = process.env.SPOOLFLOW_EXAMPLES;
@@ -40,12 +40,17 @@ function start(site, ...more) {
   });
 }
 
-function ended(child) {
+/** Resolves when it has ended, by itself or by a signal, before this call or after. */
+function exited(child) {
   return new Promise((resolve) => {
-    if (child.exitCode !== null) resolve();
+    if (child.exitCode !== null || child.signalCode !== null) resolve();
     else child.on('exit', resolve);
-    child.kill('SIGTERM');
   });
+}
+
+function ended(child) {
+  child.kill('SIGTERM');
+  return exited(child);
 }
 
 /** Datagrams of the recording, as often as they are asked for; ends by itself. */
@@ -104,6 +109,11 @@ after(async () => {
   rmSync(folder, { recursive: true });
 });
 
+// Pages that stay open go on drawing, and slow down the tests that follow.
+afterEach(async () => {
+  for (const context of browser?.contexts() ?? []) await context.close();
+});
+
 /** A page of its own; what its console says and whom it asks besides the program is collected. */
 async function opened(hash = '#/', { width = 1280, height = 900, colorScheme = 'light', url = served.url, own = [] } = {}) {
   const context = await browser.newContext({ colorScheme, viewport: { width, height }, ignoreHTTPSErrors: true });
@@ -143,7 +153,7 @@ test('the overview shows every valve with flow, band, sign and what is worst', a
   await page.fill('input[type=search]', 'press');
   assert.equal(await page.locator('.card').count(), 2);
   assert.deepEqual(complaints, []);
-  await new Promise((resolve) => sender.on('exit', resolve));
+  await exited(sender);
 });
 
 test('alarms are raised, acknowledged by a button, and stay acknowledged over a new start', async () => {
