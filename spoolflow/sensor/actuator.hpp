@@ -1,5 +1,6 @@
 #pragma once
-/// The solenoid as a force sensor: coil current, coil voltage and spool position give the magnetic force.
+/// The solenoid as a force sensor: coil current and spool position give the magnetic force. The coil voltage serves the
+/// coil's diagnosis and does not enter the force.
 #include <type_traits>
 
 #include "spoolflow/sensor/coil.hpp"
@@ -63,16 +64,18 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
   return larger(left, T(0)) * actuator.coercive_current_A;
 }
 
-/// What the voltage tells of the coil, from the same sample as the step before it; a NaN or a coil whose resistance was
-/// never calibrated tells nothing. Every sample counts in the mean; the resistance is followed where there is time for
-/// it.
+/// Diagnosis of the coil by its voltage, from the same sample as the step before it; a NaN or a coil whose resistance
+/// was never calibrated says nothing. Every sample counts in the mean. The rest is done in the first sample that is not
+/// `busy` with other things, at least `period_s` after the last time.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                  const Sample<T>& sample, T largest_current_A, Mask<T> has_time) {
+                                                  const Sample<T>& sample, T largest_current_A, T period_s,
+                                                  Mask<T> busy) {
   average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
-  in_valves(has_time && is_number(sample.voltage_V), state, [&] {
+  const Mask<T> due = !busy && state.coil_resistance.waits_s > period_s - T(0.5) * sample.time_step_s;
+  in_valves(due && is_number(sample.voltage_V), state, [&] {
     const CoilResistance<T>& coil = actuator.coil_resistance;
-    follow_resistance(coil, state.coil_resistance, sample.time_step_s);
+    follow_resistance(coil, state.coil_resistance);
     judge_answer(coil, state.coil_resistance, T(unanswered_voltage_share) * largest_current_A * coil.resistance_Ohm);
   });
 }

@@ -47,6 +47,7 @@ struct CoilResistanceState {
   T resistance_Ohm{};
   T variance_Ohm2{};
   CoilEquation<T> mean{};
+  T waits_s{};            ///< samples with a voltage since the filter's last step
   Mask<T> implausible{};  ///< known well, and not what copper can have
   Mask<T> unanswered{};   ///< there is voltage, and no current to go with it: the current is none to believe
 };
@@ -59,6 +60,7 @@ template <class T>
 [[gnu::always_inline]] constexpr void average(CoilResistanceState<T>& state, const CoilEquation<T>& sample,
                                               T time_step_s) {
   in_valves(is_number(sample.voltage_V), state, [&] {
+    state.waits_s += time_step_s;
     const T share = smaller(time_step_s * T(1 / coil_averaging_s), T(1));
     state.mean.current_A += share * (sample.current_A - state.mean.current_A);
     state.mean.voltage_V += share * (sample.voltage_V - state.mean.voltage_V);
@@ -66,22 +68,24 @@ template <class T>
   });
 }
 
-/// One step of the Kalman filter, which may be left out for some samples. Informative where current flows, whether
-/// steady or not; a coil whose resistance was never calibrated leaves the estimate alone. A sample is no more than its
-/// time step of evidence, so that it does not matter that the next mean is much alike.
+/// One step of the Kalman filter for all samples since its last one: the resistance drifts for as long as they last,
+/// and they are so much evidence and no more, so that it does not matter that the next mean is much alike. Informative
+/// where current flows, whether steady or not; a coil whose resistance was never calibrated leaves the estimate alone.
 template <class T>
-constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state, T time_step_s) {
-  in_valves(coil.resistance_Ohm > T(0) && time_step_s > T(0), state, [&] {
+constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state) {
+  const T since_s = state.waits_s;
+  state.waits_s = T(0);
+  in_valves(coil.resistance_Ohm > T(0) && since_s > T(0), state, [&] {
     const CoilEquation<T>& mean = state.mean;
     const Mask<T> begins = is_zero(state.variance_Ohm2);
     state.resistance_Ohm = select(begins, coil.resistance_Ohm, state.resistance_Ohm);
     state.variance_Ohm2 = select(begins, squared(coil.uncertainty_Ohm), state.variance_Ohm2);
-    state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * time_step_s;
+    state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * since_s;
     const T misfit_V = mean.voltage_V - mean.flux_rate_V - state.resistance_Ohm * mean.current_A;
     const T covariance = state.variance_Ohm2 * mean.current_A;
     const T noise2 = squared(coil.voltage_noise_V_root_s) +
-                     squared(T(flux_rate_error_share) * mean.flux_rate_V) * time_step_s + T(least_voltage_variance_V2s);
-    const T gain = covariance * time_step_s / (covariance * mean.current_A * time_step_s + noise2);
+                     squared(T(flux_rate_error_share) * mean.flux_rate_V) * since_s + T(least_voltage_variance_V2s);
+    const T gain = covariance * since_s / (covariance * mean.current_A * since_s + noise2);
     state.resistance_Ohm += gain * misfit_V;
     state.variance_Ohm2 -= gain * covariance;
     state.implausible = state.variance_Ohm2 < squared(T(known_resistance_share) * coil.resistance_Ohm) &&

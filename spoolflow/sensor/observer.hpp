@@ -125,7 +125,7 @@ template <class T>
   const ActuatorEstimate<T> actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
            begins, Mask<T>(false));
-  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, Mask<T>(true));
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, T(0), Mask<T>(false));
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -158,8 +158,7 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                      const Sample<T>& sample, const PositionPoint<T>& position,
-                                                     const Dither<T>& dither, T opposing_N, Mask<T> begins,
-                                                     Mask<T> has_time) {
+                                                     const Dither<T>& dither, T opposing_N, Mask<T> begins) {
   const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -169,26 +168,24 @@ template <class T>
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
   });
   in_valves(position.turn.even, state.pressure, [&] { follow_agreement(state.pressure); });
-  // The coil is slow enough to be followed in those samples that have least else to do.
-  has_time =
-      has_time && !balance.sliding && position.turn.odd && !dither.begins && is_zero(balance.resting.breakaway_N);
-  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, has_time);
+  // Once a block, whatever the spool does.
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, position.block_s, position.turn.busy);
   answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
   state.last.status = status(valve, state, sample, balance);
 }
 
 /// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
-/// solenoid holds against this one's; `has_time` for what may as well be done in another sample.
+/// solenoid holds against this one's.
 template <class T>
 [[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                               const Sample<T>& sample, const PositionPoint<T>& position,
-                                              const Dither<T>& dither, T opposing_N, Mask<T> begins, Mask<T> has_time) {
+                                              const Dither<T>& dither, T opposing_N, Mask<T> begins) {
   const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
   const auto doubt = [&](ObserverState<T> & of) __attribute__((always_inline)) {
     answer_in_doubt(of, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N, begins);
   };
   const auto believe_forces = [&](ObserverState<T> & of) __attribute__((always_inline)) {
-    observe_forces(valve, of, sample, position, dither, opposing_N, begins, has_time);
+    observe_forces(valve, of, sample, position, dither, opposing_N, begins);
   };
   if constexpr (one_valve<T>) {
     if (unlikely(doubtful)) {
@@ -269,7 +266,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
   detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_odd);
-  detail::observe(valve, state, sample, position, dither, T(0), begins, Mask<T>(true));
+  detail::observe(valve, state, sample, position, dither, T(0), begins);
   detail::admit_other_direction(valve, state, position.position_m);
   if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);
   return state.last;

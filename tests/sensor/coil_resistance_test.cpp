@@ -29,7 +29,7 @@ constexpr double sampled_every_s = 1e-3;
 /// One sample, in the mean and in the filter.
 void follow(CoilResistanceState<double>& state, const CoilEquation<double>& sample) {
   average(state, sample, sampled_every_s);
-  follow_resistance(coil, state, sampled_every_s);
+  follow_resistance(coil, state);
 }
 
 /// Ten seconds at 1 ms and 0.8 A of a coil that has `resistance_Ohm`.
@@ -73,7 +73,7 @@ TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsToldPoorly) {
       const double current_A = 0.8 + 0.25 * std::sin(angle);
       const double flux_rate_V = 12 * std::cos(angle);
       average(state, {current_A, 10 * current_A + flux_rate_V, 0.7 * flux_rate_V}, sampled_every_s);
-      if (n % 5 == 0) follow_resistance(coil, state, sampled_every_s);
+      if (n % 5 == 0) follow_resistance(coil, state);
     }
     EXPECT_FALSE(state.implausible) << phase;
     EXPECT_NEAR(state.resistance_Ohm, 10, 0.5) << phase;
@@ -114,15 +114,31 @@ TEST(CoilResistance, AVoltageThatAFluxAnswersIsNoFault) {
   EXPECT_TRUE(state.unanswered);
 }
 
+TEST(CoilResistance, GrowsAsUncertainAndLearnsAsMuchHoweverSeldomItIsFollowed) {
+  ActuatorParameters<double> actuator{};
+  actuator.coil_resistance = coil;
+  for (const double current_A : {0.0, 0.05}) {
+    const Sample<double> sample{sampled_every_s, current_A, 11 * current_A, 1e-3, 320.0};
+    const auto followed_every = [&](int samples) {
+      ActuatorState<double> state{};
+      for (int n = 1; n <= 10000; ++n) follow_coil(actuator, state, sample, 2.0, 0.0, n % samples != 0);
+      return state.coil_resistance;
+    };
+    const auto always = followed_every(1), seldom = followed_every(20);
+    EXPECT_NEAR(seldom.variance_Ohm2, always.variance_Ohm2, 0.01 * always.variance_Ohm2) << current_A;
+    EXPECT_NEAR(seldom.resistance_Ohm, always.resistance_Ohm, 0.01) << current_A;
+  }
+}
+
 TEST(CoilResistance, OfACoilWithoutVoltageIsLeftAlone) {
   ActuatorParameters<double> actuator{};
   actuator.coil_resistance = coil;
   ActuatorState<double> state{};
   Sample<double> sample{sampled_every_s, 0.8, std::numeric_limits<double>::quiet_NaN(), 1e-3, 320.0};
-  follow_coil(actuator, state, sample, 2.0, true);
+  follow_coil(actuator, state, sample, 2.0, 0.0, false);
   EXPECT_EQ(state.coil_resistance.variance_Ohm2, 0);
   sample.voltage_V = 8;
-  follow_coil(actuator, state, sample, 2.0, true);
+  follow_coil(actuator, state, sample, 2.0, 0.0, false);
   EXPECT_GT(state.coil_resistance.variance_Ohm2, 0);
 }
 

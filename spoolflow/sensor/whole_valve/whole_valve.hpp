@@ -159,20 +159,18 @@ constexpr void believe_measured(const ObserverParameters<T>& valve, PressureStat
   sensor::believe_measured(pressure, limited(drops.forcing_Pa(), T(0), valve.edge.highest_pressure_difference_Pa()));
 }
 
-/// The observer of the open side, with measured port pressures where they are. A pack of valves has none. As long as
-/// the idle solenoid is at work, too, the other's resistance is not followed.
+/// The observer of the open side, with measured port pressures where they are. A pack of valves has none.
 template <class T>
 [[gnu::always_inline]] constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
                                                    const WholeValveSample<T>& sample, const Sample<T>& own,
                                                    const PositionPoint<T>& position, const Dither<T>& dither,
                                                    Mask<T> opens_a, Mask<T> begins) {
-  const Mask<T> idle_rests = state.idle.quiet_s > T(idle_settling_s);
   bool ports_measured = false;
   if constexpr (one_valve<T>) {
     ports_measured = measured(sample.ports);
     if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
   }
-  observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins, idle_rests);
+  observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
   if constexpr (one_valve<T>) {
     if (ports_measured) {
       const PathDrops<T> drops = path_drops(sample.ports, opens_a);
