@@ -77,6 +77,26 @@ TEST(CppFolder, ServesFirmwareInC) {
   }
 }
 
+TEST(CppFolder, SaysInCThatNothingIsKnownBeforeTheFirstSample) {
+  for (const model::Model& model : {example_model(), whole_example_model(), without_observer()}) {
+    const ExportedFolder folder(model);
+    folder.write("before.c", R"(#include "valve_sensor.h"
+int main(void) {
+  static valve_sensor_state state;
+  valve_sensor_answer answer;
+  valve_sensor_init(&state);
+  valve_sensor_answer_of(&state, &answer);
+  if ((valve_sensor_status(&state) & VALVE_SENSOR_FAULT_BITS) == 0U || answer.status != valve_sensor_status(&state)) return 1;
+  return answer.flow_lower_m3_per_s <= -1.0F && answer.flow_upper_m3_per_s >= 1.0F ? 0 : 2;
+}
+)");
+    EXPECT_EQ(folder.run("g++" + std::string(strict) +
+                         "-fno-exceptions -fno-rtti -c valve_sensor.cpp && cc -std=c99 -I. "
+                         "before.c valve_sensor.o -lm -o before && ./before"),
+              0);
+  }
+}
+
 template <class State>
 bool begins_with_zeros() {
   static const State state{};

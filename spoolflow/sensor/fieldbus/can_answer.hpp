@@ -127,9 +127,17 @@ inline std::uint16_t canopen_status_word(const FlowAnswer& answer) {
   return is_told && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
 }
 
-/// TPDO 1 of a node (1 to 127), 180h + node: status word, flow, lower and upper end of its band, little endian.
+/// The identifier of a frame for a node that CANopen does not have: reserved, and of the lowest priority.
+inline constexpr std::uint32_t canopen_no_node_id = 0x7FFU;
+
+/// TPDO 1 of a node (1 to 127), 180h + node: status word, flow, lower and upper end of its band, little endian. Any
+/// other node would be another message's identifier: its frame is empty, and has `canopen_no_node_id`.
 inline CanFrame process_data_frame(const FlowAnswer& answer, std::uint8_t node) {
   CanFrame out;
+  if (node < 1U || node > 127U) {
+    out.id = canopen_no_node_id;
+    return out;
+  }
   out.id = 0x180U + node;
   out.size = 8;
   const std::array<std::uint16_t, 4> words{

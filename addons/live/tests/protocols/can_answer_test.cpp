@@ -1,5 +1,6 @@
 #include "spoolflow/sensor/fieldbus/can_answer.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -74,6 +75,15 @@ TEST(ProcessData, IsHeldAtFaultAndTellsNoFlowThatIsNotKnown) {
   FlowAnswer unknown = answer(0.5F);
   unknown.is_known = false;
   EXPECT_THAT(process_data_frame(unknown, 1).data, ElementsAre(0x03, 0, 0, 0x80, 0, 0x80, 0, 0x80));
+}
+
+TEST(ProcessData, OfANodeThatCanopenDoesNotHaveIsAnEmptyFrameOfNoOtherMessage) {
+  for (const std::uint8_t node : std::array<std::uint8_t, 3>{0, 128, 255}) {
+    const CanFrame frame = process_data_frame(answer(0.5F), node);
+    EXPECT_EQ(frame.id, canopen_no_node_id) << int{node};
+    EXPECT_EQ(frame.size, 0) << int{node};
+  }
+  EXPECT_EQ(process_data_frame(answer(0.5F), 127).id, 0x1FFU);
 }
 
 }  // namespace
