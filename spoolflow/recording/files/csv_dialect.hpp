@@ -1,6 +1,8 @@
 #pragma once
 /// How a CSV file is written: told from its first lines.
+#include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,10 +27,36 @@ struct CsvDialect {
 /// needs of a stream whose rows are still to come.
 [[nodiscard]] bool header_is_whole(std::string_view beginning);
 
-/// The decimal sign, comma or point, of the numbers in these whole lines; nothing where all are integers.
-/// `wanted`: the columns to look at.
-[[nodiscard]] std::optional<char> decimal_sign(std::string_view lines, char delimiter,
-                                               const std::vector<std::size_t>& wanted);
+/// A cell that looks as if its mark groups thousands.
+struct GroupedCell {
+  std::size_t column;
+  std::string text;
+};
+
+/// The decimal sign of a file, comma or point, from the cells of its first lines.
+class DecimalSign {
+ public:
+  explicit DecimalSign(const std::vector<std::size_t>& wanted) {
+    for (const std::size_t column : wanted) columns_[column];
+  }
+  /// Whole lines that come after those looked at before.
+  void look_at(std::string_view lines, char delimiter);
+  /// Nothing where all numbers so far are whole.
+  [[nodiscard]] std::optional<char> found() const;
+  /// The first cell of a column in which that sign only ever stands before groups of three digits, beside whole numbers
+  /// of up to three digits: 951 and 1,088. Whether that is 1088 or 1.088 cannot be known.
+  [[nodiscard]] std::optional<GroupedCell> grouped() const;
+
+ private:
+  static constexpr std::size_t enough = 64;
+  /// What a column's cells say of one mark.
+  struct Cells {
+    std::size_t whole = 0, grouped = 0, decimal = 0;
+    std::string first{};  ///< of the grouped ones
+  };
+  std::array<std::size_t, 2> marked_{};  ///< cells with a point, with a comma
+  std::map<std::size_t, std::array<Cells, 2>> columns_{};
+};
 
 /// Takes the next cell off a line (quotes removed from cells that begin and end with one); `line` is empty after the
 /// last cell, and `last` tells it from an empty cell that follows.

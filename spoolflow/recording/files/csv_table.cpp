@@ -69,6 +69,7 @@ void CsvTable::select(const std::vector<std::size_t>& columns) {
   chosen_ = columns;
   text_cells_.assign(columns.size(), 0);
   midnights_.assign(columns.size(), {});
+  sign_ = DecimalSign(columns);
   slot_of_column_.assign(dialect_.columns.size(), -1);
   for (std::size_t slot = 0; slot < columns.size(); ++slot) {
     slot_of_column_[columns[slot]] = static_cast<std::ptrdiff_t>(slot);
@@ -106,10 +107,21 @@ void CsvTable::look_at_new_bytes() {
   const std::string_view lines = fresh.substr(0, lines_end_ - cursor_);
   quotes_ = lines.find('"') != std::string_view::npos;
   if (point_known_ || chosen_.empty()) return;
-  if (const auto sign = recording::decimal_sign(lines, dialect_.delimiter, chosen_)) {
-    point_ = *sign;
-    point_known_ = true;
-  }
+  sign_.look_at(lines, dialect_.delimiter);
+  const std::optional<char> sign = sign_.found();
+  if (!sign) return;
+  point_ = *sign;
+  point_known_ = true;
+  if (const std::optional<GroupedCell> cell = sign_.grouped()) refuse_grouping(*cell);
+}
+
+void CsvTable::refuse_grouping(const GroupedCell& cell) const {
+  const std::string name = dialect_.columns[cell.column].name;
+  throw RecordingError(
+      fmt::format("{}, column '{}': '{}' stands beside whole numbers without '{}', so '{}' seems to group thousands, "
+                  "and its numbers "
+                  "cannot be told from decimals; write numbers without marks for thousands, such as 1088",
+                  input_->name(), name, shortened(cell.text), point_, point_));
 }
 
 bool CsvTable::refill() {

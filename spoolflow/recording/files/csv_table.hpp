@@ -47,6 +47,7 @@ class CsvTable final : public SampleTable {
   double past_midnight(double time_s, std::size_t slot);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
   [[noreturn]] void refuse_length(std::size_t cells) const;
+  [[noreturn]] void refuse_grouping(const GroupedCell& cell) const;
 
   /// One chosen column: how many cells to step over from the end of the one before.
   struct Step {
@@ -61,6 +62,7 @@ class CsvTable final : public SampleTable {
   CsvDialect dialect_;
   char point_ = '.';
   bool point_known_ = false;
+  DecimalSign sign_{{}};
   bool infinite_passes_ = false;
   bool quotes_ = false;  ///< a quote in the buffer: every row is read carefully
   std::vector<std::size_t> chosen_;

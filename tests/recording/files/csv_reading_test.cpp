@@ -10,6 +10,7 @@
 namespace spoolflow::recording {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -251,6 +252,21 @@ TEST(CsvReading, DoesNotStumbleOverLatin1DegreeSigns) {
     const Recording run = read(std::string("time_s;") + header + "\n0;50,0\n", oil);
     EXPECT_NEAR(run[Channel::oil_temperature][0], 323.15, 1e-9) << header;
   }
+}
+
+TEST(CsvReading, RefusesMarksThatGroupThousandsBesideNumbersWithout) {
+  EXPECT_THAT(refused("time_ms;position_um\n0;951\n1;996\n2;1.000\n"),
+              AllOf(HasSubstr("column 'position_um': '1.000'"), HasSubstr("group thousands")));
+  EXPECT_THAT(refused("time_ms,position_um\n0,951\n1,996\n2,\"1,088\"\n"), HasSubstr("'1,088'"));
+  EXPECT_THAT(refused("time_ms;position_um\n998;951\n999;996\n1.000;997\n"), HasSubstr("column 'time_ms': '1.000'"));
+}
+
+TEST(CsvReading, TakesThreeDecimalsForDecimalsWhereNothingSpeaksForThousands) {
+  EXPECT_DOUBLE_EQ(read("time_ms;position_mm\n0;1,088\n1;1,100\n", position_over_time)[Channel::position][0], 1.088e-3);
+  EXPECT_DOUBLE_EQ(read("time_ms;position_mm\n0;0\n1;1.088\n2;1.1\n", position_over_time)[Channel::position][1],
+                   1.088e-3);
+  EXPECT_DOUBLE_EQ(read("time_ms;position_mm\n0;1\n1;2\n2;2.125\n3;0.5\n", position_over_time)[Channel::position][2],
+                   2.125e-3);
 }
 
 TEST(CsvReading, RefusesZeroBytesWhereverTheyStand) {
