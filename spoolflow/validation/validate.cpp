@@ -67,10 +67,10 @@ void add_doubts(RunResult& result, std::span<const RunName> before, const std::v
 }
 
 /// Judges runs, each once and in any order.
-class Judge {
+class RunJudge {
  public:
-  Judge(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
-        const ValidationOptions& options)
+  RunJudge(const model::Model& model, const std::vector<std::filesystem::path>& recordings,
+           const ValidationOptions& options)
       : model_(model),
         options_(options),
         known_(consistency::known_valve(model)),
@@ -154,7 +154,7 @@ Validation validate(const model::Model& model, const std::vector<std::filesystem
     for (const std::filesystem::path& recording : recordings) runs.push_back(run_name(recording));
     check_names(*options.requirements, runs, options.estimators);
   }
-  Judge judge(model, recordings, options);
+  RunJudge judge(model, recordings, options);
   std::vector<numerics::MeterLag> shown;
   std::vector<std::pair<std::size_t, RunSamples>> without_meter;
   const auto total = static_cast<double>(recordings.size());
