@@ -10,6 +10,7 @@
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/consistency/campaign_doubts.hpp"
+#include "spoolflow/consistency/channel_doubts.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
 
 namespace spoolflow::calibration {
@@ -73,7 +74,9 @@ std::vector<std::string> doubts_about(const ReadCampaign& recordings, const reco
   const bool equal_flows = campaign.load.area_ratio == 1;  // else the joined path is not the working one
   const Recordings runs = equal_flows ? recordings.through_centre() : Recordings{};
   std::vector<consistency::KnownValve> paths;
-  for (const std::string& direction : recordings.directions()) {
+  keep(consistency::channel_doubts(recordings.all()));
+  const std::vector<std::string> directions = refused.empty() ? recordings.directions() : std::vector<std::string>{};
+  for (const std::string& direction : directions) {
     const CampaignRecordings of = recordings.of(direction);
     const AxialForceMaps& maps = of.axial_force_maps;
     if (!maps.joined.empty()) {

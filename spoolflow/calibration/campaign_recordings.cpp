@@ -57,6 +57,12 @@ Recordings ReadCampaign::through_centre() const {
   return out;
 }
 
+Recordings ReadCampaign::all() const {
+  Recordings out;
+  for (const Loaded& loaded : loaded_) out.push_back(&loaded.recording);
+  return out;
+}
+
 AxialForceMaps ReadCampaign::axial_force_maps(const std::string& direction) const {
   AxialForceMaps out;
   const recording::PathEdges edges = recording::edges_of(direction);

@@ -39,6 +39,7 @@ class ReadCampaign {
   [[nodiscard]] CampaignRecordings of(const std::string& direction) const;
   /// Operating runs of the whole valve, with the currents of both coils.
   [[nodiscard]] Recordings through_centre() const;
+  [[nodiscard]] Recordings all() const;
 
  private:
   struct Loaded {

@@ -25,7 +25,15 @@ inline constexpr double position_step_noises = 4;     ///< steps of a position s
 inline constexpr double hottest_usual_oil_K = 353;    ///< machines cool it at 70 degC
 inline constexpr double coldest_oil_K = 233;          ///< no hydraulic oil flows
 inline constexpr double usual_distance_K = 20;        ///< of a run's oil from what its valve was calibrated at
-inline constexpr double surely = 1.5;                 ///< times a limit: no valve does that
+inline constexpr double frozen_share = 0.4;           ///< of a recording: a channel that repeats one value for so long
+inline constexpr double frozen_beside_share = 0.3;    ///< of its range: so far goes meanwhile what moves that channel
+inline constexpr double shortest_frozen_oil_s = 30;   ///< a thermometer of 0.1 K shows a change within it
+inline constexpr double shortest_round_oil_s = 180;   ///< one of 0.5 K or 1 K does
+inline constexpr double fewest_oil_changes = 20;      ///< that the campaign's thermometer shows in such a time
+inline constexpr double one_signal_correlation = 0.98;  ///< of both coils; sound runs have -0.9 to -0.8
+inline constexpr double signed_current_share = 0.1;     ///< of the largest current
+inline constexpr double signed_blocks_share = 0.05;     ///< of a run on either side of zero
+inline constexpr double surely = 1.5;                   ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 
 }  // namespace spoolflow::consistency

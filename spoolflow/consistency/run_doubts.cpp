@@ -11,6 +11,8 @@
 
 #include "spoolflow/consistency/bench_relations.hpp"
 #include "spoolflow/consistency/block_means.hpp"
+#include "spoolflow/consistency/coil_currents.hpp"
+#include "spoolflow/consistency/frozen_channel.hpp"
 #include "spoolflow/consistency/oil_temperature.hpp"
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
@@ -261,10 +263,14 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
                                       run.gaps().longest_from_s)});
   }
   RunTrial trial(valve, run.means(file));
-  if (const std::string dead = dead_channel(trial.run, trial.stroke_m()); !dead.empty()) {
+  for (const std::string& dead :
+       {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run), frozen_channel(trial.run)}) {
+    if (dead.empty()) continue;
     out.push_back({true, fmt::format("{}: {}", name, dead)});
     return out;
   }
+  if (const std::string oil = frozen_oil_temperature_alone(trial.run); !oil.empty())
+    out.push_back({false, fmt::format("{}: {}", name, oil)});
   if (const std::string oil = temperature_in_another_unit(trial.run, valve.front().oil_temperature_K); !oil.empty())
     out.push_back({false, fmt::format("{}: {}", name, oil)});
   const std::optional<SlipDoubt> slip = slip_doubt(trial);

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "spoolflow/consistency/campaign_doubts.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -26,6 +27,11 @@ struct RigBenches {
       if (file.starts_with("axial_force_map")) out.axial_force_maps.push_back(&recording);
       if (file.starts_with("ramp")) out.operation.push_back(&recording);
     }
+    return out;
+  }
+  [[nodiscard]] std::vector<const recording::Recording*> all() const {
+    std::vector<const recording::Recording*> out;
+    for (const auto& [file, recording] : recordings) out.push_back(&recording);
     return out;
   }
 };

@@ -6,9 +6,11 @@
 #include <random>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/consistency/limits.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "tests/consistency/doubt_texts.hpp"
 #include "tests/consistency/rig_benches.hpp"
@@ -199,6 +201,58 @@ TEST(RunDoubts, NameAPositionThatIsRecordedMoreCoarselyThanOnTheBench) {
   for (double& position_m : rounded.column(Channel::position)) position_m = 1e-5 * std::round(position_m / 1e-5);
   EXPECT_THAT(all_texts(doubts_about(known, means_of(rounded), "rounded.csv")),
               testing::HasSubstr("rounded.csv: position comes in steps of 10 um"));
+}
+
+TEST(RunDoubts, NameAChannelThatIsFrozenForHalfARun) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  for (const Channel channel :
+       {Channel::position, Channel::current, Channel::voltage, Channel::flow_reference, Channel::pressure_difference}) {
+    for (const double from : {0.0, 0.25, 0.5}) {
+      recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+      freeze_half(run.column(channel), from);
+      EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "run.csv")),
+                  testing::HasSubstr(fmt::format("run.csv: {} is frozen at", recording::name(channel))))
+          << "from " << from << " of the run";
+    }
+  }
+}
+
+TEST(RunDoubts, AreNoneOfASpoolThatRestsAtItsStopWhereItsPositionIsRecordedCoarsely) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  for (double& position_m : run.column(Channel::position)) position_m = 5e-5 * std::round(position_m / 5e-5);
+  // The first second, in which the spool rests and the current rises, takes half of the run.
+  std::size_t opens = 0;
+  while (run.column(Channel::position)[opens] == 0) ++opens;
+  const recording::Recording beginning = clip(run, 0, 2 * opens);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(beginning), "run.csv")),
+              testing::Not(testing::HasSubstr("is frozen")));
+}
+
+TEST(RunDoubts, NameAnOilTemperatureThatNeverChangesButNotOneOfWholeDegreesInAShortRun) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches())};
+  const auto said = [&](double temperature_K) {
+    recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+    run.column(Channel::oil_temperature).assign(run.size(), temperature_K);
+    return all_texts(doubts_about(known, means_of(run), "run.csv"));
+  };
+  const std::vector<double>& time_s = valve.recordings.at("ramp_60bar.csv").column(Channel::time);
+  ASSERT_GT(time_s.back(), shortest_frozen_oil_s);
+  ASSERT_LT(time_s.back(), shortest_round_oil_s);
+  EXPECT_THAT(said(323.03), testing::HasSubstr("run.csv: oil_temperature is 49.88 degC to the last digit"));
+  EXPECT_THAT(said(323.15), testing::IsEmpty());
+}
+
+TEST(RunDoubts, NameOneSignedCurrentInTheColumnsOfBothCoils) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> known{known_valve(valve.benches()), known_valve(valve.benches())};
+  recording::Recording run = valve.recordings.at("ramp_60bar.csv");
+  run.column(Channel::current_a) = run.column(Channel::current_b) = run.column(Channel::current);
+  EXPECT_THAT(all_texts(doubts_about(known, means_of(run), "run.csv")),
+              testing::HasSubstr("run.csv: current_a and current_b go together"));
 }
 
 }  // namespace
