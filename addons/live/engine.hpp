@@ -72,6 +72,8 @@ class Engine {
   void note(const std::string& text);
   /// Before the start: who tells of the program's own events beside the page, such as at standard error.
   void tell_by(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+  /// Before the start: which clocks it goes by; without it the machine's.
+  void go_by(std::function<Instant()> clock) { clock_ = std::move(clock); }
   [[nodiscard]] const SiteSettings& site() const { return site_; }
   /// How what goes out beside the page fares, and where it is counted.
   [[nodiscard]] Outputs& outputs() { return outputs_; }
@@ -103,6 +105,7 @@ class Engine {
   void begin_to_publish();
   void keep(bool with_indicators);
   void look_after_store(std::int64_t now_ms);
+  void follow_clock();
   void report(std::int64_t now_ms, std::vector<ValveCommit>& commits, const std::vector<Event>& events,
               const std::vector<Alarm>& alarms) const;
   void forget_covered();
@@ -126,6 +129,9 @@ class Engine {
   StoreView store_view_;
   std::string mended_;  ///< told once the store has all again that was known
   std::function<void(const std::string&)> tell_;
+  std::function<Instant()> clock_ = instant;
+  std::int64_t kept_before_ms_ = 0;  ///< by the system's clock, the newest row before the start; 0: there is none
+  std::optional<Instant> clock_before_{};
   std::jthread keeper_;
 };
 

@@ -37,7 +37,7 @@ TEST_F(Outbox, KeepsBlocksUntilTheyAreCovered) {
   std::vector<live::Event> events;
   for (int k = 0; k < 3; ++k) {
     at->work(second(k));
-    store.commit(1000 * k, {at->take_commit(false)}, events);
+    store.commit({1000 * k, 1000 * k}, {at->take_commit(false)}, events);
   }
   ASSERT_EQ(store.positions().size(), 1U);
   EXPECT_EQ(store.positions()[0].number, 12U);
@@ -80,7 +80,7 @@ TEST_F(Outbox, GivesUpTheOldestBeyondItsSize) {
   commit.state.valve = "v";
   commit.outbox_session = 1;
   for (std::uint64_t k = 1; k <= 3000; ++k) commit.blocks.push_back({k, std::vector<std::uint8_t>(1000)});
-  store.commit(0, {commit}, events);
+  store.commit({0, 0}, {commit}, events);
   EXPECT_EQ(store.drop_oldest_blocks(10), 0);
   EXPECT_EQ(store.drop_oldest_blocks(2.5), 1000);
   live::Database reader = live::open_store_to_read(path("site.sqlite"));

@@ -1,5 +1,7 @@
 #include "addons/live/history/alarm_table.hpp"
 
+#include <fmt/format.h>
+
 namespace spoolflow::live {
 
 void make_alarm_tables(Database& database) {
@@ -7,21 +9,21 @@ void make_alarm_tables(Database& database) {
 CREATE TABLE IF NOT EXISTS alarm(
   id INTEGER PRIMARY KEY, valve TEXT NOT NULL, cause TEXT NOT NULL, sign TEXT NOT NULL, raised_ms INTEGER NOT NULL,
   gone_ms INTEGER NOT NULL, acknowledged_ms INTEGER NOT NULL, acknowledged_by TEXT NOT NULL, times INTEGER NOT NULL,
-  time_s REAL, text TEXT NOT NULL, recording INTEGER NOT NULL);
+  time_s REAL, text TEXT NOT NULL, recording INTEGER NOT NULL, run_ms INTEGER NOT NULL DEFAULT 0);
 CREATE TABLE IF NOT EXISTS alarm_indicator(
   alarm INTEGER NOT NULL, place INTEGER NOT NULL, name TEXT NOT NULL, value REAL, uncertainty_95 REAL, baseline REAL,
   state TEXT NOT NULL, unit TEXT NOT NULL, PRIMARY KEY(alarm, place)) WITHOUT ROWID;
 )");
 }
 
-void keep_alarms(Database& database, const std::vector<Alarm>& alarms) {
+void keep_alarms(Database& database, const std::vector<Alarm>& alarms, std::int64_t run_ms) {
   if (alarms.empty()) return;
-  Statement alarm(database, "INSERT OR REPLACE INTO alarm VALUES(?,?,?,?,?,?,?,?,?,?,?,?)");
+  Statement alarm(database, "INSERT OR REPLACE INTO alarm VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)");
   Statement indicator(database, "INSERT OR REPLACE INTO alarm_indicator VALUES(?,?,?,?,?,?,?,?)");
   for (const Alarm& one : alarms) {
     alarm.put(one.id).put(std::string_view(one.valve)).put(std::string_view(one.cause)).put(std::string_view(one.sign));
     alarm.put(one.raised_ms).put(one.gone_ms).put(one.acknowledged_ms).put(std::string_view(one.acknowledged_by));
-    alarm.put(one.times).put(one.time_s).put(std::string_view(one.text)).put(one.recording).run();
+    alarm.put(one.times).put(one.time_s).put(std::string_view(one.text)).put(one.recording).put(run_ms).run();
     for (std::size_t k = 0; k < one.indicators.size(); ++k) {
       const KeptIndicator& then = one.indicators[k];
       indicator.put(one.id).put(static_cast<std::int64_t>(k)).put(std::string_view(then.name)).put(then.value);
@@ -65,16 +67,12 @@ std::vector<Alarm> kept_alarms(Database& database, int most_cleared) {
   return out;
 }
 
-void delete_alarms(Database& database, std::int64_t before_ms) {
-  Statement(database,
-            "DELETE FROM alarm_indicator WHERE alarm IN (SELECT id FROM alarm WHERE gone_ms <> 0 AND acknowledged_ms "
-            "<> 0 AND max(gone_ms, acknowledged_ms) < ?)")
-      .put(before_ms)
+void delete_alarms(Database& database, std::int64_t before_run_ms) {
+  const char* const which = "gone_ms <> 0 AND acknowledged_ms <> 0 AND run_ms < ?";
+  Statement(database, fmt::format("DELETE FROM alarm_indicator WHERE alarm IN (SELECT id FROM alarm WHERE {})", which))
+      .put(before_run_ms)
       .run();
-  Statement(database,
-            "DELETE FROM alarm WHERE gone_ms <> 0 AND acknowledged_ms <> 0 AND max(gone_ms, acknowledged_ms) < ?")
-      .put(before_ms)
-      .run();
+  Statement(database, fmt::format("DELETE FROM alarm WHERE {}", which)).put(before_run_ms).run();
 }
 
 }  // namespace spoolflow::live

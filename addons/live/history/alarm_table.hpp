@@ -36,11 +36,11 @@ struct Alarm {
 
 /// Where there is none yet; files of programs that knew no alarms get it, too.
 void make_alarm_tables(Database& database);
-/// In the transaction of the caller; an alarm that is there already is replaced.
-void keep_alarms(Database& database, const std::vector<Alarm>& alarms);
+/// In the transaction of the caller, at that run time; an alarm that is there already is replaced.
+void keep_alarms(Database& database, const std::vector<Alarm>& alarms, std::int64_t run_ms);
 /// Those that are not gone and acknowledged, and of the others the newest; ascending by id.
 [[nodiscard]] std::vector<Alarm> kept_alarms(Database& database, int most_cleared);
-/// Those that were gone and acknowledged before then.
-void delete_alarms(Database& database, std::int64_t before_ms);
+/// Those that are gone and acknowledged and have not changed since that run time.
+void delete_alarms(Database& database, std::int64_t before_run_ms);
 
 }  // namespace spoolflow::live

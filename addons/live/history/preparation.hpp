@@ -6,8 +6,9 @@
 
 namespace spoolflow::live {
 
-/// Grows with the tables; files of another version are refused.
-inline constexpr int store_version = 2;
+/// Grows with the tables. Files of version 2 are read as they are and, where a program works on them, made into ones of
+/// this version in place; others are refused.
+inline constexpr int store_version = 3, oldest_store_version = 2;
 
 /// A lock beside the file, held as long as the descriptor is open; SQLite's own locks let several programs write by
 /// turns. Throws StoreError where another program holds it.
@@ -16,7 +17,8 @@ inline constexpr int store_version = 2;
 /// Throws StoreError where the file is of another program or version.
 void check_version(Database& database);
 
-/// Makes the tables where there are none, else checks version and, unless it is large, content. Throws StoreError.
+/// Makes the tables where there are none or older ones, checks version and, unless it is large, content. Throws
+/// StoreError.
 void prepare(Database& database);
 
 }  // namespace spoolflow::live

@@ -1,6 +1,7 @@
 #include "addons/live/history/store.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <unistd.h>
@@ -14,8 +15,9 @@
 namespace spoolflow::live {
 namespace {
 
-/// Rows move to the table of each valve's after so many commits.
+/// Rows move to the table of each valve's after so many commits, and where there is a gap longer than this.
 constexpr int rows_move_every = 60;
+constexpr std::int64_t longest_gap_ms = 60'000;
 /// A state of more bytes is none that a valve has.
 constexpr std::int64_t largest_state = 16 << 20;
 
@@ -40,12 +42,13 @@ struct Store::Statements {
   std::map<std::string, std::int64_t> numbers;  ///< of valves
   std::map<std::int64_t, OlderState> states;    ///< as written since the program began
   StateChanges changes;                         ///< against the older states in the file
-  int rows_moved_before = 0;                    ///< commits
+  int rows_moved_before = rows_move_every;      ///< commits; those of the program before go at once
 
   explicit Statements(Database& database)
-      : second(database, "INSERT OR REPLACE INTO newest_second VALUES(?,?,?,?,?,?,?,?,?,?,?)"),
-        indicator(database, "INSERT OR REPLACE INTO indicator VALUES(?,?,?,?,?,?,?)"),
-        event(database, "INSERT INTO event(wall_ms,valve,time_s,kind,text,acknowledged_ms) VALUES(?,?,?,?,?,?)"),
+      : second(database, "INSERT INTO newest_second VALUES(?,?,?,?,?,?,?,?,?,?,?,?)"),
+        indicator(database, "INSERT INTO indicator VALUES(?,?,?,?,?,?,?,?)"),
+        event(database,
+              "INSERT INTO event(wall_ms,valve,time_s,kind,text,acknowledged_ms,run_ms) VALUES(?,?,?,?,?,?,?)"),
         state(database, "INSERT OR REPLACE INTO state VALUES(?,?,?,?,?)"),
         state_change(database, "INSERT OR REPLACE INTO state_change VALUES(1,?)"),
         older_state(database, "INSERT OR REPLACE INTO older_state VALUES(?,?,?,?)"),
@@ -76,6 +79,7 @@ void Store::open() {
   prepare(*opened);
   if (on_disk_) opened->run("PRAGMA synchronous=FULL");
   statements_ = std::make_unique<Statements>(*opened);
+  run_time_.emplace(*opened);
   database_ = std::move(opened);
   watch_.emplace(*database_);
 }
@@ -84,6 +88,7 @@ void Store::close() {
   if (database_) database_->leave_log();
   statements_.reset();
   database_.reset();
+  run_time_.reset();
   watch_.reset();
 }
 
@@ -131,11 +136,12 @@ std::int64_t Store::number_of(const std::string& valve) {
   return statements_->numbers[valve] = database_->number("SELECT last_insert_rowid()");
 }
 
-void Store::put_row(std::int64_t valve, std::int64_t wall_ms, const Summary& row) {
+void Store::put_row(std::int64_t valve, const RowTime& at, const Summary& row) {
   Statement& to = statements_->second;
-  to.put(valve).put(wall_ms).put(row.time_s).put(row.samples);
+  to.put(valve).put(at.wall_ms).put(row.time_s).put(row.samples);
   to.put(row.flow_min_m3_per_s).put(row.flow_mean_m3_per_s).put(row.flow_max_m3_per_s);
-  to.put(row.lower_min_m3_per_s).put(row.upper_max_m3_per_s).put(row.energy_J).put(std::int64_t{row.status}).run();
+  to.put(row.lower_min_m3_per_s).put(row.upper_max_m3_per_s).put(row.energy_J).put(std::int64_t{row.status});
+  to.put(at.run_ms).run();
 }
 
 /// The change against the older state; that one anew once all that was written beyond the smallest change is more than
@@ -162,49 +168,55 @@ void Store::put_state(std::int64_t valve, const KeptState& state) {
 }
 
 void Store::move_rows() {
-  database_->run(
-      "INSERT OR REPLACE INTO second_of_valve SELECT * FROM newest_second ORDER BY valve, wall_ms; "
-      "DELETE FROM newest_second");
+  live::move_rows(*database_);
   statements_->rows_moved_before = 0;
 }
 
-void Store::commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+void Store::commit_all(const RowTime& at, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
                        const std::vector<Alarm>& alarms) {
   Transaction whole(*database_);
   Statements& to = *statements_;
-  bool any = false;
+  const RowTime& before = run_time_->newest();
+  const bool is_apart =
+      std::abs(at.wall_ms - before.wall_ms) > longest_gap_ms || at.run_ms - before.run_ms > longest_gap_ms;
+  if (to.rows_moved_before++ >= rows_move_every || is_apart) move_rows();
+  bool any = false, has_rows = false, has_indicators = false;
   for (const ValveCommit& valve : valves) {
     const std::int64_t number = number_of(valve.state.valve);
     keep_blocks(*database_, {valve.state.valve, valve.outbox_session}, valve.blocks);
-    if (valve.since_last.samples > 0) put_row(number, wall_ms, valve.since_last);
+    if (valve.since_last.samples > 0) put_row(number, at, valve.since_last);
+    has_rows = has_rows || valve.since_last.samples > 0;
+    has_indicators = has_indicators || !valve.indicators.empty();
     for (const KeptIndicator& one : valve.indicators) {
-      to.indicator.put(number).put(wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
-      to.indicator.put(one.baseline).put(std::string_view(one.state)).run();
+      to.indicator.put(number).put(at.wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
+      to.indicator.put(one.baseline).put(std::string_view(one.state)).put(at.run_ms).run();
     }
     if (valve.since_last.samples == 0 && valve.indicators.empty() && !needs_states_) continue;  // nothing has changed
     put_state(number, valve.state);
     any = true;
   }
+  if (has_indicators && !has_rows) keep_stretch(*database_, at);
   for (Event& event : events) {
     if (event.id != 0) continue;
     to.event.put(event.wall_ms).put(std::string_view(event.valve)).put(event.time_s).put(std::string_view(event.kind));
-    to.event.put(std::string_view(event.text)).put(event.acknowledged_ms).run();
+    to.event.put(std::string_view(event.text)).put(event.acknowledged_ms).put(at.run_ms).run();
     event.id = database_->number("SELECT last_insert_rowid()");
   }
-  keep_alarms(*database_, alarms);
+  keep_alarms(*database_, alarms, at.run_ms);
   if (any) {
     const std::vector<std::byte> all = joined(to.changes);
     to.state_change.put(std::span(all)).run();
   }
-  if (++to.rows_moved_before >= rows_move_every) move_rows();
   whole.commit();
 }
 
-void Store::commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+void Store::commit(const Instant& now, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
                    const std::vector<Alarm>& alarms) {
   (void)open_one();
   try {
-    commit_all(wall_ms, valves, events, alarms);
+    const RowTime at = run_time_->next(*database_, now);
+    commit_all(at, valves, events, alarms);
+    run_time_->kept(at, now);
     needs_states_ = false;
   } catch (const std::exception& error) {
     damaged_ = damaged_ || dynamic_cast<const StoreDamage*>(&error) != nullptr;
@@ -221,9 +233,9 @@ void Store::cover(const std::vector<OutboxPosition>& covered) {
 }
 
 std::int64_t Store::keep_recording(const KeptRecording& recording) {
-  Statement add(open_one(), "INSERT INTO recording(wall_ms,valve,why,csv) VALUES(?,?,?,?)");
+  Statement add(open_one(), "INSERT INTO recording(wall_ms,valve,why,csv,run_ms) VALUES(?,?,?,?,?)");
   add.put(recording.wall_ms).put(std::string_view(recording.valve)).put(std::string_view(recording.why));
-  add.put(std::as_bytes(std::span(recording.csv))).run();
+  add.put(std::as_bytes(std::span(recording.csv))).put(newest().run_ms).run();
   return database_->number("SELECT last_insert_rowid()");
 }
 
@@ -240,50 +252,13 @@ std::vector<Event> Store::events(int most) {
   return out;
 }
 
-void Store::retain(std::int64_t wall_ms, const Retention& retention) {
+void Store::retain(const Retention& retention) {
   {
     Transaction whole(open_one());
     move_rows();
     whole.commit();
   }
-  const auto delete_before = [&](std::int64_t oldest_ms) {
-    Transaction whole(*database_);
-    // By the tables' own keys: each valve's rows are in order of time.
-    Statement seconds(*database_, "DELETE FROM second_of_valve WHERE valve = ? AND wall_ms < ?");
-    for (const auto& entry : statements_->numbers) seconds.put(entry.second).put(oldest_ms).run();
-    Statement indicators(*database_, "DELETE FROM indicator WHERE valve = ? AND wall_ms < ?");
-    for (const auto& entry : statements_->numbers) indicators.put(entry.second).put(oldest_ms).run();
-    Statement(*database_, "DELETE FROM recording WHERE wall_ms < ?").put(oldest_ms).run();
-    Statement(*database_, "DELETE FROM event WHERE wall_ms < ?").put(oldest_ms).run();
-    delete_alarms(*database_, oldest_ms);
-    whole.commit();
-  };
-  delete_before(wall_ms - static_cast<std::int64_t>(retention.days * 86400e3));
-  const auto used_MB = [&] {
-    const std::int64_t pages = database_->number("PRAGMA page_count") - database_->number("PRAGMA freelist_count");
-    return 1e-6 * static_cast<double>(pages) * static_cast<double>(database_->number("PRAGMA page_size"));
-  };
-  const auto extreme = [&](const char* which) {  // of the rows' times; by the table's key, valve by valve
-    std::optional<std::int64_t> out;
-    Statement one(*database_, fmt::format("SELECT {}(wall_ms) FROM second_of_valve WHERE valve = ?", which));
-    for (const auto& entry : statements_->numbers) {
-      one.put(entry.second);
-      if (!one.next()) continue;
-      const std::int64_t time_ms = one.integer(0);
-      while (one.next()) {
-      }
-      if (time_ms == 0) continue;  // no rows
-      const bool smallest = std::string_view(which) == "min";
-      out = !out ? time_ms : smallest ? std::min(*out, time_ms) : std::max(*out, time_ms);
-    }
-    return out.value_or(0);
-  };
-  constexpr int most_rounds = 20;  // the next time comes in a minute
-  for (int round = 0; round < most_rounds && used_MB() > retention.largest_MB; ++round) {
-    const std::int64_t oldest_ms = extreme("min"), newest_ms = extreme("max");
-    if (oldest_ms >= newest_ms) return;
-    delete_before(oldest_ms + std::max<std::int64_t>(1, (newest_ms - oldest_ms) / 20));
-  }
+  delete_old(*database_, retention, newest().run_ms);
 }
 
 Database open_store_to_read(const std::string& path) {

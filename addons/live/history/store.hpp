@@ -16,6 +16,8 @@
 #include "addons/live/history/alarm_table.hpp"
 #include "addons/live/history/file_watch.hpp"
 #include "addons/live/history/outbox_table.hpp"
+#include "addons/live/history/retention.hpp"
+#include "addons/live/history/run_time.hpp"
 #include "addons/live/history/sqlite.hpp"
 
 namespace spoolflow::live {
@@ -58,11 +60,6 @@ struct Event {
   std::int64_t acknowledged_ms = 0;  ///< 0: not yet
 };
 
-struct Retention {
-  double days = 30;
-  double largest_MB = 2000;
-};
-
 /// Raw samples around an alarm.
 struct KeptRecording {
   std::int64_t id = 0;  ///< ascending; given by the store
@@ -98,8 +95,10 @@ class Store {
 
   [[nodiscard]] std::vector<KeptState> states();
   /// One transaction. Throws StoreError, and then nothing of it is kept.
-  void commit(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+  void commit(const Instant& now, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
               const std::vector<Alarm>& alarms = {});
+  /// Of the newest row; 0 where there is none.
+  [[nodiscard]] RowTime newest() const { return run_time_ ? run_time_->newest() : RowTime{}; }
   [[nodiscard]] std::vector<OutboxPosition> positions() { return outbox_positions(*database_); }
   [[nodiscard]] std::uint64_t session(std::int64_t wall_ms) { return outbox_session(*database_, wall_ms); }
   /// Each commit waits for the disk from now on: a block whose number was given away must not be forgotten.
@@ -114,16 +113,16 @@ class Store {
   [[nodiscard]] std::vector<Alarm> alarms(int most_cleared) { return kept_alarms(*database_, most_cleared); }
   /// Returns its number. Throws StoreError.
   std::int64_t keep_recording(const KeptRecording& recording);
-  /// Deletes what is older or more than that.
-  void retain(std::int64_t wall_ms, const Retention& retention);
+  /// Deletes what is older or more than that, as delete_old(). Throws StoreError.
+  void retain(const Retention& retention);
 
  private:
   struct Statements;
   std::int64_t number_of(const std::string& valve);
-  void put_row(std::int64_t valve, std::int64_t wall_ms, const Summary& row);
+  void put_row(std::int64_t valve, const RowTime& at, const Summary& row);
   void put_state(std::int64_t valve, const KeptState& state);
   void move_rows();
-  void commit_all(std::int64_t wall_ms, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
+  void commit_all(const RowTime& at, const std::vector<ValveCommit>& valves, std::vector<Event>& events,
                   const std::vector<Alarm>& alarms);
 
   void open();
@@ -141,6 +140,7 @@ class Store {
   bool on_disk_ = false;
   std::unique_ptr<Database> database_;  ///< nothing: it could not be opened anew
   std::unique_ptr<Statements> statements_;
+  std::optional<RunTime> run_time_;
   std::optional<FileWatch> watch_;
   bool damaged_ = false;       ///< a commit met it
   bool needs_states_ = false;  ///< of all valves

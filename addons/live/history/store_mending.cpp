@@ -48,14 +48,19 @@ void Store::keep_on_disk() {
 void Store::keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms) {
   needs_states_ = true;
   Transaction whole(open_one());
-  Statement add(*database_,
-                "INSERT OR IGNORE INTO event(id,wall_ms,valve,time_s,kind,text,acknowledged_ms) VALUES(?,?,?,?,?,?,?)");
+  Statement add(
+      *database_,
+      "INSERT OR IGNORE INTO event(id,wall_ms,valve,time_s,kind,text,acknowledged_ms,run_ms) VALUES(?,?,?,?,?,?,?,?)");
   for (const Event& event : events) {
     if (event.id == 0) continue;  // it comes with the next commit
     add.put(event.id).put(event.wall_ms).put(std::string_view(event.valve)).put(event.time_s);
-    add.put(std::string_view(event.kind)).put(std::string_view(event.text)).put(event.acknowledged_ms).run();
+    add.put(std::string_view(event.kind))
+        .put(std::string_view(event.text))
+        .put(event.acknowledged_ms)
+        .put(newest().run_ms)
+        .run();
   }
-  keep_alarms(*database_, alarms);
+  keep_alarms(*database_, alarms, newest().run_ms);
   whole.commit();
 }
 

@@ -158,7 +158,7 @@ TEST_F(KeptAlarms, SurviveAnEndInEveryState) {
     {
       Store store(path("s.sqlite"));
       std::vector<Event> none;
-      store.commit(1000, {}, none, alarms.take_changed());
+      store.commit({1000, 1000}, {}, none, alarms.take_changed());
     }
     Store store(path("s.sqlite"));
     Alarms again(at_once);
@@ -194,8 +194,13 @@ TEST_F(KeptAlarms, OfLongAgoAreForgottenOnceTheyAreCleared) {
   open.raised_ms = 1000;
   cleared.id = 2;
   cleared.raised_ms = cleared.gone_ms = cleared.acknowledged_ms = 1000;
-  store.commit(1000, {}, none, {open, cleared});
-  store.retain(std::int64_t{86'400'000} * 100, {.days = 30, .largest_MB = 100});
+  constexpr std::int64_t day_ms = 86'400'000;
+  store.commit({1000, 1000}, {}, none, {open, cleared});
+  store.commit({100 * day_ms, 2000}, {}, none);
+  store.retain({.days = 30, .largest_MB = 100});
+  EXPECT_EQ(store.alarms(10).size(), 2U);  // the system's clock alone was set forward
+  store.commit({100 * day_ms, 100 * day_ms}, {}, none);
+  store.retain({.days = 30, .largest_MB = 100});
   ASSERT_EQ(store.alarms(10).size(), 1U);
   EXPECT_EQ(store.alarms(10)[0].id, 1);
 }

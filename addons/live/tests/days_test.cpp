@@ -39,7 +39,7 @@ class Days : public InFolder {
                           .status = 0};
       valve.indicators = {{"friction_ratio", 1 + minute / 1440.0, 0.1, 1, minute < 1380 ? "good" : "raised"},
                           {"edge_rounding", NAN, NAN, 0, "unknown"}};
-      store.commit(begin_ms + minute * minute_ms, {valve}, none);
+      store.commit({begin_ms + minute * minute_ms, minute * minute_ms}, {valve}, none);
     }
   }
 };

@@ -1,6 +1,8 @@
 /// What the engine of a site keeps, takes up again, deletes and tells.
 #include "addons/live/engine.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -152,20 +154,68 @@ TEST_F(EngineTest, WhatIsTooOldIsDeletedWhileItRuns) {
   {
     Store store(kept.store);
     std::vector<Event> none;
-    store.commit(1000, {{.state = {.valve = "t", .layout = "old"}, .since_last = {.samples = 7}, .indicators = {}}},
-                 none);
+    constexpr std::int64_t day_ms = 86'400'000;
+    const ValveCommit old{.state = {.valve = "t", .layout = "old"}, .since_last = {.samples = 7}, .indicators = {}};
+    store.commit({1000, 1000}, {old}, none);
+    store.commit({2000, 1000 + 2 * day_ms}, {old}, none);  // after two days of work
   }
   const auto samples = [&] {
     std::int64_t out = 0;
     read_history(kept.store, "t", 0, std::int64_t{1} << 60, [&](const HistoryRow& row) { out += row.summary.samples; });
     return out;
   };
-  ASSERT_EQ(samples(), 7);
+  ASSERT_EQ(samples(), 14);
   Engine engine(kept, "test");
   engine.start();
   const Sender sender(engine.source(0).port);
   sender.send(engine_header + rows(0, 100));
-  EXPECT_TRUE(comes_true([&] { return samples() == 100; }));  // those of 1970 are gone
+  EXPECT_TRUE(comes_true([&] { return samples() == 107; }));  // those of two days ago are gone
+}
+
+TEST_F(EngineTest, AStepOfTheSystemClockIsAnEventAndTakesNothingFromTheHistory) {
+  constexpr std::int64_t day_ms = 86'400'000, hour_ms = 3'600'000;
+  SiteSettings kept = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
+  kept.store = path("kept.sqlite");
+  const auto told = [](const Engine& engine, const char* text) {
+    return comes_true([&] {
+      const std::vector<Event> all = engine.events();
+      return std::any_of(all.begin(), all.end(),
+                         [&](const Event& one) { return one.text.find(text) != std::string::npos; });
+    });
+  };
+  const auto samples = [&] {
+    std::int64_t out = 0;
+    (void)refusal([&] {  // until the first second is kept it knows no valve
+      read_history(kept.store, "t", 0, std::int64_t{1} << 60,
+                   [&](const HistoryRow& row) { out += row.summary.samples; });
+    });
+    return out;
+  };
+  {
+    std::atomic<std::int64_t> set_ms = 0;
+    Engine engine(kept, "test");
+    engine.go_by([&set_ms] {
+      Instant now = instant();
+      now.wall_ms += set_ms;
+      return now;
+    });
+    engine.start();
+    const Sender sender(engine.source(0).port);
+    sender.send(engine_header + rows(0, 100));
+    ASSERT_TRUE(comes_true([&] { return samples() == 100; }));
+    set_ms = 45 * day_ms;
+    EXPECT_TRUE(told(engine, "set forward by 45.0 days"));
+    sender.send(rows(100, 200));
+    ASSERT_TRUE(comes_true([&] { return samples() == 200; }));
+    set_ms = 45 * day_ms - hour_ms;
+    EXPECT_TRUE(told(engine, "set back by 60.0 min"));
+  }
+  EXPECT_EQ(samples(), 200);
+  Engine again(kept, "test");
+  again.start();
+  EXPECT_TRUE(told(again, "set back by 45.0 days"));  // while no program ran
+  again.stop();
+  EXPECT_EQ(samples(), 200);
 }
 
 TEST_F(EngineTest, ARigValveWorks) {

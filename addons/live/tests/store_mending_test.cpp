@@ -33,7 +33,7 @@ class StoreMending : public InFolder {
   }
   void keep(std::int64_t wall_ms, std::int64_t samples = 1000) {
     std::vector<Event> events{{.wall_ms = wall_ms, .kind = "program", .text = std::to_string(wall_ms)}};
-    store_->commit(wall_ms, {valve(samples)}, events);
+    store_->commit({.wall_ms = wall_ms, .steady_ms = wall_ms}, {valve(samples)}, events);
     known_.push_back(events.front());
   }
   [[nodiscard]] std::vector<std::int64_t> seconds() const {
@@ -122,7 +122,7 @@ TEST_F(StoreMending, AnotherStoreInItsPlaceIsGoneOnInAndTheFirstIsSaved) {
   {
     Store other(path("other.sqlite"));
     std::vector<Event> none;
-    other.commit(500, {valve(10)}, none);
+    other.commit({500, 500}, {valve(10)}, none);
   }
   fs::rename(path("other.sqlite"), path("s.sqlite"));
   mend("another file was put in its place");

@@ -34,7 +34,7 @@ class StoreTest : public InFolder {
   }
   void commit(Store& store, std::int64_t wall_ms, const std::vector<ValveCommit>& valves) {
     std::vector<Event> none;
-    store.commit(wall_ms, valves, none);
+    store.commit({.wall_ms = wall_ms, .steady_ms = wall_ms}, valves, none);
   }
   [[nodiscard]] std::vector<HistoryRow> history(const std::string& valve, std::int64_t from = 0,
                                                 std::int64_t to = std::int64_t{1} << 60) const {
@@ -48,7 +48,7 @@ TEST_F(StoreTest, GivesBackWhatItWasGiven) {
   {
     Store store(path("s.sqlite"));
     std::vector<Event> events{{.wall_ms = 1000, .valve = "a", .time_s = 3, .kind = "condition", .text = "NE 107 M"}};
-    store.commit(1000, {kept("a", 1000, 1e-4), kept("b", 500, 2e-4)}, events);
+    store.commit({1000, 1000}, {kept("a", 1000, 1e-4), kept("b", 500, 2e-4)}, events);
     EXPECT_EQ(events[0].id, 1);
     commit(store, 2000, {kept("a", 2000, 3e-4)});
   }
@@ -144,12 +144,12 @@ TEST_F(StoreTest, NothingIsLostThatADiskWithoutRoomRefused) {
   ValveCommit next = kept("new", 2000, 1e-4);
   next.state.bytes.assign(30'000, std::byte{2});
   std::vector<Event> events{{.wall_ms = 2000, .valve = "new", .time_s = 3, .kind = "condition", .text = "NE 107 M"}};
-  EXPECT_THAT(refusal([&] { store.commit(2000, {valve, next}, events); }), HasSubstr("check the disk"));
+  EXPECT_THAT(refusal([&] { store.commit({2000, 2000}, {valve, next}, events); }), HasSubstr("check the disk"));
   ::setrlimit(RLIMIT_FSIZE, &limit);
   ::signal(SIGXFSZ, before);
   EXPECT_EQ(events[0].id, 0);  // still to be kept
   EXPECT_EQ(store.states().size(), 1U);
-  store.commit(3000, {valve, next}, events);
+  store.commit({3000, 3000}, {valve, next}, events);
   EXPECT_EQ(events[0].id, 1);
   ASSERT_EQ(store.states().size(), 2U);
   EXPECT_EQ(store.states()[1].bytes, next.state.bytes);
@@ -204,22 +204,6 @@ TEST_F(StoreTest, ADamagedFileIsTold) {
   file << std::string(8192, '\x5a');
   file.close();
   EXPECT_THAT(refusal([&] { Store store(path("s.sqlite")); }), HasSubstr("is damaged"));
-}
-
-TEST_F(StoreTest, DeletesWhatIsOldAndWhatIsTooMuch) {
-  Store store(path("s.sqlite"));
-  constexpr std::int64_t day_ms = 86'400'000;
-  for (int day = 0; day < 10; ++day) commit(store, day * day_ms + 1, {kept("a", 1000, 1e-4)});
-  store.retain(9 * day_ms + 1, {.days = 4.5, .largest_MB = 100});
-  EXPECT_EQ(history("a").size(), 5U);
-  for (int second = 0; second < 4000; ++second) {
-    commit(store, 10 * day_ms + 1000 * second, {kept("a", 1000, 1e-4)});
-  }
-  const std::size_t before = history("a").size();
-  store.retain(11 * day_ms, {.days = 100, .largest_MB = 0.2});
-  EXPECT_LT(history("a").size(), before / 2);
-  EXPECT_GT(history("a").size(), 0U);
-  EXPECT_EQ(history("a").back().wall_ms, 10 * day_ms + 3999000);  // the newest stay
 }
 
 TEST_F(StoreTest, HistoryIsReadWhileItIsWritten) {

@@ -1,8 +1,22 @@
 #include "addons/live/valve/event_text.hpp"
 
+#include <cstdlib>
+#include <ctime>
+
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 namespace spoolflow::live {
+namespace {
+
+std::string duration(std::int64_t length_ms) {
+  const double seconds = 1e-3 * static_cast<double>(length_ms);
+  if (seconds < 120) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.1f} min", seconds / 60);
+  return seconds < 172'800 ? fmt::format("{:.1f} h", seconds / 3600) : fmt::format("{:.1f} days", seconds / 86'400);
+}
+
+}  // namespace
 
 Event condition_event(const ValveView& valve, monitor::Ne107 before, std::int64_t wall_ms) {
   std::string causes;
@@ -14,6 +28,14 @@ Event condition_event(const ValveView& valve, monitor::Ne107 before, std::int64_
           .time_s = valve.time_s,
           .kind = "condition",
           .text = fmt::format("NE 107 {} after {}{}", monitor::name(valve.condition), monitor::name(before), causes)};
+}
+
+std::string clock_text(std::int64_t wall_ms, std::int64_t step_ms) {
+  return fmt::format(
+      "the system clock was set {} by {}, to {:%Y-%m-%dT%H:%M:%SZ}; no row is deleted or overwritten for it, and rows "
+      "have the time of day that the clock shows",
+      step_ms > 0 ? "forward" : "back", duration(std::abs(step_ms)),
+      fmt::gmtime(static_cast<std::time_t>(wall_ms / 1000)));
 }
 
 Event alarm_event(const ValveView& valve, const AlarmChange& change, std::int64_t wall_ms) {
