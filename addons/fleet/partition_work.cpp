@@ -46,6 +46,25 @@ void PartitionWork::restore() {
   }
 }
 
+/// From what is kept, after the store has refused what a valve gave: which of its blocks it is for is found out by
+/// committing them one by one, and nothing is made of that one then.
+void PartitionWork::begin_anew(const ValveRefused& why) {
+  const auto found = places_.find(why.valve);
+  if (found == places_.end() || found->second.uncommitted == 0) throw ServerRefuses(why.what());
+  const BlockPlace last = found->second.line.last();
+  if (!suspects_.refused(why.valve, last, found->second.uncommitted, why.what())) {
+    parts_.tell(fmt::format("partition {}: {} stands at block {} until a worker takes the partition again: {}",
+                            claim_.partition, why.valve, last.number, why.what()));
+  }
+  gathered_.clear();
+  places_.clear();
+  to_tell_.clear();
+  set_aside_ = {};
+  puller_.reset();
+  uncommitted_ = 0;
+  restore();
+}
+
 PartitionWork::Place& PartitionWork::place(const std::string& valve) {
   const live::AlarmDelays delays{parts_.shared.raised_after_s, parts_.shared.gone_after_s};
   return places_.try_emplace(valve, valve, parts_.program, delays).first->second;
@@ -103,15 +122,34 @@ bool PartitionWork::fetch() {
   }
 }
 
+/// With the reason and without content where that is wrong: what was sent for good is passed over, not waited for.
+/// Nothing where it is not known whose it is, or where another program or another try may read it.
+std::optional<Block> PartitionWork::whole_block(const Message& message) {
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(message.bytes.data()), message.bytes.size());
+  auto read = read_block(bytes);
+  std::optional<Block> out;
+  std::string_view reason;
+  if (Block* const block = std::get_if<Block>(&read)) {
+    out = std::move(*block);
+  } else {
+    reason = name(std::get<NoBlock>(read));
+    out = read_block_header(bytes);
+    if (out) out->set_aside = reason;
+  }
+  // A site speaks for its own valves alone, which the server sees to by the subject.
+  if (out && (message.subject != block_subject(claim_.partition, site_of(out->valve)) ||
+              partition_of(out->valve) != claim_.partition)) {
+    set_aside_.add(message, &*out, "of a valve that its subject does not carry");
+    return std::nullopt;
+  }
+  if (!reason.empty()) set_aside_.add(message, out ? &*out : nullptr, reason);
+  return out;
+}
+
 void PartitionWork::take(const Message& message) {
   stream_.sequence = message.sequence;
-  auto read = read_block({reinterpret_cast<const std::uint8_t*>(message.bytes.data()), message.bytes.size()});
-  Block* const block = std::get_if<Block>(&read);
-  // A site speaks for its own valves alone, which the server sees to by the subject.
-  if (block == nullptr || message.subject != block_subject(claim_.partition, site_of(block->valve)) ||
-      partition_of(block->valve) != claim_.partition) {
-    return;
-  }
+  std::optional<Block> block = whole_block(message);
+  if (!block || suspects_.stands(block->valve)) return;
   Place& at = place(block->valve);
   if (at.gathered) work();  // whose turn it is depends on the block before
   switch (at.line.turn(*block)) {
@@ -126,12 +164,19 @@ void PartitionWork::take(const Message& message) {
   }
 }
 
-/// False where its model is not there yet; the block is then left as it is.
+/// False where its model is not there yet, or a block before it is to be committed first; it is then left as it is.
 bool PartitionWork::gather(Place& at, Block& block) {
+  if (at.uncommitted > 0 && suspects_.has(block.valve)) return false;  // each by itself
   auto its_model = model(block.model_sha256);
   if (!its_model) {
     ask(block.valve, at, "model " + block.model_sha256);
     return false;
+  }
+  if (const auto reason = suspects_.reason(block.valve, {block.session, block.number})) {
+    set_aside_.add(block, block_subject(claim_.partition, site_of(block.valve)), *reason);
+    block.samples.clear();
+    block.report.reset();
+    block.set_aside = *reason;
   }
   at.gathered = true;
   gathered_.push_back({&at, std::move(block), std::move(*its_model)});
@@ -158,6 +203,7 @@ void PartitionWork::work() {
     samples.reserve(now.size());
     for (const auto& [at, block, its_model] : now) {
       at->gathered = false;
+      ++at->uncommitted;
       if (live::ValveAtWork* const valve = at->line.begin_work(block, its_model))
         turns.push_back({valve, &samples.emplace_back(ValveLine::samples(block))});
     }
@@ -200,7 +246,17 @@ void PartitionWork::commit() {
     rows.push_back(std::move(*one));
   }
   uncommitted_ = 0;
-  if (!rows.empty() || !seen.empty()) store_.commit(rows, seen, stream_);
+  if (!rows.empty() || !seen.empty() || set_aside_.waiting().count > 0) {
+    try {
+      const auto first_seen = store_.commit(rows, seen, set_aside_.waiting(), stream_);
+      for (const std::string& line : set_aside_.committed(claim_.partition, first_seen)) parts_.tell(line);
+    } catch (const ValveRefused& error) {
+      return begin_anew(error);
+    }
+  }
+  for (auto& [valve, at] : places_) {
+    if (std::exchange(at.uncommitted, 0) > 0) suspects_.committed(valve, at.line.last());
+  }
   tell_coverage(false);
 }
 
@@ -225,7 +281,8 @@ void PartitionWork::run(const std::stop_token& stop, const std::function<void()>
     take_models();
     ask_for_missing();
     const Clock::time_point now = Clock::now();
-    if (uncommitted_ < committed_blocks && now - committed_ < commit_every) continue;
+    const bool waits = uncommitted_ < committed_blocks && now - committed_ < commit_every;
+    if (waits && (!suspects_.any() || uncommitted_ == 0)) continue;
     commit();
     if (now - told_ < tell_all_every) continue;
     told_ = now;

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "addons/fleet/models.hpp"
+#include "addons/fleet/set_aside.hpp"
 #include "addons/fleet/settings.hpp"
 #include "addons/fleet/store/partition_store.hpp"
+#include "addons/fleet/suspects.hpp"
 #include "addons/fleet/transport/nats.hpp"
 #include "addons/fleet/valve_line.hpp"
 #include "addons/live/work_together.hpp"
@@ -25,6 +27,7 @@ struct WorkerParts {
   std::string program;  ///< name and version
   Connection& nats;
   Models& models;
+  std::function<void(const std::string&)> tell;  ///< what is worth a line, from any thread
 };
 
 class PartitionWork {
@@ -44,6 +47,7 @@ class PartitionWork {
     std::map<std::pair<std::uint64_t, std::uint64_t>, Block> early{};  ///< by session and number
     Clock::time_point asked{};                                         ///< for what is missing
     bool gathered = false;                                             ///< its next block is
+    std::size_t uncommitted = 0;                                       ///< blocks
   };
   /// A block whose turn has come.
   struct Gathered {
@@ -53,6 +57,8 @@ class PartitionWork {
   };
   Place& place(const std::string& valve);
   void restore();
+  void begin_anew(const ValveRefused& why);
+  [[nodiscard]] std::optional<Block> whole_block(const Message& message);
   void open_stream();
   bool fetch();
   void take(const Message& message);
@@ -75,6 +81,8 @@ class PartitionWork {
   live::WorkTogether together_;
   std::set<std::string> to_tell_;  ///< valves whose coverage their sites should hear
   std::optional<Puller> puller_;
+  SetAside set_aside_;
+  Suspects suspects_;
   int silent_readers_ = 0;  ///< in a row
   Subscription models_;
   StreamPosition stream_;

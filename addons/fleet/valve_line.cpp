@@ -108,6 +108,16 @@ live::ValveAtWork* ValveLine::begin_work(const Block& block, const live::SharedM
   if (block.number > expected) {
     tell(fmt::format("blocks {} to {} are lost: the site could not keep them", expected, block.number - 1), block);
   }
+  if (!block.set_aside.empty())
+    tell(fmt::format("block {} is set aside: it is {}", block.number, block.set_aside), block);
+  if (!block.set_aside.empty() && !work_ && position_.state.layout == of_the_site) {
+    position_.state.session = now.session;
+    position_.state.next = now.number + 1;
+    position_.block = now;
+    position_.wall_ms = block.wall_ms;
+    changed_ = true;
+    return nullptr;
+  }
   if (block.report) {
     if (model.sha256 != position_.model_sha256) rows_.models.push_back({now, model.sha256});
     position_.model_sha256 = model.sha256;

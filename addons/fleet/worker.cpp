@@ -180,7 +180,7 @@ void Worker::begin(const Claim& claim) {
   task->claim = claim;
   task->thread = std::jthread([this, at = task.get()](const std::stop_token& stop) {
     try {
-      PartitionWork({settings_, shared_, program_, *nats_, models_}, at->claim).run(stop, [at] {
+      PartitionWork({settings_, shared_, program_, *nats_, models_, tell_}, at->claim).run(stop, [at] {
         at->moved = Clock::now();
       });
     } catch (const std::exception& error) {

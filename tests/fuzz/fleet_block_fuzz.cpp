@@ -24,6 +24,7 @@ std::vector<std::uint8_t> made_whole(std::span<const std::uint8_t> data) {
   const std::string_view mark("SFBL\1\3", 6);
   std::copy(mark.begin(), mark.end(), bytes.begin());
   const auto body = data.subspan(std::min(data.size(), header_bytes));
+  put(bytes, 38, 0, 2);          // a clock that there is
   put(bytes, 56, bytes[56], 4);  // few samples, as bodies are short
   put(bytes, 60, body.size(), 4);
   put(bytes, 64, 0, 8);

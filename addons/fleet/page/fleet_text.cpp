@@ -185,6 +185,7 @@ std::string partitions_json(const std::vector<PartitionStatus>& partitions) {
                    {"epoch", one.epoch},
                    {"valves", one.valves},
                    {"blocks", one.blocks},
+                   {"set_aside", one.set_aside},
                    {"behind_s", one.valves == 0 ? Json(nullptr) : rounded(one.behind_s, 1)},
                    {"owner", held ? Json(one.owner) : Json(nullptr)}});
   }
@@ -213,6 +214,12 @@ std::string metrics_text(const std::vector<ShownSite>& sites, const std::vector<
       "# HELP spoolflow_fleet_partitions_idle Partitions that no worker holds.\n"
       "# TYPE spoolflow_fleet_partitions_idle gauge\nspoolflow_fleet_partitions_idle {}\n",
       idle);
+  out +=
+      "# HELP spoolflow_fleet_blocks_set_aside_total Blocks of which nothing was made, repeated ones included.\n"
+      "# TYPE spoolflow_fleet_blocks_set_aside_total counter\n";
+  for (const PartitionStatus& one : partitions) {
+    out += fmt::format("spoolflow_fleet_blocks_set_aside_total{{partition=\"{}\"}} {}\n", one.number, one.set_aside);
+  }
   return out;
 }
 

@@ -64,11 +64,14 @@ void status(const fleet::FleetSettings& settings) {
   fleet::Session session(settings.connection, "spoolflow fleet");
   (void)fleet::read_settings(session);
   print("{:>9}  {:>6}  {:>7}  {:>10}  {:>8}  {}\n", "partition", "epoch", "valves", "blocks", "behind_s", "owner");
+  std::int64_t set_aside = 0;
   for (const fleet::PartitionStatus& one : fleet::partition_status(session)) {
+    set_aside += one.set_aside;
     const std::string behind = one.valves == 0 ? "-" : fmt::format("{:.1f}", one.behind_s);
     print("{:>9}  {:>6}  {:>7}  {:>10}  {:>8}  {}\n", one.number, one.epoch, one.valves, one.blocks, behind,
           one.owner.empty() || one.lease_s <= 0 ? "(nobody)" : one.owner);
   }
+  if (set_aside > 0) print("{} blocks are set aside; see the table set_aside\n", set_aside);
   const fleet::JobStatus jobs = fleet::job_status(session);
   print("jobs: {} open, {} running, {} done, {} failed, {} given up; {} files, {:.1f} MB\n", jobs.open, jobs.running,
         jobs.done, jobs.failed, jobs.given_up, jobs.contents, jobs.contents_MB);

@@ -20,6 +20,8 @@ std::int64_t sql(std::uint64_t number) {
 }
 /// A state of more bytes is none that a valve has.
 constexpr std::int64_t largest_state = 16 << 20;
+/// Of each partition, of at most a megabyte each: the newest.
+constexpr std::int64_t most_set_aside = 100;
 
 }  // namespace
 
@@ -30,6 +32,7 @@ std::vector<KeptValve> PartitionStore::read() {
       "JOIN state ON state.valve = valve.number JOIN older_state ON older_state.valve = valve.number "
       "WHERE partition = $1 ORDER BY id",
       Values().put(claim_.partition));
+  states_.clear();
   std::vector<KeptValve> out;
   for (int row = 0; row < rows.size(); ++row) {
     KeptValve kept;
@@ -117,8 +120,9 @@ std::vector<Acknowledgement> PartitionStore::acknowledgements() {
   return out;
 }
 
-void PartitionStore::commit(const std::vector<ValveRows>& valves, const std::vector<Acknowledgement>& taken,
-                            const StreamPosition& stream) {
+std::vector<std::size_t> PartitionStore::commit(const std::vector<ValveRows>& valves,
+                                                const std::vector<Acknowledgement>& taken, const SetAsideBlocks& aside,
+                                                const StreamPosition& stream) {
   FleetTransaction whole(session_);
   // First of all, and with it the row is this transaction's: nobody takes the partition before it has ended.
   const Rows mine = session_.run(
@@ -129,10 +133,14 @@ void PartitionStore::commit(const std::vector<ValveRows>& valves, const std::vec
     throw Fenced(fmt::format("partition {} was taken by another worker", claim_.partition));
   }
   for (const ValveRows& valve : valves) {
-    OlderState& older = known(valve.position.state.valve);
-    put_rows(older.number, valve);
-    put_state(older, valve.position.state);
-    put_position(older.number, valve.position);
+    try {
+      OlderState& older = known(valve.position.state.valve);
+      put_rows(older.number, valve);
+      put_state(older, valve.position.state);
+      put_position(older.number, valve.position);
+    } catch (const ContentRefused& error) {
+      throw ValveRefused(valve.position.state.valve, error.what());
+    }
   }
   for (const Acknowledgement& one : taken) {
     session_.run("UPDATE acknowledgement SET taken_session = $3, taken_block = $4 WHERE valve = $1 AND alarm = $2",
@@ -142,7 +150,38 @@ void PartitionStore::commit(const std::vector<ValveRows>& valves, const std::vec
                      .put(sql(one.taken.session))
                      .put(sql(one.taken.number)));
   }
+  std::vector<std::size_t> first_seen = put_aside(aside);
   whole.commit();
+  return first_seen;
+}
+
+/// A site sends a block again until it is covered: the same bytes are one row.
+std::vector<std::size_t> PartitionStore::put_aside(const SetAsideBlocks& aside) {
+  std::vector<std::size_t> first_seen;
+  if (aside.count == 0) return first_seen;
+  for (std::size_t k = 0; k < aside.kept.size(); ++k) {
+    const SetAsideBlock& one = aside.kept[k];
+    Values values;
+    values.put(claim_.partition).put(sql(one.sequence)).put(std::string_view(one.subject));
+    values.put(std::string_view(one.valve)).put(sql(one.block.session)).put(sql(one.block.number));
+    values.put(std::string_view(one.reason));
+    values.put(std::span(reinterpret_cast<const std::uint8_t*>(one.bytes.data()), one.bytes.size()));
+    const Rows row = session_.run(
+        "INSERT INTO set_aside(partition, sequence, subject, valve, session, block, reason, content, digest) "
+        "VALUES($1, "
+        "$2, $3, $4, $5, $6, $7, $8, sha256($8)) ON CONFLICT(partition, digest) DO UPDATE SET times = set_aside.times "
+        "+ "
+        "1, came_last = now(), sequence = excluded.sequence, reason = excluded.reason RETURNING times",
+        values);
+    if (row.integer(0, 0) == 1) first_seen.push_back(k);
+  }
+  session_.run("UPDATE partition SET set_aside = set_aside + $2 WHERE number = $1",
+               Values().put(claim_.partition).put(aside.count));
+  session_.run(
+      "DELETE FROM set_aside WHERE partition = $1 AND number < (SELECT min(number) FROM (SELECT number FROM set_aside "
+      "WHERE partition = $1 ORDER BY number DESC LIMIT $2) newest)",
+      Values().put(claim_.partition).put(most_set_aside));
+  return first_seen;
 }
 
 void PartitionStore::put_rows(std::int64_t number, const ValveRows& valve) {

@@ -3,6 +3,8 @@
 /// fails where the partition is another's by now.
 #include <map>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "addons/fleet/store/partitions.hpp"
 #include "addons/fleet/store/rows.hpp"
@@ -15,6 +17,12 @@ struct StreamPosition {
   std::uint64_t sequence = 0;
 };
 
+/// The server refuses what a valve's blocks gave, as it would each time: nothing of the transaction is kept.
+struct ValveRefused : std::runtime_error {
+  ValveRefused(std::string name, const std::string& why) : std::runtime_error(why), valve(std::move(name)) {}
+  std::string valve;
+};
+
 class PartitionStore {
  public:
   /// Keeps a reference to the session. Each commit renews the lease by `lease_s`: who commits is alive.
@@ -23,10 +31,11 @@ class PartitionStore {
 
   [[nodiscard]] std::vector<KeptValve> read();
   [[nodiscard]] StreamPosition stream_position();
-  /// One transaction: all of it, or nothing. Throws Fenced, ServerAway or ServerRefuses; begin anew behind any of them,
-  /// as it is not known what is kept.
-  void commit(const std::vector<ValveRows>& valves, const std::vector<Acknowledgement>& taken,
-              const StreamPosition& stream);
+  /// One transaction: all of it, or nothing. Throws Fenced, ServerAway, ServerRefuses or ValveRefused; begin anew, with
+  /// read(), behind any of them, as it is not known what is kept. Returns which of the kept ones set aside are there
+  /// for the first time.
+  std::vector<std::size_t> commit(const std::vector<ValveRows>& valves, const std::vector<Acknowledgement>& taken,
+                                  const SetAsideBlocks& aside, const StreamPosition& stream);
   /// Those of the partition's alarms that no commit has taken.
   [[nodiscard]] std::vector<Acknowledgement> acknowledgements();
 
@@ -46,6 +55,7 @@ class PartitionStore {
   void put_state(OlderState& older, const live::KeptState& state);
   void put_rows(std::int64_t number, const ValveRows& valve);
   void put_alarm(const live::Alarm& alarm);
+  std::vector<std::size_t> put_aside(const SetAsideBlocks& aside);
   void put_position(std::int64_t number, const ValvePosition& position);
   [[nodiscard]] std::vector<live::Alarm> alarms_of(const std::string& valve);
 

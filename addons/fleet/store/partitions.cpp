@@ -71,13 +71,13 @@ std::vector<PartitionStatus> partition_status(Session& session) {
   const Rows rows = session.run(
       "SELECT partition.number, epoch, count(valve.number), coalesce(sum(block), 0), coalesce(owner, ''), "
       "(CASE WHEN lease_until > now() THEN extract(epoch FROM lease_until - now()) ELSE 0 END)::float8, "
-      "extract(epoch FROM now() - max(committed))::float8 "
+      "extract(epoch FROM now() - max(committed))::float8, partition.set_aside "
       "FROM partition LEFT JOIN valve ON valve.partition = partition.number LEFT JOIN coverage ON coverage.valve = "
       "valve.number GROUP BY partition.number ORDER BY partition.number");
   std::vector<PartitionStatus> out;
   for (int row = 0; row < rows.size(); ++row) {
     out.push_back({rows.integer(row, 0), rows.integer(row, 1), rows.integer(row, 2), rows.integer(row, 3),
-                   rows.text(row, 4), rows.real(row, 5), rows.real(row, 6)});
+                   rows.text(row, 4), rows.real(row, 5), rows.real(row, 6), rows.integer(row, 7)});
   }
   return out;
 }

@@ -43,9 +43,10 @@ void leave(Session& session, const std::string& owner);
 
 struct PartitionStatus {
   std::int64_t number, epoch, valves, blocks;
-  std::string owner;  ///< empty: nobody
-  double lease_s;     ///< that is left; <= 0: none
-  double behind_s;    ///< since the last commit of a valve; NaN: none yet
+  std::string owner;       ///< empty: nobody
+  double lease_s;          ///< that is left; <= 0: none
+  double behind_s;         ///< since the last commit of a valve; NaN: none yet
+  std::int64_t set_aside;  ///< blocks of which nothing was made, those that came again included
 };
 [[nodiscard]] std::vector<PartitionStatus> partition_status(Session& session);
 

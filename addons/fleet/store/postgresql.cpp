@@ -201,7 +201,11 @@ void Session::check(pg_result* result, const char* sql) {
   for (const char* passing : {"08", "53", "57", "40", "25006", "25P03", "55P03", "XX"}) {
     if (code.starts_with(passing)) throw ServerAway(fmt::format("PostgreSQL: {}", why));
   }
-  throw ServerRefuses(fmt::format("PostgreSQL: {} ({}, in: {:.60})", why, code, sql));
+  const std::string what = fmt::format("PostgreSQL: {} ({}, in: {:.60})", why, code, sql);
+  for (const char* content : {"22", "23", "54"}) {  // data, a table's rules, a row that is too large
+    if (code.starts_with(content)) throw ContentRefused(what);
+  }
+  throw ServerRefuses(what);
 }
 
 Rows Session::run(const char* sql, const Values& values) {

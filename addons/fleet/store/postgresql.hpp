@@ -24,6 +24,11 @@ struct ServerRefuses : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// It refuses a statement for what it was given: a text, a number, a row that its tables do not take.
+struct ContentRefused : ServerRefuses {
+  using ServerRefuses::ServerRefuses;
+};
+
 /// The parameters of a statement, in their order.
 class Values {
  public:
@@ -69,7 +74,7 @@ class Session {
   Session(const std::string& connection, const std::string& name,
           std::chrono::seconds answers_within = std::chrono::seconds(0));
 
-  /// A statement that was prepared at its first use. Throws ServerAway or ServerRefuses.
+  /// A statement that was prepared at its first use. Throws ServerAway, or ServerRefuses (ContentRefused).
   Rows run(const char* sql, const Values& values = {});
   /// Statements of the program itself, without parameters or rows: of the schema.
   void run_script(const std::string& sql);

@@ -59,6 +59,22 @@ struct Acknowledgement {
   BlockPlace taken{};        ///< behind that block
 };
 
+/// A block of which nothing is made, as it came: for an operator to look at.
+struct SetAsideBlock {
+  std::string subject{};       ///< on which it came, in printable characters
+  std::string valve{};         ///< empty: its header names none
+  BlockPlace block{};          ///< session 0: its header has none
+  std::uint64_t sequence = 0;  ///< in the stream
+  std::string reason{};        ///< continues "the block is"
+  std::string bytes{};
+};
+/// Of one transaction: the first few as they came, and how many there were.
+struct SetAsideBlocks {
+  static constexpr std::size_t most_kept = 32;
+  std::vector<SetAsideBlock> kept{};
+  std::int64_t count = 0;
+};
+
 struct KeptValve {
   ValvePosition position;
   std::vector<live::Alarm> alarms{};  ///< not cleared, and the one with the largest id

@@ -87,6 +87,17 @@ CREATE TABLE job_content(
 CREATE INDEX job_of_content ON job_content(sha256);
 )";
 
+/// What version 4 has beside: blocks of which nothing is made, and how many there were.
+constexpr const char* fourth_version = R"(
+ALTER TABLE partition ADD COLUMN set_aside bigint NOT NULL DEFAULT 0;
+CREATE TABLE set_aside(
+  number bigint GENERATED ALWAYS AS IDENTITY, partition int NOT NULL REFERENCES partition(number), digest bytea NOT NULL,
+  came timestamptz NOT NULL DEFAULT now(), came_last timestamptz NOT NULL DEFAULT now(), times bigint NOT NULL DEFAULT 1,
+  sequence bigint NOT NULL, subject text NOT NULL, valve text NOT NULL, session bigint NOT NULL, block bigint NOT NULL,
+  reason text NOT NULL, content bytea NOT NULL, PRIMARY KEY(partition, digest));
+CREATE INDEX set_aside_newest ON set_aside(partition, number);
+)";
+
 /// Workers read and write rows and change no table; readers read; the page acknowledges as well; who asks for batch
 /// work adds pieces and files, and tells no result.
 constexpr const char* roles = R"(
@@ -104,6 +115,7 @@ GRANT SELECT ON setting TO spoolflow_worker;
 GRANT SELECT, INSERT ON valve, model, model_in_force, second, indicator, event TO spoolflow_worker;
 GRANT SELECT, INSERT, UPDATE ON coverage, alarm, alarm_indicator, state, older_state TO spoolflow_worker;
 GRANT SELECT, UPDATE ON acknowledgement TO spoolflow_worker;
+GRANT SELECT, INSERT, UPDATE, DELETE ON set_aside TO spoolflow_worker;
 GRANT SELECT ON ALL TABLES IN SCHEMA public TO spoolflow_reader, spoolflow_page;
 REVOKE SELECT ON content_chunk FROM spoolflow_reader, spoolflow_page;
 GRANT INSERT ON acknowledgement TO spoolflow_page;
@@ -154,14 +166,16 @@ SchemaWork make_schema(Session& session, const SharedSettings& settings) {
     session.run_script(tables);
     session.run_script(second_version);
     session.run_script(third_version);
+    session.run_script(fourth_version);
     keep_setting(session, "version", static_cast<double>(schema_version));
     keep_setting(session, "partitions", static_cast<double>(settings.partitions));
   }
   const double version = setting(session, "version");
   if (version == 1) session.run_script(second_version);
-  const bool upgraded = version == 1 || version == 2;
+  if (version == 1 || version == 2) session.run_script(third_version);
+  const bool upgraded = version == 1 || version == 2 || version == 3;
   if (upgraded) {
-    session.run_script(third_version);
+    session.run_script(fourth_version);
     keep_setting(session, "version", static_cast<double>(schema_version));
   }
   check_version(session);

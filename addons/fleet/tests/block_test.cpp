@@ -1,5 +1,6 @@
 #include "addons/live/blocks/block.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -151,11 +152,92 @@ TEST(Block, AReportComesBackAsItWasWritten) {
   EXPECT_EQ(write_block(*block), bytes);
 }
 
-TEST(Block, AReportThatADatabaseCouldNotKeepIsRefused) {
-  for (const char* text : {"\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF8\x80\x80\x80\x80", "\xF4\x90\x80\x80"}) {
+NoBlock reason(const std::vector<std::uint8_t>& bytes) {
+  const auto read = read_block(bytes);
+  EXPECT_TRUE(std::holds_alternative<NoBlock>(read));
+  return std::holds_alternative<NoBlock>(read) ? std::get<NoBlock>(read) : NoBlock::no_mark;
+}
+
+TEST(Block, AValveNameThatNoSiteFileTakesIsRefused) {
+  const std::string longest(32, 'a');
+  for (const std::string& valve : {longest + "/" + longest, std::string("H-1_a/v.2-_")}) {
     Block block = reporting();
-    block.report->events[0].text = text;
-    EXPECT_TRUE(std::holds_alternative<NoBlock>(read_block(write_block(block)))) << text;
+    block.valve = valve;
+    EXPECT_TRUE(std::holds_alternative<Block>(read_block(write_block(block)))) << valve;
+  }
+  for (const std::string& valve :
+       {std::string("hall/\xFF"), std::string("hall/\xC3"), std::string("hall/a\0b", 8), std::string("hall/a\nb"),
+        std::string("hall/a b"), std::string("hall/a/b"), std::string("hall"), std::string("/v"), std::string("hall/"),
+        std::string("h.all/v"), std::string("hall/\x1B[31m"), std::string("hall/\xC3\xBC"), longest + "a/v"}) {
+    Block block = reporting();
+    block.valve = valve;
+    EXPECT_EQ(reason(write_block(block)), NoBlock::wrong_name) << valve;
+    EXPECT_FALSE(read_block_header(write_block(block)));
+  }
+}
+
+TEST(Block, ASitesClockBeyondTheCalendarIsRefused) {
+  constexpr std::int64_t year_10000_ms = 253'402'300'800'000;
+  for (const std::int64_t wall_ms : {std::int64_t{-1}, year_10000_ms, std::numeric_limits<std::int64_t>::max(),
+                                     std::numeric_limits<std::int64_t>::min()}) {
+    Block block = reporting();
+    block.wall_ms = wall_ms;
+    EXPECT_EQ(reason(write_block(block)), NoBlock::wrong_number) << wall_ms;
+    block = reporting();
+    block.report->events[0].wall_ms = wall_ms;
+    EXPECT_EQ(reason(write_block(block)), NoBlock::wrong_content) << wall_ms;
+    block = reporting();
+    block.report->alarms[0].gone_ms = wall_ms;
+    EXPECT_EQ(reason(write_block(block)), NoBlock::wrong_content) << wall_ms;
+  }
+}
+
+TEST(Block, TheHeaderOfOneWhoseContentIsWrongIsKnown) {
+  Block block = reporting();
+  block.report->energy_J = none;
+  const std::vector<std::uint8_t> bytes = write_block(block);
+  EXPECT_EQ(reason(bytes), NoBlock::wrong_content);
+  const auto header = read_block_header(bytes);
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->valve, "hall/v");
+  EXPECT_EQ(header->number, 9U);
+  EXPECT_EQ(header->first, 8U);
+  EXPECT_FALSE(header->report);
+}
+
+TEST(Block, AReportIsWrittenAsItCanBeKept) {
+  Block block = reporting();
+  block.report->summary.upper_max_m3_per_s = std::numeric_limits<double>::infinity();
+  block.report->indicators[0].value = -1e300;
+  block.report->events[0].text = "a\tb\xFF" + std::string(5000, 'c');
+  block.report->alarms[0].cause = std::string(255, 'd') + "\xC3\xBC";  // of which a half has no room
+  const auto read = read_block(write_block(block));
+  ASSERT_TRUE(std::holds_alternative<Block>(read)) << name(std::get<NoBlock>(read));
+  const SiteReport& report = *std::get<Block>(read).report;
+  EXPECT_TRUE(std::isnan(report.summary.upper_max_m3_per_s));
+  EXPECT_TRUE(std::isnan(report.indicators[0].value));
+  EXPECT_EQ(report.events[0].text, "a?b?" + std::string(longest_text - 4, 'c'));
+  EXPECT_EQ(report.alarms[0].cause, std::string(255, 'd'));
+}
+
+TEST(Block, AReportThatADatabaseCouldNotKeepIsRefused) {
+  const std::vector<std::uint8_t> sound = write_report(*reporting().report);
+  const std::string_view known = "Ventil";
+  const auto at = std::search(sound.begin(), sound.end(), known.begin(), known.end());
+  ASSERT_NE(at, sound.end());
+  for (const std::string_view text : {"\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF8\x80\x80\x80\x80",
+                                      "\xF4\x90\x80\x80", "\x1B", "\n", "\x7F", "\xC2\x85"}) {
+    std::vector<std::uint8_t> body = sound;
+    std::copy(text.begin(), text.end(), body.begin() + (at - sound.begin()));
+    SiteReport report;
+    EXPECT_FALSE(read_report(body, report)) << text;
+  }
+  for (const double number :
+       {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 2e15}) {
+    std::vector<std::uint8_t> body = sound;
+    std::memcpy(body.data() + sizeof(std::uint64_t), &number, sizeof number);  // the summary's time
+    SiteReport report;
+    EXPECT_FALSE(read_report(body, report)) << number;
   }
   for (const std::int64_t id : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1} << 40U}) {
     Block block = reporting();

@@ -63,7 +63,10 @@ class Page(unittest.TestCase):
         self.assertEqual([valve["id"] for valve in some], ["hall_03/valve_00003"])
         self.assertAlmostEqual(some[0]["flow_L_min"], 60000 * (2e-4 + 1e-4 * 0.1411200), places=3)
         self.assertEqual(self.told("/api/v1/valves?search=%27%20OR%201=1")["valves"], [])
-        self.assertIn(f'spoolflow_fleet_valves{{site="hall_00"}} {VALVES // 20}\n', self.ask("/metrics")[1])
+        self.fleet.postgres.ask("UPDATE partition SET set_aside = 7 WHERE number = 5")
+        metrics = self.ask("/metrics")[1]
+        self.assertIn(f'spoolflow_fleet_valves{{site="hall_00"}} {VALVES // 20}\n', metrics)
+        self.assertIn('spoolflow_fleet_blocks_set_aside_total{partition="5"} 7\n', metrics)
 
     def test_names_the_valves_that_differ_from_their_sisters(self):
         series = self.told("/api/v1/series")["series"]

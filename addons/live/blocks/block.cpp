@@ -37,6 +37,18 @@ void put_hash(std::vector<std::uint8_t>& bytes, const std::string& hexadecimal) 
   }
 }
 
+/// SITE/ID, of the letters that a site's file takes for both.
+bool is_valve_name(std::string_view text) {
+  const auto plain = [](std::string_view part, std::string_view others) {
+    return !part.empty() && part.size() <= longest_valve_name / 2 && std::all_of(part.begin(), part.end(), [&](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+             others.find(c) != std::string_view::npos;
+    });
+  };
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  return plain(text.substr(0, slash), "_-") && plain(text.substr(std::min(slash + 1, text.size())), "_-.");
+}
+
 std::string hash_text(std::span<const std::uint8_t> bytes) {
   std::string out;
   for (const std::uint8_t byte : bytes) {
@@ -77,15 +89,28 @@ std::vector<std::uint8_t> write_block(const Block& block) {
 }
 
 std::string_view name(NoBlock reason) {
-  constexpr std::array<std::string_view, 5> names{"of another length than a block has", "not begun by SFBL",
-                                                  "of another version than 1 and 2", "damaged: its checksum is another",
-                                                  "without sense: its header and its body contradict each other"};
+  constexpr std::array<std::string_view, 7> names{
+      "of another length than a block has",
+      "not begun by SFBL",
+      "of another version than 1 and 2",
+      "damaged: its checksum is another",
+      "of a valve whose name is not SITE/ID, each up to 32 letters, digits, '_' and '-' ('.' in an ID)",
+      "outside its format: a number of its header (clock 1970 to 9999, first number 1 to number, samples to 32768)",
+      "without sense: its content has other lengths than its header says, or texts or numbers that nobody can keep"};
   return names[static_cast<std::size_t>(reason)];
 }
 
 namespace {
 
-/// What the header says, as far as it makes sense.
+/// Where the content of a block lies, and how it is to be read.
+struct Content {
+  ColumnLayout layout{};
+  bool reports = false;
+  std::size_t length = 0;  ///< before it was compressed
+  std::span<const std::uint8_t> frame{};
+};
+
+/// What the header says; false where one of its numbers has no sense.
 bool read_header(std::span<const std::uint8_t> bytes, Block& out, ColumnLayout& layout) {
   layout.channels = little_endian<std::uint16_t>(bytes, 6);
   out.session = little_endian<std::uint64_t>(bytes, 8);
@@ -98,19 +123,17 @@ bool read_header(std::span<const std::uint8_t> bytes, Block& out, ColumnLayout& 
   out.model_sha256 = hash_text(bytes.subspan(hash_at, hash_bytes));
   const auto id = bytes.subspan(header_bytes, bytes[5]);
   out.valve.assign(id.begin(), id.end());
-  constexpr std::uint64_t most = std::uint64_t{1} << 62U;  // SQL's numbers are signed
   constexpr std::int64_t most_period = std::int64_t{1} << 31U;
-  const bool counts = out.first >= 1 && out.first <= out.number && out.number < most && out.session < most;
+  const bool counts =
+      out.first >= 1 && out.first <= out.number && out.number < largest_count && out.session < largest_count;
   const bool times = layout.first_time >= -last_time && layout.first_time <= last_time &&
                      layout.period >= -most_period && layout.period <= most_period;
-  return counts && times && !out.valve.empty() && out.valve.size() <= longest_valve_name &&
-         (layout.channels & ~known_channels) == 0 && layout.samples <= most_samples &&
-         little_endian<std::uint64_t>(bytes, 64) == 0;
+  return counts && times && is_wall_ms(out.wall_ms) && (layout.channels & ~known_channels) == 0 &&
+         layout.samples <= most_samples && little_endian<std::uint64_t>(bytes, 64) == 0;
 }
 
-}  // namespace
-
-std::variant<Block, NoBlock> read_block(std::span<const std::uint8_t> bytes) {
+/// Everything but the content.
+std::optional<NoBlock> open_block(std::span<const std::uint8_t> bytes, Block& out, Content& content) {
   if (bytes.size() < header_bytes + checksum_bytes || bytes.size() > largest_block) return NoBlock::wrong_length;
   if (!std::equal(mark.begin(), mark.end(), bytes.begin())) return NoBlock::no_mark;
   if (bytes[4] != of_samples && bytes[4] != of_a_report) return NoBlock::other_version;
@@ -119,27 +142,43 @@ std::variant<Block, NoBlock> read_block(std::span<const std::uint8_t> bytes) {
   if (body_at > end) return NoBlock::wrong_length;
   if (numerics::crc32(bytes.first(end)) != little_endian<std::uint32_t>(bytes, end)) return NoBlock::wrong_checksum;
 
-  Block out;
-  ColumnLayout layout;
-  if (!read_header(bytes, out, layout)) return NoBlock::no_sense;
-  const std::size_t length = little_endian<std::uint32_t>(bytes, 60);
-  const auto frame = bytes.subspan(body_at, end - body_at);
-  const bool reports = bytes[4] == of_a_report;
-  if (reports && (layout.samples != 0 || layout.channels != 0)) return NoBlock::no_sense;
+  const bool numbers = read_header(bytes, out, content.layout);
+  if (!is_valve_name(out.valve)) return NoBlock::wrong_name;
+  if (!numbers) return NoBlock::wrong_number;
+  content.reports = bytes[4] == of_a_report;
+  content.length = little_endian<std::uint32_t>(bytes, 60);
+  content.frame = bytes.subspan(body_at, end - body_at);
+  return std::nullopt;
+}
+
+bool read_content(const Content& content, Block& out) {
+  const auto& [layout, reports, length, frame] = content;
+  if (reports && (layout.samples != 0 || layout.channels != 0)) return false;
   const std::size_t most = reports ? largest_report : layout.samples * longest_number * (block_channels.size() + 1);
-  if (length > most) return NoBlock::no_sense;
-  if ((length == 0) != frame.empty()) return NoBlock::no_sense;
+  if (length > most || (length == 0) != frame.empty()) return false;
   std::vector<std::uint8_t> body(length);
   if (length > 0) {
-    if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != length) return NoBlock::no_sense;
+    if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != length) return false;
     const std::size_t written = ZSTD_decompress(body.data(), length, frame.data(), frame.size());
-    if (ZSTD_isError(written) != 0 || written != length) return NoBlock::no_sense;
+    if (ZSTD_isError(written) != 0 || written != length) return false;
   }
-  if (reports) {
-    if (!read_report(body, out.report.emplace())) return NoBlock::no_sense;
-    return out;
-  }
-  if (!read_columns(layout, body, out.samples)) return NoBlock::no_sense;
+  return reports ? read_report(body, out.report.emplace()) : read_columns(layout, body, out.samples);
+}
+
+}  // namespace
+
+std::variant<Block, NoBlock> read_block(std::span<const std::uint8_t> bytes) {
+  Block out;
+  Content content;
+  if (const auto wrong = open_block(bytes, out, content)) return *wrong;
+  if (!read_content(content, out)) return NoBlock::wrong_content;
+  return out;
+}
+
+std::optional<Block> read_block_header(std::span<const std::uint8_t> bytes) {
+  Block out;
+  Content content;
+  if (open_block(bytes, out, content)) return std::nullopt;
   return out;
 }
 
