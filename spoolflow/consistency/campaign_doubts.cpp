@@ -9,6 +9,7 @@
 
 #include "spoolflow/consistency/bench_relations.hpp"
 #include "spoolflow/consistency/block_means.hpp"
+#include "spoolflow/consistency/reference_shift.hpp"
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/consistency/valve_curves.hpp"
@@ -71,6 +72,7 @@ class Trial {
   }
 
   [[nodiscard]] double stroke_m() const { return stroke_m_; }
+  [[nodiscard]] const HydraulicCurves& hydraulics() const { return hydraulics_; }
 
   std::vector<Piece> pieces;
   double rated_flow_m3_per_s;
@@ -225,6 +227,19 @@ void add_dead_channels(std::vector<Doubt>& to, const Trial& trial) {
   }
 }
 
+/// Runs whose reference has other times; their references are shifted back.
+void add_reference_shifts(std::vector<Doubt>& to, Trial& trial) {
+  for (auto& [role, means] : trial.pieces) {
+    if (role != Role::operation || !means.has(Channel::flow)) continue;
+    const std::vector<double>& time_s = means.column(Channel::time);
+    std::vector<double>& reference = means.column(Channel::flow);
+    const auto shift = reference_shift(time_s, expected_flow(trial.hydraulics(), means), reference);
+    if (!shift) continue;
+    to.push_back({true, fmt::format("{}: {}", file_of(means), shown(*shift))});
+    reference = values_later(time_s, reference, shift->late_s);
+  }
+}
+
 }  // namespace
 
 std::vector<Doubt> doubts_about(const Benches& benches) {
@@ -235,6 +250,7 @@ std::vector<Doubt> doubts_about(const Benches& benches) {
   add_dead_channels(out, trial);
   if (!out.empty()) return out;
   trial.fit_curves(std::nullopt);
+  add_reference_shifts(out, trial);
   std::vector<Deviation> now = trial.deviations();
   for (int round = 0; round < most_slips; ++round) {
     const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);

@@ -33,6 +33,12 @@ inline constexpr double fewest_oil_changes = 20;      ///< that the campaign's t
 inline constexpr double one_signal_correlation = 0.98;  ///< of both coils; sound runs have -0.9 to -0.8
 inline constexpr double signed_current_share = 0.1;     ///< of the largest current
 inline constexpr double signed_blocks_share = 0.05;     ///< of a run on either side of zero
+inline constexpr double longest_shift_s = 10;           ///< between two recorders that is looked for
+inline constexpr double longest_shift_block_s = 0.5;    ///< coarser blocks show none
+inline constexpr double earliest_meter_s = -0.2;        ///< blocks, and filters of the other channels
+inline constexpr double latest_meter_s = 0.75;          ///< dead time and lag of the slowest meter
+inline constexpr double most_unexplained = 0.25;        ///< RMS over that of the reference, once it is shifted
+inline constexpr double most_shifted_share = 0.5;       ///< of what the best usual meter leaves
 inline constexpr double surely = 1.5;                   ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 

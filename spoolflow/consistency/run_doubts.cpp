@@ -14,6 +14,7 @@
 #include "spoolflow/consistency/coil_currents.hpp"
 #include "spoolflow/consistency/frozen_channel.hpp"
 #include "spoolflow/consistency/oil_temperature.hpp"
+#include "spoolflow/consistency/reference_shift.hpp"
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
@@ -76,6 +77,20 @@ class RunTrial {
         deviation.of += side > 0 ? ", P to B," : ", P to A,";
         out.push_back(std::move(deviation));
       }
+    }
+    return out;
+  }
+  /// What the position makes of the pressure difference, > 0 from P to B of a whole valve.
+  [[nodiscard]] std::vector<double> expected_flow() const {
+    std::vector<double> out = consistency::expected_flow(valve_.front().hydraulics, run);
+    if (!both_) return out;
+    Recording turned{run.file, {}};
+    for (const Channel channel : {Channel::time, Channel::position, Channel::pressure_difference})
+      turned.column(channel) = run.column(channel);
+    for (double& position_m : turned.column(Channel::position)) position_m *= -1;
+    const std::vector<double> of_a = consistency::expected_flow(valve_.back().hydraulics, turned);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      if (turned.column(Channel::position)[k] > 0) out[k] = -of_a[k];
     }
     return out;
   }
@@ -273,6 +288,12 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
     out.push_back({false, fmt::format("{}: {}", name, oil)});
   if (const std::string oil = temperature_in_another_unit(trial.run, valve.front().oil_temperature_K); !oil.empty())
     out.push_back({false, fmt::format("{}: {}", name, oil)});
+  std::vector<double>& reference = trial.run.column(Channel::flow);
+  const std::vector<double>& time_s = trial.run.column(Channel::time);
+  if (const auto shift = reference_shift(time_s, trial.expected_flow(), reference)) {
+    out.push_back({true, fmt::format("{}: {}", name, shown(*shift))});
+    reference = values_later(time_s, reference, shift->late_s);
+  }
   const std::optional<SlipDoubt> slip = slip_doubt(trial);
   const std::string coarse = coarse_position(valve.front(), run.position_grain());
   if (!coarse.empty() && !(slip && slip->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});

@@ -162,17 +162,11 @@ FlowFit compared_late(const Recording& run, std::span<const double> expected, Fl
 /// The reference against what edge and pressure difference make, shown as late as the meter is where that matters. A
 /// valve that hardly lets oil through tells no ratio, and a meter's noise then nothing.
 void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const Recording& run) {
-  const std::vector<double>& position_m = run.column(Channel::position);
-  const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
   const auto [earliest, latest] = std::ranges::minmax(run.column(Channel::time));
   if (!(latest - earliest >= shortest_metered_s)) return;
-  std::vector<double> expected(run.size());
+  const std::vector<double> expected = expected_flow(hydraulics, run);
   double largest = 0;
-  for (std::size_t k = 0; k < expected.size(); ++k) {
-    const double conductance = std::max(hydraulics.conductance_at(std::max(position_m[k], 0.0)), 0.0);
-    expected[k] = conductance * std::copysign(std::sqrt(std::abs(pressure_Pa[k])), pressure_Pa[k]);
-    if (std::isfinite(expected[k])) largest = std::max(largest, std::abs(expected[k]));
-  }
+  for (const double flow : expected) largest = std::fmax(largest, std::abs(flow));
   FlowFit found = compared(run, expected);
   if (!std::isfinite(found.ratio)) return;
   const double telling = least_flow * hydraulics.largest_flow_m3_per_s;
@@ -192,6 +186,18 @@ void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydr
 }
 
 }  // namespace
+
+std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const Recording& run) {
+  const std::vector<double>& position_m = run.column(Channel::position);
+  const std::vector<double>& pressure_Pa = run.column(Channel::pressure_difference);
+  std::vector<double> out(run.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double conductance = std::max(hydraulics.conductance_at(std::max(position_m[k], 0.0)), 0.0);
+    const double pressure = pressure_Pa.empty() ? hydraulics.highest_pressure_Pa : pressure_Pa[k];
+    out[k] = conductance * std::copysign(std::sqrt(std::abs(pressure)), pressure);
+  }
+  return out;
+}
 
 void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
                         const Recording& run) {

@@ -7,6 +7,10 @@
 
 namespace spoolflow::consistency {
 
+/// What edge and pressure difference make of a run's positions, block by block [m3/s]; at the valve's highest pressure
+/// difference where none was recorded.
+[[nodiscard]] std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const recording::Recording& run);
+
 /// Of an operating run against both: balance of forces, flow against what edge and pressure difference make, positions.
 /// Reads current, position, and of flow and pressure difference what is there; the flow in the rows as they are, as a
 /// meter's lag may be shorter than the stretches over which forces are judged (longer_blocks()).

@@ -153,6 +153,14 @@ TEST(CampaignDoubts, NameEachOfSixtySlipsOnTwoValvesAndNothingOnSoundOnes) {
   RecordProperty("named", count.named);
 }
 
+TEST(CampaignDoubts, NameAReferenceThatIsTwoSecondsLateInTheCampaignsRun) {
+  RigBenches valve = rig_benches("size_10", 32);
+  EXPECT_THAT(all_texts(doubts_about(valve.benches())), testing::IsEmpty());
+  shift_by(valve.recordings.at("ramp_25bar.csv"), 2);
+  EXPECT_THAT(all_texts(doubts_about(valve.benches())),
+              testing::MatchesRegex("ramp_25bar.csv: flow_reference comes (2.0.|1.9.) s late[^\n]*\n"));
+}
+
 TEST(CampaignDoubts, DISABLED_TenValvesOfTheRigRaiseNone) {
   int valves = 0;
   for (const char* preset : {"size_6", "size_10"}) {

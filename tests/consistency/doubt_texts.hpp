@@ -1,5 +1,7 @@
 #pragma once
 /// What doubts say, and a run as doubts are judged by it.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,6 +21,19 @@ inline void freeze_half(std::vector<double>& values, double from) {
   const std::size_t begin = static_cast<std::size_t>(from * static_cast<double>(values.size()));
   const double value = values[begin];
   for (std::size_t k = begin; k < values.size() && k < begin + values.size() / 2; ++k) values[k] = value;
+}
+
+/// The reference comes so much later beside the other channels of a run at even time steps; what lacks then repeats its
+/// end.
+inline void shift_by(recording::Recording& run, double late_s) {
+  const std::vector<double>& time_s = run.column(recording::Channel::time);
+  const auto last = static_cast<std::ptrdiff_t>(run.size()) - 1;
+  const std::ptrdiff_t rows = std::lround(late_s / (time_s[1] - time_s[0]));
+  std::vector<double>& reference = run.column(recording::Channel::flow_reference);
+  const std::vector<double> sound = reference;
+  for (std::ptrdiff_t k = 0; k <= last; ++k)
+    reference[static_cast<std::size_t>(k)] =
+        sound[static_cast<std::size_t>(std::clamp(k - rows, std::ptrdiff_t{0}, last))];
 }
 
 inline RunMeans means_of(const recording::Recording& run) {

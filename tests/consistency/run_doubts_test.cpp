@@ -255,5 +255,41 @@ TEST(RunDoubts, NameOneSignedCurrentInTheColumnsOfBothCoils) {
               testing::HasSubstr("run.csv: current_a and current_b go together"));
 }
 
+/// The run, and behind it the same to the other side of a whole valve whose sides are alike.
+recording::Recording both_sides(const recording::Recording& run) {
+  recording::Recording out{run.file, {}};
+  const double duration_s = 2 * run.column(Channel::time).back() - run.column(Channel::time).end()[-2];
+  for (const int side : {1, -1}) {
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      out.column(Channel::time).push_back(run.column(Channel::time)[k] + (side > 0 ? 0 : duration_s));
+      out.column(Channel::position).push_back(side * run.column(Channel::position)[k]);
+      out.column(Channel::flow_reference).push_back(side * run.column(Channel::flow_reference)[k]);
+      out.column(Channel::pressure_difference).push_back(run.column(Channel::pressure_difference)[k]);
+      out.column(Channel::current_b).push_back(side > 0 ? run.column(Channel::current)[k] : 0);
+      out.column(Channel::current_a).push_back(side < 0 ? run.column(Channel::current)[k] : 0);
+    }
+  }
+  return out;
+}
+
+TEST(RunDoubts, NameAReferenceThatIsTwoSecondsLateOrEarlyAndNoneOfOneThatIsAsLateAsAMeter) {
+  const RigBenches& valve = sound_size_6();
+  const std::vector<KnownValve> one{known_valve(valve.benches())}, whole{one.front(), one.front()};
+  const recording::Recording& ramp = valve.recordings.at("ramp_60bar.csv");
+  const auto said = [&](const std::vector<KnownValve>& known, const recording::Recording& sound, double late_s) {
+    recording::Recording run = sound;
+    shift_by(run, late_s);
+    return all_texts(doubts_about(known, means_of(run), "run.csv"));
+  };
+  for (const bool both : {false, true}) {
+    const std::vector<KnownValve>& known = both ? whole : one;
+    const recording::Recording sound = both ? both_sides(ramp) : ramp;
+    EXPECT_THAT(said(known, sound, 0), testing::IsEmpty());
+    EXPECT_THAT(said(known, sound, 0.4), testing::Not(testing::HasSubstr("flow_reference comes")));
+    EXPECT_THAT(said(known, sound, 2), testing::MatchesRegex("run.csv: flow_reference comes (2.0.|1.9.) s late.*"));
+    EXPECT_THAT(said(known, sound, -2), testing::MatchesRegex("run.csv: flow_reference comes (2.0.|1.9.) s early.*"));
+  }
+}
+
 }  // namespace
 }  // namespace spoolflow::consistency
