@@ -52,7 +52,7 @@ class Binder {
   [[noreturn]] void missing(Channel channel) const {
     std::string hint;
     for (const FileColumn& column : columns_) {
-      const std::string_view leaf = split_brackets(column.leaf).stem;
+      const std::string_view leaf = split_unit(column.leaf).stem;
       if (leaf.starts_with(name(channel)) && leaf.size() > name(channel).size() + 1 &&
           leaf[name(channel).size()] == '_' && !channel_header(column)) {
         const std::string_view unit = leaf.substr(name(channel).size() + 1);

@@ -127,7 +127,7 @@ bool named_time(const FileColumn& column) {
   if (const auto header = channel_header(column)) return header->channel == Channel::time;
   const std::string unit = stated_unit(column);
   if (!unit.empty() && !is_time_unit(unit)) return false;
-  const std::vector<std::string> words = words_of(split_brackets(column.leaf).stem);
+  const std::vector<std::string> words = words_of(split_unit(column.leaf).stem);
   return std::ranges::any_of(words, is_time_word);
 }
 

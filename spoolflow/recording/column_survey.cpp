@@ -252,8 +252,8 @@ void survey(SampleTable& table, const std::vector<std::size_t>& chosen, std::vec
   for (std::size_t rows = table.read(places, block_samples); rows > 0; rows = table.read(places, block_samples)) {
     for (std::size_t k = 0; k < chosen.size(); ++k) take(out[chosen[k]], block[k], rows, last[k], kept);
   }
-  const std::span<const std::uint64_t> text_cells = table.text_cells();
-  for (std::size_t k = 0; k < text_cells.size(); ++k) out[chosen[k]].text_cells = text_cells[k];
+  const std::span<const TextCells> text = table.text_cells();
+  for (std::size_t k = 0; k < text.size(); ++k) out[chosen[k]].text = text[k];
 }
 
 }  // namespace
@@ -288,19 +288,22 @@ namespace {
 
 std::string no_numbers(const SurveyedColumn& column) {
   if (column.rows == 0) return "no samples of it were looked at, or it has none";
-  const std::uint64_t missing = column.rows - column.text_cells - column.infinite.count;
+  const std::uint64_t missing = column.rows - column.text.count - column.infinite.count;
   const auto all_of = [&column](std::uint64_t count) { return count == column.rows; };
-  if (all_of(column.text_cells)) return fmt::format("no numbers: text in all {} cells", column.rows);
+  if (all_of(column.text.count))
+    return fmt::format("no numbers: text in all {} cells, such as {}", column.rows, column.text.first);
   if (all_of(missing)) return fmt::format("no numbers: all {} samples are missing", column.rows);
   if (all_of(column.infinite.count)) return fmt::format("no numbers: all {} are infinite", column.rows);
   return fmt::format("no numbers: of {} samples {} are missing, {} text, {} infinite", column.rows, missing,
-                     column.text_cells, column.infinite.count);
+                     column.text.count, column.infinite.count);
 }
 
 }  // namespace
 
 std::string character_of(const SurveyedColumn& column) {
   if (column.samples == 0) return no_numbers(column);
+  if (column.text.count > 0)
+    return fmt::format("text in {} of {} cells, such as {}", column.text.count, column.rows, column.text.first);
   if (column.lowest == column.highest) return "stands still";
   if (column.rises) return "rises with every sample";
   if (!column.unit.empty()) return {};

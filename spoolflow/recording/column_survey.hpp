@@ -18,7 +18,7 @@ struct SurveyedColumn {
   std::string name, unit;          ///< unit: as the file states it; empty where it does not
   double lowest = 0, highest = 0;  ///< NaN without numbers
   std::uint64_t samples = 0;       ///< finite numbers
-  std::uint64_t text_cells = 0;    ///< that hold text instead of a number
+  TextCells text{};
   InfiniteSamples infinite{};
   std::uint64_t rows = 0;           ///< with the missing ones; only columns of as many are compared
   bool rises = false;               ///< each number lies above the one before
@@ -44,7 +44,7 @@ struct DataGuess {
                                                          std::map<Channel, std::size_t> known);
 
 /// What else a column could be, or why it holds no numbers, in words; empty where nothing can be said: "stands still",
-/// "could be a pressure in Pa", "no numbers: all 300 samples are missing".
+/// "could be a pressure in Pa", "no numbers: all 300 samples are missing", "text in 3 of 300 cells, such as ...".
 [[nodiscard]] std::string character_of(const SurveyedColumn& column);
 
 }  // namespace spoolflow::recording

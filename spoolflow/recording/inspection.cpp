@@ -155,13 +155,23 @@ void find_missing(Inspection& out) {
   if (lacks(Channel::flow) && lacks(Channel::flow_reference)) out.helpful.push_back(Channel::flow_reference);
 }
 
-/// Guesses by data what names do not tell, and says of every column what it is taken for.
-void look_at_columns(Inspection& out, const RepeatedInput& input) {
-  std::vector<SurveyedColumn> columns = survey_columns([&] {
-    auto table = open_sample_table(input.open(), CsvTable::Text::counted).table;
+std::vector<SurveyedColumn> survey_of(const std::function<std::unique_ptr<SampleTable>()>& open) {
+  return survey_columns([&] {
+    auto table = open();
     table->let_infinite_pass();
     return table;
   });
+}
+
+/// Which columns were looked at in vain.
+std::vector<bool> numberless(const std::vector<SurveyedColumn>& columns) {
+  std::vector<bool> out;
+  for (const SurveyedColumn& column : columns) out.push_back(column.rows > 0 && column.samples == 0);
+  return out;
+}
+
+/// Guesses by data what names do not tell, and says of every column what it is taken for.
+void look_at_columns(Inspection& out, std::vector<SurveyedColumn> columns) {
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
   std::map<Channel, std::size_t> known;
   for (const auto& [channel, source] : out.proposal.sources) {
@@ -199,7 +209,7 @@ void look_at_columns(Inspection& out, const RepeatedInput& input) {
     const auto guess = guesses.find(taken->first);
     each.guessed = guess != guesses.end();
     each.why = each.guessed ? guess->second.why : how_known(out.contents.column(k), taken->first);
-    if (columns[k].samples == 0) each.why += "; " + character_of(columns[k]);
+    if (columns[k].samples == 0 || columns[k].text.count > 0) each.why += "; " + character_of(columns[k]);
   }
 }
 
@@ -210,9 +220,11 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   const RepeatedInput input(file);
   Inspection out;
   out.contents = contents_of(input.open());
-  Proposal proposal = propose_channels(out.contents);
-  out.proposal = proposal.map;
   const auto open_table = [&input] { return open_sample_table(input.open(), CsvTable::Text::counted).table; };
+  std::vector<SurveyedColumn> columns;
+  if (options.channels.sources.empty()) columns = survey_of(open_table);
+  const Proposal proposal = propose_channels(out.contents, numberless(columns));
+  out.proposal = proposal.map;
   bool even = false;  // sampled evenly, as the file says, without a column of time
   {
     const auto table = open_table();
@@ -222,7 +234,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
       inspected_clocks(options.channels.sources.empty() ? out.proposal : options.channels, open_table, file.string());
   if (options.channels.sources.empty()) {
     say_what_could_be_it(out, proposal);
-    look_at_columns(out, input);
+    look_at_columns(out, std::move(columns));
     find_missing(out);
     if (even) std::erase(out.missing, Channel::time);
   }

@@ -6,10 +6,10 @@
 
 #include "spoolflow/recording/file_format.hpp"
 #include "spoolflow/recording/files/confined_table.hpp"
-#include "spoolflow/recording/files/csv_table.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
+#include "spoolflow/recording/text/csv_table.hpp"
 
 namespace spoolflow::recording {
 

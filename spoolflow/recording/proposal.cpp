@@ -98,25 +98,44 @@ std::string letters_of(std::string_view text) {
   return out;
 }
 
-NameParts parts_of(std::string name, const std::string& told_unit) {
-  const std::size_t bracket = name.find_first_of("[(");
-  const std::size_t last = name.substr(0, bracket).find_last_of("./");  // the last part of a struct or group path
-  if (last != std::string::npos && last + 1 < std::min(bracket, name.size())) name.erase(0, last + 1);
-  NameParts out{"", told_unit, !name.empty() && std::isupper(static_cast<unsigned char>(name.front())) != 0};
-  const std::size_t open = name.find_first_of("[(");
-  if (open != std::string::npos) {
-    if (out.unit.empty()) out.unit = split_brackets(name).unit;
-    name.resize(open);
-  } else {
-    for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
-      if (out.unit.empty() && at > 0 && units::unit_named(name.substr(at + 1))) {
-        out.unit = name.substr(at + 1);
-        name.resize(at);
-        break;
-      }
+/// Less what numbers the inputs of a recorder: "ch3: Position" and "Current - Plot 0".
+std::string without_inputs(std::string_view name) {
+  constexpr std::array<std::string_view, 6> inputs{"ch", "channel", "kanal", "plot", "ai", "trace"};
+  constexpr std::string_view gaps = " :;,-";
+  std::string out;
+  bool after_input = false;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end = std::min(name.find_first_of(gaps, at), name.size());
+    const std::string word = letters_of(name.substr(at, end - at));
+    const std::string input = word.substr(0, word.find_first_of("0123456789"));
+    const bool number = !word.empty() && input.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+    const bool is_input = std::ranges::count(inputs, input) > 0;
+    if (!is_input && !(number && after_input)) out += std::string(name.substr(at, end - at)) + " ";
+    if (!word.empty()) after_input = is_input;
+    at = end + 1;
+  }
+  return letters_of(out).empty() ? std::string(name) : out;
+}
+
+NameParts parts_of(const std::string& name, const std::string& told_unit) {
+  const NameAndUnit split = split_unit(name);
+  std::string stem(split.stem.substr(0, split.stem.find_first_of("[(")));
+  const std::size_t last = stem.find_last_of("./");  // the last part of a struct or group path
+  if (last != std::string::npos && last + 1 < stem.size()) stem.erase(0, last + 1);
+  NameParts out{"", told_unit.empty() ? std::string(split.unit) : told_unit,
+                !stem.empty() && std::isupper(static_cast<unsigned char>(stem.front())) != 0};
+  for (std::size_t at = stem.find('_'); at != std::string::npos && out.unit.empty(); at = stem.find('_', at + 1)) {
+    for (const std::size_t end : {stem.size(), stem.find('_', at + 1)}) {
+      const std::string_view word = std::string_view(stem).substr(at + 1, end - at - 1);
+      const bool alone = end == stem.size();  // among other words a letter is none
+      if (at == 0 || end == std::string::npos || !units::unit_named(word) || !(alone || word.size() > 1)) continue;
+      if (!alone && word == "in") continue;
+      out.unit = word;
+      stem.resize(at);
+      break;
     }
   }
-  out.word = letters_of(name);
+  out.word = letters_of(without_inputs(stem));
   return out;
 }
 
@@ -144,8 +163,9 @@ bool may_have(Channel channel, const std::string& unit_name) {
 
 }  // namespace
 
-Proposal propose_channels(const FileContents& contents) {
+Proposal propose_channels(const FileContents& contents, const std::vector<bool>& numberless) {
   Proposal out;
+  const auto holds_none = [&](std::size_t column) { return column < numberless.size() && numberless[column]; };
   std::set<Channel> found;  // in this pass; what one before it has found is not in question
   const auto propose = [&](Channel channel, const std::string& column, const std::string& unit) {
     if (out.map.sources.try_emplace(channel, ChannelSource{column, unit, 1.0, 0.0, {}}).second) {
@@ -157,8 +177,8 @@ Proposal propose_channels(const FileContents& contents) {
   std::vector<bool> own(contents.columns.size(), false);
   for (std::size_t k = 0; k < own.size(); ++k) {
     const auto header = channel_header(contents.column(k));
-    own[k] = header.has_value();
-    if (header) propose(header->channel, contents.columns[k], header->unit);
+    own[k] = header.has_value() || holds_none(k);
+    if (header && !holds_none(k)) propose(header->channel, contents.columns[k], header->unit);
   }
   for (const bool with_unit : {true, false}) {
     found.clear();

@@ -18,7 +18,8 @@ struct Proposal {
 /// At most one column a channel; columns whose meaning or unit cannot be told are left out. Where a column names no
 /// unit, `unit` stays empty: it must be filled in by hand.
 /// Own names come before known words, words with a unit before words without; "T" is a temperature, "t" a time.
-[[nodiscard]] Proposal propose_channels(const FileContents& contents);
+/// Columns of `numberless`, one a column of the file or none at all, are no channel.
+[[nodiscard]] Proposal propose_channels(const FileContents& contents, const std::vector<bool>& numberless = {});
 
 /// The map as TOML text, ready to be pasted. `remarks` stand behind their channels; channels of `missing` are lines of
 /// comment.

@@ -178,6 +178,16 @@ TEST_F(Inspect, SaysWhyAColumnHoldsNoNumbers) {
   EXPECT_THAT(output, HasSubstr("not used; no numbers: of 3 samples 1 are missing, 1 text, 1 infinite"));
 }
 
+TEST_F(Inspect, ProposesNoColumnWithoutNumbersForAChannel) {
+  write("rig.csv", "t [s],I,I2 [A],x [mm],Weg [mm]\n0,25.1m,1,off,1\n0.001,26m,1,off,1\n0.002,27m,1.1,off,1.1\n");
+  const std::string output = run("inspect rig.csv").output;
+  EXPECT_THAT(output, HasSubstr("not used; no numbers: text in all 3 cells, such as '25.1m' in line 2"));
+  EXPECT_THAT(output, Not(HasSubstr("current = { column = \"I\"")));
+  EXPECT_THAT(output, HasSubstr("position = { column = \"Weg [mm]\", unit = \"mm\" }\n"));
+  write("rig.csv", "t [s],I,x [mm]\n0,25 mA,1\n0.001,26 mA,1\n0.002,0.027 A,1.1\n");
+  EXPECT_THAT(run("inspect rig.csv").output, HasSubstr("current = { column = \"I\", unit = \"mA\" }\n"));
+}
+
 TEST_F(Inspect, SaysWhetherAFileServesAProtocol) {
   write("spring.csv", "time_s,position_mm,axial_force_N\n0,0,1\n0.01,0.1,2\n0.02,0.2,3\n");
   const Answer serves = run("inspect spring.csv --protocol spring");

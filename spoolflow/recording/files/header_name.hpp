@@ -10,22 +10,24 @@
 
 namespace spoolflow::recording {
 
-/// A unit in brackets at the end of a name, where indices such as (:,2) are none: "I_sol [mA]" or "p1 (bar)" give
-/// "I_sol" and "mA", "p1" and "bar".
-struct BracketedName {
+/// A name and the unit in it: "I_sol [mA]", "Current (mA) - Plot 0", "I_coil mA", "Temp degC, filtered" and "p/bar"
+/// give mA, mA, mA, degC and bar, and what stands before them. Brackets come before words, and known units before other
+/// text in brackets at the end. Indices such as (:,2), [0] and (k) are no units, and neither are words that mean more
+/// than a unit: in, second, meter, and the letters A and C, by which coils and sensors go.
+struct NameAndUnit {
   std::string_view stem;
-  std::string_view unit;  ///< empty: no brackets
+  std::string_view unit;  ///< empty: none
 };
-[[nodiscard]] BracketedName split_brackets(std::string_view name);
+[[nodiscard]] NameAndUnit split_unit(std::string_view name);
 
-/// `<channel>_<unit>`, or the bare channel's name with its unit in brackets or in a units row.
+/// `<channel>_<unit>`, or the bare channel's name with its unit as split_unit() finds it or in a units row.
 struct ChannelHeader {
   Channel channel;
   std::string unit;  ///< "1" for `test`; empty: the file does not say
 };
 [[nodiscard]] std::optional<ChannelHeader> channel_header(const FileColumn& column);
 
-/// A row of units below the names: no numbers, and at least one unit that is known.
+/// A row of units below the names: no numbers, no names with a unit, and at least one unit that is known.
 [[nodiscard]] bool is_units_row(const std::vector<std::string_view>& cells);
 
 /// The unit that the file itself states for a column, apart from a suffix of its name; empty where it does not.

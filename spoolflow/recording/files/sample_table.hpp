@@ -21,6 +21,12 @@ struct FileColumn {
   EvenTimes wave{};  ///< as attributes of it state them; empty where none does
 };
 
+/// Cells that hold text instead of a number.
+struct TextCells {
+  std::uint64_t count = 0;
+  std::string first{};  ///< with its place
+};
+
 /// One open file. A new format implements this, and open_sample_table() tells it by its content.
 class SampleTable {
  public:
@@ -44,8 +50,8 @@ class SampleTable {
   virtual std::size_t read(std::span<double* const> out, std::size_t rows) = 0;
   /// Infinite numbers, which are refused else, are read as they stand from here on (to inspect).
   virtual void let_infinite_pass() {}
-  /// Cells of each chosen column that hold text instead of a number, where text is counted; none where it is refused.
-  [[nodiscard]] virtual std::span<const std::uint64_t> text_cells() const { return {}; }
+  /// Of each chosen column, where text is counted; none where it is refused.
+  [[nodiscard]] virtual std::span<const TextCells> text_cells() const { return {}; }
   /// Rows that could not be read and were left out so far; nothing is where the table refuses them.
   [[nodiscard]] virtual std::uint64_t left_out() const { return 0; }
   /// Where row `row` of the last read() stands: "run.csv, line 17" or "run.mat, sample 16".

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/files/utf16.hpp"
+#include "spoolflow/recording/text/utf16.hpp"
 
 namespace spoolflow::recording {
 namespace {

@@ -16,13 +16,13 @@ using testing::HasSubstr;
 
 const ReadOptions position_over_time{{}, {Channel::time, Channel::position}, {}, {}};
 
-Recording read(std::string_view content, const ReadOptions& options = position_over_time) {
+Recording read_csv(std::string_view content, const ReadOptions& options = position_over_time) {
   const TemporaryFile file("run.csv", content);
   return read_recording(file.path(), options);
 }
 
-std::string refused(std::string_view content, const ReadOptions& options = position_over_time) {
-  return refusal([&] { (void)read(content, options); });
+std::string refused_csv(std::string_view content, const ReadOptions& options = position_over_time) {
+  return refusal([&] { (void)read_csv(content, options); });
 }
 
 std::vector<double> column(const Recording& recording, Channel channel) {
@@ -31,13 +31,13 @@ std::vector<double> column(const Recording& recording, Channel channel) {
 }
 
 TEST(CsvReading, TurnsHeadersOfChannelAndUnitIntoSi) {
-  const Recording run = read("time_s,position_mm\n0.000,1.0\n0.001,-2.5\n");
+  const Recording run = read_csv("time_s,position_mm\n0.000,1.0\n0.001,-2.5\n");
   EXPECT_THAT(column(run, Channel::time), ElementsAre(0.0, 0.001));
   EXPECT_THAT(column(run, Channel::position), ElementsAre(0.001, -0.0025));
 }
 
 TEST(CsvReading, ReadsTheSameNumbersFromEveryDialect) {
-  const Recording plain = read("time_s,current_A,position_mm\n0,0.5,1.25\n0.001,0.6,1.5\n");
+  const Recording plain = read_csv("time_s,current_A,position_mm\n0,0.5,1.25\n0.001,0.6,1.5\n");
   for (const char* dialect : {
            "time_s;current_A;position_mm\n0;0.5;1.25\n0.001;0.6;1.5\n",
            "time_s;current_A;position_mm\n0;0,5;1,25\n0,001;0,6;1,5\n",
@@ -54,7 +54,7 @@ TEST(CsvReading, ReadsTheSameNumbersFromEveryDialect) {
            "time [s], current [A], position (mm)\n 0, 5e-1, 1.25\n 1.0E-3, 6.0e-01, +1.5\n",
            "note,time_s,current_A,position_mm\n\"a, b\",0,0.5,1.25\nc,0.001,0.6,1.5\n",
        }) {
-    const Recording run = read(dialect);
+    const Recording run = read_csv(dialect);
     EXPECT_EQ(column(run, Channel::time), column(plain, Channel::time)) << dialect;
     EXPECT_EQ(column(run, Channel::position), column(plain, Channel::position)) << dialect;
   }
@@ -76,25 +76,64 @@ TEST(CsvReading, TakesAnEmptyCellForAMissingSampleAndCountsIt) {
 TEST(CsvReading, FindsCellsWhereverTheyBeginInALine) {
   for (std::size_t width = 0; width < 200; ++width) {
     const std::string note(width, 'n');
-    const Recording run = read("note,time_s,position_mm,end\n" + note + ",0.001,-1.25," + note + "\n" + note +
-                               ",1785.9990,-12.3456785,\n");
+    const Recording run = read_csv("note,time_s,position_mm,end\n" + note + ",0.001,-1.25," + note + "\n" + note +
+                                   ",1785.9990,-12.3456785,\n");
     EXPECT_THAT(column(run, Channel::time), ElementsAre(0.001, 1785.999)) << width;
     EXPECT_EQ(column(run, Channel::position).front(), -0.00125) << width;
-    EXPECT_THAT(refused("note,time_s,position_mm,end\n" + note + ",0,1,2,3\n"), HasSubstr("cells")) << width;
-    EXPECT_THAT(refused("note,time_s,position_mm,end\n" + note + ",0,1\n"), HasSubstr("cells")) << width;
+    EXPECT_THAT(refused_csv("note,time_s,position_mm,end\n" + note + ",0,1,2,3\n"), HasSubstr("cells")) << width;
+    EXPECT_THAT(refused_csv("note,time_s,position_mm,end\n" + note + ",0,1\n"), HasSubstr("cells")) << width;
   }
 }
 
 TEST(CsvReading, LeavesTextInColumnsThatNobodyAskedFor) {
-  EXPECT_EQ(read("time_s,status,position_mm\n0,fully_open|at_rest,1\n1e-3,,2\n").size(), 2u);
+  EXPECT_EQ(read_csv("time_s,status,position_mm\n0,fully_open|at_rest,1\n1e-3,,2\n").size(), 2u);
+}
+
+TEST(CsvReading, ReadsNumbersWithUnitsAndPrefixesBehindThemInTheUnitOfTheirColumn) {
+  const ReadOptions all{{}, {Channel::time, Channel::current, Channel::position}, {}, {}};
+  for (const std::string text : {
+           "time_s,current_A,position_mm\n0,25.1m,1.5\n0.001,0.026,1.6\n",
+           "time_s,current_A,position_mm\n0 s,25.1 mA,1.5 mm\n1 ms,26mA,1600 um\n",
+           "time;current;position\n0 s;25,1 mA;1,5 mm\n0,001 s;0,026 A;0,0016 m\n",
+           "time_s,current [A],position [mm]\n0,25100u,1.5\n1m,2.6e-5k,1.6mm\n",
+           "time_ms,current_mA,position_um\n0,0.0251 A,1.5 mm\n1,26,1600\n",
+       }) {
+    const Recording run = read_csv(text, all);
+    EXPECT_NEAR(run[Channel::time][1], 0.001, 1e-12) << text;
+    EXPECT_NEAR(run[Channel::current][0], 0.0251, 1e-12) << text;
+    EXPECT_NEAR(run[Channel::current][1], 0.026, 1e-12) << text;
+    EXPECT_NEAR(run[Channel::position][0], 0.0015, 1e-12) << text;
+    EXPECT_NEAR(run[Channel::position][1], 0.0016, 1e-12) << text;
+  }
+  const ReadOptions oil{{}, {Channel::time, Channel::oil_temperature}, {}, {}};
+  for (const char* cells : {"50 C", "50 \xC2\xB0\x43", "323.15K", "122 degF"}) {
+    const Recording run = read_csv("time_s,oil_temperature_C\n0," + std::string(cells) + "\n", oil);
+    EXPECT_NEAR(run[Channel::oil_temperature][0], 323.15, 1e-9) << cells;
+  }
+}
+
+TEST(CsvReading, RefusesSuffixesOfWhichTheColumnDoesNotSayWhatTheyMean) {
+  EXPECT_THAT(
+      refused_csv("time_s,position_mm\n0,1\n1,3.2m\n"),
+      HasSubstr("line 3, column 'position_mm': '3.2m' may be in milli or in metres, where the column is in mm"));
+  ReadOptions current{{}, {Channel::time, Channel::current}, {}, {}};
+  EXPECT_THAT(refused_csv("time_s,current_mA\n0,4.7k\n", current),
+              HasSubstr("'4.7k' has a prefix, and the column is in mA"));
+  EXPECT_THAT(refused_csv("time_s,current_A\n0,3 bar\n", current),
+              HasSubstr("'3 bar' states a unit, but the column is in A"));
+  current.channels.sources.emplace(Channel::current, ChannelSource{"I", "A", 1, 0, {}});
+  EXPECT_THAT(refused_csv("time_s,I\n0,25.1m\n", current),
+              AllOf(HasSubstr("line 2, column 'I': '25.1m' has a prefix"), HasSubstr("states no unit for the column"),
+                    HasSubstr("such as current_A or I [A]")));
+  EXPECT_THAT(refused_csv("time_s,I\n0,25 mA\n", current), HasSubstr("is mapped with unit A, but"));
 }
 
 TEST(CsvReading, SaysWhereANumberIsNone) {
-  const std::string text = refused("time_s,position_mm\n0,1\n0.001,abc\n");
+  const std::string text = refused_csv("time_s,position_mm\n0,1\n0.001,abc\n");
   EXPECT_THAT(text, HasSubstr("run.csv, line 3, column 'position_mm': 'abc' is not a number"));
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,-inf\n"), HasSubstr("'-inf' is not finite"));
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,1e999\n"), HasSubstr("'1e999' is larger than"));
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n,2\n"),
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n0.001,-inf\n"), HasSubstr("'-inf' is not finite"));
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n0.001,1e999\n"), HasSubstr("'1e999' is larger than"));
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n,2\n"),
               HasSubstr("line 3, column 'time_s': the time stamp is missing"));
 }
 
@@ -102,7 +141,7 @@ TEST(CsvReading, TakesTextInSixteenBitsOfEitherOrder) {
   const std::string text = "time_s,position_mm,\xC3\x96l\n0,1,\xF0\x9F\x98\x80\n0.001,1.5,x\n";
   // Its units: ASCII as it is, U+00D6, and U+1F600 as the pair D83D DE00.
   const std::u16string units = u"\uFEFFtime_s,position_mm,\u00D6l\n0,1,\U0001F600\n0.001,1.5,x\n";
-  const Recording plain = read(text);
+  const Recording plain = read_csv(text);
   for (const bool high_first : {false, true}) {
     std::string bytes;
     for (const char16_t unit : units) {
@@ -110,7 +149,7 @@ TEST(CsvReading, TakesTextInSixteenBitsOfEitherOrder) {
       bytes += high_first ? high : low;
       bytes += high_first ? low : high;
     }
-    const Recording run = read(bytes);
+    const Recording run = read_csv(bytes);
     EXPECT_EQ(column(run, Channel::time), column(plain, Channel::time)) << high_first;
     EXPECT_EQ(column(run, Channel::position), column(plain, Channel::position)) << high_first;
   }
@@ -123,22 +162,22 @@ TEST(CsvReading, CountsTimesOfTheClockFromTheFirst) {
            "time;position_mm\n22.11.2026 10:59:59,900;1\n22.11.2026 11:00:00,150;2\n22.11.2026 11:00:00,400;3\n",
            "time,position_mm\n10:59:59.900,1\n11:00:00.150,2\n11:00:00.400,3\n",
        }) {
-    const Recording run = read(text);
+    const Recording run = read_csv(text);
     ASSERT_EQ(run.size(), 3u) << text;
     EXPECT_NEAR(run[Channel::time][0], 0, 1e-9) << text;
     EXPECT_NEAR(run[Channel::time][1], 0.25, 1e-9) << text;
     EXPECT_NEAR(run[Channel::time][2], 0.5, 1e-9) << text;
   }
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n2026-13-41T10:00:00,1\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n2026-13-41T10:00:00,1\n"), HasSubstr("is not a number"));
 }
 
 TEST(CsvReading, CountsATimeOfDayOnPastMidnight) {
-  const Recording run = read(
+  const Recording run = read_csv(
       "Date,time,position_mm\n2025-03-04,23:59:59.700,1\n2025-03-04,23:59:59.950,2\n"
       "2025-03-05,00:00:00.200,3\n2025-03-05,00:00:00.450,4\n");
   ASSERT_EQ(run.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(run[Channel::time][k], 0.25 * static_cast<double>(k), 1e-9);
-  EXPECT_THAT(refused("time,position_mm\n10:00:01,1\n10:00:00,2\n"), HasSubstr("time runs backwards"));
+  EXPECT_THAT(refused_csv("time,position_mm\n10:00:01,1\n10:00:00,2\n"), HasSubstr("time runs backwards"));
 }
 
 TEST(CsvReading, ReadsAmericanDatesWithAMAndPMOverNoonAndMidnight) {
@@ -147,21 +186,21 @@ TEST(CsvReading, ReadsAmericanDatesWithAMAndPMOverNoonAndMidnight) {
            "time,position_mm\n12/31/2025 11:59:59.900 PM,1\n1/1/2026 12:00:00.150 AM,2\n1/1/2026 12:00:00.400 AM,3\n",
            "time,position_mm\n9:59:59.900 am,1\n10:00:00.150 am,2\n10:00:00.400 am,3\n",
        }) {
-    const Recording run = read(text);
+    const Recording run = read_csv(text);
     ASSERT_EQ(run.size(), 3u) << text;
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(run[Channel::time][k], 0.25 * static_cast<double>(k), 1e-9) << text;
   }
   // Without AM or PM nothing tells the day from the month.
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n3/4/2025 11:59:59,1\n"),
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n3/4/2025 11:59:59,1\n"),
               HasSubstr("'3/4/2025 11:59:59' is not a number"));
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n13/4/2025 11:59:59 AM,1\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n13/4/2025 11:59:59 AM,1\n"), HasSubstr("is not a number"));
 }
 
 TEST(CsvReading, FindsColumnsOfAFileInWindows1252ByTheirNamesInUtf8) {
   ReadOptions options{{}, {Channel::time, Channel::oil_temperature}, {}, {}};
   options.channels.sources.emplace(Channel::oil_temperature,
                                    ChannelSource{"\xC3\x96ltemp. [\xC2\xB0\x43]", "C", 1, 0, {}});
-  const Recording run = read("time_s;\xD6ltemp. [\xB0\x43]\n0;50,5\n0,001;51,5\n", options);
+  const Recording run = read_csv("time_s;\xD6ltemp. [\xB0\x43]\n0;50,5\n0,001;51,5\n", options);
   EXPECT_NEAR(run[Channel::oil_temperature][1], 273.15 + 51.5, 1e-9);
 }
 
@@ -174,7 +213,7 @@ TEST(CsvReading, ReadsLabViewMeasurementFilesBelowTheirSettings) {
     for (char& c : text) c = c == '_' && text[static_cast<std::size_t>(&c - text.data()) - 1] < ':' ? point[0] : c;
     ReadOptions options{{}, {Channel::time, Channel::current, Channel::position}, {}, {}};
     options.channels.sources.emplace(Channel::time, ChannelSource{"X_Value", "s", 1, 0, {}});
-    const Recording run = read(text, options);
+    const Recording run = read_csv(text, options);
     EXPECT_THAT(column(run, Channel::time), ElementsAre(0.0, 0.001)) << point;
     EXPECT_THAT(column(run, Channel::current), ElementsAre(1.25, 1.5)) << point;
     EXPECT_THAT(column(run, Channel::position), ElementsAre(0.0005, 0.00075)) << point;
@@ -183,19 +222,20 @@ TEST(CsvReading, ReadsLabViewMeasurementFilesBelowTheirSettings) {
 
 TEST(CsvReading, SaysWhatToDoWithAnExportOfTwinCatScope) {
   EXPECT_THAT(
-      refused("Name\tYT Scope\nFile\tbench.csv\nStarttime of export\t1332\tTuesday\t10:12\n\nName\tI_coil\tName\tx\n"
-              "0\t1.0\t0\t0.6\n"),
+      refused_csv(
+          "Name\tYT Scope\nFile\tbench.csv\nStarttime of export\t1332\tTuesday\t10:12\n\nName\tI_coil\tName\tx\n"
+          "0\t1.0\t0\t0.6\n"),
       testing::AllOf(HasSubstr("TwinCAT Scope"), HasSubstr("one line of names")));
 }
 
 TEST(CsvReading, FindsTheHeaderBelowLinesOfTitle) {
-  const Recording plain = read("time_s,position_mm\n0,1\n0.001,1.5\n");
+  const Recording plain = read_csv("time_s,position_mm\n0,1\n0.001,1.5\n");
   for (const std::string text : {
            "Measurement 12, rig 3, morning\n\ntime_s,position_mm\n0,1\n0.001,1.5\n",
            "Operator: A. Meyer\nDate;12.11.2026;at;10:15;;\n\ntime;position\ns;mm\n0;1\n0,001;1,5\n",
            "Rig 3\ttime 10:15\t\tx\ntime_s\tposition_mm\n0\t1\n0.001\t1.5\n",
        }) {
-    const Recording run = read(text);
+    const Recording run = read_csv(text);
     EXPECT_EQ(column(run, Channel::time), column(plain, Channel::time)) << text;
     EXPECT_EQ(column(run, Channel::position), column(plain, Channel::position)) << text;
   }
@@ -203,29 +243,29 @@ TEST(CsvReading, FindsTheHeaderBelowLinesOfTitle) {
 
 TEST(CsvReading, TakesTheUsualWordsForNoNumberAsMissing) {
   for (const char* word : {"NaN", "nan", "NULL", "null", "-", "--", "n/a", "#N/A", "1.#QNAN"}) {
-    const Recording run = read("time_s,position_mm\n0,1\n0.001," + std::string(word) + "\n0.002,3\n");
+    const Recording run = read_csv("time_s,position_mm\n0,1\n0.001," + std::string(word) + "\n0.002,3\n");
     ASSERT_EQ(run.size(), 3u) << word;
     EXPECT_TRUE(std::isnan(run[Channel::position][1])) << word;
   }
 }
 
 TEST(CsvReading, SaysWhereTimeRunsBackwards) {
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.002,1\n0.001,1\n"),
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n0.002,1\n0.001,1\n"),
               HasSubstr("line 4, column 'time_s': time runs backwards, from 0.002 to 0.001 s"));
 }
 
 TEST(CsvReading, RefusesRowsThatAreTooShortOrTooLong) {
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001\n"), HasSubstr("line 3: has 1 cells, the header has 2"));
-  EXPECT_THAT(refused("time_s,position_mm\n0,1\n0.001,1,2\n"), HasSubstr("line 3: has 3 cells, the header has 2"));
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n0.001\n"), HasSubstr("line 3: has 1 cells, the header has 2"));
+  EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n0.001,1,2\n"), HasSubstr("line 3: has 3 cells, the header has 2"));
 }
 
 TEST(CsvReading, RefusesFilesWithoutHeaderOrSamples) {
-  EXPECT_THAT(refused("time_s,position_mm\n"), HasSubstr("has a header but no samples"));
-  EXPECT_THAT(refused("\n\n"), HasSubstr("holds no header line"));
-  EXPECT_THAT(refused("0.0,1.0\n0.1,1.1\n"), HasSubstr("insert a first line that names the columns"));
-  EXPECT_THAT(refused(std::string("time_s,") + std::string(300 << 10, 'x') + ",current_A\n0,1,2\n"),
+  EXPECT_THAT(refused_csv("time_s,position_mm\n"), HasSubstr("has a header but no samples"));
+  EXPECT_THAT(refused_csv("\n\n"), HasSubstr("holds no header line"));
+  EXPECT_THAT(refused_csv("0.0,1.0\n0.1,1.1\n"), HasSubstr("insert a first line that names the columns"));
+  EXPECT_THAT(refused_csv(std::string("time_s,") + std::string(300 << 10, 'x') + ",current_A\n0,1,2\n"),
               HasSubstr("header goes on for more than 256 KiB"));
-  EXPECT_THAT(refused("time_s,current_A\ns," + std::string(300 << 10, 'x') + "\n0,1\n"),
+  EXPECT_THAT(refused_csv("time_s,current_A\ns," + std::string(300 << 10, 'x') + "\n0,1\n"),
               HasSubstr("header goes on for more than 256 KiB"));
   const TemporaryFile empty("empty.csv");
   empty.write("");
@@ -236,9 +276,9 @@ TEST(CsvReading, RefusesFilesWithoutHeaderOrSamples) {
 }
 
 TEST(CsvReading, NamesAMissingChannelWithTheColumnsThatAreThere) {
-  const std::string text = refused("time_s,flow_L_min\n0,1\n");
+  const std::string text = refused_csv("time_s,flow_L_min\n0,1\n");
   EXPECT_THAT(text, HasSubstr("channel position is missing; the columns are time_s, flow_L_min"));
-  EXPECT_THAT(refused("time_s,position_furlong\n0,1\n"), HasSubstr("'furlong' is no known unit"));
+  EXPECT_THAT(refused_csv("time_s,position_furlong\n0,1\n"), HasSubstr("'furlong' is no known unit"));
 }
 
 TEST(CsvReading, DoesNotStumbleOverLatin1DegreeSigns) {
@@ -249,24 +289,26 @@ TEST(CsvReading, DoesNotStumbleOverLatin1DegreeSigns) {
                              "C]",
                              "oil_temperature_\xB0"
                              "C"}) {
-    const Recording run = read(std::string("time_s;") + header + "\n0;50,0\n", oil);
+    const Recording run = read_csv(std::string("time_s;") + header + "\n0;50,0\n", oil);
     EXPECT_NEAR(run[Channel::oil_temperature][0], 323.15, 1e-9) << header;
   }
 }
 
 TEST(CsvReading, RefusesMarksThatGroupThousandsBesideNumbersWithout) {
-  EXPECT_THAT(refused("time_ms;position_um\n0;951\n1;996\n2;1.000\n"),
+  EXPECT_THAT(refused_csv("time_ms;position_um\n0;951\n1;996\n2;1.000\n"),
               AllOf(HasSubstr("column 'position_um': '1.000'"), HasSubstr("group thousands")));
-  EXPECT_THAT(refused("time_ms,position_um\n0,951\n1,996\n2,\"1,088\"\n"), HasSubstr("'1,088'"));
-  EXPECT_THAT(refused("time_ms;position_um\n998;951\n999;996\n1.000;997\n"), HasSubstr("column 'time_ms': '1.000'"));
+  EXPECT_THAT(refused_csv("time_ms,position_um\n0,951\n1,996\n2,\"1,088\"\n"), HasSubstr("'1,088'"));
+  EXPECT_THAT(refused_csv("time_ms;position_um\n998;951\n999;996\n1.000;997\n"),
+              HasSubstr("column 'time_ms': '1.000'"));
 }
 
 TEST(CsvReading, TakesThreeDecimalsForDecimalsWhereNothingSpeaksForThousands) {
-  EXPECT_DOUBLE_EQ(read("time_ms;position_mm\n0;1,088\n1;1,100\n", position_over_time)[Channel::position][0], 1.088e-3);
-  EXPECT_DOUBLE_EQ(read("time_ms;position_mm\n0;0\n1;1.088\n2;1.1\n", position_over_time)[Channel::position][1],
+  EXPECT_DOUBLE_EQ(read_csv("time_ms;position_mm\n0;1,088\n1;1,100\n", position_over_time)[Channel::position][0],
                    1.088e-3);
-  EXPECT_DOUBLE_EQ(read("time_ms;position_mm\n0;1\n1;2\n2;2.125\n3;0.5\n", position_over_time)[Channel::position][2],
-                   2.125e-3);
+  EXPECT_DOUBLE_EQ(read_csv("time_ms;position_mm\n0;0\n1;1.088\n2;1.1\n", position_over_time)[Channel::position][1],
+                   1.088e-3);
+  EXPECT_DOUBLE_EQ(
+      read_csv("time_ms;position_mm\n0;1\n1;2\n2;2.125\n3;0.5\n", position_over_time)[Channel::position][2], 2.125e-3);
 }
 
 TEST(CsvReading, RefusesZeroBytesWhereverTheyStand) {
@@ -275,7 +317,7 @@ TEST(CsvReading, RefusesZeroBytesWhereverTheyStand) {
   for (const std::size_t at : {std::size_t{5000}, std::size_t{300000}, text.size() - 3}) {
     std::string damaged = text;
     damaged[at] = '\0';
-    EXPECT_THAT(refused(damaged), HasSubstr("it holds a zero byte at byte " + std::to_string(at + 1))) << at;
+    EXPECT_THAT(refused_csv(damaged), HasSubstr("it holds a zero byte at byte " + std::to_string(at + 1))) << at;
   }
 }
 

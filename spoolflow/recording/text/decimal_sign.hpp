@@ -1,31 +1,13 @@
 #pragma once
-/// How a CSV file is written: told from its first lines.
+/// Which sign a CSV file writes before decimals.
 #include <array>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "spoolflow/recording/files/sample_table.hpp"
-
 namespace spoolflow::recording {
-
-struct CsvDialect {
-  char delimiter = ',';  ///< comma, semicolon or tab
-  std::vector<FileColumn> columns;
-  std::size_t header_bytes = 0;  ///< up to the first row of samples
-  std::uint64_t header_lines = 0;
-};
-
-/// Reads byte order mark, lines of title, comments (lines that begin with #), "sep=;", header and units row from the
-/// beginning of a file. Throws RecordingError: nothing in it, no header, a binary file.
-[[nodiscard]] CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file);
-
-/// Whether the header is there as a whole, and one more line that tells units from samples: all that read_csv_dialect()
-/// needs of a stream whose rows are still to come.
-[[nodiscard]] bool header_is_whole(std::string_view beginning);
 
 /// A cell that looks as if its mark groups thousands.
 struct GroupedCell {
@@ -57,16 +39,5 @@ class DecimalSign {
   std::array<std::size_t, 2> marked_{};  ///< cells with a point, with a comma
   std::map<std::size_t, std::array<Cells, 2>> columns_{};
 };
-
-/// Takes the next cell off a line (quotes removed from cells that begin and end with one); `line` is empty after the
-/// last cell, and `last` tells it from an empty cell that follows.
-struct CsvCell {
-  std::string_view text;
-  bool last;
-};
-[[nodiscard]] CsvCell take_cell(std::string_view& line, char delimiter);
-
-/// Takes the next line off, without its line end.
-[[nodiscard]] std::string_view take_line(std::string_view& text);
 
 }  // namespace spoolflow::recording

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/files/csv_table.hpp"
+#include "spoolflow/recording/text/csv_table.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/files/csv_scan.hpp"
 #include "spoolflow/recording/files/decimal_number.hpp"
+#include "spoolflow/recording/text/cell_unit.hpp"
+#include "spoolflow/recording/text/csv_cells.hpp"
+#include "spoolflow/recording/text/csv_scan.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -33,6 +35,7 @@ CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginnin
     return filled_ >= block_bytes || (input_->comes_bit_by_bit() && header_is_whole({buffer_.data(), filled_}));
   };
   while (!at_end_ && !enough()) take_bytes();
+  end_last_line();
   refuse_zero_bytes(0);
   dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name());
   if (!at_end_ && filled_ >= block_bytes && dialect_.header_bytes == filled_) {
@@ -67,7 +70,9 @@ void CsvTable::take_bytes() {
 
 void CsvTable::select(const std::vector<std::size_t>& columns) {
   chosen_ = columns;
-  text_cells_.assign(columns.size(), 0);
+  text_cells_.assign(columns.size(), {});
+  units_.clear();
+  for (const std::size_t column : columns) units_.push_back(unit_of(dialect_.columns[column]));
   midnights_.assign(columns.size(), {});
   sign_ = DecimalSign(columns);
   slot_of_column_.assign(dialect_.columns.size(), -1);
@@ -95,12 +100,15 @@ void CsvTable::refuse_zero_bytes(std::size_t first) const {
       input_->name(), input_->position() - filled_ + before + 1));
 }
 
+void CsvTable::end_last_line() {
+  if (!at_end_ || filled_ == cursor_ || buffer_[filled_ - 1] == '\n') return;
+  buffer_.resize(std::max(buffer_.size(), filled_ + 1 + scan_padding));
+  buffer_[filled_++] = '\n';
+}
+
 /// Whole lines now end at lines_end_; tells what they need.
 void CsvTable::look_at_new_bytes() {
-  if (at_end_ && filled_ > cursor_ && buffer_[filled_ - 1] != '\n') {
-    buffer_.resize(std::max(buffer_.size(), filled_ + 1 + scan_padding));
-    buffer_[filled_++] = '\n';
-  }
+  end_last_line();
   const std::string_view fresh(buffer_.data() + cursor_, filled_ - cursor_);
   const std::size_t last = fresh.rfind('\n');
   lines_end_ = last == std::string_view::npos ? cursor_ : cursor_ + last + 1;
@@ -188,8 +196,11 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   if (infinite_passes_ && digits == Digits::not_finite) {
     return cell.find('-') == std::string_view::npos ? infinity : -infinity;
   }
+  const Suffix suffix = read_measured(cell, point_, units_[slot], value);
+  if (suffix == Suffix::understood) return value;
   if (text_ != Text::refused) {
-    ++text_cells_[slot];
+    if (++text_cells_[slot].count == 1)
+      text_cells_[slot].first = fmt::format("'{}' in line {}", shortened(cell), line_);
     return missing;
   }
   const std::string place =
@@ -202,6 +213,8 @@ double CsvTable::cell_value(std::string_view cell, std::size_t column, std::size
   if (digits == Digits::out_of_range) {
     throw RecordingError(fmt::format("{}: '{}' is larger than any number that can be kept (1.8e308)", place, shown));
   }
+  if (suffix != Suffix::none)
+    throw RecordingError(fmt::format("{}: {}", place, suffix_fault(suffix, shown, units_[slot])));
   throw RecordingError(
       fmt::format("{}: '{}' is not a number (decimal sign here: '{}'); correct it, or leave the cell "
                   "empty where a sample is missing",
@@ -259,7 +272,13 @@ bool CsvTable::careful_row(std::string_view line, std::span<double* const> out, 
     if (!cell.text.empty()) used = cells + 1;
     if (cells >= slot_of_column_.size() || slot_of_column_[cells] < 0) continue;
     const auto slot = static_cast<std::size_t>(slot_of_column_[cells]);
-    out[slot][row] = cell_value(cell.text, cells, slot);
+    const bool stated = dialect_.stated_time && cells == 0 && cell.text.empty();
+    out[slot][row] = stated ? dialect_.stated_time->begin_s + static_cast<double>(rows_) * dialect_.stated_time->step_s
+                            : cell_value(cell.text, cells, slot);
+  }
+  if (dialect_.last_may_lack && cells + 1 == dialect_.columns.size()) {
+    if (slot_of_column_.back() >= 0) out[static_cast<std::size_t>(slot_of_column_.back())][row] = missing;
+    ++cells;
   }
   if (cells < dialect_.columns.size() || used > dialect_.columns.size()) {
     if (text_ != Text::left_out) refuse_length(cells);
@@ -286,6 +305,7 @@ std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
         if (!careful_row(line, out, row)) continue;
       }
       line_of_row_[row++] = line_;
+      ++rows_;
     }
     cursor_ = static_cast<std::size_t>(cursor - buffer_.data());
   }

@@ -5,10 +5,12 @@
 #include <optional>
 
 #include "spoolflow/recording/files/clock_time.hpp"
-#include "spoolflow/recording/files/csv_dialect.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
-#include "spoolflow/recording/files/utf16.hpp"
+#include "spoolflow/recording/text/csv_dialect.hpp"
+#include "spoolflow/recording/text/decimal_sign.hpp"
+#include "spoolflow/recording/text/utf16.hpp"
+#include "spoolflow/units/unit.hpp"
 
 namespace spoolflow::recording {
 
@@ -31,14 +33,15 @@ class CsvTable final : public SampleTable {
 
   [[nodiscard]] char delimiter() const { return dialect_.delimiter; }
   [[nodiscard]] char decimal_sign() const { return point_; }
-  /// Cells of each chosen column that were no number, with Text::counted.
-  [[nodiscard]] std::span<const std::uint64_t> text_cells() const override { return text_cells_; }
+  /// With Text::counted.
+  [[nodiscard]] std::span<const TextCells> text_cells() const override { return text_cells_; }
   void let_infinite_pass() override { infinite_passes_ = true; }
 
  private:
   void take_bytes();
   bool refill();
   void refuse_zero_bytes(std::size_t first) const;
+  void end_last_line();
   void look_at_new_bytes();
   bool plain_row(const char*& cursor, std::span<double* const> out, std::size_t row) const;
   [[nodiscard]] bool header_again(std::string_view line) const;
@@ -68,7 +71,8 @@ class CsvTable final : public SampleTable {
   std::vector<std::size_t> chosen_;
   std::vector<Step> steps_;
   std::vector<std::ptrdiff_t> slot_of_column_;
-  std::vector<std::uint64_t> text_cells_;
+  std::vector<TextCells> text_cells_;
+  std::vector<std::optional<units::Unit>> units_;  ///< of the chosen columns
   /// Of a column of times of day without a date.
   struct Midnights {
     double last_s = 0;
@@ -76,6 +80,7 @@ class CsvTable final : public SampleTable {
   };
   std::vector<Midnights> midnights_;
   std::uint64_t left_out_ = 0;
+  std::uint64_t rows_ = 0;
 
   std::vector<char> buffer_;  ///< [cursor_, lines_end_) whole lines, [lines_end_, filled_) the beginning of the next
   std::size_t cursor_ = 0;
