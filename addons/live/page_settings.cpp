@@ -40,17 +40,16 @@ Account read_account(const TomlTable& table) {
   return account;
 }
 
-std::vector<std::string> read_names(const TomlTable& page) {
+std::vector<std::string> read_texts(const TomlTable& page, std::string_view key, const char* example) {
   std::vector<std::string> out;
-  const toml::node* node = page.table.get("names");
+  const toml::node* node = page.table.get(key);
   if (node == nullptr) return out;
   const toml::array* const list = node->as_array();
   for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
     if (const auto text = (*list)[k].value_exact<std::string>()) out.push_back(*text);
   }
   if (list == nullptr || out.size() != list->size()) {
-    throw SiteError(
-        fmt::format("{}: names must be a list of texts, such as [\"valves.example.org\"]", page.place("names")));
+    throw SiteError(fmt::format("{}: {} must be a list of texts, such as [\"{}\"]", page.place(key), key, example));
   }
   return out;
 }
@@ -70,7 +69,7 @@ std::string_view name(Role role) {
 }
 
 PageSettings read_page(const TomlTable& page) {
-  page.allow_only({"listen", "certificate", "key", "names", "account", "without_account", "session_hours"});
+  page.allow_only({"listen", "certificate", "key", "names", "proxies", "account", "without_account", "session_hours"});
   PageSettings out;
   if (const auto listen = page.optional_text("listen")) out.listen = read_address(*listen, page.place("listen"));
   const auto file = [&](const char* key) {
@@ -83,7 +82,10 @@ PageSettings read_page(const TomlTable& page) {
     throw SiteError(fmt::format("{}: TLS needs both certificate and key; name the other PEM file, too",
                                 page.place(out.key.empty() ? "certificate" : "key")));
   }
-  out.names = read_names(page);
+  out.names = read_texts(page, "names", "valves.example.org");
+  for (const std::string& proxy : read_texts(page, "proxies", "127.0.0.1")) {
+    out.proxies.push_back(read_host(proxy, page.place("proxies")));
+  }
   if (page.table.contains("without_account")) out.without_account = read_role(page, "without_account");
   out.session_hours = page.optional_positive("session_hours").value_or(out.session_hours);
   const toml::node* accounts = page.table.get("account");

@@ -29,6 +29,7 @@ struct PageSettings {
   std::filesystem::path certificate{};  ///< PEM, with the certificates that it hangs on; empty: no TLS
   std::filesystem::path key{};          ///< PEM
   std::vector<std::string> names{};     ///< by which browsers may call the server, beside loopback ones
+  std::vector<std::string> proxies{};   ///< addresses whose X-Forwarded-For says for whom they call
   std::vector<Account> accounts{};
   Role without_account = Role::acknowledge;  ///< of everybody, where there are no accounts
   double session_hours = 12;                 ///< after which a browser logs in again

@@ -20,6 +20,8 @@ using live::media::plain;
 
 /// However many look: the whole of it is read no more often than so. Indicators are kept once a minute.
 constexpr std::chrono::seconds valves_hold{2}, spread_holds{20};
+/// A server that takes longer counts as away.
+constexpr std::chrono::seconds answers_within{20};
 constexpr int shown_cleared = 200, shown_events = 200;
 
 std::string page_file(std::string_view name) {
@@ -33,6 +35,14 @@ bool is_page_file(std::string_view path) {
   return path == "/" || path == "/fleet.js" || path == "/fleet.css";
 }
 
+PageAnswer no_such_text() {
+  return {400, plain, "the request has a name or a number that no database takes\n"};
+}
+
+bool is_long(std::string_view path) {
+  return live::valve_asked(path, "indicators") || live::valve_asked(path, "history");
+}
+
 std::string asked(std::string_view target, std::string_view key) {
   return live::query_value(target, key).value_or("");
 }
@@ -44,7 +54,7 @@ FleetPage::FleetPage(const FleetSettings& settings) : connection_(settings.conne
 }
 
 Session& FleetPage::session() {
-  if (!session_) session_.emplace(connection_, "spoolflow fleet page");
+  if (!session_) session_.emplace(connection_, "spoolflow fleet page", answers_within);
   return *session_;
 }
 
@@ -53,13 +63,18 @@ live::PageContent FleetPage::content() {
           .answer = [this](std::string_view method, std::string_view target) { return answer(method, target); },
           .is_file = is_page_file,
           .acknowledge = [this](std::string_view alarm, const std::string& by) { return acknowledge(alarm, by); },
-          .stream = {}};
+          .stream = {},
+          .is_long = is_long,
+          .long_answer = [this](std::string_view method, std::string_view target,
+                                const std::stop_token&) { return long_answer(method, target); }};
 }
 
 PageAnswer FleetPage::answer(std::string_view method, std::string_view target) {
   if (method != "GET" && method != "HEAD") return {405, plain, "only GET is answered\n"};
   try {
     return found(target.substr(0, target.find('?')), target);
+  } catch (const ContentRefused&) {
+    return no_such_text();
   } catch (const ServerAway& error) {
     session_.reset();  // the next one asks anew
     return {503, plain, std::string(error.what()) + "\n"};
@@ -91,27 +106,39 @@ PageAnswer FleetPage::found(std::string_view path, std::string_view target) {
     return {200, "text/plain; version=0.0.4; charset=utf-8",
             metrics_text(shown_sites(valves()), partition_status(session()))};
   }
-  if (auto days = of_valve(path, target)) return std::move(*days);
   return {404, plain, "there is nothing here; see /, /api/v1/valves, /api/v1/sites, /api/v1/series and /metrics\n"};
 }
 
+PageAnswer FleetPage::long_answer(std::string_view method, std::string_view target) {
+  if (method != "GET" && method != "HEAD") return {405, plain, "only GET is answered\n"};
+  try {
+    if (!long_session_) {
+      long_session_.emplace(connection_, "spoolflow fleet page, days", answers_within);
+      long_session_->run_script("SET statement_timeout = '15s'");  // ends there, too
+    }
+    return days_of(target);
+  } catch (const ContentRefused&) {
+    return no_such_text();
+  } catch (const ServerAway& error) {
+    long_session_.reset();
+    return {503, plain, std::string(error.what()) + "\n"};
+  }
+}
+
 /// /api/v1/valves/ID/indicators and /api/v1/valves/ID/history; the '/' of an ID may be written as %2F.
-std::optional<PageAnswer> FleetPage::of_valve(std::string_view path, std::string_view target) {
+PageAnswer FleetPage::days_of(std::string_view target) {
+  const std::string_view path = target.substr(0, target.find('?'));
   const auto indicators = live::valve_asked(path, "indicators");
-  const auto id = indicators ? indicators : live::valve_asked(path, "history");
-  if (!id) return std::nullopt;
-  const std::string name = live::unescaped(*id);
-  const std::vector<ShownValve>& all = valves();
-  const auto valve = std::find_if(all.begin(), all.end(), [&](const ShownValve& one) { return one.now.id == name; });
-  if (valve == all.end()) return PageAnswer{404, plain, "there is no valve of this name\n"};
+  const std::string name = live::unescaped(indicators ? *indicators : live::valve_asked(path, "history").value_or(""));
+  const auto number = valve_number(*long_session_, name);
+  if (!number) return {404, plain, "there is no valve of this name\n"};
   const auto span = live::span_asked(target);
   if (!span) return live::no_span();
-  if (!indicators)
-    return PageAnswer{200, json, live::flow_days_json(name, *span, flow_days(session(), valve->now.number, *span))};
+  if (!indicators) return {200, json, live::flow_days_json(name, *span, flow_days(*long_session_, *number, *span))};
   std::vector<live::IndicatorDays> days;
-  for (KeptDays& one : indicator_days(session(), valve->now.number, *span))
+  for (KeptDays& one : indicator_days(*long_session_, *number, *span))
     days.push_back({std::move(one.name), std::move(one.unit), std::move(one.points)});
-  return PageAnswer{200, json, live::indicator_days_json(name, *span, days)};
+  return {200, json, live::indicator_days_json(name, *span, days)};
 }
 
 std::optional<PageAnswer> FleetPage::acknowledge(std::string_view alarm, const std::string& by) {
@@ -127,6 +154,8 @@ std::optional<PageAnswer> FleetPage::acknowledge(std::string_view alarm, const s
     read_.reset();  // whoever looks sees it
     if (!seen) return PageAnswer{404, plain, "there is no alarm of this name\n"};
     return PageAnswer{200, json, alarm_json(*seen)};
+  } catch (const ContentRefused&) {
+    return no_such_text();
   } catch (const ServerAway& why) {
     session_.reset();
     return PageAnswer{503, plain, std::string(why.what()) + "\n"};

@@ -16,7 +16,7 @@
 
 namespace spoolflow::fleet {
 
-/// To be used by one thread at a time.
+/// To be used by one thread at a time; long_answer() by another one.
 class FleetPage {
  public:
   /// Throws ServerAway or ServerRefuses.
@@ -26,20 +26,22 @@ class FleetPage {
 
   /// `target` as the request has it.
   [[nodiscard]] live::PageAnswer answer(std::string_view method, std::string_view target);
+  /// Hours and days of a valve, by a session of its own.
+  [[nodiscard]] live::PageAnswer long_answer(std::string_view method, std::string_view target);
   /// `alarm`: "SITE/ID/NUMBER". Nothing where that is no alarm's name.
   [[nodiscard]] std::optional<live::PageAnswer> acknowledge(std::string_view alarm, const std::string& by);
 
  private:
   using Clock = std::chrono::steady_clock;
   Session& session();
+  [[nodiscard]] live::PageAnswer days_of(std::string_view target);
   [[nodiscard]] live::PageAnswer found(std::string_view path, std::string_view target);
-  [[nodiscard]] std::optional<live::PageAnswer> of_valve(std::string_view path, std::string_view target);
   const std::vector<ShownValve>& valves();
   const Distributions& spread();
   void learn_series(const std::vector<ValveNow>& valves);
 
   std::string connection_;
-  std::optional<Session> session_;
+  std::optional<Session> session_, long_session_;
   std::map<std::string, std::string> series_;  ///< by model hash
   std::vector<ShownValve> valves_;
   std::optional<Clock::time_point> read_, spread_read_;

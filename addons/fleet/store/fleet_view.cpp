@@ -10,10 +10,6 @@ std::uint64_t counted(const Rows& rows, int row, int column) {
   return static_cast<std::uint64_t>(rows.integer(row, column));
 }
 
-std::int64_t width_ms(const live::Span& span, std::int64_t least_ms) {
-  return std::max(least_ms, (span.to_ms - span.from_ms) / std::max<std::int64_t>(1, span.most_points));
-}
-
 live::Alarm alarm_of(const Rows& rows, int row) {
   live::Alarm out{.id = rows.integer(row, 1), .valve = rows.text(row, 0)};
   out.cause = rows.text(row, 2);
@@ -52,6 +48,11 @@ std::vector<ValveNow> valves_now(Session& session) {
     out.push_back(std::move(now));
   }
   return out;
+}
+
+std::optional<std::int64_t> valve_number(Session& session, const std::string& valve) {
+  const Rows row = session.run("SELECT number FROM valve WHERE id = $1", Values().put(std::string_view(valve)));
+  return row.size() == 0 ? std::nullopt : std::optional(row.integer(0, 0));
 }
 
 std::vector<IndicatorNow> indicators_now(Session& session) {
@@ -122,12 +123,11 @@ std::vector<live::Event> fleet_events(Session& session, const std::string& valve
 }
 
 std::vector<live::FlowPoint> flow_days(Session& session, std::int64_t valve, const live::Span& span) {
-  constexpr std::int64_t second_ms = 1000;
   const Rows rows = session.run(
       "SELECT avg(wall_ms)::bigint, avg(flow_mean), min(flow_min), max(flow_max), min(lower_min), max(upper_max), "
       "avg(energy_J) FROM second WHERE valve = $1 AND wall_ms >= $2 AND wall_ms < $3 GROUP BY wall_ms / $4::bigint "
       "ORDER BY 1",
-      Values().put(valve).put(span.from_ms).put(span.to_ms).put(width_ms(span, second_ms)));
+      Values().put(valve).put(span.from_ms).put(span.to_ms).put(live::point_width_ms(span, live::least_flow_width_ms)));
   std::vector<live::FlowPoint> out;
   for (int row = 0; row < rows.size(); ++row) {
     out.push_back({rows.integer(row, 0), rows.real(row, 1), rows.real(row, 2), rows.real(row, 3), rows.real(row, 4),
@@ -137,13 +137,16 @@ std::vector<live::FlowPoint> flow_days(Session& session, std::int64_t valve, con
 }
 
 std::vector<KeptDays> indicator_days(Session& session, std::int64_t valve, const live::Span& span) {
-  constexpr std::int64_t minute_ms = 60'000;
   const Rows rows = session.run(
       "SELECT name, max(unit), avg(wall_ms)::bigint AS at, avg(value), min(value), max(value), avg(uncertainty_95), "
       "avg(baseline), bool_or(state = 'raised')::int FROM indicator WHERE valve = $1 AND wall_ms >= $2 AND wall_ms < "
       "$3 "
       "AND state != 'counts' GROUP BY name, wall_ms / $4::bigint ORDER BY name, at",
-      Values().put(valve).put(span.from_ms).put(span.to_ms).put(width_ms(span, minute_ms)));
+      Values()
+          .put(valve)
+          .put(span.from_ms)
+          .put(span.to_ms)
+          .put(live::point_width_ms(span, live::least_indicator_width_ms)));
   std::vector<KeptDays> out;
   for (int row = 0; row < rows.size(); ++row) {
     if (out.empty() || out.back().name != rows.text(row, 0)) out.push_back({rows.text(row, 0), rows.text(row, 1)});

@@ -25,6 +25,9 @@ struct ValveNow {
 /// Ascending by id.
 [[nodiscard]] std::vector<ValveNow> valves_now(Session& session);
 
+/// Of the valve of that name; nothing where there is none.
+[[nodiscard]] std::optional<std::int64_t> valve_number(Session& session, const std::string& valve);
+
 struct IndicatorNow {
   std::int64_t valve = 0;  ///< its number
   live::KeptIndicator indicator{};

@@ -5,13 +5,11 @@
 #include "addons/live/history/store.hpp"
 
 namespace spoolflow::live {
-namespace {
 
-std::int64_t width_ms(const Span& span, std::int64_t least_ms) {
+std::int64_t point_width_ms(const Span& span, std::int64_t least_ms) {
+  if (span.width_ms > 0) return span.width_ms;
   return std::max(least_ms, (span.to_ms - span.from_ms) / std::max<std::int64_t>(1, span.most_points));
 }
-
-}  // namespace
 
 IndicatorHistories read_indicators(const std::string& path, const std::string& valve, const Span& span) {
   Database database = open_store_to_read(path);
@@ -20,8 +18,10 @@ IndicatorHistories read_indicators(const std::string& path, const std::string& v
       "SELECT name, CAST(avg(wall_ms) AS INTEGER) AS at, avg(value), min(value), max(value), "
       "avg(uncertainty_95), avg(baseline), max(state = 'raised') FROM indicator WHERE valve = (SELECT number "
       "FROM valve WHERE id = ?) AND wall_ms >= ? AND wall_ms < ? GROUP BY name, wall_ms / ? ORDER BY name, at");
-  constexpr std::int64_t minute_ms = 60'000;
-  rows.put(std::string_view(valve)).put(span.from_ms).put(span.to_ms).put(width_ms(span, minute_ms));
+  rows.put(std::string_view(valve))
+      .put(span.from_ms)
+      .put(span.to_ms)
+      .put(point_width_ms(span, least_indicator_width_ms));
   IndicatorHistories out;
   while (rows.next()) {
     out[rows.text(0)].push_back(
@@ -36,8 +36,7 @@ std::vector<FlowPoint> read_flow(const std::string& path, const std::string& val
                  "SELECT CAST(avg(wall_ms) AS INTEGER), avg(flow_mean), min(flow_min), max(flow_max), min(lower_min), "
                  "max(upper_max), avg(energy_J) FROM second WHERE valve = (SELECT number FROM valve WHERE id = ?) AND "
                  "wall_ms >= ? AND wall_ms < ? GROUP BY wall_ms / ? ORDER BY 1");
-  constexpr std::int64_t second_ms = 1000;
-  rows.put(std::string_view(valve)).put(span.from_ms).put(span.to_ms).put(width_ms(span, second_ms));
+  rows.put(std::string_view(valve)).put(span.from_ms).put(span.to_ms).put(point_width_ms(span, least_flow_width_ms));
   std::vector<FlowPoint> out;
   while (rows.next()) {
     out.push_back(

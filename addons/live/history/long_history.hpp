@@ -12,7 +12,12 @@ namespace spoolflow::live {
 struct Span {
   std::int64_t from_ms, to_ms;
   std::int64_t most_points = 600;
+  std::int64_t width_ms =
+      0;  ///< of a point; 0: what most_points makes it, which a part of a longer span is not to have
 };
+inline constexpr std::int64_t least_flow_width_ms = 1000, least_indicator_width_ms = 60'000;
+/// Of a point of the span, where its rows are so far apart.
+[[nodiscard]] std::int64_t point_width_ms(const Span& span, std::int64_t least_ms);
 
 /// Of one indicator, in its unit. NaN: not known then.
 struct IndicatorPoint {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,8 @@
 #include <boost/beast/websocket/ssl.hpp>
 
 #include "addons/live/http/door.hpp"
+#include "addons/live/http/long_queue.hpp"
+#include "addons/live/http/peer_address.hpp"
 #include "addons/live/http/seats.hpp"
 
 namespace spoolflow::live {
@@ -37,6 +40,8 @@ using TlsStream = beast::ssl_stream<beast::tcp_stream>;
 inline constexpr std::uint32_t largest_header = 8192;
 inline constexpr std::uint64_t largest_request_body = 1024;
 inline constexpr auto connection_patience = std::chrono::seconds(30), handshake_patience = std::chrono::seconds(10);
+/// Of an answer that its reader does not take, before the connection may be ended for another one.
+inline constexpr auto reader_patience = std::chrono::seconds(3);
 inline constexpr auto frame_period = std::chrono::milliseconds(25);
 
 /// The page asks nobody but this server for anything, and no page may frame it.
@@ -45,19 +50,58 @@ inline constexpr const char* security_policy =
     "'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// Requests are answered one by one in a thread beside the one that sends plots: neither the store's answers nor the
-/// hash of a password hold those up.
+/// hash of a password hold those up. Those that read much have a thread of their own, so that they hold up each other
+/// alone, and a queue with an end.
 struct Desk {
   Door door;
-  asio::thread_pool thread{1};
+  LongQueue queue{};
+  std::stop_source ends{};  ///< for what reads much
+  asio::thread_pool thread{1}, long_thread{1};
 
   Desk(PageContent&& content, const PageSettings& settings) : door(std::move(content), settings) {}
-  [[nodiscard]] Admission admit(const PageRequest& request) {
+  ~Desk() { end(); }
+  void end() {
+    ends.request_stop();
+    for (asio::thread_pool* one : {&thread, &long_thread}) {
+      one->stop();
+      one->join();
+    }
+  }
+  /// `then` has the admission with its answer, in one of these threads.
+  template <class Then>
+  void ask(PageRequest&& request, Then&& then) {
+    asio::post(thread, [this, request = std::move(request), then = std::forward<Then>(then)]() mutable {
+      Admission admission = guarded([&] { return door.admit(request, std::chrono::steady_clock::now()); });
+      if (!admission.is_long) return then(std::move(admission));
+      if (!queue.enter(request.peer)) return then({busy()});
+      asio::post(long_thread, [this, request = std::move(request), then = std::move(then)]() mutable {
+        Admission answered = guarded([&] { return Admission{door.long_answer(request, ends.get_token())}; });
+        queue.leave(request.peer);
+        then(std::move(answered));
+      });
+    });
+  }
+
+ private:
+  template <class Work>
+  static Admission guarded(Work&& work) {
     try {
-      return door.admit(request, std::chrono::steady_clock::now());
+      return work();
     } catch (const std::exception& error) {
       return {{500, media::plain, std::string(error.what()) + "\n"}};
     }
   }
+  static PageAnswer busy() {
+    PageAnswer out{503, media::plain, "others read hours and days now; ask again in some seconds\n"};
+    out.headers.emplace_back("Retry-After", "5");
+    return out;
+  }
+};
+
+/// What connections share with the server. Proxies are read in the thread of the connections alone.
+struct Hall {
+  Desk& desk;
+  const PageSettings& settings;
 };
 
 /// Sends one valve's plot, a message each frame period, as long as the browser listens. A slow browser gets fewer
@@ -120,11 +164,13 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
  public:
   static constexpr bool encrypted = std::is_same_v<Stream, TlsStream>;
 
-  Connection(Stream&& stream, Seats::Seat&& seat, Desk& desk)
-      : stream_(std::move(stream)), seat_(std::move(seat)), desk_(desk) {}
+  /// `host`: of the other side.
+  Connection(Stream&& stream, Seats::Seat&& seat, std::string host, const Hall& hall)
+      : stream_(std::move(stream)), seat_(std::move(seat)), host_(std::move(host)), hall_(hall) {}
 
   void begin() {
     if constexpr (encrypted) {
+      may_end(std::chrono::seconds(0));
       beast::get_lowest_layer(stream_).expires_after(handshake_patience);
       stream_.async_handshake(asio::ssl::stream_base::server,
                               [self = this->shared_from_this()](beast::error_code error) {
@@ -138,7 +184,15 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
  private:
   using Request = http::request<http::string_body>;
 
+  /// Where others want its place, behind that time.
+  void may_end(std::chrono::seconds patience) {
+    seat_.waits(std::chrono::steady_clock::now() + patience, [weak = this->weak_from_this()] {
+      if (const auto self = weak.lock()) beast::get_lowest_layer(self->stream_).close();
+    });
+  }
+
   void read() {
+    may_end(std::chrono::seconds(0));
     parser_.emplace();
     parser_->header_limit(largest_header);
     parser_->body_limit(largest_request_body);
@@ -179,6 +233,9 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
 
   [[nodiscard]] PageRequest asked(const Request& request) const {
     const auto field = [&](http::field name) { return std::string(request[name]); };
+    std::string forwarded;
+    const auto [begin, end] = request.equal_range("X-Forwarded-For");
+    for (auto one = begin; one != end; ++one) forwarded += "," + std::string(one->value());
     return {.method = std::string(request.method_string()),
             .target = std::string(request.target()),
             .host = field(http::field::host),
@@ -186,7 +243,7 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
             .cookie = field(http::field::cookie),
             .authorization = field(http::field::authorization),
             .body = request.body(),
-            .peer = seat_.peer(),
+            .peer = forwarded_peer(host_, forwarded, hall_.settings.proxies),
             .upgrade = websocket::is_upgrade(request),
             .encrypted = encrypted};
   }
@@ -197,9 +254,9 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
       refuse(400, "the request's end or its host is ambiguous: one Host, and of Transfer-Encoding chunked alone");
       return;
     }
+    seat_.works();
     auto request = std::make_shared<Request>(parser_->release());
-    asio::post(desk_.thread, [self = this->shared_from_this(), request, page = asked(*request)]() mutable {
-      Admission admission = self->desk_.admit(page);
+    hall_.desk.ask(asked(*request), [self = this->shared_from_this(), request](Admission&& admission) mutable {
       const auto executor = self->stream_.get_executor();
       asio::post(executor, [self = std::move(self), request, admission = std::move(admission)]() mutable {
         self->admitted(*request, std::move(admission));
@@ -228,11 +285,12 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
     reply_.set("Cross-Origin-Resource-Policy", "same-origin");
     reply_.set(http::field::cache_control, "no-store");
     if (encrypted) reply_.set(http::field::strict_transport_security, "max-age=31536000");
-    for (const auto& [header, value] : answer.headers) reply_.set(header, value);
+    for (const auto& [header, value] : answer.headers) reply_.insert(header, value);
     const std::size_t length = answer.body.size();
     if (request.method() != http::verb::head) reply_.body() = std::move(answer.body);
     reply_.content_length(length);
     beast::get_lowest_layer(stream_).expires_after(connection_patience);
+    may_end(reader_patience);
     const auto next = [self = this->shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return;
       if (self->reply_.need_eof()) {
@@ -260,7 +318,8 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
 
   Stream stream_;
   Seats::Seat seat_;
-  Desk& desk_;
+  std::string host_;
+  Hall hall_;
   beast::flat_buffer heard_;
   std::optional<http::request_parser<http::string_body>> parser_;
   http::response<http::string_body> reply_;

@@ -37,8 +37,12 @@ std::string_view cookie_value(std::string_view cookies, std::string_view name) {
   return {};
 }
 
-std::string set_cookie(bool encrypted, std::string_view value, long seconds) {
-  return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Strict{}", cookie_name(encrypted), value, seconds,
+/// Of the browser itself, which it keeps beyond its session.
+constexpr const char* known_suffix = "-known";
+constexpr long known_s = 90L * 24 * 3600;
+
+std::string set_cookie(bool encrypted, const std::string& name, std::string_view value, long seconds) {
+  return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Strict{}", name, value, seconds,
                      encrypted ? "; Secure" : "");
 }
 
@@ -106,12 +110,15 @@ PageAnswer Door::login(const PageRequest& request, Access::Time now) {
   if (!is_own_page(request)) return told(403, "log in on the page of this server");
   const auto asked = login_of(request.body);
   if (!asked) return told(400, "a login is {\"name\": \"…\", \"password\": \"…\"}");
-  const Access::Login login = access_.login(asked->name, asked->password, request.peer, now);
+  const std::string_view known = cookie_value(request.cookie, cookie_name(request.encrypted) + known_suffix);
+  const Access::Login login = access_.login(asked->name, asked->password, {request.peer, known}, now);
   if (login.too_many) return too_many();
   if (login.session.empty()) return told(401, "name or password is wrong");
   PageAnswer out{200, media::json, session_json(login.visitor, access_.has_accounts())};
-  out.headers.emplace_back(
-      "Set-Cookie", set_cookie(request.encrypted, login.session, static_cast<long>(3600 * settings_.session_hours)));
+  const std::string name = cookie_name(request.encrypted);
+  out.headers.emplace_back("Set-Cookie", set_cookie(request.encrypted, name + known_suffix, login.browser, known_s));
+  out.headers.emplace_back("Set-Cookie", set_cookie(request.encrypted, name, login.session,
+                                                    static_cast<long>(3600 * settings_.session_hours)));
   return out;
 }
 
@@ -119,7 +126,7 @@ PageAnswer Door::logout(const PageRequest& request) {
   if (!is_own_page(request)) return told(403, "log out on the page of this server");
   access_.logout(cookie_value(request.cookie, cookie_name(request.encrypted)));
   PageAnswer out{200, media::json, session_json({}, access_.has_accounts())};
-  out.headers.emplace_back("Set-Cookie", set_cookie(request.encrypted, "", 0));
+  out.headers.emplace_back("Set-Cookie", set_cookie(request.encrypted, cookie_name(request.encrypted), "", 0));
   return out;
 }
 
@@ -167,6 +174,7 @@ Admission Door::admit(const PageRequest& request, Access::Time now) {
     return {{}, std::move(stream)};
   }
   if (posts) return {posted(request, visitor)};
+  if (content_.is_long && content_.is_long(path)) return {.answer = {}, .is_long = true};
   return {content_.answer(request.method, request.target)};
 }
 

@@ -8,13 +8,15 @@
 
 namespace spoolflow::live {
 
-/// A WebSocket that is to be opened has `stream`; everything else its answer.
+/// A WebSocket that is to be opened has `stream`; what is to be asked for by long_answer() `is_long`; everything else
+/// its answer.
 struct Admission {
   PageAnswer answer;
   NextFrame stream{};
+  bool is_long = false;
 };
 
-/// To be used by one thread.
+/// To be used by one thread; long_answer() by another one.
 class Door {
  public:
   /// Throws SiteError where an account cannot be used.
@@ -28,6 +30,10 @@ class Door {
   }
 
   [[nodiscard]] Admission admit(const PageRequest& request, Access::Time now);
+  /// To a request that was admitted and is long.
+  [[nodiscard]] PageAnswer long_answer(const PageRequest& request, const std::stop_token& stop) const {
+    return content_.long_answer(request.method, request.target, stop);
+  }
 
  private:
   [[nodiscard]] bool knows_host(std::string_view host) const;

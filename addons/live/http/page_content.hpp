@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@ namespace spoolflow::live {
 /// The next message of a WebSocket; of the server's thread, and quick.
 using NextFrame = std::function<std::vector<std::uint8_t>()>;
 
-/// Each is called by one thread at a time.
+/// Each is called by one thread at a time; `long_answer` by another one than the rest.
 struct PageContent {
   std::string name;  ///< of the program, for browsers: "spoolflow live"
   /// What those who may read are told; `target` as the request has it.
@@ -26,6 +27,11 @@ struct PageContent {
   std::function<std::optional<PageAnswer>(std::string_view alarm, const std::string& by)> acknowledge;
   /// Empty where no plot is streamed at that path.
   std::function<NextFrame(std::string_view path)> stream;
+  /// Whether an answer reads much, days of a valve for one. Empty: none does.
+  std::function<bool(std::string_view path)> is_long{};
+  /// As `answer`, of these; gives up where it is asked to stop.
+  std::function<PageAnswer(std::string_view method, std::string_view target, const std::stop_token& stop)>
+      long_answer{};
 };
 
 }  // namespace spoolflow::live

@@ -1,6 +1,7 @@
 /// The only file that sees Boost.Beast, which takes long to compile.
 #include "addons/live/http/server.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -49,16 +50,6 @@ std::shared_ptr<asio::ssl::context> tls_context(const PageSettings& settings) {
   return context;
 }
 
-/// Whose wrong passwords and connections are counted together: an IPv4 address, or the network of an IPv6 one.
-std::string peer_of(const asio::ip::address& address) {
-  if (address.is_v4()) return address.to_string();
-  asio::ip::address_v6 whole = address.to_v6();
-  if (whole.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, whole).to_string();
-  asio::ip::address_v6::bytes_type bytes = whole.to_bytes();
-  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
-  return asio::ip::address_v6(bytes).to_string();
-}
-
 SettingsWatch::Files watched_files(const PageOrigin& origin, const PageSettings& settings) {
   SettingsWatch::Files out;
   for (const std::filesystem::path& file : {origin.file, settings.certificate, settings.key}) {
@@ -68,6 +59,8 @@ SettingsWatch::Files watched_files(const PageOrigin& origin, const PageSettings&
 }
 
 constexpr auto look_period = std::chrono::seconds(1);
+/// Behind a connection that could not be taken, as without a descriptor none can.
+constexpr auto accept_pause = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -80,7 +73,7 @@ struct PageServer::Parts {
   asio::io_context context{1};
   Desk desk;
   tcp::acceptor acceptor{context};
-  asio::steady_timer next_look{context};
+  asio::steady_timer next_look{context}, next_accept{context};
   std::jthread thread{};
 
   Parts(PageContent&& content, const PageSettings& page, PageOrigin&& from)
@@ -121,23 +114,38 @@ struct PageServer::Parts {
     if (origin.tell) origin.tell(told);
   }
 
+  /// Whoever waits is taken; without a descriptor one that is idle gives way, and the listener rests.
   void accept() {
-    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+    acceptor.async_wait(tcp::acceptor::wait_read, [this](beast::error_code error) {
       if (error == asio::error::operation_aborted) return;
+      tcp::socket socket(context);
+      if (!error) acceptor.accept(socket, error);
       if (!error) take(std::move(socket));
-      accept();
+      if (!error || error == asio::error::would_block) {
+        accept();
+        return;
+      }
+      seats.end_longest_waiting(std::chrono::steady_clock::now());
+      next_accept.expires_after(accept_pause);
+      next_accept.async_wait([this](beast::error_code ended) {
+        if (!ended) accept();
+      });
     });
   }
   void take(tcp::socket&& socket) {
     beast::error_code error;
     const auto other = socket.remote_endpoint(error);
     if (error) return;
-    auto seat = seats.take(peer_of(other.address()), other.address().is_loopback());
+    const std::string host = host_of(other.address().to_string()).value_or("");
+    const bool is_proxy = std::find(settings.proxies.begin(), settings.proxies.end(), host) != settings.proxies.end();
+    auto seat = seats.take(peer_of_host(host), is_proxy, std::chrono::steady_clock::now());
     if (!seat) return;
+    const Hall hall{desk, settings};
     if (tls) {
-      std::make_shared<Connection<TlsStream>>(TlsStream(std::move(socket), *tls), std::move(*seat), desk)->begin();
+      std::make_shared<Connection<TlsStream>>(TlsStream(std::move(socket), *tls), std::move(*seat), host, hall)
+          ->begin();
     } else {
-      std::make_shared<Connection<PlainStream>>(PlainStream(std::move(socket)), std::move(*seat), desk)->begin();
+      std::make_shared<Connection<PlainStream>>(PlainStream(std::move(socket)), std::move(*seat), host, hall)->begin();
     }
   }
 };
@@ -148,6 +156,7 @@ PageServer::PageServer(PageContent content, const PageSettings& settings, PageOr
   BoundSocket bound = bind_socket(settings.listen, Transport::tcp);
   const bool is_6 = settings.listen.host.find(':') != std::string::npos;
   parts_->acceptor.assign(is_6 ? tcp::v6() : tcp::v4(), bound.descriptor.release());
+  parts_->acceptor.non_blocking(true);
   parts_->accept();
   parts_->look_again();
   parts_->thread = std::jthread([parts = parts_.get()] { parts->context.run(); });
@@ -157,8 +166,7 @@ PageServer::~PageServer() {
   parts_->context.stop();
   parts_->thread = {};
   // What is still asked at the desk goes with the context.
-  parts_->desk.thread.stop();
-  parts_->desk.thread.join();
+  parts_->desk.end();
 }
 
 std::uint16_t PageServer::port() const {

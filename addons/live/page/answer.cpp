@@ -1,7 +1,13 @@
 #include "addons/live/page/answer.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <iterator>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "addons/live/http/target.hpp"
 #include "addons/live/page/alarm_text.hpp"
@@ -15,6 +21,9 @@ namespace {
 
 using media::json;
 using media::plain;
+
+/// Of the days of a valve for one answer.
+constexpr std::chrono::seconds longest_reading{20};
 
 std::string page_file(std::string_view name) {
   for (const EmbeddedFile& file : page_files()) {
@@ -49,27 +58,64 @@ std::optional<std::size_t> place_of(const Engine& engine, std::string_view id) {
   return std::nullopt;
 }
 
-std::string indicator_days(const Engine& engine, std::size_t valve, const Span& span) {
+/// Piece by piece, so that one request takes no more than its time. False where it ended before the last piece. Points
+/// lie where they would in one piece.
+template <class Read>
+bool read_pieces(const Span& span, std::int64_t least_width_ms, const std::stop_token& stop, Read&& read) {
+  constexpr std::int64_t points_of_a_piece = 20;
+  const auto end = std::chrono::steady_clock::now() + longest_reading;
+  const std::int64_t width_ms = point_width_ms(span, least_width_ms), piece_ms = points_of_a_piece * width_ms;
+  for (std::int64_t from_ms = span.from_ms; from_ms < span.to_ms;) {
+    if (stop.stop_requested() || std::chrono::steady_clock::now() > end) return false;
+    const std::int64_t to_ms = std::min(span.to_ms, (from_ms / piece_ms + 1) * piece_ms);
+    read(Span{from_ms, to_ms, span.most_points, width_ms});
+    from_ms = to_ms;
+  }
+  return true;
+}
+
+PageAnswer too_long() {
+  return {503, plain,
+          fmt::format("this span takes longer than {} s to read; ask for a shorter one\n", longest_reading.count())};
+}
+
+template <class Point>
+void append(std::vector<Point>& to, std::vector<Point>&& more) {
+  to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+PageAnswer indicator_days(const Engine& engine, std::size_t valve, const Span& span, const std::stop_token& stop) {
   const ValveView view = engine.view(valve);
+  const std::string& store = engine.site().store;
   IndicatorHistories kept;
-  if (!engine.site().store.empty()) kept = read_indicators(engine.site().store, view.id, span);
+  const bool whole = store.empty() || read_pieces(span, least_indicator_width_ms, stop, [&](const Span& piece) {
+                       for (auto& [name, points] : read_indicators(store, view.id, piece))
+                         append(kept[name], std::move(points));
+                     });
+  if (!whole) return too_long();
   std::vector<IndicatorDays> out;
   for (const monitor::Indicator& one : view.indicators) {  // in the monitor's order
     std::vector<IndicatorPoint>& points = kept[std::string(one.name)];
     if (one.state == monitor::IndicatorState::counts || points.empty()) continue;
     out.push_back({std::string(one.name), std::string(one.unit), std::move(points)});
   }
-  return indicator_days_json(view.id, span, out);
+  return {200, json, indicator_days_json(view.id, span, out)};
 }
 
-std::string flow_days(const Engine& engine, std::size_t valve, const Span& span) {
+PageAnswer flow_days(const Engine& engine, std::size_t valve, const Span& span, const std::stop_token& stop) {
   const std::string& id = engine.valve(valve).id();
-  return flow_days_json(
-      id, span, engine.site().store.empty() ? std::vector<FlowPoint>() : read_flow(engine.site().store, id, span));
+  const std::string& store = engine.site().store;
+  std::vector<FlowPoint> points;
+  const bool whole = store.empty() || read_pieces(span, least_flow_width_ms, stop, [&](const Span& piece) {
+                       append(points, read_flow(store, id, piece));
+                     });
+  if (!whole) return too_long();
+  return {200, json, flow_days_json(id, span, points)};
 }
 
 /// /api/v1/valves/ID/indicators and /api/v1/valves/ID/history; nothing where it is neither.
-std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, std::string_view target) {
+std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, std::string_view target,
+                                  const std::stop_token& stop) {
   const auto indicators = valve_asked(path, "indicators");
   const auto asked = indicators ? indicators : valve_asked(path, "history");
   if (!asked) return std::nullopt;
@@ -77,16 +123,22 @@ std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, s
   if (!valve) return PageAnswer{404, plain, "there is no valve of this name\n"};
   const auto span = span_asked(target);
   if (!span) return no_span();
-  return PageAnswer{200, json, indicators ? indicator_days(engine, *valve, *span) : flow_days(engine, *valve, *span)};
+  return indicators ? indicator_days(engine, *valve, *span, stop) : flow_days(engine, *valve, *span, stop);
+}
+
+/// What reads the store.
+bool is_long(std::string_view path) {
+  return valve_asked(path, "indicators") || valve_asked(path, "history") || path.starts_with("/api/v1/recordings");
 }
 
 }  // namespace
 
-PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_view target) {
+PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_view target,
+                     const std::stop_token& stop) {
   if (method != "GET" && method != "HEAD") return {405, plain, "only GET is answered\n"};
   const std::string_view path = target.substr(0, target.find('?'));
   try {
-    if (auto days = days_of(engine, path, target)) return std::move(*days);
+    if (auto days = days_of(engine, path, target, stop)) return std::move(*days);
     return found(engine, path);
   } catch (const StoreError& error) {
     return {503, plain, std::string(error.what()) + "\n"};
@@ -145,7 +197,10 @@ PageContent site_page(Engine& engine) {
                 const auto asked = valve_asked(path, "stream");
                 const auto valve = asked ? place_of(engine, *asked) : std::nullopt;
                 return valve ? plot_of(engine.valve(*valve)) : NextFrame();
-              }};
+              },
+          .is_long = is_long,
+          .long_answer = [&](std::string_view method, std::string_view target,
+                             const std::stop_token& stop) { return answer_to(engine, method, target, stop); }};
 }
 
 }  // namespace spoolflow::live

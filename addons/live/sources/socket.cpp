@@ -126,7 +126,7 @@ BoundSocket bind_socket(const Address& address, Transport transport) {
   const SocketAddress where = system_address(address);
   if (socket.number() < 0 ||
       ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&where.storage), where.length) != 0 ||
-      (tcp && ::listen(socket.number(), 16) != 0)) {
+      (tcp && ::listen(socket.number(), SOMAXCONN) != 0)) {
     const int error = errno;
     throw SiteError(fmt::format("cannot listen at {}: {}; {}", address.text(), std::generic_category().message(error),
                                 error == EADDRINUSE ? "end the program that listens there or choose another port"

@@ -57,8 +57,8 @@ class AccessTest : public ::testing::Test {
 };
 
 TEST_F(AccessTest, OtherAccountsLeaveSessionsToThoseWhoAreStillThere) {
-  const auto anna = access.login("anna", "correct horse", "p", now),
-             eve = access.login("eve", "correct horse", "p", now);
+  const auto anna = access.login("anna", "correct horse", {"p"}, now),
+             eve = access.login("eve", "correct horse", {"p"}, now);
   EXPECT_EQ(access.who("", "eve.correct horse", "p", now).visitor.role, Role::read);
   PageSettings changed = with_accounts();
   changed.accounts[0].role = Role::read;
@@ -74,17 +74,17 @@ TEST_F(AccessTest, OtherAccountsLeaveSessionsToThoseWhoAreStillThere) {
 }
 
 TEST_F(AccessTest, SessionsBeginWithThePasswordAndEnd) {
-  const auto login = access.login("anna", "correct horse", "p", now);
+  const auto login = access.login("anna", "correct horse", {"p"}, now);
   ASSERT_EQ(login.session.size(), 43U);
   EXPECT_EQ(access.who(login.session, "", "p", now).visitor.role, Role::acknowledge);
   EXPECT_TRUE(access.who(login.session, "", "p", now).visitor.by_cookie);
   EXPECT_EQ(access.who(login.session + "x", "", "p", now).visitor.role, Role::none);
   EXPECT_EQ(access.who(login.session, "", "p", now + std::chrono::hours(13)).visitor.role, Role::none);
-  const auto again = access.login("anna", "correct horse", "p", now);
+  const auto again = access.login("anna", "correct horse", {"p"}, now);
   access.logout(again.session);
   EXPECT_EQ(access.who(again.session, "", "p", now).visitor.role, Role::none);
-  EXPECT_TRUE(access.login("anna", "wrong", "p", now).session.empty());
-  EXPECT_TRUE(access.login("nobody", "correct horse", "p", now).session.empty());
+  EXPECT_TRUE(access.login("anna", "wrong", {"p"}, now).session.empty());
+  EXPECT_TRUE(access.login("nobody", "correct horse", {"p"}, now).session.empty());
 }
 
 TEST_F(AccessTest, TokensNameTheirAccount) {
@@ -97,12 +97,44 @@ TEST_F(AccessTest, TokensNameTheirAccount) {
   }
 }
 
-TEST_F(AccessTest, WrongOnesAreHeldBackByAddressAndAltogether) {
-  for (int k = 0; k < Access::trials_of_one; ++k) EXPECT_FALSE(access.login("anna", "wrong", "p", now).too_many);
-  EXPECT_TRUE(access.login("anna", "correct horse", "p", now).too_many);
+TEST_F(AccessTest, WrongOnesAreHeldBackByAddressAndAccount) {
+  for (int k = 0; k < Access::trials_of_one; ++k) EXPECT_FALSE(access.login("anna", "wrong", {"p"}, now).too_many);
+  EXPECT_TRUE(access.login("anna", "correct horse", {"p"}, now).too_many);
   EXPECT_TRUE(access.who("", "anna.correct horse", "p", now).too_many);
-  EXPECT_FALSE(access.login("anna", "correct horse", "q", now).session.empty());
-  EXPECT_FALSE(access.login("anna", "correct horse", "p", now + std::chrono::seconds(61)).session.empty());
+  EXPECT_FALSE(access.login("anna", "correct horse", {"q"}, now).session.empty());
+  EXPECT_FALSE(access.login("eve", "correct horse", {"p"}, now).session.empty());
+  EXPECT_FALSE(access.login("anna", "correct horse", {"p"}, now + std::chrono::seconds(61)).session.empty());
+}
+
+TEST_F(AccessTest, NamesThatThereAreNotHaveTheirTrialsTogether) {
+  for (int k = 0; k < Access::trials_of_one; ++k) {
+    EXPECT_FALSE(access.login("nobody " + std::to_string(k), "wrong", {"p"}, now).too_many);
+  }
+  EXPECT_TRUE(access.login("another", "wrong", {"p"}, now).too_many);
+  EXPECT_FALSE(access.login("anna", "correct horse", {"p"}, now).session.empty());
+}
+
+TEST_F(AccessTest, ManyWrongOnesOfAllKeepNobodyElseOut) {
+  for (int k = 0; k < Access::trials_of_all; ++k) {
+    EXPECT_FALSE(access.login("anna", "wrong", {"p" + std::to_string(k)}, now).too_many);
+  }
+  EXPECT_TRUE(access.login("anna", "correct horse", {"p1"}, now).too_many);  // its one of this minute was wrong
+  EXPECT_FALSE(access.login("anna", "correct horse", {"q"}, now).session.empty());
+}
+
+TEST_F(AccessTest, ABrowserThatHasLoggedInIsNotKeptOutByOthersOfItsAddress) {
+  const Access::Login before = access.login("anna", "correct horse", {"p"}, now);
+  ASSERT_EQ(before.browser.size(), 43U);
+  for (int k = 0; k < Access::trials_of_one; ++k) EXPECT_FALSE(access.login("anna", "wrong", {"p"}, now).too_many);
+  EXPECT_TRUE(access.login("anna", "correct horse", {"p"}, now).too_many);
+  const Access::Login again = access.login("anna", "correct horse", {"p", before.browser}, now);
+  EXPECT_FALSE(again.session.empty());
+  EXPECT_EQ(again.browser, before.browser);
+  for (int k = 0; k < Access::trials_of_one; ++k) {
+    EXPECT_FALSE(access.login("anna", "wrong", {"q", before.browser}, now).too_many);
+  }
+  EXPECT_TRUE(access.login("anna", "correct horse", {"q", before.browser}, now).too_many);  // it has as many itself
+  EXPECT_NE(access.login("eve", "correct horse", {"q", before.browser}, now).browser, before.browser);
 }
 
 class DoorTest : public ::testing::Test {
@@ -173,16 +205,17 @@ TEST_F(DoorTest, ASessionIsOnlyWorthOnItsOwnPage) {
   login.body = R"({"name": "anna", "password": "correct horse"})";
   const PageAnswer in = door.admit(login, now).answer;
   ASSERT_EQ(in.status, 200U);
-  ASSERT_EQ(in.headers.size(), 1U);
-  EXPECT_THAT(in.headers[0].second, HasSubstr("HttpOnly; SameSite=Strict"));
+  ASSERT_EQ(in.headers.size(), 2U);
+  for (const auto& [header, value] : in.headers) EXPECT_THAT(value, HasSubstr("HttpOnly; SameSite=Strict"));
+  EXPECT_THAT(in.headers[0].second, testing::StartsWith("spoolflow-known="));
   login.encrypted = true;
   login.origin = "https://127.0.0.1:8080";
-  EXPECT_THAT(door.admit(login, now).answer.headers[0].second,
+  EXPECT_THAT(door.admit(login, now).answer.headers[1].second,
               testing::AllOf(testing::StartsWith("__Host-spoolflow="), HasSubstr("Secure")));
   login.origin = "https://evil.example";
   EXPECT_EQ(door.admit(login, now).answer.status, 403U);
 
-  const std::string cookie = "x=1; " + in.headers[0].second.substr(0, in.headers[0].second.find(';'));
+  const std::string cookie = "x=1; " + in.headers[1].second.substr(0, in.headers[1].second.find(';'));
   PageRequest read = get("/api/v1/valves");
   read.cookie = cookie;
   EXPECT_EQ(door.admit(read, now).answer.status, 200U);

@@ -90,7 +90,15 @@ TEST_F(Days, AreAskedForByInstants) {
   const auto flow =
       nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/valves/a/history?from=1.7e9&to=1.71e9").body);
   EXPECT_EQ(flow["flow_mean_L_min"][0], 60);
+  const auto whole = read_flow(path("s.sqlite"), "a", {begin_ms, begin_ms + 1440 * minute_ms});
+  const auto pieces =
+      nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/valves/a/history?from=1700000000&to=1700086400").body);
+  ASSERT_EQ(pieces["time_ms"].size(), whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces["time_ms"][k], whole[k].wall_ms);
   EXPECT_EQ(answer_to(engine, "GET", "/api/v1/valves/b/indicators").status, 404U);
+  std::stop_source ends;
+  ends.request_stop();
+  EXPECT_EQ(answer_to(engine, "GET", "/api/v1/valves/a/history?from=0&to=1.71e9", ends.get_token()).status, 503U);
   EXPECT_EQ(answer_to(engine, "GET", "/api/v1/valves/a/indicators").status, 200U);
   for (const char* wrong : {"from=yesterday", "from=2&to=1", "to=nan", "from=1e300", "from=", "from=2023-02-30"}) {
     EXPECT_EQ(answer_to(engine, "GET", std::string("/api/v1/valves/a/history?") + wrong).status, 400U) << wrong;

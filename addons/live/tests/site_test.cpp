@@ -111,6 +111,10 @@ TEST_F(SiteTest, ReadsWhoMayComeIn) {
   EXPECT_EQ(site.alarms.raised_after_s, 0.5);
   EXPECT_EQ(site.plotjuggler->port, 9870);
   EXPECT_NO_THROW(check_reach(site.page));
+  EXPECT_EQ(of("[page]\nproxies = [\"127.0.0.1\", \"fd00:0::7\"]\n").page.proxies,
+            (std::vector<std::string>{"127.0.0.1", "fd00::7"}));
+  EXPECT_THAT(wrong("[page]\nproxies = [\"proxy.local\"]\n"), HasSubstr("proxy.local"));
+  EXPECT_THAT(wrong("[page]\nproxies = \"127.0.0.1\"\n"), HasSubstr("proxies must be a list of texts, such as"));
   EXPECT_THAT(wrong("[page]\ncertificate = \"c.pem\"\n"), HasSubstr("name the other PEM file, too"));
   EXPECT_THAT(wrong(account + account), HasSubstr("two accounts have the name 'anna'"));
   EXPECT_THAT(wrong("[[page.account]]\nname = \"a\"\nrole = \"admin\"\nsecret = \"\"\n"),
