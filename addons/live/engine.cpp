@@ -82,6 +82,8 @@ void Engine::restore() {
                                    [&](const auto& place) { return place->valve->id() == kept.valve; });
     if (same == valves_.end()) continue;
     (*same)->after = {kept.session, kept.next};
+    (*same)->before = {kept.samples + kept.counts.dropped, kept.counts.dropped,    kept.counts.lost,
+                       kept.counts.repeated,               kept.counts.unreadable, kept.counts.connections};
     const bool goes_on = (*same)->valve->restore(kept);
     (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
     if (goes_on) continue;
@@ -165,7 +167,7 @@ SourceView Engine::source(std::size_t k) const {
   SourceView out;
   out.kind = kind(site_.valves[k].source);
   if (const auto* tcp = std::get_if<std::unique_ptr<TcpSource>>(&place.source)) out.port = (*tcp)->port();
-  out.counters = place.intake->counters();
+  out.counters = place.before + place.intake->counters();
   out.trouble = place.intake->trouble();
   const std::int64_t arrived_ns = place.valve->arrived_ns();
   out.age_s =

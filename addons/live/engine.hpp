@@ -27,7 +27,7 @@ namespace spoolflow::live {
 struct SourceView {
   std::string_view kind;
   std::uint16_t port = 0;  ///< of tcp
-  IntakeCounters counters;
+  IntakeCounters counters;  ///< since the store began; without one, since the start
   std::string trouble;   ///< empty: none
   bool stalled = false;  ///< no sample for longer than the site allows; a recording that has ended is not stalled
   double age_s = 0;      ///< since the last sample; NaN: none yet
@@ -86,6 +86,7 @@ class Engine {
     std::unique_ptr<ValveAtWork> valve;
     std::unique_ptr<Intake> intake;
     SourcePosition after;
+    IntakeCounters before{};  ///< what the store has of its source's counts at the start
     std::variant<std::monostate, std::unique_ptr<TcpSource>, std::unique_ptr<PipeSource>, std::unique_ptr<ReplaySource>,
                  std::unique_ptr<RigSource>>
         source;
@@ -104,6 +105,7 @@ class Engine {
   void restore();
   void begin_to_publish();
   void keep(bool with_indicators);
+  [[nodiscard]] ValveCommit commit_of(std::size_t k, bool with_indicators) const;
   void look_after_store(std::int64_t now_ms);
   void follow_clock();
   void report(std::int64_t now_ms, std::vector<ValveCommit>& commits, const std::vector<Event>& events,

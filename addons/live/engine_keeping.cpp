@@ -55,10 +55,23 @@ void Engine::keep_raw_samples(Place& place, const ValveView& valve, bool nothing
   }
 }
 
+/// What is lost, and the sessions of senders, are counted up to the sample that was worked on last: what lies behind it
+/// is met again after an end at any instant. Other counts are met once.
+ValveCommit Engine::commit_of(std::size_t k, bool with_indicators) const {
+  const Place& place = *valves_[k];
+  ValveCommit out = place.valve->take_commit(with_indicators);
+  const IntakeCounters all = place.before + place.intake->counters();
+  out.state.counts.repeated = all.repeated;
+  out.state.counts.unreadable = all.unreadable;
+  const bool has_sessions = std::holds_alternative<UdpSettings>(site_.valves[k].source);
+  if (!has_sessions) out.state.counts.connections = all.connections;
+  return out;
+}
+
 void Engine::keep(bool with_indicators) {
   std::vector<ValveCommit> commits;
   commits.reserve(valves_.size());
-  for (const auto& place : valves_) commits.push_back(place->valve->take_commit(with_indicators));
+  for (std::size_t k = 0; k < valves_.size(); ++k) commits.push_back(commit_of(k, with_indicators));
   const Instant now = clock_();
   const std::int64_t now_ms = now.wall_ms;
   std::string trouble;

@@ -42,6 +42,7 @@ struct Store::Statements {
   std::map<std::string, std::int64_t> numbers;  ///< of valves
   std::map<std::int64_t, OlderState> states;    ///< as written since the program began
   StateChanges changes;                         ///< against the older states in the file
+  std::map<std::int64_t, SourceCounts> counts;  ///< as written
   int rows_moved_before = rows_move_every;      ///< commits; those of the program before go at once
 
   explicit Statements(Database& database)
@@ -59,6 +60,7 @@ struct Store::Statements {
   void read(Database& database) {
     states.clear();
     changes = changes_in(database);
+    counts = kept_source_counts(database);
     numbers.clear();
     Statement known(database, "SELECT id, number FROM valve");
     while (known.next()) numbers.emplace(known.text(0), known.integer(1));
@@ -106,6 +108,7 @@ Store::~Store() {
 std::vector<KeptState> Store::states() {
   std::vector<KeptState> out;
   const StateChanges changes = changes_in(*database_);
+  const std::map<std::int64_t, SourceCounts> counts = kept_source_counts(*database_);
   Statement each(*database_,
                  "SELECT id, session, next, samples, energy_J, layout, bytes, content, number FROM state "
                  "JOIN older_state USING(valve) JOIN valve ON state.valve = valve.number");
@@ -118,6 +121,7 @@ std::vector<KeptState> Store::states() {
                    .layout = each.text(5)};
     const std::int64_t length = each.integer(6);
     const auto change = changes.find(each.integer(8));
+    if (const auto counted = counts.find(each.integer(8)); counted != counts.end()) kept.counts = counted->second;
     bool whole = length >= 0 && length <= largest_state && change != changes.end();
     if (whole) {
       kept.bytes.resize(static_cast<std::size_t>(length));
@@ -190,6 +194,10 @@ void Store::commit_all(const RowTime& at, const std::vector<ValveCommit>& valves
     for (const KeptIndicator& one : valve.indicators) {
       to.indicator.put(number).put(at.wall_ms).put(std::string_view(one.name)).put(one.value).put(one.uncertainty_95);
       to.indicator.put(one.baseline).put(std::string_view(one.state)).put(at.run_ms).run();
+    }
+    if (SourceCounts& counts = to.counts[number]; counts != valve.state.counts) {
+      counts = valve.state.counts;
+      keep_source_counts(*database_, number, counts);
     }
     if (valve.since_last.samples == 0 && valve.indicators.empty() && !needs_states_) continue;  // nothing has changed
     put_state(number, valve.state);

@@ -18,6 +18,7 @@
 #include "addons/live/history/outbox_table.hpp"
 #include "addons/live/history/retention.hpp"
 #include "addons/live/history/run_time.hpp"
+#include "addons/live/history/source_count_table.hpp"
 #include "addons/live/history/sqlite.hpp"
 
 namespace spoolflow::live {
@@ -40,6 +41,7 @@ struct KeptState {
   double energy_J = 0;                  ///< since then
   std::string layout{};                 ///< what the bytes are of; of another layout they are not taken
   std::vector<std::byte> bytes{};       ///< of sensor and monitor
+  SourceCounts counts{};                ///< up to the sample `next`, since the store began
 };
 
 struct ValveCommit {

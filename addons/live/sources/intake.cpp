@@ -11,6 +11,7 @@ std::int64_t steady_ns() {
 }
 
 void Intake::append(SampleBlock&& block) {
+  block.counted = counters();
   waiting_ += block.samples.size();
   blocks_.push_back(std::move(block));
 }

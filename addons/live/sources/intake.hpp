@@ -14,16 +14,6 @@
 
 namespace spoolflow::live {
 
-/// What a source has delivered, since the program started.
-struct IntakeCounters {
-  std::uint64_t received = 0;     ///< samples that came in whole
-  std::uint64_t dropped = 0;      ///< of them, those that found no room
-  std::uint64_t lost = 0;         ///< samples that were sent and never came, told by sequence numbers
-  std::uint64_t repeated = 0;     ///< samples that had come before, by sequence number
-  std::uint64_t unreadable = 0;   ///< datagrams or lines that are no samples
-  std::uint64_t connections = 0;  ///< times that a sender began: connections, sessions, openings
-};
-
 class Intake {
  public:
   static constexpr std::size_t most_samples = 16384;  ///< 16 s at 1 kHz, 1.6 MB

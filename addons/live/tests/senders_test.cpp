@@ -89,6 +89,60 @@ TEST_F(SendersTest, ReadsAPipeAgainAndAgain) {
               HasSubstr("is no pipe; make it with mkfifo"));
 }
 
+// With what was sent while no program ran: its sequence numbers say how much that is.
+TEST_F(EngineTest, CountsOfASourceGoOnAtEachStart) {
+  SiteSettings kept = site({{"u", UdpSettings{}}});
+  kept.store = path("kept.sqlite");
+  for (std::uint64_t start = 0; start < 4; ++start) {
+    Engine engine(kept, "test");
+    EXPECT_EQ(engine.source(0).counters.lost, start == 0 ? 0 : 60 * start - 50) << start;
+    engine.start();
+    send_datagrams(engine, 100 * start, 20);
+    ASSERT_TRUE(has(engine, 0, 40 * start + 20));
+    send_datagrams(engine, 100 * start, 20);       // again
+    send_datagrams(engine, 100 * start + 30, 20);  // ten are lost before them, and fifty behind them
+    ASSERT_TRUE(has(engine, 0, 40 * start + 40));
+    const IntakeCounters counters = engine.source(0).counters;
+    EXPECT_EQ(counters.received, 40 * (start + 1));
+    EXPECT_EQ(counters.lost, 60 * start + 10);
+    EXPECT_EQ(counters.repeated, 20 * (start + 1));
+    EXPECT_EQ(counters.connections, 1U);  // one session
+  }
+  const Engine again(kept, "test");
+  EXPECT_EQ(again.source(0).counters.lost, 190U);
+  EXPECT_EQ(again.source(0).counters.received, 160U);
+  EXPECT_EQ(again.source(0).counters.connections, 1U);
+}
+
+// A kill leaves what was kept: a gap in front of samples that were not worked on is met again.
+TEST_F(EngineTest, AGapIsCountedOnceThoughAKillComesBeforeItsSamplesAreKept) {
+  Intake intake([] {});
+  DatagramOrder order;
+  ValveAtWork valve("u", model, "test");
+  std::vector<SampleBlock> blocks;
+  const auto came = [&](DatagramOrder& in, Intake& to, std::uint64_t sequence) {
+    const std::vector<estimation::TimedSample> samples(10, {1e-3 * static_cast<double>(sequence), 1.5, 4.8, 1e-3, 323});
+    to.push(in.next({"u", 7, sequence, samples}, to));
+  };
+  came(order, intake, 0);
+  came(order, intake, 30);
+  intake.take(blocks);
+  for (const SampleBlock& block : blocks) valve.work(block);
+  came(order, intake, 100);  // waits still
+  const KeptState kept = valve.take_commit(false).state;
+  EXPECT_EQ(kept.counts.lost, 20U);
+  EXPECT_EQ(kept.counts.connections, 1U);
+
+  Intake next_intake([] {});
+  DatagramOrder next_order({kept.session, kept.next});
+  ValveAtWork next("u", model, "test");
+  ASSERT_TRUE(next.restore(kept));
+  came(next_order, next_intake, 110);
+  next_intake.take(blocks);
+  for (const SampleBlock& block : blocks) next.work(block);
+  EXPECT_EQ(next.take_commit(false).state.counts.lost, 90U);  // 20, and 40 to 109
+}
+
 // A sender that writes and leaves at once, as a script of echo lines does: each finds a reader, and no row is lost.
 TEST_F(SendersTest, ReadsSendersThatFollowEachOtherAtOnce) {
   ASSERT_EQ(::mkfifo(path("fifo").c_str(), 0600), 0);

@@ -38,6 +38,11 @@ std::uint32_t sum_of(std::span<const std::byte> bytes) {
   return numerics::crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
+SourceCounts sum(const SourceCounts& before, const IntakeCounters& since) {
+  return {before.dropped + since.dropped, before.lost + since.lost, before.repeated + since.repeated,
+          before.unreadable + since.unreadable, before.connections + since.connections};
+}
+
 /// A step in which energy is counted; a longer one is a gap.
 constexpr double longest_counted_step_s = 1;
 
@@ -59,6 +64,7 @@ ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view pro
 bool ValveAtWork::restore(const KeptState& kept) {
   const std::lock_guard lock(mutex_);
   after_ = {kept.session, kept.next};
+  counted_before_ = kept.counts;
   samples_ = kept.samples;
   energy_J_ = kept.energy_J;
   if (kept.layout != layout_) return false;
@@ -142,6 +148,7 @@ void ValveAtWork::work(const SampleBlock& block) {
 void ValveAtWork::end(const SampleBlock& block) {
   samples_ += block.samples.size();
   after_ = block.after;
+  counted_ = block.counted;
   arrived_ns_ = block.arrived_ns;
 }
 
@@ -202,6 +209,7 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
     out.outbox_session = cutter_->position().session;
   }
   out.state = {id_, after_.session, after_.next, samples_, energy_J_, layout_, {}};
+  out.state.counts = sum(counted_before_, counted_);
   std::vector<std::byte>& bytes = out.state.bytes;
   bytes.reserve(sizeof(estimation::RunningState) + sizeof(monitor::Doubt) + sizeof(double) +
                 (watch_ ? sizeof(monitor::WatchState) : 0) + sizeof(std::uint32_t));

@@ -98,6 +98,8 @@ class ValveAtWork {
   std::optional<monitor::Watch> watch_;  ///< of models that have an observer
   monitor::Doubt doubt_;
   SourcePosition after_;
+  SourceCounts counted_before_{};  ///< in the store when the program started
+  IntakeCounters counted_{};       ///< since then, up to the sample that was worked on last
   std::uint64_t samples_ = 0;
   double energy_J_ = 0;
   double time_s_;        ///< of the last sample, also before this start
