@@ -1,9 +1,5 @@
 #include "addons/live/history/preparation.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 
 #include "addons/live/history/alarm_table.hpp"
@@ -91,19 +87,6 @@ void bring_up_to_date(Database& database) {
 }
 
 }  // namespace
-
-int only_program(const std::string& path) {
-  const std::string name = path + ".lock";
-  const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    throw StoreError(fmt::format("{}: its folder does not exist or may not be written to; name another", path));
-  }
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor);
-    throw StoreError(fmt::format("{}: another spoolflow live is running on it; end that or name another store", path));
-  }
-  return descriptor;
-}
 
 void check_version(Database& database) {
   const std::string& path = database.path();

@@ -1,7 +1,5 @@
 #pragma once
 /// A store's file before it is used: its tables, and whether this program may use it.
-#include <string>
-
 #include "addons/live/history/sqlite.hpp"
 
 namespace spoolflow::live {
@@ -9,10 +7,6 @@ namespace spoolflow::live {
 /// Grows with the tables. Files of version 2 are read as they are and, where a program works on them, made into ones of
 /// this version in place; others are refused.
 inline constexpr int store_version = 3, oldest_store_version = 2;
-
-/// A lock beside the file, held as long as the descriptor is open; SQLite's own locks let several programs write by
-/// turns. Throws StoreError where another program holds it.
-[[nodiscard]] int only_program(const std::string& path);
 
 /// Throws StoreError where the file is of another program or version.
 void check_version(Database& database);

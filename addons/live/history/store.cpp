@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,16 +66,13 @@ struct Store::Statements {
   }
 };
 
-Store::Store(const std::string& path) : path_(path), lock_(only_program(path)) {
-  try {
-    open();
-  } catch (...) {
-    ::close(lock_);
-    throw;
-  }
+Store::Store(const std::string& path) : path_(path) {
+  open();
 }
 
 void Store::open() {
+  lock_.emplace(path_);
+  path_ = real_name(path_);
   auto opened = std::make_unique<Database>(path_, Database::Access::write);
   prepare(*opened);
   if (on_disk_) opened->run("PRAGMA synchronous=FULL");
@@ -92,6 +88,7 @@ void Store::close() {
   database_.reset();
   run_time_.reset();
   watch_.reset();
+  lock_.reset();
 }
 
 Database& Store::open_one() {
@@ -99,11 +96,7 @@ Database& Store::open_one() {
   return *database_;
 }
 
-Store::~Store() {
-  statements_.reset();
-  database_.reset();
-  ::close(lock_);
-}
+Store::~Store() = default;
 
 std::vector<KeptState> Store::states() {
   std::vector<KeptState> out;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "addons/live/history/alarm_table.hpp"
+#include "addons/live/history/file_lock.hpp"
 #include "addons/live/history/file_watch.hpp"
 #include "addons/live/history/outbox_table.hpp"
 #include "addons/live/history/retention.hpp"
@@ -79,7 +80,7 @@ struct HistoryRow {
 class Store {
  public:
   /// Makes the file where there is none. Throws StoreError: of a newer version, damaged, of another program, held by
-  /// another spoolflow live.
+  /// another spoolflow live, or where file or folder may not be written to.
   explicit Store(const std::string& path);
   ~Store();
 
@@ -135,11 +136,9 @@ class Store {
   [[nodiscard]] std::string write_anew();
   [[nodiscard]] std::string go_on_in_another(const std::string& stamp);
   [[nodiscard]] std::string set_aside(const std::string& stamp);
-  void hold_lock();
-
   std::string path_;
-  int lock_ = -1;
   bool on_disk_ = false;
+  std::optional<FileLock> lock_;        ///< longer than the database
   std::unique_ptr<Database> database_;  ///< nothing: it could not be opened anew
   std::unique_ptr<Statements> statements_;
   std::optional<RunTime> run_time_;

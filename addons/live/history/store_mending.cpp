@@ -1,6 +1,5 @@
 /// What a store does where its file was deleted, replaced or damaged while the program works on it.
 #include <filesystem>
-#include <unistd.h>
 #include <utility>
 
 #include <fmt/chrono.h>
@@ -70,7 +69,6 @@ std::string Store::look_after(std::int64_t wall_ms) {
     needs_states_ = true;
     return fmt::format("{}: can be used again", path_);
   }
-  hold_lock();
   const bool damaged = std::exchange(damaged_, false);
   switch (watch_->look(*database_)) {
     case FileWatch::Found::gone:
@@ -90,14 +88,6 @@ std::string Store::look_after(std::int64_t wall_ms) {
       break;
   }
   return damaged ? set_aside(stamp_of(wall_ms)) : std::string();
-}
-
-/// Deleted with the file, it would let another program in.
-void Store::hold_lock() {
-  if (identity_of(path_ + ".lock")) return;
-  const int again = only_program(path_);
-  ::close(lock_);
-  lock_ = again;
 }
 
 /// All that the open file holds.

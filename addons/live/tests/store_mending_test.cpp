@@ -77,8 +77,8 @@ TEST_F(StoreMending, ADeletedFileIsWrittenAnewWithAllThatItHeld) {
   expect_goes_on(3);
 }
 
-TEST_F(StoreMending, SoItIsWhereLogAndLockWentWithIt) {
-  for (const char* end : {"", "-wal", "-shm", ".lock"}) fs::remove(path(std::string("s.sqlite") + end));
+TEST_F(StoreMending, SoItIsWhereTheLogWentWithIt) {
+  for (const char* end : {"", "-wal", "-shm"}) fs::remove(path(std::string("s.sqlite") + end));
   mend("was deleted");
   keep(5000);
   EXPECT_THAT(seconds(), ElementsAre(1000, 2000, 5000));

@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <random>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -171,9 +174,66 @@ TEST_F(StoreTest, NumbersOfAnySizeComeBack) {
   EXPECT_TRUE(std::isnan(history("a")[0].summary.flow_mean_m3_per_s));
 }
 
-TEST_F(StoreTest, IsOneProgramsAtATime) {
-  const Store first(path("s.sqlite"));
-  EXPECT_THAT(refusal([&] { Store second(path("s.sqlite")); }), HasSubstr("another spoolflow live is running on it"));
+TEST_F(StoreTest, IsOneProgramsAtATimeByWhateverName) {
+  const auto first = std::make_unique<Store>(path("s.sqlite"));
+  std::filesystem::create_symlink("s.sqlite", path("symbolic.sqlite"));
+  std::filesystem::create_hard_link(path("s.sqlite"), path("hard.sqlite"));
+  for (const char* const name : {"s.sqlite", "symbolic.sqlite", "hard.sqlite"}) {
+    EXPECT_THAT(refusal([&] { Store second(path(name)); }), HasSubstr("another spoolflow live is running on it"))
+        << name;
+  }
+}
+
+TEST_F(StoreTest, ASymbolicLinkLeadsToAStoreThatIsMendedWhereItLies) {
+  std::filesystem::create_directory(path("disk"));
+  std::filesystem::create_symlink("disk/s.sqlite", path("link.sqlite"));
+  Store store(path("link.sqlite"));
+  commit(store, 1000, {kept("a", 1000, 1e-4)});
+  std::filesystem::remove(path("disk/s.sqlite"));
+  EXPECT_THAT(store.look_after(2000), HasSubstr("written anew"));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.sqlite")));
+  EXPECT_TRUE(std::filesystem::exists(path("disk/s.sqlite")));
+  EXPECT_EQ(store.states().size(), 1U);
+}
+
+/// Rights bind everybody but the system's administrator, who runs tests in containers: for this long he is nobody.
+class Nobody {
+ public:
+  Nobody() : before_(::geteuid()) {
+    if (before_ != 0) return;
+    EXPECT_EQ(::seteuid(65534), 0);
+  }
+  ~Nobody() { EXPECT_EQ(::seteuid(before_), 0); }
+  Nobody(const Nobody&) = delete;
+  Nobody& operator=(const Nobody&) = delete;
+
+ private:
+  uid_t before_;
+};
+
+TEST_F(StoreTest, IsRefusedAtOnceWhereItMayNotBeWrittenTo) {
+  namespace fs = std::filesystem;
+  fs::permissions(folder, fs::perms::all);
+  const Nobody nobody;
+  {
+    Store store(path("s.sqlite"));
+    commit(store, 1000, {kept("a", 1000, 1e-4)});
+  }
+  fs::permissions(path("s.sqlite"), fs::perms::owner_read);
+  EXPECT_THAT(refusal([&] { Store store(path("s.sqlite")); }), HasSubstr("s.sqlite: may not be written to"));
+  fs::permissions(path("s.sqlite"), fs::perms::owner_read | fs::perms::owner_write);
+  write("s.sqlite-wal", "");
+  fs::permissions(path("s.sqlite-wal"), fs::perms::owner_read);
+  EXPECT_THAT(refusal([&] { Store store(path("s.sqlite")); }), HasSubstr("s.sqlite-wal may not be written to"));
+  fs::remove(path("s.sqlite-wal"));
+  { const Store store(path("s.sqlite")); }
+  fs::create_directory(path("readable"));
+  fs::copy_file(path("s.sqlite"), path("readable/s.sqlite"));
+  fs::permissions(path("readable"), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THAT(refusal([&] { Store store(path("readable/s.sqlite")); }), HasSubstr("its folder"));
+  EXPECT_THAT(refusal([&] { Store store(path("readable/new.sqlite")); }), HasSubstr("may not be written to"));
+  fs::permissions(path("readable"), fs::perms::all);
+  EXPECT_EQ(history("a").size(), 1U);
 }
 
 TEST_F(StoreTest, RefusesWhatItCannotKnow) {
