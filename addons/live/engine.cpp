@@ -82,8 +82,12 @@ void Engine::restore() {
                                    [&](const auto& place) { return place->valve->id() == kept.valve; });
     if (same == valves_.end()) continue;
     (*same)->after = {kept.session, kept.next};
-    (*same)->before = {kept.samples + kept.counts.dropped, kept.counts.dropped,    kept.counts.lost,
-                       kept.counts.repeated,               kept.counts.unreadable, kept.counts.connections};
+    (*same)->before = {kept.samples + kept.counts.dropped,
+                       kept.counts.dropped,
+                       kept.counts.lost,
+                       kept.counts.repeated,
+                       kept.counts.unreadable,
+                       kept.counts.connections};
     const bool goes_on = (*same)->valve->restore(kept);
     (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
     if (goes_on) continue;

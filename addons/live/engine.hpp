@@ -26,11 +26,11 @@ namespace spoolflow::live {
 /// How a valve's source fares.
 struct SourceView {
   std::string_view kind;
-  std::uint16_t port = 0;  ///< of tcp
+  std::uint16_t port = 0;   ///< of tcp
   IntakeCounters counters;  ///< since the store began; without one, since the start
-  std::string trouble;   ///< empty: none
-  bool stalled = false;  ///< no sample for longer than the site allows; a recording that has ended is not stalled
-  double age_s = 0;      ///< since the last sample; NaN: none yet
+  std::string trouble;      ///< empty: none
+  bool stalled = false;     ///< no sample for longer than the site allows; a recording that has ended is not stalled
+  double age_s = 0;         ///< since the last sample; NaN: none yet
 };
 
 class Engine {
@@ -110,6 +110,7 @@ class Engine {
   void follow_clock();
   void report(std::int64_t now_ms, std::vector<ValveCommit>& commits, const std::vector<Event>& events,
               const std::vector<Alarm>& alarms) const;
+  void tell_given_up(std::uint64_t blocks, bool keeps);
   void forget_covered();
   [[nodiscard]] bool ended(const Place& place) const;
   void watch_for_events();
@@ -127,6 +128,7 @@ class Engine {
   Alarms alarms_;
   mutable std::mutex covered_mutex_;
   std::map<std::string, std::uint64_t> covered_;  ///< valves whose blocks can go, up to that number
+  std::uint64_t blocks_given_up_ = 0;             ///< since the store keeps nothing
   mutable std::mutex trouble_mutex_;
   StoreView store_view_;
   std::string mended_;  ///< told once the store has all again that was known

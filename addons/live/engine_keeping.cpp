@@ -83,6 +83,7 @@ void Engine::keep(bool with_indicators) {
   std::vector<Event> events = events_.unkept();
   const std::vector<Alarm> alarms = alarms_.take_changed();
   report(now_ms, commits, events, alarms);
+  std::uint64_t given_up = 0;
   try {
     if (!trouble.empty()) throw StoreError(trouble);
     store_->commit(now, commits, events, alarms);
@@ -96,9 +97,10 @@ void Engine::keep(bool with_indicators) {
     alarms_.give_back(alarms);
     for (std::size_t k = 0; k < commits.size(); ++k) {
       if (valves_[k]->reported) commits[k].blocks.clear();  // it is made anew, with what comes until then
-      valves_[k]->valve->give_back(commits[k]);
+      given_up += valves_[k]->valve->give_back(commits[k]);
     }
   }
+  tell_given_up(given_up, trouble.empty());
   const std::string before = store_view().trouble;
   if (!trouble.empty() && trouble != before) note(trouble);
   if (trouble.empty() && !before.empty()) note("the store keeps what comes again");

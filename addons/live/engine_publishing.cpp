@@ -8,9 +8,18 @@
 #include "addons/live/engine.hpp"
 
 namespace spoolflow::live {
+namespace {
+
+/// Of all valves.
+constexpr double most_waiting_in_memory_MB = 256;
+
+}  // namespace
 
 void Engine::begin_to_publish() {
   store_->keep_on_disk();
+  const double each_MB =
+      std::min(site_.fleet.largest_MB, most_waiting_in_memory_MB) / static_cast<double>(valves_.size());
+  const BlockLimits limits{site_.fleet.block_s, static_cast<std::size_t>(1e6 * each_MB)};
   const std::uint64_t session = store_->session(wall_ms());
   const std::vector<OutboxPosition> before = store_->positions();
   for (const auto& place : valves_) {
@@ -22,7 +31,7 @@ void Engine::begin_to_publish() {
       place->reported = at;
       continue;
     }
-    place->valve->publish(fmt::format("{}/{}", site_.fleet.site, at.valve), at, site_.fleet.block_s);
+    place->valve->publish(fmt::format("{}/{}", site_.fleet.site, at.valve), at, limits);
   }
 }
 
@@ -61,6 +70,20 @@ void Engine::covered(const std::string& valve, std::uint64_t number) {
   const std::lock_guard lock(covered_mutex_);
   std::uint64_t& so_far = covered_[valve];
   so_far = std::max(so_far, number);
+}
+
+/// A site whose disk is full for hours tells of it once, and of all that it cost when the store keeps again.
+void Engine::tell_given_up(std::uint64_t blocks, bool keeps) {
+  if (blocks > 0 && blocks_given_up_ == 0) {
+    note(fmt::format(
+        "the store keeps nothing, and the blocks in memory that it should keep for the fleet are more than {:.3g} MB: "
+        "the oldest are given up",
+        std::min(site_.fleet.largest_MB, most_waiting_in_memory_MB)));
+  }
+  blocks_given_up_ += blocks;
+  if (!keeps || blocks_given_up_ == 0) return;
+  note(fmt::format("{} blocks that the fleet had not got were given up while the store kept nothing",
+                   std::exchange(blocks_given_up_, 0)));
 }
 
 void Engine::forget_covered() {

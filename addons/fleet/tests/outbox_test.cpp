@@ -13,12 +13,13 @@ namespace {
 
 class Outbox : public live::InFolder {
  protected:
+  static constexpr std::size_t most_waiting_bytes = 60'000;
   static std::unique_ptr<live::ValveAtWork> valve(const live::OutboxPosition& after) {
     static const live::SharedModel shared{
         std::make_shared<const model::Model>(model::read_model(SPOOLFLOW_EXAMPLES "/live/size_6.json")),
         std::string(64, 'a')};
     auto out = std::make_unique<live::ValveAtWork>("v", shared, "test");
-    out->publish("hall/v", after, 0.25);
+    out->publish("hall/v", after, {.longest_s = 0.25, .waiting_bytes = most_waiting_bytes});
     return out;
   }
   /// A second at 1 kHz.
@@ -71,6 +72,35 @@ TEST_F(Outbox, SendsAgainWhatCouldNotBeKept) {
   EXPECT_EQ(next.blocks.front().number, 8U);
   EXPECT_EQ(next.blocks.front().bytes, failed.blocks.front().bytes);
   EXPECT_EQ(next.since_last.samples, 2000);
+}
+
+// A disk that is full for an hour: memory holds the newest blocks up to the limit, and their numbers tell of the gap.
+TEST_F(Outbox, BlocksThatTheStoreCannotKeepAreHeldInMemoryUpToTheLimit) {
+  const auto at = valve({.valve = "v", .session = 5});
+  std::size_t given_up = 0, most = 0;
+  const auto bytes = [](const live::ValveCommit& commit) {
+    std::size_t out = 0;
+    for (const live::OutboxBlock& one : commit.blocks) out += one.bytes.size();
+    return out;
+  };
+  live::ValveCommit commit;
+  for (int k = 0; k < 600; ++k) {
+    at->work(second(k));
+    commit = at->take_commit(false);
+    most = std::max(most, bytes(commit));
+    given_up += at->give_back(commit);
+  }
+  const live::ValveCommit left = at->take_commit(false);
+  EXPECT_LE(bytes(left), most_waiting_bytes);
+  EXPECT_GT(bytes(left), most_waiting_bytes / 2);
+  EXPECT_LT(most, 2 * most_waiting_bytes);  // and what came in the last second
+  EXPECT_GT(given_up, 0U);
+  EXPECT_EQ(left.blocks.front().number, given_up + 1);
+  EXPECT_EQ(left.blocks.size() + given_up, 2400U);
+  live::Store store(path("site.sqlite"));
+  std::vector<live::Event> events;
+  store.commit({1000, 1000}, {left}, events);
+  EXPECT_EQ(store.positions()[0].number, 2400U);
 }
 
 TEST_F(Outbox, GivesUpTheOldestBeyondItsSize) {

@@ -98,7 +98,7 @@ TEST(WorkTogether, KeepsTellsAndShowsOfEachValveWhatItDoesAlone) {
     const bool is_whole = v % 4 == 3;
     for (auto* const side : {&together, &alone}) {
       side->push_back(std::make_unique<ValveAtWork>(fmt::format("v{}", v), is_whole ? whole : size_6, "test", 1));
-      if (v % 5 == 1) side->back()->publish(fmt::format("hall/v{}", v), {.session = 1}, 0.5);
+      if (v % 5 == 1) side->back()->publish(fmt::format("hall/v{}", v), {.session = 1}, {.longest_s = 0.5});
     }
     strokes.emplace_back(static_cast<unsigned>(v), is_whole);
   }

@@ -9,15 +9,12 @@
 
 namespace spoolflow::live {
 
-BlockCutter::BlockCutter(std::string name, std::string model_sha256, OutboxPosition after, double longest_s)
-    : name_(std::move(name)),
-      model_sha256_(std::move(model_sha256)),
-      position_(std::move(after)),
-      longest_s_(longest_s) {}
+BlockCutter::BlockCutter(std::string name, std::string model_sha256, OutboxPosition after, const BlockLimits& limits)
+    : name_(std::move(name)), model_sha256_(std::move(model_sha256)), position_(std::move(after)), limits_(limits) {}
 
 void BlockCutter::add(const estimation::TimedSample& sample) {
   // Also where time runs back: the times of a block lie close together.
-  const bool apart = !samples_.empty() && !(std::abs(sample.time_s - samples_.front().time_s) < longest_s_) &&
+  const bool apart = !samples_.empty() && !(std::abs(sample.time_s - samples_.front().time_s) < limits_.longest_s) &&
                      std::isfinite(sample.time_s);
   if (apart || samples_.size() >= fleet::most_samples) close();
   samples_.push_back(sample);
@@ -37,8 +34,16 @@ std::vector<OutboxBlock> BlockCutter::take() {
   return std::exchange(closed_, {});
 }
 
-void BlockCutter::give_back(std::vector<OutboxBlock> blocks) {
+std::size_t BlockCutter::give_back(std::vector<OutboxBlock> blocks) {
   closed_.insert(closed_.begin(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+  std::size_t bytes = 0;
+  auto first = closed_.end();
+  while (first != closed_.begin() && bytes + std::prev(first)->bytes.size() <= limits_.waiting_bytes) {
+    bytes += (--first)->bytes.size();
+  }
+  const auto given_up = static_cast<std::size_t>(first - closed_.begin());
+  closed_.erase(closed_.begin(), first);
+  return given_up;
 }
 
 }  // namespace spoolflow::live

@@ -118,9 +118,9 @@ void ValveAtWork::add_to_summary(const estimation::TimedSample& sample, const se
   to.time_s = sample.time_s;
 }
 
-void ValveAtWork::publish(std::string name, const OutboxPosition& after, double longest_s) {
+void ValveAtWork::publish(std::string name, const OutboxPosition& after, const BlockLimits& limits) {
   const std::lock_guard lock(mutex_);
-  cutter_.emplace(std::move(name), model_.sha256, after, longest_s);
+  cutter_.emplace(std::move(name), model_.sha256, after, limits);
 }
 
 void ValveAtWork::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer) {
@@ -231,14 +231,14 @@ Summary ValveAtWork::take_summary() {
   return std::exchange(summary_, {});
 }
 
-void ValveAtWork::give_back(const ValveCommit& commit) {
+std::size_t ValveAtWork::give_back(const ValveCommit& commit) {
   const std::lock_guard lock(mutex_);
-  if (cutter_) cutter_->give_back(commit.blocks);
+  const std::size_t given_up = cutter_ ? cutter_->give_back(commit.blocks) : 0;
   const Summary& before = commit.since_last;
-  if (before.samples == 0) return;
+  if (before.samples == 0) return given_up;
   if (summary_.samples == 0) {
     summary_ = before;
-    return;
+    return given_up;
   }
   Summary& now = summary_;
   const double all = static_cast<double>(now.samples + before.samples);
@@ -252,6 +252,7 @@ void ValveAtWork::give_back(const ValveCommit& commit) {
   now.upper_max_m3_per_s = std::max(now.upper_max_m3_per_s, before.upper_max_m3_per_s);
   now.energy_J += before.energy_J;
   now.status |= before.status;
+  return given_up;
 }
 
 }  // namespace spoolflow::live

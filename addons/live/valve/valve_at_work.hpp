@@ -51,7 +51,7 @@ class ValveAtWork {
   bool restore(const KeptState& kept);
 
   /// From now on samples are worked on as the fleet gets them (fleet::on_grid), and blocks of them are kept for it.
-  void publish(std::string name, const OutboxPosition& after, double longest_s);
+  void publish(std::string name, const OutboxPosition& after, const BlockLimits& limits);
 
   void work(const SampleBlock& block);
   /// The source is over: the monitor judges what it had gathered.
@@ -77,8 +77,9 @@ class ValveAtWork {
   [[nodiscard]] ValveCommit take_commit(bool with_indicators);
   /// What came since the last commit or summary alone.
   [[nodiscard]] Summary take_summary();
-  /// It could not be kept: what came since then is told together next time, its blocks come again.
-  void give_back(const ValveCommit& commit);
+  /// It could not be kept: what came since then is told together next time, its blocks come again. Returns how many
+  /// blocks are given up, as BlockCutter does.
+  std::size_t give_back(const ValveCommit& commit);
 
  private:
   friend class WorkTogether;  // which steps the sensors of several valves at once
