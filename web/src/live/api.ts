@@ -118,12 +118,14 @@ export class Refusal extends Error {
   }
 }
 
-async function answered<T>(path: string, options: RequestInit): Promise<T> {
-  const answer = await fetch(path, { cache: 'no-store', signal: AbortSignal.timeout(10000), ...options });
+async function answered<T>(path: string, options: RequestInit, patience_ms = 10_000): Promise<T> {
+  const answer = await fetch(path, { cache: 'no-store', signal: AbortSignal.timeout(patience_ms), ...options });
   if (!answer.ok) throw new Refusal(answer.status, (await answer.text()).trim());
   return await answer.json() as T;
 }
 export const read = <T>(path: string): Promise<T> => answered<T>(path, {});
+/** Days wait for those that others read. */
+const readLong = <T>(path: string): Promise<T> => answered<T>(path, {}, 60_000);
 const post = <T>(path: string, body: unknown = {}): Promise<T> =>
   answered<T>(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
 
@@ -146,8 +148,8 @@ function since(id: string, what: string, seconds: number): string {
   return `/api/v1/valves/${encodeURIComponent(id)}/${what}?from=${(now - seconds).toFixed(0)}&to=${(now + 1).toFixed(0)}`;
 }
 export const readIndicators = async (id: string, seconds: number): Promise<IndicatorHistory[]> =>
-  (await read<{ indicators: IndicatorHistory[] }>(since(id, 'indicators', seconds))).indicators;
-export const readFlow = (id: string, seconds: number): Promise<FlowHistory> => read<FlowHistory>(since(id, 'history', seconds));
+  (await readLong<{ indicators: IndicatorHistory[] }>(since(id, 'indicators', seconds))).indicators;
+export const readFlow = (id: string, seconds: number): Promise<FlowHistory> => readLong<FlowHistory>(since(id, 'history', seconds));
 
 /** Each sign of NAMUR NE 107 in words. */
 export const signs: Record<Sign, string> = {

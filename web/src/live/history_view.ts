@@ -1,5 +1,5 @@
 /** Flow, power and indicators of a valve over hours and days, from the store. */
-import { inUnit, readFlow, readIndicators, scaled, words, type FlowHistory, type IndicatorHistory } from './api';
+import { inUnit, readFlow, readIndicators, Refusal, scaled, words, type FlowHistory, type IndicatorHistory } from './api';
 import { element, setText } from './element';
 import { HistoryPlot, withGaps, type Curve } from './history_plot';
 
@@ -48,6 +48,7 @@ export class HistoryView {
   private readonly said = element('p', 'soft');
   private readonly choice = element('select', '');
   private asked = -Infinity;
+  private waiting = 0;  // for answers
   private closed = false;
   /** Whether the span is the reader's, or was found to fit. */
   private chosen = false;
@@ -64,7 +65,7 @@ export class HistoryView {
 
   /** Asks again now and then. */
   follow(): void {
-    if (performance.now() - this.asked > refresh_ms) void this.ask();
+    if (this.waiting === 0 && performance.now() - this.asked > refresh_ms) void this.ask();
   }
   resize(): void {
     for (const plot of this.plots.values()) plot.resize();
@@ -79,6 +80,7 @@ export class HistoryView {
 
   private async ask(): Promise<void> {
     this.asked = performance.now();
+    this.waiting += 1;
     const seconds = Number(this.choice.value);
     try {
       const [flow, indicators] = await Promise.all([readFlow(this.id, seconds), readIndicators(this.id, seconds)]);
@@ -92,8 +94,10 @@ export class HistoryView {
       }
       this.chosen = true;
       this.show(seconds, flow, indicators);
-    } catch {
-      setText(this.said, 'The program does not answer.');
+    } catch (error) {
+      setText(this.said, error instanceof Refusal ? error.message : 'The program does not answer.');
+    } finally {
+      this.waiting -= 1;
     }
   }
 
