@@ -1,4 +1,5 @@
 /// Hours and days of a valve: what the store gives of them, and how they are asked for.
+#include <chrono>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -67,6 +68,22 @@ TEST_F(Days, AreThinnedWithoutLosingPeaks) {
   EXPECT_TRUE(read_indicators(path("s.sqlite"), "b", day).empty());
   const Span hour{begin_ms, begin_ms + 60 * minute_ms, 1000};
   EXPECT_EQ(read_indicators(path("s.sqlite"), "a", hour)["friction_ratio"].size(), 60U);  // never more than there are
+}
+
+TEST_F(Days, AMinuteIsReadWithoutTheDaysAroundIt) {
+  keep_a_day();
+  Database(path("s.sqlite"), Database::Access::write)
+      .run(
+          "WITH RECURSIVE row(k) AS (SELECT 1 UNION ALL SELECT k + 1 FROM row WHERE k < 200000) "
+          "INSERT INTO second_of_valve(valve, wall_ms, samples, flow_mean, status) SELECT 1 + k % 2, 1000 * k, 1, "
+          "1e-3, 0 "
+          "FROM row");
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  EXPECT_GT(read_flow(path("s.sqlite"), "a", {0, begin_ms}).size(), 0U);
+  const auto between = Clock::now();
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(read_flow(path("s.sqlite"), "a", {1000, 61'000}).size(), 30U);
+  EXPECT_LT(Clock::now() - between, between - begin);  // twenty minutes take less time than all days
 }
 
 TEST_F(Days, AreAskedForByInstants) {
