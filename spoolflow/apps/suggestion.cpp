@@ -26,7 +26,7 @@ std::optional<FileKind> kind_of(const std::string& file) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return std::nullopt;
-  if (text[first] == '{') return FileKind::model;
+  if (text[first] == '{' && !text.substr(first).starts_with("{\\rtf")) return FileKind::model;
   const std::string_view line = text.substr(first, text.find('\n', first) - first);
   const bool maybe_settings =
       line.starts_with('[') || line.starts_with('#') || line.find('=') != std::string_view::npos;
@@ -61,9 +61,12 @@ void refuse_other_kinds(std::string_view command, const std::vector<Input>& inpu
     throw std::invalid_argument(fmt::format("{} is {}, and {} comes first: write spoolflow {}{}", wrong->file,
                                             name_of(found), name_of(ordered.front().wanted), command, line));
   }
-  throw std::invalid_argument(fmt::format("{}: is {}, where {} should be named; see spoolflow {} --help", wrong->file,
-                                          found == FileKind::model ? "JSON, as models are" : name_of(found),
-                                          name_of(wrong->wanted), command));
+  throw std::invalid_argument(fmt::format(
+      "{}: is {}, where {} should be named{}; see spoolflow {} --help", wrong->file,
+      found == FileKind::model ? "JSON, as models are" : name_of(found), name_of(wrong->wanted),
+      wrong->wanted == FileKind::recording ? " (CSV with a line of names above the numbers, HDF5, MAT, TDMS, MDF 4)"
+                                           : "",
+      command));
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {

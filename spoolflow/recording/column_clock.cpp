@@ -79,6 +79,7 @@ class Search {
   }
 
   [[nodiscard]] std::optional<ColumnClock> clock(std::optional<std::size_t> usual) const {
+    if (at(column_).own_time) return by(*at(column_).own_time);
     for (std::string_view group = group_of(at(column_).name);; group = group_of(group)) {
       std::vector<std::size_t> beside;
       std::ranges::copy_if(times_, std::back_inserter(beside),

@@ -24,11 +24,11 @@ struct ColumnClock {
 /// The unit that such a column's name or the file states: "ms" of t_ms; empty where neither does.
 [[nodiscard]] std::string unit_of_time(const FileColumn& column);
 
-/// The clock of `column`. Sought are columns that are called a time, are none of `others` (columns known to be
-/// something else) and are equally long: beside it in its group or struct, then in those around it, one that carries
-/// its name first, then `usual` (the time of the current); then the attributes wf_start_offset and wf_increment of the
-/// column itself; then `usual`, wherever it stands; then the only one in the file. Nothing where there is none. Throws
-/// RecordingError, which begins with `file`, where two of them could be it.
+/// The clock of `column`: its own_time, where the file says it. Else sought are columns that are called a time, are
+/// none of `others` (columns known to be something else) and are equally long: beside it in its group or struct, then
+/// in those around it, one that carries its name first, then `usual` (the time of the current); then the attributes
+/// wf_start_offset and wf_increment of the column itself; then `usual`, wherever it stands; then the only one in the
+/// file. Nothing where there is none. Throws RecordingError, which begins with `file`, where two of them could be it.
 [[nodiscard]] std::optional<ColumnClock> clock_of(const SampleTable& table, std::size_t column,
                                                   std::optional<std::size_t> usual, std::span<const std::size_t> others,
                                                   const std::string& file);

@@ -99,15 +99,18 @@ struct OwnNames {
   bool suffice = true;  ///< each with its unit, and none of two columns
 };
 
-OwnNames own_names(const FileContents& contents, const Proposal& proposal) {
+OwnNames own_names(const FileContents& contents, const Proposal& proposal, bool several_clocks) {
   OwnNames out;
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
     const auto header = channel_header(contents.column(k));
     if (!header) continue;
     out.of_a_unit = out.of_a_unit || !header->unit.empty();
-    if (header->channel == Channel::time) {  // of which each rate may have one, some without a unit
+    if (header->channel == Channel::time && several_clocks) {  // each rate may have one, some without a unit
       out.of_time = true;
-    } else if (header->unit.empty() || proposal.as_well.contains(header->channel)) {
+      continue;
+    }
+    out.of_time = out.of_time || header->channel == Channel::time;
+    if (header->unit.empty() || proposal.as_well.contains(header->channel)) {
       out.suffice = false;
     }
   }
@@ -226,8 +229,10 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   const Proposal proposal = propose_channels(out.contents, numberless(columns));
   out.proposal = proposal.map;
   bool even = false;  // sampled evenly, as the file says, without a column of time
+  bool several_clocks = false;
   {
     const auto table = open_table();
+    several_clocks = !table->columns().empty() && table->samples_of(0).has_value();
     even = propose_leading_time(out.proposal, *table, file.string());
   }
   out.clocks =
@@ -240,7 +245,7 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   }
   ReadOptions channels = options;
   channels.infinite_is_missing = true;
-  const OwnNames own = own_names(out.contents, proposal);
+  const OwnNames own = own_names(out.contents, proposal, several_clocks);
   const bool tells = own.suffice && own.of_a_unit && (own.of_time || even);
   if (options.channels.sources.empty() && !tells) {  // names alone do not, but with units of their own they may
     channels.channels = known_units(out.proposal);

@@ -11,6 +11,7 @@
 #include "spoolflow/recording/matlab/mat_table.hpp"
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 #include "spoolflow/recording/tdms/tdms_table.hpp"
+#include "spoolflow/recording/text/paired_table.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -78,7 +79,7 @@ OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text te
   beginning.resize(begun);
   const FileFormat format = format_of({beginning.data(), beginning.size()}, input->name());
   if (format == FileFormat::csv) {
-    return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
+    return {format, open_text_table(std::move(input), std::move(beginning), text)};
   }
   if (!input->is_named_file()) {
     throw RecordingError(

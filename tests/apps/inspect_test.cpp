@@ -148,6 +148,31 @@ TEST_F(Inspect, OfTwoColumnsOfOneNameProposesAMapThatNamesOne) {
   EXPECT_THAT(run("inspect rig.csv --channels map.toml").message, HasSubstr("choose 'I [A] #1', 'I [A] #2'"));
 }
 
+TEST_F(Inspect, OfTwoColumnsOfTimeProposesAMapThatNamesOne) {
+  write("rig.csv", "time_s,time_s,current_A,position_mm\n0,0,1,1\n0.001,0.001,1,1\n0.002,0.002,1.1,1.1\n");
+  const Answer answer = run("inspect rig.csv");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output,
+              HasSubstr("time = { column = \"time_s #1\", unit = \"s\" }  # a guess, check it: it could be "
+                        "'time_s #2' as well"));
+  write("map.toml", answer.output.substr(answer.output.find("[channels]")));
+  EXPECT_EQ(run("inspect rig.csv --channels map.toml").status, 0);
+}
+
+TEST_F(Inspect, RefusesFilesThatAreNoRecordingsWithStatus2) {
+  write("list.json", "[{\"t\": 0}]\n");
+  write("run.json", "{\"t\": [0]}\n");
+  write("page.html", "<html>\n<body>1,2</body>\n");
+  write("letter.txt", "Hello,\nthe valve sticks.\n");
+  write("picture.png", "\x89PNG\r\n\x1A\nIHDR");
+  for (const char* const file : {"list.json", "run.json", "page.html", "letter.txt", "picture.png"}) {
+    const Answer answer = run(std::string("inspect ") + file);
+    EXPECT_EQ(answer.status, 2) << file;
+    EXPECT_THAT(answer.message, HasSubstr(file));
+    EXPECT_EQ(answer.output, "") << file;
+  }
+}
+
 TEST_F(Inspect, NamesAColumnWithAnInfiniteValueAndShowsTheOthers) {
   write("rig.tdms", grouped_run("gain", -INFINITY));
   write("rig.csv", "time_s,current_A,position_mm,gain\n0,1,1,3\n0.001,1,1,3\n0.002,1.1,1.1,-inf\n");

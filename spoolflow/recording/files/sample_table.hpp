@@ -19,6 +19,7 @@ struct FileColumn {
   std::string leaf;
   std::string unit;  ///< written in the file beside the name (units row, attribute); empty where it is not
   EvenTimes wave{};  ///< as attributes of it state them; empty where none does
+  std::optional<std::size_t> own_time{};  ///< the column of its times, where the file says which one that is
 };
 
 /// Cells that hold text instead of a number.

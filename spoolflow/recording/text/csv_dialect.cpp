@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,8 +14,10 @@
 #include "spoolflow/recording/files/numbered_names.hpp"
 #include "spoolflow/recording/text/cell_unit.hpp"
 #include "spoolflow/recording/text/csv_cells.hpp"
+#include "spoolflow/recording/text/foreign_text.hpp"
 #include "spoolflow/recording/text/labview_settings.hpp"
 #include "spoolflow/recording/text/table_search.hpp"
+#include "spoolflow/recording/text/twincat_settings.hpp"
 #include "spoolflow/recording/text/utf16.hpp"
 #include "spoolflow/units/unit.hpp"
 
@@ -22,16 +25,6 @@ namespace spoolflow::recording {
 namespace {
 
 constexpr std::size_t sampled_lines = 20;
-
-void refuse_other_programs_exports(std::string_view beginning, const std::string& file) {
-  const std::string_view first = beginning.substr(0, 2048);
-  if (!first.starts_with("Name") || first.find("of export") == std::string_view::npos) return;
-  throw RecordingError(fmt::format(
-      "{}: is an export of TwinCAT Scope, whose first lines are settings and whose signals have a time each; cut "
-      "all above the samples, write one line of names there, such as time_ms,current_A,position_mm, and "
-      "leave one column of time",
-      file));
-}
 
 /// The names that a header line holds.
 std::vector<std::string_view> header_names(std::string_view header, const CsvDialect& dialect,
@@ -146,28 +139,46 @@ bool header_is_whole(std::string_view beginning) {
   return true;
 }
 
-CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file) {
+CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file, bool runs_on) {
   if (beginning.empty()) throw RecordingError(fmt::format("{}: is empty; record it again or name another file", file));
   CsvDialect dialect;
   std::string_view rest = beginning;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
 
-  refuse_other_programs_exports(rest, file);
+  refuse_other_kinds_of_text(rest, file);
+  if (TwincatSettings twincat = take_twincat_settings(rest, file); twincat.lines > 0) {
+    constexpr std::size_t least_cells = 2;  // a time and its number
+    return {.delimiter = twincat.delimiter,
+            .columns = std::move(twincat.columns),
+            .header_bytes = beginning.size() - rest.size(),
+            .header_lines = twincat.lines,
+            .least_cells = least_cells,
+            .several_times = true,
+            .end_word = "EOF"};
+  }
   const LabviewSettings labview = take_labview_settings(rest);
   dialect.header_lines = labview.lines;
   const std::vector<std::string_view> lines = first_lines(rest);
   std::optional<char> declared;
   for (const std::string_view line : lines) declared = declared ? declared : declared_delimiter(line);
   std::optional<TablePlace> place = find_table(lines, declared);
-  if (!place) place = place_without_samples(lines, declared, file);
+  if (!place) {
+    place = place_without_samples(lines, declared, file);
+    std::vector<std::string_view> whole = lines;
+    if (lines.back().end() == beginning.end()) whole.pop_back();
+    if (!runs_on) refuse_text_without_numbers(whole, place->delimiter, file);
+  }
   if (!place->header) refuse_without_names(*place, dialect.header_lines, file);
 
   dialect.delimiter = place->delimiter;
   const std::vector<std::string_view> names = header_names(lines[*place->header], dialect, file);
   dialect.columns = columns_named(names);
-  labview.name_units(dialect.columns);
+  dialect.several_times = labview.name_columns(dialect.columns) > 1;
   dialect.stated_time = labview.stated_time(file);
-  dialect.last_may_lack = labview.lines > 0 && dialect.columns.back().leaf == "Comment";
+  if (labview.lines > 0) {
+    dialect.least_cells = dialect.columns.size() - (dialect.columns.back().leaf == "Comment" ? 1 : 0);
+    dialect.next_block = "Channels";
+  }
   if (place->units) {
     const std::vector<std::string_view> units = cells_of(uncommented(lines[*place->units]), dialect.delimiter);
     for (std::size_t k = 0; k < std::min(units.size(), names.size()); ++k) dialect.columns[k].unit = utf8_of(units[k]);

@@ -37,7 +37,7 @@ CsvTable::CsvTable(std::unique_ptr<InputBytes> input, std::vector<char> beginnin
   while (!at_end_ && !enough()) take_bytes();
   end_last_line();
   refuse_zero_bytes(0);
-  dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name());
+  dialect_ = read_csv_dialect({buffer_.data(), filled_}, input_->name(), text_ == Text::left_out);
   if (!at_end_ && filled_ >= block_bytes && dialect_.header_bytes == filled_) {
     throw RecordingError(fmt::format("{}: its header goes on for more than {} KiB; this is no CSV recording",
                                      input_->name(), block_bytes >> 10));
@@ -237,6 +237,13 @@ void CsvTable::refuse_length(std::size_t cells) const {
                   dialect_.delimiter == '\t' ? std::string("tab") : std::string(1, dialect_.delimiter)));
 }
 
+void CsvTable::refuse_next_block() const {
+  throw RecordingError(fmt::format(
+      "{}, line {}: another block of samples begins, with settings of its own; save each block as a file of "
+      "its own, or cut this one before that line",
+      input_->name(), line_));
+}
+
 /// Whether the line is the header, which the next sender into the same pipe begins with. Throws RecordingError where
 /// it is another header: what follows would be read as the wrong channels.
 bool CsvTable::header_again(std::string_view line) const {
@@ -276,9 +283,9 @@ bool CsvTable::careful_row(std::string_view line, std::span<double* const> out, 
     out[slot][row] = stated ? dialect_.stated_time->begin_s + static_cast<double>(rows_) * dialect_.stated_time->step_s
                             : cell_value(cell.text, cells, slot);
   }
-  if (dialect_.last_may_lack && cells + 1 == dialect_.columns.size()) {
-    if (slot_of_column_.back() >= 0) out[static_cast<std::size_t>(slot_of_column_.back())][row] = missing;
-    ++cells;
+  if (dialect_.least_cells > 0 && cells >= dialect_.least_cells) {
+    for (; cells < slot_of_column_.size(); ++cells)
+      if (slot_of_column_[cells] >= 0) out[static_cast<std::size_t>(slot_of_column_[cells])][row] = missing;
   }
   if (cells < dialect_.columns.size() || used > dialect_.columns.size()) {
     if (text_ != Text::left_out) refuse_length(cells);
@@ -302,6 +309,8 @@ std::size_t CsvTable::read(std::span<double* const> out, std::size_t rows) {
         const std::string_view line = take_line(rest);
         cursor = rest.empty() ? end : rest.data();
         if (line.starts_with('#') || line.find_first_not_of(" \t") == std::string_view::npos) continue;
+        if (!dialect_.end_word.empty() && without_blanks(line) == dialect_.end_word) continue;
+        if (!dialect_.next_block.empty() && line.starts_with(dialect_.next_block)) refuse_next_block();
         if (!careful_row(line, out, row)) continue;
       }
       line_of_row_[row++] = line_;

@@ -36,6 +36,10 @@ class CsvTable final : public SampleTable {
   /// With Text::counted.
   [[nodiscard]] std::span<const TextCells> text_cells() const override { return text_cells_; }
   void let_infinite_pass() override { infinite_passes_ = true; }
+  /// Whether columns state times of their own: then rows belong together by PairedTable alone.
+  [[nodiscard]] bool has_several_times() const { return dialect_.several_times; }
+  /// Before the first read().
+  void count_text() { text_ = Text::counted; }
 
  private:
   void take_bytes();
@@ -50,6 +54,7 @@ class CsvTable final : public SampleTable {
   double past_midnight(double time_s, std::size_t slot);
   double cell_value(std::string_view cell, std::size_t column, std::size_t slot);
   [[noreturn]] void refuse_length(std::size_t cells) const;
+  [[noreturn]] void refuse_next_block() const;
   [[noreturn]] void refuse_grouping(const GroupedCell& cell) const;
 
   /// One chosen column: how many cells to step over from the end of the one before.

@@ -25,6 +25,10 @@ std::vector<double> numbers_of(const std::vector<std::string_view>& cells) {
   return out;
 }
 
+bool is_time(std::string_view cell) {
+  return cell.empty() || cell == "Time";
+}
+
 }  // namespace
 
 LabviewSettings take_labview_settings(std::string_view& text) {
@@ -38,6 +42,7 @@ LabviewSettings take_labview_settings(std::string_view& text) {
     const std::string_view name = cells.front();
     cells.erase(cells.begin());
     if (name == "X_Columns") out.states_times = cells.front() == "No";
+    if (name == "X_Dimension") out.over_time = std::ranges::all_of(cells, is_time);
     if (name == "X0") out.begin_s = numbers_of(cells);
     if (name == "Delta_X") out.step_s = numbers_of(cells);
     if (name != "Y_Unit_Label") continue;
@@ -47,11 +52,20 @@ LabviewSettings take_labview_settings(std::string_view& text) {
   return out;
 }
 
-void LabviewSettings::name_units(std::vector<FileColumn>& columns) const {
-  if (lines == 0) return;
+std::size_t LabviewSettings::name_columns(std::vector<FileColumn>& columns) const {
+  if (lines == 0) return 0;
   for (std::size_t k = 1; k < std::min(units.size() + 1, columns.size()); ++k) columns[k].unit = units[k - 1];
-  for (FileColumn& column : columns)
-    if (column.leaf == "X_Value") column.unit = "s";
+  std::vector<std::size_t> times;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].leaf == "X_Value" && over_time) {
+      columns[k].leaf = "time", columns[k].unit = "s";
+      times.push_back(k);
+    }
+  }
+  for (std::size_t k = 0; k < columns.size() && times.size() > 1; ++k)
+    if (const auto after = std::ranges::upper_bound(times, k); after != times.begin() && *(after - 1) != k)
+      columns[k].own_time = *(after - 1);
+  return times.size();
 }
 
 std::optional<EvenStretch> LabviewSettings::stated_time(const std::string& file) const {

@@ -15,10 +15,11 @@ struct LabviewSettings {
   std::uint64_t lines = 0;                  ///< none: it is no such file
   std::vector<std::string> units{};         ///< of the columns behind the first
   std::vector<double> begin_s{}, step_s{};  ///< X0 and Delta_X, likewise
+  bool over_time = true;                    ///< X_Dimension is Time
   bool states_times = false;                ///< the column of times is empty: X_Columns is No
 
-  /// Their units; nothing where it is no such file.
-  void name_units(std::vector<FileColumn>& columns) const;
+  /// Their units, and which hold the times of the others; how many those are, none where it is no such file.
+  std::size_t name_columns(std::vector<FileColumn>& columns) const;
   /// Times that no column holds. Throws RecordingError, which begins with `file`, where channels differ in theirs.
   [[nodiscard]] std::optional<EvenStretch> stated_time(const std::string& file) const;
 };

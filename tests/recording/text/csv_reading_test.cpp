@@ -220,14 +220,6 @@ TEST(CsvReading, ReadsLabViewMeasurementFilesBelowTheirSettings) {
   }
 }
 
-TEST(CsvReading, SaysWhatToDoWithAnExportOfTwinCatScope) {
-  EXPECT_THAT(
-      refused_csv(
-          "Name\tYT Scope\nFile\tbench.csv\nStarttime of export\t1332\tTuesday\t10:12\n\nName\tI_coil\tName\tx\n"
-          "0\t1.0\t0\t0.6\n"),
-      testing::AllOf(HasSubstr("TwinCAT Scope"), HasSubstr("one line of names")));
-}
-
 TEST(CsvReading, FindsTheHeaderBelowLinesOfTitle) {
   const Recording plain = read_csv("time_s,position_mm\n0,1\n0.001,1.5\n");
   for (const std::string text : {

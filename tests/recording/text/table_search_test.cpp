@@ -89,18 +89,5 @@ TEST(TableSearch, SaysWhereAHeaderIsMissing) {
               AllOf(HasSubstr("line 3: has no header"), HasSubstr("insert a line there that names the columns")));
 }
 
-TEST(TableSearch, ReadsTimesOfALabViewFileThatStatesThemByTheirStep) {
-  const std::string text =
-      "LabVIEW Measurement\t\nX_Columns\tNo\nDecimal_Separator\t,\n***End_of_Header***\t\n\t\nChannels\t2\t\t\t\n"
-      "Y_Unit_Label\tA\tmm\t\t\nX0\t0,5\t0,5\nDelta_X\t1,0E-3\t1,0E-3\n***End_of_Header***\t\t\t\n"
-      "X_Value\tcurrent\tposition\tComment\n\t1,25\t0,5\n\t1,5\t0,75\tpeak\n";
-  EXPECT_THAT(column_of("run.lvm", text, "X_Value"), ElementsAre(0.5, 0.501));
-  EXPECT_THAT(column_of("run.lvm", text, "position"), ElementsAre(0.5, 0.75));
-  std::string two_rates = text;
-  two_rates.replace(two_rates.find("1,0E-3\t1,0E-3"), 13, "1,0E-3\t2,0E-3");
-  EXPECT_THAT(refusal([&] { (void)column_of("run.lvm", two_rates, "position"); }),
-              HasSubstr("save it with X_Columns One or Multi"));
-}
-
 }  // namespace
 }  // namespace spoolflow::recording

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/text/paired_table.hpp"
 
 namespace spoolflow::recording {
 
@@ -21,7 +22,7 @@ OpenTable open_sample_table(std::unique_ptr<InputBytes> input, CsvTable::Text te
         "{}: is {} {} file, which this page does not read; save it as CSV, or give it to the spoolflow command",
         input->name(), format == FileFormat::xlsx ? "an" : "a", name(format)));
   }
-  return {format, std::make_unique<CsvTable>(std::move(input), std::move(beginning), text)};
+  return {format, open_text_table(std::move(input), std::move(beginning), text)};
 }
 
 }  // namespace spoolflow::recording

@@ -1,0 +1,107 @@
+/// Text in which channels have times of their own, or state them above: exports of TwinCAT Scope and of LabVIEW.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/recording/reader.hpp"
+#include "tests/recording/column_of.hpp"
+#include "tests/recording/refusal.hpp"
+#include "tests/recording/temporary_file.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// With a comma in settings, as such programs on German machines write there, and `point` in the samples.
+std::string scope_export(const std::string& rows) {
+  return "Name\tYT Scope\nFile\tbench.csv\nStarttime of export\t1332\tTuesday, 4. March\t10:12:13.456\n"
+         "Endtime of export\t1333\tTuesday\t10:12:13.755\n\n\nName\tI_coil\tName\txSpool\n"
+         "SymbolComment\t\tSymbolComment\t\nSampleTime[ms]\t0,5\tSampleTime[ms]\t1\nOffset\t0\tOffset\t7\n"
+         "Unit\tA (Current)\tUnit\tmm\nUnit ScaleFactor\t1\tUnit ScaleFactor\t1\n\n" +
+         rows;
+}
+
+ChannelMap coil_and_spool() {
+  ChannelMap out;
+  out.sources.emplace(Channel::current, ChannelSource{"I_coil", "A", 1, 0, {}});
+  out.sources.emplace(Channel::position, ChannelSource{"xSpool", "", 1, 0, {}});
+  return out;
+}
+
+Recording read_pair(const std::string& text, const std::string& name = "scope.csv") {
+  const TemporaryFile file(name, text);
+  return read_recording(file.path(), {coil_and_spool(), {Channel::time, Channel::current, Channel::position}, {}, {}});
+}
+
+TEST(PairedTable, ReadsAnExportOfTwinCatScopeWithEqualTimesAsOneTable) {
+  for (const std::string rows : {"0\t1.0\t0\t0.5\n1\t1.25\t1\t0.75\n", "0\t1,0\t0\t0,5\n1\t1,25\t1\t0,75\nEOF\n"}) {
+    const Recording run = read_pair(scope_export(rows));
+    ASSERT_EQ(run.size(), 2u);
+    EXPECT_NEAR(run[Channel::time][1], 0.001, 1e-12);
+    EXPECT_NEAR(run[Channel::current][1], 1.25, 1e-12);
+    EXPECT_NEAR(run[Channel::position][1], 0.75e-3, 1e-12);
+  }
+  EXPECT_THAT(column_of("scope.csv", scope_export("0\t1\t0\t5\n1\t2\t1\t7\n"), "time"), ElementsAre(0, 1));
+}
+
+TEST(PairedTable, BringsChannelsOfTwinCatScopeOntoTheTimeOfTheCurrent) {
+  const Recording run = read_pair(scope_export("0\t1\t0\t0.5\n0.5\t2\t1\t1.5\n1\t3\t2\t2.5\n1.5\t4\n2\t5\n"));
+  ASSERT_EQ(run.size(), 5u);
+  EXPECT_NEAR(run[Channel::time][3], 0.0015, 1e-12);
+  EXPECT_NEAR(run[Channel::current][3], 4, 1e-12);
+  EXPECT_NEAR(run[Channel::position][3], 2e-3, 1e-12);
+  EXPECT_THAT(run.resampled, HasSubstr("'xSpool' from 1000 Hz"));
+}
+
+TEST(PairedTable, ReadsAnExportInWhichChannelsShareAColumnOfTimes) {
+  const std::string text =
+      "Name;Scope;\nFile;x.csv;\nStarttime of "
+      "export;1;Monday;10:00\n\nName;I_coil;xSpool;Name;p\nUnit;A;mm;Unit;bar\n\n"
+      "0;1;2;0;60\n1;1;3;5;61\n2;1;4\n";
+  EXPECT_THAT(column_of("scope.csv", text, "xSpool"), ElementsAre(2, 3, 4));
+  EXPECT_THAT(column_of("scope.csv", text, "p"), ElementsAre(60, 61));
+  EXPECT_THAT(column_of("scope.csv", text, "time of p"), ElementsAre(0, 5));
+}
+
+TEST(PairedTable, SaysWhereAChannelOfItHoldsText) {
+  EXPECT_THAT(refusal([] { (void)read_pair(scope_export("0\t1\t0\t0.5\n1\tfault\t1\t1.5\n")); }),
+              HasSubstr("column 'I_coil': 'fault' in line 15 is not a number"));
+}
+
+std::string lvm(const std::string& columns, const std::string& more, const std::string& names_and_rows) {
+  return "LabVIEW Measurement\t\nX_Columns\t" + columns +
+         "\nDecimal_Separator\t,\n***End_of_Header***\t\n\t\nChannels\t2\t\t\t\n" + more +
+         "***End_of_Header***\t\t\t\n" + names_and_rows;
+}
+
+TEST(PairedTable, ReadsALabViewFileWithAColumnOfTimesForEachChannel) {
+  const std::string head = "Y_Unit_Label\tA\t\tmm\nX_Dimension\tTime\t\tTime\n";
+  const std::string names = "X_Value\tI_coil\tX_Value\txSpool\tComment\n";
+  const Recording same = read_pair(lvm("Multi", head, names + "0,0\t1,5\t0,0\t2,5\n0,001\t1,5\t0,001\t3,5\n"), "a.lvm");
+  ASSERT_EQ(same.size(), 2u);
+  EXPECT_NEAR(same[Channel::position][1], 3.5e-3, 1e-12);
+  const Recording other = read_pair(
+      lvm("Multi", head, names + "0,0\t1,5\t0,0\t2,5\n0,001\t1,5\t0,002\t3,5\n0,002\t1,5\t0,004\t4,5\n"), "b.lvm");
+  ASSERT_EQ(other.size(), 3u);
+  EXPECT_NEAR(other[Channel::position][1], 3e-3, 1e-12);
+}
+
+TEST(PairedTable, ReadsTimesOfALabViewFileThatStatesThemByTheirStep) {
+  const std::string steps = "Y_Unit_Label\tA\tmm\t\t\nX0\t0,5\t0,5\nDelta_X\t1,0E-3\t";
+  const std::string rows = "X_Value\tcurrent\tposition\tComment\n\t1,25\t0,5\n\t1,5\t0,75\tpeak\n";
+  EXPECT_THAT(column_of("run.lvm", lvm("No", steps + "1,0E-3\n", rows), "X_Value"), ElementsAre(0.5, 0.501));
+  EXPECT_THAT(column_of("run.lvm", lvm("No", steps + "1,0E-3\n", rows), "position"), ElementsAre(0.5, 0.75));
+  EXPECT_THAT(refusal([&] { (void)column_of("run.lvm", lvm("No", steps + "2,0E-3\n", rows), "position"); }),
+              HasSubstr("save it with X_Columns One or Multi"));
+  EXPECT_THAT(refusal([&] {
+                (void)column_of("run.lvm", lvm("No", steps + "1,0E-3\n", rows) + "\n\nChannels\t2\nSamples\t3\t3\n",
+                                "position");
+              }),
+              HasSubstr("line 16: another block of samples begins"));
+}
+
+}  // namespace
+}  // namespace spoolflow::recording
