@@ -147,6 +147,44 @@ TEST_F(EngineTest, AFullDiskStopsKeepingNotWatching) {
   EXPECT_EQ(samples, 300);
 }
 
+TEST_F(EngineTest, BlocksThatADiskWithoutRoomRefusesAreGivenUpBeyondTheLimitAndTheLossIsAnEvent) {
+  SiteSettings kept = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
+  kept.store = path("kept.sqlite");
+  kept.fleet.servers = {"nats://127.0.0.1:1"};  // nobody is asked: the store alone is looked at
+  kept.fleet.site = "hall";
+  kept.fleet.block_s = 0.1;
+  kept.fleet.largest_MB = 0.002;
+  Engine engine(kept, "test");
+  const auto told = [&engine](const char* text) {
+    return comes_true([&] {
+      const std::vector<Event> all = engine.events();
+      return std::any_of(all.begin(), all.end(),
+                         [&](const Event& one) { return one.text.find(text) != std::string::npos; });
+    });
+  };
+  engine.start();
+  const Sender sender(engine.source(0).port);
+  sender.send(engine_header + rows(0, 100));
+  ASSERT_TRUE(has(engine, 0, 100));
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit no_more{4096, limit.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &no_more);
+  sender.send(rows(100, 5000));
+  const bool told_at_once = told("the oldest are given up");
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, before);
+  EXPECT_TRUE(told_at_once);
+  EXPECT_TRUE(told("blocks that the fleet had not got were given up while the store kept nothing"));
+  engine.stop();
+  Database store = open_store_to_read(kept.store);
+  const std::int64_t newest = store.number("SELECT max(number) FROM outbox");
+  EXPECT_GE(newest, 49);
+  EXPECT_LT(store.number("SELECT count(*) FROM outbox"), newest);
+  EXPECT_EQ(store.number("SELECT number FROM outbox_position"), newest);
+}
+
 TEST_F(EngineTest, WhatIsTooOldIsDeletedWhileItRuns) {
   SiteSettings kept = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
   kept.store = path("kept.sqlite");
