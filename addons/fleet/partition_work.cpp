@@ -17,6 +17,8 @@ using std::chrono::seconds;
 /// Blocks of one fetch; of one transaction at most; of one valve that came before their turn.
 constexpr int fetched_blocks = 64;
 constexpr std::size_t committed_blocks = 512, early_blocks = 256;
+/// Whoever may send for one valve may send for many: what waits of all of them, and how many there are of a partition.
+constexpr std::size_t most_early_bytes = std::size_t{1} << 26U, most_valves = 16384;
 constexpr milliseconds patience{100}, retry{300};
 /// A site sends again by itself what is not covered in time; asking is quicker where a single block is missing.
 constexpr seconds ask_every{1}, tell_all_every{5};
@@ -61,7 +63,7 @@ void PartitionWork::begin_anew(const ValveRefused& why) {
   to_tell_.clear();
   set_aside_ = {};
   puller_.reset();
-  uncommitted_ = 0;
+  uncommitted_ = early_bytes_ = 0;
   restore();
 }
 
@@ -150,6 +152,10 @@ void PartitionWork::take(const Message& message) {
   stream_.sequence = message.sequence;
   std::optional<Block> block = whole_block(message);
   if (!block || suspects_.stands(block->valve)) return;
+  if (places_.size() >= most_valves && !places_.contains(block->valve)) {
+    set_aside_.add(message, &*block, fmt::format("of a valve more than the {} of a partition", most_valves));
+    return;
+  }
   Place& at = place(block->valve);
   if (at.gathered) work();  // whose turn it is depends on the block before
   switch (at.line.turn(*block)) {
@@ -157,8 +163,7 @@ void PartitionWork::take(const Message& message) {
       if (gather(at, *block)) return;
       [[fallthrough]];
     case ValveLine::Turn::early:
-      if (at.early.size() < early_blocks) at.early.try_emplace({block->session, block->number}, std::move(*block));
-      return;
+      return keep_early(at, std::move(*block));
     case ValveLine::Turn::duplicate:
       to_tell_.insert(block->valve);  // its site seems not to have heard
   }
@@ -183,13 +188,24 @@ bool PartitionWork::gather(Place& at, Block& block) {
   return true;
 }
 
+/// What finds no room is sent again.
+void PartitionWork::keep_early(Place& at, Block&& block) {
+  const std::size_t content =
+      block.report ? 4 * write_report(*block.report).size() : block.samples.size() * sizeof(estimation::TimedSample);
+  const std::size_t bytes = sizeof(Early) + content;
+  if (at.early.size() >= early_blocks || early_bytes_ + bytes > most_early_bytes) return;
+  const std::pair place{block.session, block.number};
+  if (at.early.try_emplace(place, Early{std::move(block), bytes}).second) early_bytes_ += bytes;
+}
+
 /// Of what came before its turn, the block that has it now.
 void PartitionWork::gather_early(Place& at) {
   while (!at.early.empty() && !at.gathered) {
     const auto first = at.early.begin();
-    const ValveLine::Turn turn = at.line.turn(first->second);
+    const ValveLine::Turn turn = at.line.turn(first->second.block);
     if (turn == ValveLine::Turn::early) return;
-    if (turn == ValveLine::Turn::next && !gather(at, first->second)) return;
+    if (turn == ValveLine::Turn::next && !gather(at, first->second.block)) return;
+    early_bytes_ -= first->second.bytes;
     at.early.erase(first);
   }
 }
@@ -226,9 +242,9 @@ void PartitionWork::ask_for_missing() {
   for (auto& [valve, at] : places_) gather_early(at);  // a model may have come
   work();
   for (auto& [valve, at] : places_) {
-    if (at.early.empty() || at.line.turn(at.early.begin()->second) != ValveLine::Turn::early) continue;
+    if (at.early.empty() || at.line.turn(at.early.begin()->second.block) != ValveLine::Turn::early) continue;
     // Of another store of its site it misses the first.
-    const bool same_store = at.early.begin()->second.session == at.line.last().session;
+    const bool same_store = at.early.begin()->second.block.session == at.line.last().session;
     ask(valve, at, fmt::format("blocks {} {}", id_of(valve), same_store ? at.line.last().number + 1 : 1));
   }
 }

@@ -40,11 +40,16 @@ class PartitionWork {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// A block that came before its turn.
+  struct Early {
+    Block block;
+    std::size_t bytes;  ///< about
+  };
   struct Place {
     Place(const std::string& valve, const std::string& program, const live::AlarmDelays& delays)
         : line(valve, program, delays) {}
     ValveLine line;
-    std::map<std::pair<std::uint64_t, std::uint64_t>, Block> early{};  ///< by session and number
+    std::map<std::pair<std::uint64_t, std::uint64_t>, Early> early{};  ///< by session and number
     Clock::time_point asked{};                                         ///< for what is missing
     bool gathered = false;                                             ///< its next block is
     std::size_t uncommitted = 0;                                       ///< blocks
@@ -63,6 +68,7 @@ class PartitionWork {
   bool fetch();
   void take(const Message& message);
   bool gather(Place& place, Block& block);
+  void keep_early(Place& place, Block&& block);
   void gather_early(Place& place);
   void work();
   [[nodiscard]] std::optional<live::SharedModel> model(const std::string& sha256);
@@ -87,6 +93,7 @@ class PartitionWork {
   Subscription models_;
   StreamPosition stream_;
   std::size_t uncommitted_ = 0;  ///< blocks
+  std::size_t early_bytes_ = 0;  ///< of all valves
   Clock::time_point committed_ = Clock::now(), told_ = Clock::now();
 };
 

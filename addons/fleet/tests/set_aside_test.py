@@ -43,6 +43,14 @@ def block(valve, number, model, body, wall_ms=NOW_MS):
     return whole + struct.pack("<I", zlib.crc32(whole))
 
 
+def samples(valve, number, model, count):
+    """So many samples of nothing."""
+    body = bytes(count)
+    head = struct.pack("<4sBBHQQQqqqIIQ", b"SFBL", 1, len(valve), 0, 1, number, number, NOW_MS, 0, 0, count, len(body), 0)
+    whole = head + bytes.fromhex(model) + valve + packed(body)
+    return whole + struct.pack("<I", zlib.crc32(whole))
+
+
 def named(form, partition=PARTITION):
     """A valve of that partition; `form` with a number in it."""
     return next(name for name in (form % k for k in range(1000)) if zlib.crc32(name) % 16 == partition)
@@ -63,6 +71,29 @@ class SetAside(WithAFleet):
 
     def numbers(self, valve):
         return self.fleet.postgres.ask(f"SELECT block FROM second JOIN valve ON valve = number WHERE id = '{valve.decode()}' ORDER BY 1")
+
+    def test_a_valve_whose_first_block_is_missing_does_not_fill_the_memory(self):
+        fleet = self.fleet = Fleet(COMMAND, self.folder, "single")
+        fleet.setup()
+        fleet.start_worker()
+        with open(os.path.join(EXAMPLES, "live", "size_6.json"), "rb") as file:
+            text = file.read()
+        model = hashlib.sha256(text).hexdigest()
+        sound, gap = named(b"hall/sound_%d"), named(b"hall/gap_%d")
+        until(lambda: fleet.postgres.ask("SELECT owner IS NULL FROM partition WHERE number = 3") == ["f"], 20, "a partition with an owner")
+        process = fleet.workers[0].process.pid
+        self.send(*(samples(gap, number, model, 32768) for number in range(2, 250)), block(sound, 1, model, report()))
+
+        def known():
+            self.publish(b"spoolflow.model.hall", model.encode() + packed(text))
+            time.sleep(0.5)
+            return self.covered(sound) == ["1"]
+        until(known, 60, "a block of another valve")
+        with open(f"/proc/{process}/status", encoding="utf-8") as file:
+            largest_kB = next(int(line.split()[1]) for line in file if line.startswith("VmHWM"))
+        self.assertLess(largest_kB, 350_000)  # all of them are 710 MB
+        self.send(samples(gap, 1, model, 32768))
+        until(lambda: self.covered(gap) and int(self.covered(gap)[0]) > 10, 60, "the blocks that were kept, behind the first")
 
     def test_blocks_that_nobody_can_keep_hold_up_no_other(self):
         fleet = self.fleet = Fleet(COMMAND, self.folder, "single")

@@ -114,7 +114,12 @@ TEST_F(AccessTest, NamesThatThereAreNotHaveTheirTrialsTogether) {
   EXPECT_FALSE(access.login("anna", "correct horse", {"p"}, now).session.empty());
 }
 
-TEST_F(AccessTest, ManyWrongOnesOfAllKeepNobodyElseOut) {
+TEST(Access, ManyWrongOnesOfAllKeepNobodyElseOut) {
+  PageSettings quick;  // its hash takes no time
+  quick.accounts = {
+      {"anna", Role::read, "$scrypt$ln=4,r=8,p=1$MDEyMzQ1Njc4OWFiY2RlZg$OAkZqUBelG6VIYdTJfYSENL5OmZRxMa3GwXn5oFliTg"}};
+  Access access(quick);
+  const Access::Time now(std::chrono::hours(1));
   for (int k = 0; k < Access::trials_of_all; ++k) {
     EXPECT_FALSE(access.login("anna", "wrong", {"p" + std::to_string(k)}, now).too_many);
   }
