@@ -195,8 +195,15 @@ class RunningSensor {
   }
   /// ... and what is told of its answer. Both in the order of the samples; either may be ahead of the other.
   void tell(sensor::Estimate<double>& answer, const SteppedSample<double>& given) {
+    if (!is_ordered(answer)) answer = began_anew();
     state_.times.finish(answer, given, rated_flow_m3_per_s_);
     if (runs_whole() && !state_.times.answered) answer.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
+  }
+
+  /// Numbers, the flow inside its band.
+  [[nodiscard]] static bool is_ordered(const sensor::Estimate<double>& answer) {
+    return answer.flow_lower_m3_per_s <= answer.flow_m3_per_s && answer.flow_m3_per_s <= answer.flow_upper_m3_per_s &&
+           std::isfinite(answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s);
   }
 
   /// As new.
@@ -217,6 +224,19 @@ class RunningSensor {
   void set_state(const RunningState& state) { state_ = state; }
 
  private:
+  /// What a memory that leads to no number is good for: nothing. It is as new, and the answer that before a first
+  /// sample.
+  [[gnu::noinline]] sensor::Estimate<double> began_anew() {
+    const SampleTimes times{state_.times.last_time_s, state_.times.started, false};
+    reset();
+    state_.times.last_time_s = times.last_time_s;
+    state_.times.started = times.started;
+    sensor::Estimate<double> out;
+    out.flow_lower_m3_per_s = runs_whole() ? -rated_flow_m3_per_s_ : 0;
+    out.flow_upper_m3_per_s = rated_flow_m3_per_s_;
+    out.status = sensor::Status::sample_missing;
+    return out;
+  }
   using Tables = std::shared_ptr<const sensor::CondensedTables<double>>;
   static Tables laid_out(const sensor::CondensedParameters<double>& parameters) {
     auto tables = std::make_shared<sensor::CondensedTables<double>>();

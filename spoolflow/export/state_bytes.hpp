@@ -67,11 +67,4 @@ inline void unpack_state(const StateOwner& owner, const char* bytes, std::size_t
   std::memcpy(state, bytes + sizeof header, state_size);
 }
 
-/// Whether a bool that was copied from bytes is one; any other byte must never be read as a bool.
-inline bool is_bool(const bool& member) {
-  unsigned char byte = 0;
-  std::memcpy(&byte, &member, 1);
-  return byte <= 1;
-}
-
 }  // namespace spoolflow::exports

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "spoolflow/monitor/tell.hpp"
+#include "spoolflow/numerics/number_check.hpp"
 
 namespace spoolflow::monitor {
 namespace {
@@ -57,7 +58,7 @@ Watch::Watch(const model::Model& model, const Options& options, const std::optio
 }
 
 bool Watch::set_state(const WatchState& state) {
-  if (state.version != watch_state_version) return false;
+  if (state.version != watch_state_version || !numerics::holds_numbers(state)) return false;
   state_ = state;
   return true;
 }

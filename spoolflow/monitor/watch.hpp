@@ -76,7 +76,7 @@ class Watch {
   [[nodiscard]] Baseline learnt() const;
   [[nodiscard]] const Usage& usage() const { return state_.usage; }
   [[nodiscard]] const WatchState& state() const { return state_; }
-  /// Goes on from there. Returns false, and takes nothing, where it is of another version.
+  /// Goes on from there. Returns false, and takes nothing, where it is of another version or holds what is no number.
   [[nodiscard]] bool set_state(const WatchState& state);
 
  private:

@@ -257,6 +257,43 @@ TEST(CInterface, RefusesAStateWhoseHeldAnswerLiesOutsideOfItsBand) {
   EXPECT_EQ(spoolflow_set_state(sensor.get(), state.data(), state.size(), nullptr, 0), SPOOLFLOW_BAD_STATE);
 }
 
+/// Gives bytes that hold `number` at one place a checksum that holds.
+std::vector<char> forged_state(std::vector<char> state, std::size_t at, double number) {
+  constexpr std::size_t header = sizeof(exports::StateHeader);
+  std::memcpy(state.data() + at, &number, sizeof number);
+  const std::uint64_t sum = exports::checksum(state.data() + header, state.size() - header);
+  std::memcpy(state.data() + offsetof(exports::StateHeader, checksum), &sum, sizeof sum);
+  return state;
+}
+
+TEST(CInterface, NoAlteredNumberOfAStateThatIsTakenLeadsToAnAnswerThatIsNoNumber) {
+  for (const spoolflow_estimator estimator : {SPOOLFLOW_CONDENSED, SPOOLFLOW_OBSERVER}) {
+    const Sensor sensor = sensor_of(estimator);
+    (void)flows(sensor, 0, 2000);
+    std::vector<char> state(spoolflow_state_size(sensor.get()));
+    ASSERT_EQ(spoolflow_get_state(sensor.get(), state.data(), state.size()), SPOOLFLOW_OK);
+    int refused = 0;
+    for (std::size_t at = sizeof(exports::StateHeader); at + sizeof(double) <= state.size(); at += sizeof(double)) {
+      for (const double number : {NAN, -INFINITY, 1e300, -1e29, -1e6, -1.0, 0.0, 1e-300, 3.0, 1e9, 1e29}) {
+        const std::vector<char> forged = forged_state(state, at, number);
+        if (spoolflow_set_state(sensor.get(), forged.data(), forged.size(), nullptr, 0) != SPOOLFLOW_OK) {
+          ++refused;
+          continue;
+        }
+        for (int k = 2000; k < 2030; ++k) {
+          const spoolflow_estimate answer = step(sensor, sample_at(k));
+          ASSERT_TRUE(answer.flow_lower_m3_per_s <= answer.flow_m3_per_s &&
+                      answer.flow_m3_per_s <= answer.flow_upper_m3_per_s && std::isfinite(answer.flow_m3_per_s) &&
+                      std::isfinite(answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s) &&
+                      std::isfinite(answer.pressure_difference_Pa))
+              << "byte " << at << " made " << number << ", sample " << k;
+        }
+      }
+    }
+    EXPECT_GT(refused, 0);
+  }
+}
+
 TEST(CInterface, SensorsInManyThreadsDoNotDisturbEachOther) {
   const std::vector<double> expected = flows(sensor_of(), 0, 1000);
   std::vector<std::vector<double>> got(4);

@@ -1,5 +1,6 @@
 #include "addons/live/sources/csv_source.hpp"
 
+#include <cerrno>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -14,6 +15,8 @@ namespace spoolflow::live {
 namespace {
 
 constexpr int look_up_ms = 100;
+/// Callers who may not send that are closed before the connection that serves is looked at again.
+constexpr int most_strangers_at_once = 16;
 
 }  // namespace
 
@@ -29,27 +32,43 @@ TcpSource::TcpSource(const Address& address, std::vector<std::string> allowed, r
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-bool TcpSource::somebody_calls(int patience_ms) const {
-  pollfd waiting{socket_.descriptor.number(), POLLIN, 0};
-  return ::poll(&waiting, 1, patience_ms) > 0;
-}
-
-void TcpSource::run(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    if (!somebody_calls(look_up_ms)) continue;
+/// Takes the newest caller that may send; waits for one at most `patience_ms`.
+void TcpSource::answer_callers(int patience_ms) {
+  for (int k = 0; k < most_strangers_at_once; ++k) {
+    pollfd waiting{socket_.descriptor.number(), POLLIN, 0};
+    if (::poll(&waiting, 1, k == 0 ? patience_ms : 0) <= 0) return;
     sockaddr_storage peer{};
     socklen_t length = sizeof peer;
     Descriptor connection(
         ::accept4(socket_.descriptor.number(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_CLOEXEC));
-    if (connection.number() < 0) continue;
-    if (!may_send(allowed_, peer)) {
-      intake_.tell(fmt::format("{} tried to connect and is not allowed to", peer_host(peer)));
-      continue;
+    if (connection.number() < 0) {
+      if (errno != EMFILE && errno != ENFILE) return;
+      // The caller stays in the queue of the socket, which stays readable: without a pause this would keep a core busy.
+      intake_.tell("a connection waits, and the process may open no more files; raise its limit (LimitNOFILE)");
+      std::this_thread::sleep_for(std::chrono::milliseconds(patience_ms));
+      return;
     }
+    if (may_send(allowed_, peer)) {
+      caller_ = {std::move(connection), peer_host(peer)};
+      return;
+    }
+    intake_.tell(fmt::format("{} tried to connect and is not allowed to", peer_host(peer)));
+  }
+}
+
+void TcpSource::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    if (caller_.connection.number() < 0) answer_callers(look_up_ms);
+    if (caller_.connection.number() < 0) continue;
+    Caller serves = std::exchange(caller_, {});
     intake_.count_connection();
-    const auto given_up = [&] { return stop.stop_requested() || somebody_calls(0); };
-    next_ = read_csv(std::make_unique<recording::InputBytes>(connection.release(), peer_host(peer), given_up), options_,
-                     next_, intake_);
+    const auto given_up = [&] {
+      if (caller_.connection.number() < 0) answer_callers(0);
+      return stop.stop_requested() || caller_.connection.number() >= 0;
+    };
+    next_ =
+        read_csv(std::make_unique<recording::InputBytes>(serves.connection.release(), std::move(serves.host), given_up),
+                 options_, next_, intake_);
     if (intake_.trouble().empty()) intake_.tell("nobody is connected");
   }
 }

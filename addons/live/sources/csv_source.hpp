@@ -9,10 +9,16 @@
 
 namespace spoolflow::live {
 
-/// Listens for the valve's sender. There is one connection at a time: a new one takes the place of the one before,
-/// which may have broken without telling.
+/// Listens for the valve's sender. There is one connection at a time: a new one of an address that may send takes the
+/// place of the one before, which may have broken in silence. Any other connection is closed and changes nothing.
 class TcpSource {
  public:
+  /// A connection of an address that may send.
+  struct Caller {
+    Descriptor connection{};
+    std::string host{};
+  };
+
   /// `allowed` as in UdpReceiver. Throws SiteError.
   TcpSource(const Address& address, std::vector<std::string> allowed, recording::ReadOptions options,
             SourcePosition after, Intake& intake);
@@ -21,10 +27,11 @@ class TcpSource {
 
  private:
   void run(const std::stop_token& stop);
-  [[nodiscard]] bool somebody_calls(int patience_ms) const;
+  void answer_callers(int patience_ms);
 
   BoundSocket socket_;
   std::vector<std::string> allowed_;
+  Caller caller_;  ///< waits until the connection before it is given up
   recording::ReadOptions options_;
   std::uint64_t next_;
   Intake& intake_;

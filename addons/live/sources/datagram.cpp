@@ -59,7 +59,8 @@ std::variant<Datagram, NoDatagram> read_datagram(std::span<const std::uint8_t> b
   const auto time_ns = static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes, 24));
   const auto period_ns = little_endian<std::uint32_t>(bytes, 32);
   const bool counts = out.sequence <= ~std::uint64_t{0} - count;
-  if (count == 0 || period_ns == 0 || out.valve.empty() || !counts || (channels & ~known_channels) != 0) {
+  if (channels == 0 || count == 0 || period_ns == 0 || out.valve.empty() || !counts ||
+      (channels & ~known_channels) != 0) {
     return NoDatagram::no_sense;
   }
   out.samples.reserve(count);

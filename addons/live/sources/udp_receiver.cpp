@@ -51,13 +51,37 @@ class Datagrams {
 
 }  // namespace
 
+bool DatagramOrder::confirms_leap(const Datagram& datagram) {
+  leap_datagrams_ = datagram.sequence == leap_next_ ? leap_datagrams_ + 1 : 1;
+  leap_next_ = datagram.sequence + datagram.samples.size();
+  if (leap_datagrams_ < confirming_datagrams) return false;
+  leap_datagrams_ = 0;
+  return true;
+}
+
 SampleBlock DatagramOrder::next(Datagram&& datagram, Intake& intake) {
   SampleBlock block{.arrived_ns = steady_ns()};
   if (!known_ || datagram.session != after_.session) {
     // The first of a session that is met may be in its middle: what was sent before the program ran is not lost by it.
     after_ = {datagram.session, datagram.sequence};
     known_ = true;
+    leap_datagrams_ = 0;
     intake.count_connection();
+  }
+  const bool far_ahead = datagram.sequence > after_.next && datagram.sequence - after_.next > most_lost_at_once;
+  const bool known_before = datagram.sequence + datagram.samples.size() <= after_.next;
+  if (!far_ahead && !known_before) {
+    leap_datagrams_ = 0;
+  } else if (confirms_leap(datagram)) {
+    if (known_before || datagram.sequence - after_.next > most_lost) {
+      intake.count_connection();
+      after_.next = datagram.sequence;
+    }
+  } else if (far_ahead) {
+    intake.count_unreadable(1);
+    datagram.samples.clear();
+    block.after = after_;
+    return block;
   }
   const std::uint64_t behind = datagram.sequence + datagram.samples.size();
   if (datagram.sequence < after_.next) {

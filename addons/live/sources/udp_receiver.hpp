@@ -11,17 +11,29 @@
 
 namespace spoolflow::live {
 
-/// Puts the datagrams of one valve in order by their sequence numbers: tells what was lost, leaves out what came
-/// before.
+/// Puts the datagrams of one valve in order by their sequence numbers: says what was lost, leaves out what came before.
+/// A sender that begins again within its session (power-up with the session of the day before), or whose numbers leap
+/// far ahead, is believed after `confirming_datagrams` that follow each other with none in the order before between
+/// them: one datagram of wrong numbers mutes no valve.
 class DatagramOrder {
  public:
   explicit DatagramOrder(SourcePosition after = {}) : after_(after), known_(after.session != 0 || after.next != 0) {}
   /// Samples that are new, possibly none; counts repeated ones and sessions at the intake.
   [[nodiscard]] SampleBlock next(Datagram&& datagram, Intake& intake);
 
+  static constexpr int confirming_datagrams = 8;
+  /// More samples than that are not lost at once without confirmation (a minute at 1 kHz) ...
+  static constexpr std::uint64_t most_lost_at_once = 1U << 16U;
+  /// ... and more than that (49 days at 1 kHz) are not lost at all: the sender began again.
+  static constexpr std::uint64_t most_lost = std::uint64_t{1} << 32U;
+
  private:
+  [[nodiscard]] bool confirms_leap(const Datagram& datagram);
+
   SourcePosition after_;
-  bool known_;  ///< a session has begun
+  bool known_;                   ///< a session has begun
+  std::uint64_t leap_next_ = 0;  ///< what follows on the last datagram out of order
+  int leap_datagrams_ = 0;       ///< that followed each other since the last one in order
 };
 
 /// A valve whose samples come by UDP.

@@ -93,6 +93,13 @@ TEST(Datagram, ANumberThatIsNotFiniteWasNotMeasured) {
   EXPECT_TRUE(std::isnan(std::get<Datagram>(read).samples[0].current_A));
 }
 
+TEST(Datagram, WithoutAChannelItIsNoneHoweverManySamplesItClaims) {
+  const std::vector<estimation::TimedSample> block(65535, datagram_sample(1));
+  const auto bytes = write_datagram({"v", 1, 0, 0, 1000, 0}, block);
+  ASSERT_EQ(bytes.size(), datagram_header_bytes + datagram_checksum_bytes);
+  EXPECT_EQ(refusal_of(bytes), NoDatagram::no_sense);
+}
+
 class DatagramOrderTest : public ::testing::Test {
  protected:
   SampleBlock take(std::uint64_t sequence, int samples, std::uint32_t session = 7) {
@@ -129,6 +136,46 @@ TEST_F(DatagramOrderTest, GoesOnWhereItWas) {
   order = DatagramOrder({7, 120});
   EXPECT_EQ(take(130, 10).lost_before, 10U);
   EXPECT_TRUE(take(110, 10).samples.empty());
+}
+
+TEST_F(DatagramOrderTest, OneDatagramWithAHugeNumberMutesNobody) {
+  (void)take(100, 10);
+  EXPECT_TRUE(take(~std::uint64_t{0} - 100, 10).samples.empty());
+  const SampleBlock next = take(110, 10);
+  EXPECT_EQ(next.samples.size(), 10U);
+  EXPECT_EQ(next.lost_before, 0U);
+  EXPECT_EQ(next.after.next, 120U);
+  EXPECT_EQ(intake.counters().unreadable, 1U);
+}
+
+TEST_F(DatagramOrderTest, ASenderThatUsesItsSessionAgainAfterPowerUpIsHeardAfterEightDatagrams) {
+  order = DatagramOrder({7, 5'000'000});
+  for (std::uint64_t k = 0; k < 7; ++k) EXPECT_TRUE(take(10 * k, 10).samples.empty());
+  const SampleBlock heard = take(70, 10);
+  EXPECT_EQ(heard.samples.size(), 10U);
+  EXPECT_EQ(heard.lost_before, 0U);
+  EXPECT_EQ(heard.after.next, 80U);
+  EXPECT_EQ(take(80, 10).samples.size(), 10U);
+  EXPECT_EQ(intake.counters().repeated, 70U);
+  EXPECT_EQ(intake.counters().connections, 1U);
+}
+
+TEST_F(DatagramOrderTest, WhatALongOutageLostIsCountedOnceItsEndIsConfirmed) {
+  (void)take(0, 10);
+  for (std::uint64_t k = 0; k < 7; ++k) EXPECT_TRUE(take(1'000'000 + 10 * k, 10).samples.empty());
+  const SampleBlock heard = take(1'000'070, 10);
+  EXPECT_EQ(heard.samples.size(), 10U);
+  EXPECT_EQ(heard.lost_before, 1'000'060U);
+  EXPECT_EQ(intake.counters().connections, 1U);
+}
+
+TEST_F(DatagramOrderTest, DatagramsThatComeTwiceBeginNothing) {
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    EXPECT_EQ(take(10 * k, 10).samples.size(), 10U);
+    EXPECT_TRUE(take(10 * k, 10).samples.empty());
+  }
+  EXPECT_EQ(intake.counters().repeated, 400U);
+  EXPECT_EQ(intake.counters().connections, 1U);
 }
 
 }  // namespace

@@ -40,7 +40,11 @@ inline sockaddr_in loopback(std::uint16_t port) {
 /// A TCP sender.
 class Sender {
  public:
-  explicit Sender(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  /// `host`: from which address of the loopback network it sends, 127.0.0.`host`.
+  explicit Sender(std::uint16_t port, int host = 1) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in from = loopback(0);
+    from.sin_addr.s_addr = htonl(INADDR_LOOPBACK - 1 + static_cast<in_addr_t>(host));
+    EXPECT_EQ(::bind(socket_.number(), reinterpret_cast<const sockaddr*>(&from), sizeof from), 0);
     const sockaddr_in to = loopback(port);
     EXPECT_EQ(::connect(socket_.number(), reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
   }

@@ -37,6 +37,24 @@ TEST_F(SendersTest, AnswersWhatComesByTcp) {
   EXPECT_EQ(engine.source(0).counters.connections, 3U);
 }
 
+TEST_F(SendersTest, AStrangerWhoConnectsDoesNotCutOffTheSenderThatIsAllowed) {
+  SiteSettings settings = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
+  settings.allow = {"127.0.0.1"};
+  Engine engine(settings, "test");
+  engine.start();
+  const std::uint16_t port = engine.source(0).port;
+  const Sender sender(port);
+  sender.send(engine_header + rows(0, 50));
+  ASSERT_TRUE(has(engine, 0, 50));
+  for (int k = 0; k < 40; ++k) {
+    const Sender stranger(port, 2);
+  }
+  ASSERT_TRUE(comes_true([&] { return engine.source(0).trouble.find("127.0.0.2") != std::string::npos; }));
+  sender.send(rows(50, 100));
+  ASSERT_TRUE(has(engine, 0, 100));
+  EXPECT_EQ(engine.source(0).counters.connections, 1U);
+}
+
 TEST_F(SendersTest, OneSourceOfRubbishDisturbsNoOther) {
   Engine engine(site({{"bad", TcpSettings{{"127.0.0.1", 0}}}, {"good", TcpSettings{{"127.0.0.1", 0}}}}), "test");
   engine.start();

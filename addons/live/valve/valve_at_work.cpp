@@ -10,7 +10,9 @@
 
 #include "addons/live/blocks/steps.hpp"
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/state_check.hpp"
 #include "spoolflow/numerics/crc32.hpp"
+#include "spoolflow/numerics/number_check.hpp"
 #include "spoolflow/numerics/padding.hpp"
 
 namespace spoolflow::live {
@@ -75,12 +77,20 @@ bool ValveAtWork::restore(const KeptState& kept) {
   bytes = bytes.first(bytes.size() - sizeof sum);
   if (!take_bytes(end, sum) || sum != sum_of(bytes)) return false;
   estimation::RunningState state;
-  if (!take_bytes(bytes, state) || !take_bytes(bytes, doubt_) || !take_bytes(bytes, doubt_second_)) return false;
+  monitor::Doubt doubt;
+  double doubt_second = 0;
+  const void* const state_bytes = bytes.data();
+  if (!take_bytes(bytes, state) || !estimation::may_be_running_state(state_bytes)) return false;
+  if (!take_bytes(bytes, doubt) || !take_bytes(bytes, doubt_second) || !numerics::holds_numbers(doubt)) return false;
+  if (watch_) {
+    const auto watched = std::make_unique<monitor::WatchState>();
+    if (!take_bytes(bytes, *watched) || !watch_->set_state(*watched)) return false;
+  }
   sensor_.set_state(state);
+  doubt_ = doubt;
+  doubt_second_ = doubt_second;
   if (state.times.started) time_s_ = state.times.last_time_s;
-  if (!watch_) return true;
-  auto watched = std::make_unique<monitor::WatchState>();
-  return take_bytes(bytes, *watched) && watch_->set_state(*watched);
+  return true;
 }
 
 /// Once a second of the source's clock, so that the same samples get the same answers at any speed: doubt changes with

@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "spoolflow/estimation/columns.hpp"
+#include "spoolflow/estimation/state_check.hpp"
 #include "spoolflow/export/c_interface/spoolflow.h"
-#include "spoolflow/export/running_state_bytes.hpp"
 #include "spoolflow/export/state_bytes.hpp"
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/model/model.hpp"
@@ -306,7 +306,7 @@ spoolflow_result spoolflow_set_state(spoolflow_sensor* sensor, const void* bytes
   return guarded(message, message_size, [&] {
     std::array<char, sizeof(RunningState)> plain;
     exports::unpack_state(sensor->owner(), static_cast<const char*>(bytes), size, plain.data(), plain.size());
-    if (!exports::may_be_running_state(plain.data()))
+    if (!spoolflow::estimation::may_be_running_state(plain.data()))
       throw exports::StateError("the state's bytes are damaged: they hold what no state can");
     RunningState state;
     std::memcpy(&state, plain.data(), sizeof state);

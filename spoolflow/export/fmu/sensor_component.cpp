@@ -5,10 +5,10 @@
 #include <variant>
 
 #include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/estimation/state_check.hpp"
 #include "spoolflow/export/fmu/component.hpp"
 #include "spoolflow/export/fmu/sensor_numbers.hpp"
 #include "spoolflow/export/fmu/sensor_variables.hpp"
-#include "spoolflow/export/running_state_bytes.hpp"
 #include "spoolflow/model/limit_check.hpp"
 #include "spoolflow/numerics/padding.hpp"
 
@@ -95,7 +95,7 @@ class SensorComponent : public Component {
   }
   void clear_padding() override { numerics::clear_padding(running_.state()); }
   [[nodiscard]] bool may_be_memory(std::span<const char> bytes) const override {
-    return bytes.size() == sizeof(estimation::RunningState) && may_be_running_state(bytes.data());
+    return bytes.size() == sizeof(estimation::RunningState) && estimation::may_be_running_state(bytes.data());
   }
 
  private:

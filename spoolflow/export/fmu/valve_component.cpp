@@ -13,6 +13,7 @@
 #include "spoolflow/export/fmu/valve_numbers.hpp"
 #include "spoolflow/export/fmu/valve_variables.hpp"
 #include "spoolflow/export/state_bytes.hpp"
+#include "spoolflow/numerics/number_check.hpp"
 #include "spoolflow/numerics/padding.hpp"
 #include "spoolflow/rig/instruments/coil_panel.hpp"
 #include "spoolflow/rig/plant/winding_current.hpp"
@@ -124,8 +125,8 @@ class ValveComponent : public Component {
     if (bytes.size() != sizeof(ValveMemory)) return false;
     ValveMemory memory = *memory_;
     std::memcpy(&memory, bytes.data(), sizeof memory);
-    return is_bool(memory.electronics.position.on) && memory.conversions >= 0 &&
-           std::isfinite(memory.plant.position_m) && std::isfinite(memory.plant.velocity_m_per_s);
+    return numerics::holds_numbers(memory.electronics) && numerics::holds_numbers(memory.plant) &&
+           memory.conversions >= 0;
   }
   [[nodiscard]] std::span<char> memory() override { return {reinterpret_cast<char*>(&*memory_), sizeof(ValveMemory)}; }
 
