@@ -20,8 +20,8 @@ void print(const cortex_m::Core& core, estimation::Estimator estimator, const co
   line(replay.all);
   for (const cortex_m::StepCost& way : replay.ways) line(way);
   if (replay.longest_way) fmt::print("  longest way through the code {} instructions\n", *replay.longest_way);
-  fmt::print("  code and tables {} bytes of flash, state {} bytes, stack {} bytes\n\n", replay.flash_bytes,
-             replay.state_bytes, replay.stack_bytes);
+  fmt::print("  code and tables {} bytes of flash, state {} bytes, stack {} bytes at most\n\n", replay.flash_bytes,
+             replay.state_bytes, replay.worst_stack_bytes);
 }
 
 }  // namespace

@@ -33,6 +33,21 @@ if(SPOOLFLOW_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# Linux programs: addresses are random, tables of addresses are read-only once the program has started.
+if(CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT SPOOLFLOW_SANITIZE)
+  include(CheckPIESupported)
+  check_pie_supported()
+  add_link_options(-Wl,-z,relro,-z,now)
+endif()
+
+# spoolflow_hardened(TARGET): a stack or a buffer that is overrun ends the program. For all but folders that calculate and see no
+# byte of a file or of the network (the sensor and what steps it, calibration, the virtual rig), whose speed it would cost.
+function(spoolflow_hardened target)
+  if(CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT SPOOLFLOW_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+    target_compile_options(${target} PRIVATE -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+  endif()
+endfunction()
+
 # spoolflow_link_names(LIST): in it the folder spoolflow/rig/plant becomes its target spoolflow_rig_plant, addons/live its addons_live.
 function(spoolflow_link_names list)
   set(names "")
@@ -75,6 +90,9 @@ function(spoolflow_folder name)
     target_link_libraries(${house}_${name} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
     if(arg_LIGHT)
       spoolflow_light(${house}_${name})
+    endif()
+    if(NOT name MATCHES "^(estimation|calibration|rig|analysis|uncertainty|validation|consistency|numerics|parallel|units)")
+      spoolflow_hardened(${house}_${name})
     endif()
   else()
     add_library(${house}_${name} INTERFACE)

@@ -40,7 +40,7 @@ constexpr double unsettled_cylinder_share = 0.4;
 /// Of the supply, which may be any: the same for every valve.
 constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 3e5,
                                                     .resting_drift_Pa_per_sqrt_s = 1e6,
-                                                    .least_process_noise = 0.01,
+                                                    .least_process_noise = 1e-4,
                                                     .first_process_noise = 0.05,
                                                     .yielding_s = 0.03,
                                                     .force_correlation_s = 2e-3,
@@ -246,7 +246,7 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
   out.oil_temperature_K = {temperature_K.at(0), temperature_K.at(sensor::edge_temperatures - 1)};
   out.residuals = residuals_of_fits(fits);
   out.fits = known_of_bench(fits);
-  out.defaults = {"hardest_acceleration_m_per_s2", "drifts and liveliness of the pressure", "band_coverage_factor",
+  out.defaults = {"hardest_acceleration_m_per_s2", "drifts and process noise of the pressure", "band_coverage_factor",
                   "band_unseen_factor", "band_creep_per_s"};
   if (fits.maps.edges_are_assumed()) out.defaults.emplace_back(model::each_edge_alone);
   if (!fits.actuator.dynamics) {

@@ -226,15 +226,15 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
                   .meaning = "random walk of the pressure difference while the spool rests",
                   .evidence = "duty_cycle_1: p95 3.61, 3.31, 3.22 % FS, band 93.7, 96.8, 96.9 %"},
                  pressure.resting_drift_Pa_per_sqrt_s);
-  visitor.number({.key = "least_liveliness",
+  visitor.number({.key = "least_process_noise",
                   .unit = "1",
-                  .limits = {1e-6, 1},
-                  .meaning = "process noise where the supply has proved steady, as a share of that walk",
-                  .relation = not_above("first_liveliness"),
+                  .limits = {1e-12, 1},
+                  .meaning = "process noise where the supply has proved steady, as a share of that walk's variance",
+                  .relation = not_above("first_process_noise"),
                   .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.32 % FS, band 95.5, 95.7, 95.5 %"},
                  pressure.least_process_noise);
   visitor.number(
-      {.key = "first_liveliness",
+      {.key = "first_process_noise",
        .unit = "1",
        .limits = {1e-6, 1},
        .meaning = "process noise of a supply of which nothing is known yet, as a share of that walk's variance",

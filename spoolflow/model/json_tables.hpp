@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "spoolflow/model/former_keys.hpp"
 #include "spoolflow/model/json_node.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/table.hpp"
@@ -138,7 +139,7 @@ class TableReader {
   }
   template <class T>
   void number(const Parameter& about, T& value) {
-    value = static_cast<T>(about.otherwise && !in_.has(about.key) ? *about.otherwise : in_.at(about.key).number());
+    value = static_cast<T>(in_.has(about.key) ? in_.at(about.key).number() : missing(about));
   }
   template <class T>
   void number(const Parameter& about, std::optional<T>& value) {
@@ -146,6 +147,15 @@ class TableReader {
   }
 
  private:
+  /// What a file without that key holds: the same under a former key, or what the description says.
+  [[nodiscard]] double missing(const Parameter& about) const {
+    for (const FormerKey& former : former_keys) {
+      if (former.now != about.key || !in_.has(std::string(former.key).c_str())) continue;
+      const double value = in_.at(std::string(former.key).c_str()).number();
+      return former.squared ? value * value : value;
+    }
+    return about.otherwise ? *about.otherwise : in_.at(about.key).number();
+  }
   static void require_count(const JsonNode& node, std::size_t found, int wanted) {
     if (found != static_cast<std::size_t>(wanted)) {
       node.refuse(fmt::format("has {} entries, the sensor's table has {}", found, wanted));

@@ -95,8 +95,7 @@ template <class T>
                                                                  T velocity_m_per_s, T displaced_ratio) {
   const T share = select(balance.sliding, band.force_share, band.rest_share);
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
-  const T unobserved_N2 =
-      squared(slope * band.unseen_factor * pressure.process_noise) * pressure.unobserved_variance_Pa2;
+  const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unseen_factor));
   const T factor = band.coverage_factor * pressure.band_factor * select(balance.slips, T(slip_widening), T(1));
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
   if (any(balance.sliding || balance.dithered))

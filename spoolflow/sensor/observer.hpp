@@ -248,11 +248,11 @@ constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state,
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& sample) {
-  Mask<T> begins = !state.started;
+  Mask<T> begins = !state.started, late = Mask<T>(false);
   if constexpr (one_valve<T>) {
     if (unlikely(!ordinary(sample))) {
-      const bool leapt = sample.time_step_s > T(longest_step_s);
-      begins = begins || leapt;
+      begins = begins || time_leapt(sample.time_step_s);
+      late = is_late(sample.time_step_s);
       if (unusable(sample) != Status::none) {
         detail::hold(state, sample, valve);
         return state.last;
@@ -260,6 +260,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
     }
   } else {
     begins = begins || time_leapt(sample.time_step_s);
+    late = is_late(sample.time_step_s);
   }
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
@@ -268,7 +269,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_odd);
   detail::observe(valve, state, sample, position, dither, T(0), begins);
   detail::admit_other_direction(valve, state, position.position_m);
-  if (any(begins)) mark(state.last.status, time_leapt(sample.time_step_s), Status::time_fault);
+  if (any(late)) mark(state.last.status, late, Status::time_fault);
   return state.last;
 }
 

@@ -53,8 +53,8 @@ template <class T>
 struct PressureParameters {
   T sliding_drift_Pa_per_sqrt_s{};  ///< random walk while the spool slides and every newton tells
   T resting_drift_Pa_per_sqrt_s{};  ///< random walk while nobody sees it, of the most restless supply
-  T least_process_noise{};          ///< share of that drift where the supply has proved steady, (0, 1]
-  T first_process_noise{};          ///< share of that drift's variance, of a supply of which nothing is known yet
+  T least_process_noise{};          ///< share of that drift's variance where the supply has proved steady, (0, 1]
+  T first_process_noise{};          ///< the same of a supply of which nothing is known yet
   T yielding_s{};                   ///< how fast it gives way to a force that friction at rest cannot explain
   T force_correlation_s{};  ///< for how long errors of the forces stay alike: samples within are no new evidence
   T ratio_deviation{};      ///< standard deviation of the friction ratio at any time
@@ -183,7 +183,8 @@ constexpr void expect_change(const PressureParameters<T>& pressure, PressureStat
 }
 
 /// One standard deviation of what the pressure difference may have done unseen [Pa]. In proportion to the process
-/// noise, not to its root: a restless supply leaps, and leaps are more often large than those of a random walk.
+/// noise, which is a ratio of variances, not to its root: a restless supply leaps, and leaps are more often large than
+/// those of a random walk.
 template <class T>
 constexpr T unobserved_change_Pa(const PressureState<T>& state, T unseen_factor) {
   return unseen_factor * state.process_noise * sqrt(state.unobserved_variance_Pa2);
@@ -204,8 +205,8 @@ constexpr void learn_process_noise(const PressureParameters<T>& pressure, Pressu
         T(1));
     const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
     const T pace = weight * select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
-    state.process_noise = limited(state.process_noise + pace * (shown - state.process_noise),
-                                  squared(pressure.least_process_noise), T(1));
+    state.process_noise =
+        limited(state.process_noise + pace * (shown - state.process_noise), pressure.least_process_noise, T(1));
     state.drift_variance_Pa2 = T(0);
   });
   state.observed_Pa = select(is_zero(state.drift_variance_Pa2), state.pressure_difference_Pa, state.observed_Pa);

@@ -19,6 +19,9 @@ struct Sample {
 /// drifts as far.
 inline constexpr double other_direction_m = 50e-6;
 
+/// The sensor is made for time steps up to 5 ms, and one that a lost sample doubles passes. One of this length [s] or
+/// more is estimated with time_fault: the source stalls, or gives milliseconds as seconds.
+inline constexpr double longest_regular_step_s = 9e-3;
 /// After a longer time step [s] nothing counts of what was believed before: the sensor begins anew.
 inline constexpr int longest_step_s = 1;
 /// A time step of so much [s] is none.
@@ -36,7 +39,14 @@ constexpr Mask<T> time_leapt(T time_step_s) {
 /// What nearly always holds: nothing is missing, and time has advanced by an ordinary step.
 template <class T>
 constexpr bool ordinary(const Sample<T>& sample) {
-  return is_number(sample.current_A) && is_number(sample.position_m) && within(sample.time_step_s, T(longest_step_s));
+  return is_number(sample.current_A) && is_number(sample.position_m) &&
+         within(sample.time_step_s, T(longest_regular_step_s));
+}
+
+/// Whether the time step is longer than the sensor is made for.
+template <class T>
+constexpr Mask<T> is_late(T time_step_s) {
+  return !lies_below(time_step_s, T(longest_regular_step_s));
 }
 
 /// Why a sample cannot be estimated: current or position is missing, or time runs backwards. `none` where it can.

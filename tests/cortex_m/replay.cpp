@@ -7,6 +7,7 @@
 
 #include "tests/cortex_m/packed_run.hpp"
 #include "tests/cortex_m/step_ways.hpp"
+#include "tests/cortex_m/worst_stack.hpp"
 
 namespace spoolflow::cortex_m {
 namespace {
@@ -45,7 +46,7 @@ std::string which_sensor(Estimator estimator) {
 }  // namespace
 
 std::string replay_firmware(Estimator estimator, const Core& core) {
-  return compiler(core) + "-g " + which_sensor(estimator) +
+  return compiler(core) + "-g -fcallgraph-info=su " + which_sensor(estimator) +
          SPOOLFLOW_FIRMWARE "/board.cpp " SPOOLFLOW_FIRMWARE "/replay.cpp -o replay.elf" + link() + core.libraries;
 }
 
@@ -80,6 +81,7 @@ Replay replay(const model::Model& model, Estimator estimator, const fs::path& re
         longest_way_of(workshop, "replay.elf", step_code_of(workshop, "replay.elf")).size() + call_instructions);
   out.state_bytes = figures.at("state_bytes");
   out.stack_bytes = figures.at("stack_bytes");
+  out.worst_stack_bytes = worst_stack_bytes(workshop.run("cat replay.elf-replay.ci"), "one_step");
   out.flash_bytes = flash_bytes(workshop, core, which_sensor(estimator));
   workshop.run(compiler(core) + SPOOLFLOW_FIRMWARE "/board.cpp self_test.cpp -o self_test.elf" + link() +
                core.libraries);

@@ -44,7 +44,8 @@ struct Replay {
   std::vector<StepCost> ways;  ///< each that was taken
   std::uint32_t state_bytes;
   std::optional<std::uint32_t> longest_way;  ///< by the graph of the step's code; with a floating-point unit alone
-  std::uint32_t stack_bytes;                 ///< of one step
+  std::uint32_t stack_bytes;                 ///< of the first step, measured
+  std::uint32_t worst_stack_bytes;           ///< of any step with all that it may call, by the compiler's frames
   std::uint32_t flash_bytes;       ///< code and tables of this sensor, linked without any library but the compiler's
   std::uint32_t self_test_status;  ///< of the exported self-test on the core
 };

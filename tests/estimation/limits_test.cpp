@@ -18,6 +18,7 @@ namespace spoolflow::estimation {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr auto described = [](auto& valve, auto& visitor) { describe(valve, visitor); };
 
@@ -167,15 +168,15 @@ TEST(Limits, RefuseByPathWhatTheEquationsCannotLiveWith) {
         Broken{"/observer/friction_ageing_s", 0, "is outside"},
         Broken{"/observer/spool_friction_N/1/2/3", -1, "is outside"},
         Broken{"/observer/band_force_residual_N", 0, "is outside"},
-        Broken{"/observer/least_liveliness", 1, "first_liveliness"},
+        Broken{"/observer/least_process_noise", 1, "first_process_noise"},
         Broken{"/observer/hysteresis_stiffness_increase_A_per_Wb/0", -1e6, "hysteresis_stiffness_A_per_Wb"},
         Broken{"/condensed/largest_flow_force_N/values/7", 0, "is outside"},
         Broken{"/fluid/density_15C_kg_per_m3", 1e16, "larger than any quantity"},
         Broken{"/condensed/current_range_A/1", 1e300, "larger than any quantity"},
         Broken{"/condensed/flow_m3_per_s/values/4/16", -0.1, "falls below"}}) {
     auto damaged = good;
-    damaged[Pointer("/observer/first_liveliness")] = 0.5;
-    damaged[Pointer("/observer/least_liveliness")] = 0.5;
+    damaged[Pointer("/observer/first_process_noise")] = 0.5;
+    damaged[Pointer("/observer/least_process_noise")] = 0.5;
     damaged[Pointer(broken.path)] = broken.value;
     try {
       (void)model::parse_model(damaged.dump(), "model.json");
@@ -185,6 +186,24 @@ TEST(Limits, RefuseByPathWhatTheEquationsCannotLiveWith) {
       EXPECT_THAT(error.what(), HasSubstr(broken.message));
     }
   }
+}
+
+TEST(Limits, AModelOfFormerKeysIsReadAndWrittenWithThoseOfNow) {
+  const model::Model now = random_model(3);
+  std::ostringstream out;
+  write_model(out, now);
+  auto former = nlohmann::ordered_json::parse(out.str());
+  auto& observer = former["observer"];
+  observer.erase("least_process_noise");
+  observer.erase("first_process_noise");
+  observer["least_liveliness"] = 0.02;  // the root of what it is now
+  observer["first_liveliness"] = 0.07;
+  const model::Model read = model::parse_model(former.dump(), "model.json");
+  EXPECT_DOUBLE_EQ(read.observer->parameters.pressure.least_process_noise, 0.0004);
+  EXPECT_DOUBLE_EQ(read.observer->parameters.pressure.first_process_noise, 0.07);
+  std::ostringstream again;
+  write_model(again, read);
+  EXPECT_THAT(again.str(), Not(HasSubstr("liveliness")));
 }
 
 }  // namespace

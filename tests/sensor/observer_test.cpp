@@ -201,6 +201,25 @@ TEST(Observer, BeginsAnewAndSaysSoWhereTimeLeaps) {
   }
 }
 
+template <class T>
+void stall(T step_s) {
+  const ObserverParameters<T> valve = closed_form_observer<T>(closed_form);
+  ObserverState<T> state{};
+  const auto take = [&](T time_step_s) { return step(valve, state, Sample<T>{time_step_s, 1.2F, 10, 1e-3F, 313}); };
+  for (int k = 0; k < 1000; ++k) ASSERT_FALSE(has(take(T(1e-3)).status, Status::time_fault));
+  const Estimate<T> answer = take(step_s);
+  EXPECT_TRUE(has(answer.status, Status::time_fault)) << step_s;
+  EXPECT_LE(answer.flow_lower_m3_per_s, answer.flow_m3_per_s);
+  EXPECT_FALSE(has(take(T(5e-3)).status, Status::time_fault));
+}
+
+TEST(Observer, SaysSoWhereTheTimeStepIsLongerThanItIsMadeFor) {
+  for (const double step_s : {10e-3, 20e-3, 50e-3, 0.2, 1.0}) {  // 1: a step of 1 ms given as seconds
+    stall<float>(static_cast<float>(step_s));
+    stall<double>(step_s);
+  }
+}
+
 /// The answer after a second at rest whose oil temperature reads `read_K` from its middle on, for `samples`.
 Estimate<double> with_oil_reading(double read_K, int samples) {
   const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
                                             .resting_drift_Pa_per_sqrt_s = 1e6,
-                                            .least_process_noise = 0.03,
+                                            .least_process_noise = 0.0009,
                                             .first_process_noise = 0.1,
                                             .yielding_s = 0.03,
                                             .force_correlation_s = 2e-3,

@@ -1,7 +1,8 @@
 #pragma once
 /// What no bench test shows, from recordings of the valve at work with a reference flow: how friction in operation
 /// compares with that on the bench, its growth at rest, the contacts' stiffness, the backlash of the position sensor,
-/// and how wide the band must be. These recordings are then no independent test any more.
+/// and how wide the band must be. These recordings are then no independent test any more. The paper models none of it
+/// (2.1.3 and section 4 name the friction).
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ struct OperationFit {
   model::Fit known;                        ///< of the parameters that were searched, see operation_uncertainty.hpp
   std::vector<std::string> not_told;       ///< parameters of which these recordings tell nothing, see told_dials.hpp
   FitResidual flow_m3_per_s;               ///< estimate less reference, with the fitted parameters
-  double force_error_ratio;                ///< see band.hpp; the band is scaled by it
+  double force_error_ratio;                ///< see force_error_ratio.hpp; the band is scaled by it
   double band_coverage;                    ///< share of the samples with the reference inside the band
   std::size_t samples;                     ///< that were used: see replay.hpp
 };

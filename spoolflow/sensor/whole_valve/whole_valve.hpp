@@ -256,7 +256,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
       return state.open.last;
     }
   }
-  const Mask<T> leapt = time_leapt(sample.time_step_s);
+  const Mask<T> leapt = time_leapt(sample.time_step_s), late = is_late(sample.time_step_s);
   using detail::sides;
   const Mask<T> begins = !state.open.started || leapt;
   in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
@@ -289,7 +289,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   } else {
     seen_from(state.opens_a);
   }
-  if (any(begins)) mark(state.open.last.status, leapt, Status::time_fault);
+  if (any(late)) mark(state.open.last.status, late, Status::time_fault);
   return state.open.last;
 }
 
