@@ -86,20 +86,6 @@ def host(build):
         f"maps by `lower_bound` {shown(ns['plain_lower_bound_maps'], 1)}", "")
 
 
-def packs(build, model):
-    text = build.run("bench/valve_batch", model, EXAMPLES / "duty_cycle_1.h5")
-    sets = {3: "the baseline", 4: "AVX2", 5: "AVX-512"}
-    for estimator, digits, wanted in (("observer", 0, 20), ("condensed", 1, 2.5)):
-        for valves in (8, 16):
-            line = re.search(rf"^{estimator}\s+{valves}  each its own\s+(.*)$", text, re.MULTILINE)
-            figures = re.findall(r"(?<![(\d.])\d+\.\d+", line.group(1)) if line else []
-            if len(figures) not in sets:
-                row(f"packs, {estimator}, {valves} valves", "not measured", "", wanted)
-                continue
-            row(f"packs of {sets[len(figures)]}, {estimator}, {valves} valves with a model each [ns a sample]",
-                shown(float(figures[-2]), digits), f"alone {float(figures[0]):.{digits}f}; reading and writing {figures[-1]}", wanted)
-
-
 def parsing(build, model, folder):
     recording = folder / "run.csv"
     build.run("bin/spoolflow", "simulate", EXAMPLES.parent / "scenarios" / "ramp.toml", "-o", recording, "-q")
@@ -139,7 +125,6 @@ def main(arguments):
         print("| what | now | beside it | wanted |\n|---|---|---|---|")
         cortex_m(build, model)
         host(build)
-        packs(build, model)
         parsing(build, model, folder)
         analysis(build, model, folder)
         rig(build)

@@ -1,5 +1,4 @@
-/// What the work on one valve's samples takes in `live` and in a worker of a fleet, how much of it is the sensor, and
-/// what it takes where blocks of eight valves are worked on together.
+/// What the work on one valve's samples takes in `live` and in a worker of a fleet, and how much of it is the sensor.
 /// valve_work MODEL.json RECORDING; of a model of one direction.
 #include <algorithm>
 #include <ctime>
@@ -11,7 +10,7 @@
 
 #include "addons/live/blocks/block.hpp"
 #include "addons/live/blocks/steps.hpp"
-#include "addons/live/work_together.hpp"
+#include "addons/live/valve/valve_at_work.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/recording/reader.hpp"
 
@@ -19,8 +18,7 @@ namespace {
 
 using namespace spoolflow;
 constexpr int rounds = 9;
-constexpr std::size_t samples_of_a_block = 1000, samples_of_a_datagram = 20;
-constexpr std::size_t valves_together = 8;
+constexpr std::size_t samples_of_a_block = 1000;
 
 struct Taken {
   double decoding_ns = 0, sensor_ns = 0, work_ns = 0;
@@ -81,47 +79,6 @@ Taken one_round(const live::SharedModel& model, const std::vector<estimation::Ti
   return out;
 }
 
-/// Eight valves from different moments of the recording on, block by block.
-double ns_together(const live::SharedModel& model, const std::vector<estimation::TimedSample>& samples,
-                   estimation::GroupRegisters registers, std::size_t samples_of_one) {
-  constexpr std::size_t worked = 20'000;
-  live::WorkTogether work(registers);
-  std::vector<std::unique_ptr<live::ValveAtWork>> valves;
-  for (std::size_t v = 0; v < valves_together; ++v)
-    valves.push_back(std::make_unique<live::ValveAtWork>("v", model, "bench"));
-  double taken_ns = 0;
-  for (std::size_t done = 0; done < worked; done += samples_of_one) {
-    std::vector<live::SampleBlock> blocks(valves_together);
-    std::vector<live::ValveTurn> turns;
-    for (std::size_t v = 0; v < valves_together; ++v) {
-      const std::size_t shift = v * samples.size() / valves_together;
-      for (std::size_t k = done; k < done + samples_of_one; ++k) {
-        blocks[v].samples.push_back(samples[(k + shift) % samples.size()]);
-        blocks[v].samples.back().time_s = samples[k % samples.size()].time_s;
-      }
-      turns.push_back({valves[v].get(), &blocks[v]});
-    }
-    const double begun_ns = now_ns();
-    work.work(turns);
-    taken_ns += now_ns() - begun_ns;
-  }
-  return taken_ns / static_cast<double>(worked * valves_together);
-}
-
-void measure_together(const live::SharedModel& model, const std::vector<estimation::TimedSample>& samples) {
-  for (const std::size_t samples_of_one : {samples_of_a_datagram, samples_of_a_block}) {
-    fmt::print("eight valves in blocks of {} samples, nanoseconds a sample and valve:", samples_of_one);
-    const auto known = estimation::group_registers();
-    std::vector<double> least_ns(known.size(), 1e9);
-    for (int round = 0; round < rounds; ++round) {
-      for (std::size_t k = 0; k < known.size(); ++k)
-        least_ns[k] = std::min(least_ns[k], ns_together(model, samples, known[k], samples_of_one));
-    }
-    for (std::size_t k = 0; k < known.size(); ++k) fmt::print("  {} {:.0f}", estimation::name(known[k]), least_ns[k]);
-    fmt::print("\n");
-  }
-}
-
 void measure(char** arguments) {
   const live::SharedModel model{std::make_shared<const model::Model>(model::read_model(arguments[1])),
                                 std::string(64, 'a')};
@@ -136,7 +93,6 @@ void measure(char** arguments) {
   fmt::print(
       "nanoseconds a sample: a block decoded {:.0f}, a valve's work {:.0f}, of which the sensor {:.0f} ({:.0f} %)\n",
       least.decoding_ns, least.work_ns, least.sensor_ns, 100 * least.sensor_ns / least.work_ns);
-  measure_together(model, samples);
 }
 
 }  // namespace

@@ -214,18 +214,11 @@ void PartitionWork::gather_early(Place& at) {
 void PartitionWork::work() {
   while (!gathered_.empty()) {
     const std::vector<Gathered> now = std::exchange(gathered_, {});
-    std::vector<live::SampleBlock> samples;
-    std::vector<live::ValveTurn> turns;
-    samples.reserve(now.size());
     for (const auto& [at, block, its_model] : now) {
       at->gathered = false;
       ++at->uncommitted;
-      if (live::ValveAtWork* const valve = at->line.begin_work(block, its_model))
-        turns.push_back({valve, &samples.emplace_back(ValveLine::samples(block))});
+      at->line.work(block, its_model);
     }
-    together_.work(turns);
-    for (const auto& [at, block, its_model] : now)
-      if (!block.report) at->line.end_work(block);
     uncommitted_ += now.size();
     for (const Gathered& one : now) gather_early(*one.at);
   }

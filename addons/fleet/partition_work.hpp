@@ -16,7 +16,6 @@
 #include "addons/fleet/suspects.hpp"
 #include "addons/fleet/transport/nats.hpp"
 #include "addons/fleet/valve_line.hpp"
-#include "addons/live/work_together.hpp"
 
 namespace spoolflow::fleet {
 
@@ -83,9 +82,8 @@ class PartitionWork {
   Session session_;
   PartitionStore store_;
   std::map<std::string, Place> places_;
-  std::vector<Gathered> gathered_;  ///< of each valve one, to be worked on together
-  live::WorkTogether together_;
-  std::set<std::string> to_tell_;  ///< valves whose coverage their sites should hear
+  std::vector<Gathered> gathered_;  ///< of each valve one
+  std::set<std::string> to_tell_;   ///< valves whose coverage their sites should hear
   std::optional<Puller> puller_;
   SetAside set_aside_;
   Suspects suspects_;

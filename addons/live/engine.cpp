@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "addons/live/valve/event_text.hpp"
-#include "addons/live/work_together.hpp"
 #include "spoolflow/parallel/pace.hpp"
 #include "spoolflow/validation/sensor_channels.hpp"
 
@@ -18,9 +17,8 @@ struct Engine::Worker {
   std::mutex mutex;
   std::condition_variable_any arrived;
   std::vector<Place*> pending;
-  WorkTogether together;
-  std::array<ValveBlocks, WorkTogether::most_turns> waiting{};  ///< of the valves that are worked on now
-  std::jthread thread;                                          ///< last: it uses the others
+  std::vector<SampleBlock> blocks;  ///< of the valve that is worked on now
+  std::jthread thread;              ///< last: it uses the others
 
   void tell(Place& place) {
     {
@@ -38,18 +36,12 @@ struct Engine::Worker {
         now.clear();
         std::swap(now, pending);
       }
-      for (std::size_t first = 0; first < now.size(); first += WorkTogether::most_turns)
-        work_on(std::span(now).subspan(first, std::min(now.size() - first, WorkTogether::most_turns)));
+      for (Place* const place : now) {
+        // All that waits for it; whatever has not come yet is not waited for.
+        place->intake->take(blocks);
+        for (const SampleBlock& block : blocks) place->valve->work(block);
+      }
     }
-  }
-
-  /// All that waits for these valves; whatever has not come yet is not waited for.
-  void work_on(std::span<Place* const> places) {
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      waiting[k].valve = places[k]->valve.get();
-      places[k]->intake->take(waiting[k].blocks);
-    }
-    together.work(std::span(waiting).first(places.size()));
   }
 };
 

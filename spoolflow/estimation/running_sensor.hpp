@@ -54,9 +54,8 @@ inline sensor::Status take_out_hanging(const SolenoidLimits& limits, StillPositi
 }
 
 /// The same as the sensor takes it.
-template <class T>
 struct SteppedSample {
-  sensor::Sample<T> sample;
+  sensor::Sample<double> sample;
   bool repeated;                                ///< a second look at the same instant
   sensor::Status fault = sensor::Status::none;  ///< of what was taken out of it
 };
@@ -68,8 +67,7 @@ struct SampleTimes {
   bool answered = false;  ///< a complete one did
 
   /// The time step is zero at first, and NaN where the time is no number.
-  template <class T>
-  SteppedSample<T> next(const TimedSample& sample) {
+  SteppedSample next(const TimedSample& sample) {
     double step_s = std::numeric_limits<double>::quiet_NaN();
     const bool repeated = started && sample.time_s == last_time_s;
     if (std::isfinite(sample.time_s)) {
@@ -77,15 +75,13 @@ struct SampleTimes {
       started = true;
       last_time_s = sample.time_s;
     }
-    return {{T(step_s), T(sample.current_A), T(sample.voltage_V), T(sample.position_m), T(sample.oil_temperature_K)},
-            repeated};
+    return {{step_s, sample.current_A, sample.voltage_V, sample.position_m, sample.oil_temperature_K}, repeated};
   }
   /// Makes the sensor's answer to it what is told.
-  template <class T>
-  void finish(sensor::Estimate<T>& answer, const SteppedSample<T>& given, double rated_flow_m3_per_s) {
+  void finish(sensor::Estimate<double>& answer, const SteppedSample& given, double rated_flow_m3_per_s) {
     if (!answered) {
       answered = sensor::unusable(given.sample) == sensor::Status::none;
-      if (!answered) answer.flow_upper_m3_per_s = T(rated_flow_m3_per_s);
+      if (!answered) answer.flow_upper_m3_per_s = rated_flow_m3_per_s;
     }
     answer.status |= given.fault;
     if (given.repeated) answer.status |= sensor::Status::time_fault;
@@ -94,12 +90,10 @@ struct SampleTimes {
 
 /// The same as a whole valve's sensor takes it: without the current of solenoid a there is but the active coil's, and
 /// the other is taken to carry none.
-template <class T>
-sensor::WholeValveSample<T> whole_valve_sample(const sensor::Sample<T>& b, const TimedSample& sample) {
-  sensor::WholeValveSample<T> out{b.time_step_s, T(sample.current_a_A), b.current_A,        T(sample.voltage_a_V),
-                                  b.voltage_V,   b.position_m,          b.oil_temperature_K};
-  const auto& [p_Pa, a_Pa, b_Pa, t_Pa] = sample.ports;
-  out.ports = {T(p_Pa), T(a_Pa), T(b_Pa), T(t_Pa)};
+inline sensor::WholeValveSample<double> whole_valve_sample(const sensor::Sample<double>& b, const TimedSample& sample) {
+  sensor::WholeValveSample<double> out{b.time_step_s, sample.current_a_A, b.current_A,        sample.voltage_a_V,
+                                       b.voltage_V,   b.position_m,       b.oil_temperature_K};
+  out.ports = sample.ports;
   if (!std::isnan(sample.current_a_A)) return out;
   out.current_a_A = 0;
   if (b.position_m < 0) {
@@ -178,26 +172,9 @@ class RunningSensor {
   }
   /// The same into where it is to stand.
   void step(TimedSample sample, sensor::Estimate<double>& out) {
-    const SteppedSample<double> given = take(sample);
+    const SteppedSample given = take(sample);
     out = answer(given.sample, sample);
     tell(out, given);
-  }
-
-  /// The beginning and the end of `step`, for whoever steps the estimators of several sensors together (RunningGroup):
-  /// how the estimator gets the sample, from which it takes out what is implausible, ...
-  SteppedSample<double> take(TimedSample& sample) {
-    const sensor::Status fault =
-        take_out_implausible(limits_, sample) | take_out_hanging(limits_, state_.position, sample);
-    auto given = state_.times.next<double>(sample);
-    given.fault = fault;
-    if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
-    return given;
-  }
-  /// ... and what is told of its answer. Both in the order of the samples; either may be ahead of the other.
-  void tell(sensor::Estimate<double>& answer, const SteppedSample<double>& given) {
-    if (!is_ordered(answer)) answer = began_anew();
-    state_.times.finish(answer, given, rated_flow_m3_per_s_);
-    if (runs_whole() && !state_.times.answered) answer.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
   }
 
   /// Numbers, the flow inside its band.
@@ -224,6 +201,22 @@ class RunningSensor {
   void set_state(const RunningState& state) { state_ = state; }
 
  private:
+  /// How the estimator gets the sample, from which it takes out what is implausible.
+  SteppedSample take(TimedSample& sample) {
+    const sensor::Status fault =
+        take_out_implausible(limits_, sample) | take_out_hanging(limits_, state_.position, sample);
+    auto given = state_.times.next(sample);
+    given.fault = fault;
+    if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
+    return given;
+  }
+  /// What is told of the answer to it.
+  void tell(sensor::Estimate<double>& answer, const SteppedSample& given) {
+    if (!is_ordered(answer)) answer = began_anew();
+    state_.times.finish(answer, given, rated_flow_m3_per_s_);
+    if (runs_whole() && !state_.times.answered) answer.flow_lower_m3_per_s = -rated_flow_m3_per_s_;
+  }
+
   /// What a memory that leads to no number is good for: nothing. It is as new, and the answer that before a first
   /// sample.
   [[gnu::noinline]] sensor::Estimate<double> began_anew() {

@@ -203,6 +203,11 @@ void describe_answer_constants(Visitor& visitor) {
        .meaning = "half the width that what the pressure difference yielded to at rest takes in the band, over it",
        .evidence = "duty_cycle_1: p95 3.37, 3.31, 3.21 % FS, band 96.7, 96.8, 97.0 %"},
       sensor::yielded_factor);
+  visitor.constant({.name = "longest_regular_step_s",
+                    .unit = "s",
+                    .meaning = "a time step of this length or more is estimated with time_fault",
+                    .evidence = "status alone: the answers of no run depend on it"},
+                   sensor::longest_regular_step_s);
   visitor.constant({.name = "unseen_stroke_s",
                     .unit = "s",
                     .meaning = "a spool that no position tells of is taken to go from end to end in so long: the band "

@@ -42,7 +42,7 @@ struct ActuatorEstimate {
   T uncertainty_N{};              ///< one standard deviation of the magnetic force
   T friction_half_width_N{};      ///< armature friction while it slides, >= 0; its sign is that of the velocity
   T force_per_current_N_per_A{};  ///< what an error of the current means for the force
-  Mask<T> inside_map{};           ///< current and position lie within what was calibrated
+  bool inside_map{};              ///< current and position lie within what was calibrated
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
@@ -69,27 +69,26 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 /// `busy` with other things, at least `period_s` after the last time.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                  const Sample<T>& sample, T largest_current_A, T period_s,
-                                                  Mask<T> busy) {
+                                                  const Sample<T>& sample, T largest_current_A, T period_s, bool busy) {
   average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
-  const Mask<T> due = !busy && state.coil_resistance.waits_s > period_s - T(0.5) * sample.time_step_s;
-  in_valves(due && is_number(sample.voltage_V), state, [&] {
+  const bool due = !busy && state.coil_resistance.waits_s > period_s - T(0.5) * sample.time_step_s;
+  if (due && is_number(sample.voltage_V)) {
     const CoilResistance<T>& coil = actuator.coil_resistance;
     follow_resistance(coil, state.coil_resistance);
     judge_answer(coil, state.coil_resistance, T(unanswered_voltage_share) * largest_current_A * coil.resistance_Ohm);
-  });
+  }
 }
 
 /// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It begins anew at
 /// the first, and where a coil current that no coil has, or a leap in time, left a flux that no coil has.
 template <class T>
 [[gnu::always_inline]] constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                const Sample<T>& sample, Mask<T> first) {
-  const Mask<T> begins = first || !is_number(state.coil.magnetising_current_A);
+                                                const Sample<T>& sample, bool first) {
+  const bool begins = first || !is_number(state.coil.magnetising_current_A);
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
   follow_current(actuator.coil, state.coil, {sample.time_step_s, sample.current_A}, flux_position, begins);
-  in_valves(begins, state, [&] { state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux; });
+  if (begins) state.lowest_flux_Wb = state.highest_flux_Wb = state.coil.hysteresis.flux;
 }
 
 /// What the magnetic force may be wrong by, and the armature's friction.
@@ -110,16 +109,15 @@ template <class T>
 /// which are slow, may be those of an earlier sample where they are not `judged`.
 template <class T>
 [[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
-                                                          ActuatorState<T>& state, const Sample<T>& sample,
-                                                          Mask<T> first, Mask<T> judged = Mask<T>(true)) {
+                                                          ActuatorState<T>& state, const Sample<T>& sample, bool first,
+                                                          bool judged = true) {
   magnetise(actuator, state, sample, first);
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
   const MapPoint<T> force = force_map.at(current, position);
-  in_valves(judged, state, [&] {
+  if (judged)
     judge_force(actuator, state, current, position, force.row_slope, sample.current_A - state.coil.static_current_A);
-  });
   return {force.value, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.inside};
 }
 

@@ -59,12 +59,12 @@ struct PressureBand {
 template <class T>
 [[gnu::always_inline]] constexpr T unseen_Pa(const PressureState<T>& pressure, const ForceBalance<T>& balance) {
   const T yielded_Pa = pressure.yielded_Pa;
-  const Mask<T> rises = yielded_Pa > T(0);
-  const T room_N = select(rises, balance.apparent_friction_N - balance.resting.lower_N,
-                          balance.resting.upper_N - balance.apparent_friction_N);
+  const bool rises = yielded_Pa > T(0);
+  const T room_N = rises ? balance.apparent_friction_N - balance.resting.lower_N
+                         : balance.resting.upper_N - balance.apparent_friction_N;
   const T room_Pa = T(unseen_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
   const T gone_Pa = smaller(magnitude(yielded_Pa), room_Pa);
-  return select(rises, gone_Pa, -gone_Pa);
+  return rises ? gone_Pa : -gone_Pa;
 }
 
 /// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, friction that
@@ -77,7 +77,7 @@ template <class T>
       smaller(T(friction_share_per_speed_s_per_m) * magnitude(velocity_m_per_s), T(most_friction_share_of_speed));
   const T sliding_N = T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
                       magnitude(balance.friction_N) * (of_speed + T(displaced_friction_factor) * displaced_ratio);
-  return select(balance.sliding, sliding_N, T(0)) + T(swing_deviation_share) * balance.half_swing_N;
+  return (balance.sliding ? sliding_N : T(0)) + T(swing_deviation_share) * balance.half_swing_N;
 }
 
 /// Half the width [Pa] where both what is open (one over its square) and how far friction's bound lies limit the error.
@@ -93,28 +93,28 @@ template <class T>
                                                                  const PressureState<T>& pressure,
                                                                  const ForceBalance<T>& balance, T rest_s,
                                                                  T velocity_m_per_s, T displaced_ratio) {
-  const T share = select(balance.sliding, band.force_share, band.rest_share);
+  const T share = balance.sliding ? band.force_share : band.rest_share;
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unseen_factor));
-  const T factor = band.coverage_factor * pressure.band_factor * select(balance.slips, T(slip_widening), T(1));
+  const T factor = band.coverage_factor * pressure.band_factor * (balance.slips ? T(slip_widening) : T(1));
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
-  if (any(balance.sliding || balance.dithered))
+  if (balance.sliding || balance.dithered)
     open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s, displaced_ratio));
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
   PressureReach<T> reach{open_Pa, open_Pa, T(0)};
-  const Mask<T> bounded = !balance.sliding && !balance.slips && !balance.closed;
-  if (any(bounded)) {
+  const bool bounded = !balance.sliding && !balance.slips && !balance.closed;
+  if (bounded) {
     open_N2 += squared(T(yielded_factor) * slope * pressure.yielded_Pa);
     const T certain_N = band.coverage_factor * (band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s));
     const T to_upper_N = larger(balance.resting.upper_N - balance.apparent_friction_N, T(0)) + certain_N;
     const T to_lower_N = larger(balance.apparent_friction_N - balance.resting.lower_N, T(0)) + certain_N;
     const T per_open_1_N2 = T(1) / open_N2;
-    reach.below_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_upper_N), open_Pa);
-    reach.above_Pa = select(bounded, within_both_Pa(balance.edge, per_open_1_N2, to_lower_N), open_Pa);
-    reach.ahead_Pa = select(bounded, T(lopsided_share) * (reach.above_Pa - reach.below_Pa), T(0));
+    reach.below_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_upper_N);
+    reach.above_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_lower_N);
+    reach.ahead_Pa = T(lopsided_share) * (reach.above_Pa - reach.below_Pa);
   }
-  const Mask<T> yielded = !is_zero(pressure.yielded_Pa) && !balance.sliding && !balance.closed;
-  if (any(yielded)) reach.ahead_Pa = select(yielded, reach.ahead_Pa + unseen_Pa(pressure, balance), reach.ahead_Pa);
+  const bool yielded = !is_zero(pressure.yielded_Pa) && !balance.sliding && !balance.closed;
+  if (yielded) reach.ahead_Pa += unseen_Pa(pressure, balance);
   return reach;
 }
 
@@ -153,7 +153,7 @@ constexpr PressureBand<T> unobserved_pressure_band(const BandParameters<T>& band
 template <class T>
 struct HeldPosition {
   T position_m;  ///< free of drift, in the direction's signs; the last one where none is measured
-  Mask<T> seen;  ///< it is measured
+  bool seen;     ///< it is measured
 };
 
 /// One more sample of `time_step_s` >= 0 in which no force tells: the pressure difference moves unseen, and the band of
@@ -171,8 +171,8 @@ constexpr void widen_held(const ObserverParameters<T>& valve, ObserverState<T>& 
   const T open_conductance =
       edges.at(state.oil_temperature_K, believed_Pa, edges.position_m.at(edge_positions - 1)).conductance;
   const PressureBand<T> band = unobserved_pressure_band(valve.band, state, edge, highest_Pa);
-  const T most_conductance = select(at.seen, edge.conductance, open_conductance);
-  const T least_conductance = select(at.seen, edge.conductance, T(0));
+  const T most_conductance = at.seen ? edge.conductance : open_conductance;
+  const T least_conductance = at.seen ? edge.conductance : T(0);
   Estimate<T> now{};
   now.flow_m3_per_s = least_conductance * sqrt(band.expected_Pa);
   band_of_flow(valve.band, least_conductance * sqrt(band.least_Pa), most_conductance * sqrt(band.most_Pa), now);

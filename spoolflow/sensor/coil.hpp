@@ -108,13 +108,13 @@ template <class T>
 /// a coil begins, `guess` is the prediction.
 template <class T>
 [[gnu::always_inline]] constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                                                    const CoilGuess<T>& guess, Mask<T> begins) {
+                                                    const CoilGuess<T>& guess, bool begins) {
   const T per_step = T(1) / larger(step.time_step_s, T(shortest_step_s));
   const T time_constant_per_step = state.time_constant_s * per_step;
   const T weight = end_weight(time_constant_per_step);
   const T target_A = step.current_A - (T(1) - weight) * state.static_current_A;
   const T predicted_A =
-      select(begins, T(0), predicted_change_A(state, guess, step.current_A, weight, time_constant_per_step));
+      (begins ? T(0) : predicted_change_A(state, guess, step.current_A, weight, time_constant_per_step));
   const T guessed_A = guess.current_A + predicted_A;
   const T guessed_Wb = guess.flux.value + guess.flux.row_slope * predicted_A;
   const HysteresisPoint<T> hysteresis = hysteresis_at(coil.hysteresis, state.hysteresis, guessed_Wb);
@@ -141,14 +141,14 @@ constexpr void demagnetise(CoilState<T>& state) {
 /// to have been demagnetised and then brought to this current slowly. Costs no more than any other step.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
-                                                     const Cell<T>& position, Mask<T> begins) {
+                                                     const Cell<T>& position, bool begins) {
   const auto& flux_map = coil.flux_linkage.map;
-  const T last_A = select(begins, step.current_A, state.magnetising_current_A);
+  const T last_A = begins ? step.current_A : state.magnetising_current_A;
   const CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};
-  in_valves(begins, state, [&] { demagnetise(state); });
-  step.time_step_s = select(begins, T(slow_magnetisation_s), step.time_step_s);
+  if (begins) demagnetise(state);
+  if (begins) step.time_step_s = T(slow_magnetisation_s);
   solve_current(coil, state, step, guess, begins);
-  state.flux_rate_V = select(begins, T(0), state.flux_rate_V);
+  if (begins) state.flux_rate_V = T(0);
 }
 
 }  // namespace spoolflow::sensor

@@ -47,9 +47,9 @@ struct CoilResistanceState {
   T resistance_Ohm{};
   T variance_Ohm2{};
   CoilEquation<T> mean{};
-  T waits_s{};            ///< samples with a voltage since the filter's last step
-  Mask<T> implausible{};  ///< known well, and not what copper can have
-  Mask<T> unanswered{};   ///< there is voltage, and no current to go with it: the current is none to believe
+  T waits_s{};         ///< samples with a voltage since the filter's last step
+  bool implausible{};  ///< known well, and not what copper can have
+  bool unanswered{};   ///< there is voltage, and no current to go with it: the current is none to believe
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
@@ -59,13 +59,13 @@ static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 template <class T>
 [[gnu::always_inline]] constexpr void average(CoilResistanceState<T>& state, const CoilEquation<T>& sample,
                                               T time_step_s) {
-  in_valves(is_number(sample.voltage_V), state, [&] {
+  if (is_number(sample.voltage_V)) {
     state.waits_s += time_step_s;
     const T share = smaller(time_step_s * T(1 / coil_averaging_s), T(1));
     state.mean.current_A += share * (sample.current_A - state.mean.current_A);
     state.mean.voltage_V += share * (sample.voltage_V - state.mean.voltage_V);
     state.mean.flux_rate_V += share * (sample.flux_rate_V - state.mean.flux_rate_V);
-  });
+  }
 }
 
 /// One step of the Kalman filter for all samples since its last one: the resistance drifts for as long as they last,
@@ -75,11 +75,11 @@ template <class T>
 constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceState<T>& state) {
   const T since_s = state.waits_s;
   state.waits_s = T(0);
-  in_valves(coil.resistance_Ohm > T(0) && since_s > T(0), state, [&] {
+  if (coil.resistance_Ohm > T(0) && since_s > T(0)) {
     const CoilEquation<T>& mean = state.mean;
-    const Mask<T> begins = is_zero(state.variance_Ohm2);
-    state.resistance_Ohm = select(begins, coil.resistance_Ohm, state.resistance_Ohm);
-    state.variance_Ohm2 = select(begins, squared(coil.uncertainty_Ohm), state.variance_Ohm2);
+    const bool begins = is_zero(state.variance_Ohm2);
+    if (begins) state.resistance_Ohm = coil.resistance_Ohm;
+    if (begins) state.variance_Ohm2 = squared(coil.uncertainty_Ohm);
     state.variance_Ohm2 += squared(coil.drift_Ohm_per_root_s) * since_s;
     const T misfit_V = mean.voltage_V - mean.flux_rate_V - state.resistance_Ohm * mean.current_A;
     const T covariance = state.variance_Ohm2 * mean.current_A;
@@ -91,7 +91,7 @@ constexpr void follow_resistance(const CoilResistance<T>& coil, CoilResistanceSt
     state.implausible = state.variance_Ohm2 < squared(T(known_resistance_share) * coil.resistance_Ohm) &&
                         (state.resistance_Ohm < T(coldest_resistance_ratio) * coil.resistance_Ohm ||
                          state.resistance_Ohm > T(warmest_resistance_ratio) * coil.resistance_Ohm);
-  });
+  }
 }
 
 /// Whether the mean voltage is more than any coil's resistance makes of the mean current, and `quiet_V` (>= 0) beside.

@@ -23,7 +23,7 @@ template <class T>
 struct CondensedPoint {
   Place<T> position;
   Place<T> current;
-  typename ScalarTypes<T>::StatusWord status;
+  Status status;
 };
 
 template <class T>
@@ -32,21 +32,10 @@ template <class T>
   using Layout = CondensedLayout;
   constexpr Status beyond = Status::outside_force_map;
   point.status = {};
-  if constexpr (one_valve<T>) {
-    return find_place<Layout::position_cells>(valve.cells_per_m, sample.position_m, beyond, point.position,
-                                              point.status) &&
-           find_place<Layout::current_cells>(valve.cells_per_A, sample.current_A, beyond, point.current,
-                                             point.status) &&
-           within(sample.time_step_s, T(endless_step_s));
-  } else {
-    const T position_cells = sample.position_m * valve.cells_per_m;
-    const T current_cells = sample.current_A * valve.cells_per_A;
-    point.position = blended_place<Layout::position_cells>(position_cells);
-    point.current = blended_place<Layout::current_cells>(current_cells);
-    point.status = when(
-        !(is_near<Layout::position_cells>(position_cells) && is_near<Layout::current_cells>(current_cells)), beyond);
-    return true;
-  }
+  return find_place<Layout::position_cells>(valve.cells_per_m, sample.position_m, beyond, point.position,
+                                            point.status) &&
+         find_place<Layout::current_cells>(valve.cells_per_A, sample.current_A, beyond, point.current, point.status) &&
+         within(sample.time_step_s, T(endless_step_s));
 }
 
 /// The reason why there is no point.
@@ -60,36 +49,25 @@ constexpr Status why_held(const Sample<T>& sample) {
 /// The root of the flow force in cells; `cells2`, its square, is taken to the end of the axis where it lies beyond.
 /// That is told of a valve that is open; of one that is closed, that it is.
 template <class T>
-constexpr Place<T> find_root(const Mask<T>& closed, T& cells2, typename ScalarTypes<T>::StatusWord& status) {
+constexpr Place<T> find_root(bool closed, T& cells2, Status& status) {
   constexpr int cells = CondensedLayout::root_cells;
   constexpr Status beyond = Status::outside_flow_force_map;
-  if constexpr (one_valve<T>) {
-    if (closed) {  // a way of its own: nothing then waits in a register for a place beyond the axis
-      status |= Status::closed;
-      return root_place<cells>(cells2, Status::none, status);
-    }
-    return root_place<cells>(cells2, beyond, status);
-  } else {
-    mark(status, closed, Status::closed);
-    mark(status, !closed && !(cells2 >= T(0) && cells2 < T(cells * cells)), beyond);
-    cells2 = limited(cells2, T(0), T(cells * cells));
-    return blended_place<cells>(sqrt(cells2));
+  if (closed) {  // a way of its own: nothing then waits in a register for a place beyond the axis
+    status |= Status::closed;
+    return root_place<cells>(cells2, Status::none, status);
   }
+  return root_place<cells>(cells2, beyond, status);
 }
 
 /// The most that may flow at a position [m3/s]: at the largest flow force of the map.
 template <class T>
 constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
   using Layout = CondensedLayout;
-  typename ScalarTypes<T>::StatusWord ignored{};
+  Status ignored{};
   Place<T> place{};
-  if constexpr (one_valve<T>) {
-    if (!find_place<Layout::position_cells>(valve.cells_per_m, position_m, Status::none, place, ignored)) return T(0);
-  } else {
-    place = blended_place<Layout::position_cells>(position_m * valve.cells_per_m);
-  }
-  const auto here = corner(valve.records.data(), place.index * Layout::record);
-  const auto last = onward(here, Index<T>((Layout::root_cells - 1) * Layout::flow_cell));
+  if (!find_place<Layout::position_cells>(valve.cells_per_m, position_m, Status::none, place, ignored)) return T(0);
+  const auto here = valve.records.data() + place.index * Layout::record;
+  const auto last = here + ((Layout::root_cells - 1) * Layout::flow_cell);
   const auto [flow, flow_rise, flow_more, flow_more_rise] = four(last, Layout::flow);
   return flow + place.cells * flow_rise + T(Layout::root_cells) * (flow_more + place.cells * flow_more_rise);
 }
@@ -103,16 +81,12 @@ template <class T>
                                       const Sample<T>& sample) {
   Estimate<T>& out = state.last;
   const T end_m = T(CondensedLayout::position_cells) / valve.cells_per_m;
-  const T position_m = select(is_number(sample.position_m), limited(sample.position_m, T(0), end_m), end_m);
+  const T position_m = is_number(sample.position_m) ? limited(sample.position_m, T(0), end_m) : end_m;
   const T most_m3_per_s = detail::largest_flow(valve, position_m) + valve.flow_residual_m3_per_s;
-  in_valves(within(sample.time_step_s, T(endless_step_s)), out, [&] {
-    open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, Mask<T>(false), sample.time_step_s);
-  });
-  if constexpr (one_valve<T>) {
-    out.status = detail::why_held(sample);
-  } else {
-    out.status = unusable(sample);
+  if (within(sample.time_step_s, T(endless_step_s))) {
+    open_band(out, {-valve.flow_residual_m3_per_s, most_m3_per_s}, false, sample.time_step_s);
   }
+  out.status = detail::why_held(sample);
 }
 
 /// One sample through the chain: magnetic force, spring, flow force, flow rate. Friction, hysteresis and inertia are
@@ -124,26 +98,26 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
   Estimate<T>& out = state.last;
   detail::CondensedPoint<T> point;
   if (unlikely(!detail::find_point(valve, sample, point))) {
-    if constexpr (one_valve<T>) hold(valve, state, sample);
+    hold(valve, state, sample);
     return out;
   }
   const T x = point.position.cells;
-  const auto here = corner(valve.records.data(), point.position.index * Layout::record);
+  const auto here = valve.records.data() + point.position.index * Layout::record;
   const auto line = [&](T at_zero, T rise) { return at_zero + x * rise; };
   const auto [spring, spring_rise, scale, scale_rise] = four(here, Layout::spring);
 
   // Forces: paper (1) without friction and inertia.
   const auto [force, force_rise, force_more, force_more_rise] =
-      four(onward(here, point.current.index * Layout::plane), Layout::magnetic_force);
+      four(here + point.current.index * Layout::plane, Layout::magnetic_force);
   const T magnetic_force_N = line(force, force_rise) + point.current.cells * line(force_more, force_more_rise);
   const T spring_force_N = line(spring, spring_rise);
   const T flow_force_N = magnetic_force_N - spring_force_N;
 
   // Flow rate: at a fixed opening nearly linear in the root of the flow force (paper (2)).
   T cells2 = flow_force_N / line(scale, scale_rise);
-  const Mask<T> closed = lies_below(x, valve.closed_below_cells);
+  const bool closed = lies_below(x, valve.closed_below_cells);
   const Place<T> root = detail::find_root(closed, cells2, point.status);
-  const auto by_root = onward(here, root.index * Layout::flow_cell);
+  const auto by_root = here + root.index * Layout::flow_cell;
   const auto [flow, flow_rise, flow_more, flow_more_rise] = four(by_root, Layout::flow);
   const T begin_m3_per_s = line(flow, flow_rise);
   const T slope_m3_per_s = line(flow_more, flow_more_rise);
@@ -174,11 +148,10 @@ constexpr const Estimate<T>& step(const CondensedTables<T>& valve, CondensedStat
 template <class T>
 constexpr void admit_other_direction(const CondensedTables<T>& valve, T position_m, Estimate<T>& answer) {
   const T beyond_cells = (-position_m - T(other_direction_m)) * valve.cells_per_m;
-  const Mask<T> opens = beyond_cells > T(0.5) * valve.closed_below_cells;
-  if (!any(opens)) return;
-  answer.flow_lower_m3_per_s =
-      select(opens, smaller(answer.flow_lower_m3_per_s, -detail::largest_flow(valve, -position_m)),
-             answer.flow_lower_m3_per_s);
+  const bool opens = beyond_cells > T(0.5) * valve.closed_below_cells;
+  if (!opens) return;
+  answer.flow_lower_m3_per_s = opens ? smaller(answer.flow_lower_m3_per_s, -detail::largest_flow(valve, -position_m))
+                                     : answer.flow_lower_m3_per_s;
   mark(answer.status, opens, Status::other_direction);
 }
 

@@ -50,7 +50,7 @@ struct CondensedTables {
   T cells_per_A{};
   T closed_below_cells{};
   T flow_residual_m3_per_s{};  ///< two standard deviations
-  Numbers<T, CondensedLayout::record * CondensedLayout::position_cells> records;
+  std::array<T, CondensedLayout::record * CondensedLayout::position_cells> records;
 };
 
 static_assert(std::is_trivially_copyable_v<CondensedParameters<float>>);
@@ -175,7 +175,7 @@ constexpr void lay_out_at(const CondensedParameters<T>& valve, T position_m, Con
   const auto grid = detail::grid_of(valve);
   detail::put_scales(grid, out);
   const T cells = position_m * out.cells_per_m;
-  const int cell = table_index(select(cells > T(0), smaller(cells, T(CondensedLayout::position_cells - 1)), T(0)));
+  const int cell = table_index(cells > T(0) ? smaller(cells, T(CondensedLayout::position_cells - 1)) : T(0));
   detail::put_record(grid, cell, out.records.data() + CondensedLayout::record * cell);
 }
 

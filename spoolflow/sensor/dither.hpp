@@ -45,9 +45,9 @@ static_assert(std::is_trivially_copyable_v<DitherState<float>>);
 
 template <class T>
 struct Dither {
-  Mask<T> present;
-  Mask<T> begins;         ///< one of its periods, with this sample
-  Mask<T> began;          ///< with the sample before
+  bool present;
+  bool begins;            ///< one of its periods, with this sample
+  bool began;             ///< with the sample before
   T sample_per_period{};  ///< time step over the last period, 0 to 1/2, as it was at its end
 };
 
@@ -59,22 +59,22 @@ constexpr T dither_amplitude_A(const DitherState<T>& state) {
 }
 template <class T>
 constexpr T dither_frequency_Hz(const DitherState<T>& state) {
-  return select(state.period_s > T(0), T(1) / larger(state.period_s, T(1e-6)), T(0));
+  return state.period_s > T(0) ? T(1) / larger(state.period_s, T(1e-6)) : T(0);
 }
 
 namespace detail {
 
 /// Whether neither is more than `alike_ratio` times the other; `slack` is added to that.
 template <class T>
-constexpr Mask<T> alike(T one, T other, T slack) {
+constexpr bool alike(T one, T other, T slack) {
   return one < T(alike_ratio) * other + slack && other < T(alike_ratio) * one + slack;
 }
 
 /// The current turned: half a period is over.
 template <class T>
-constexpr void turn(DitherState<T>& state, T swing_A, Mask<T> regular, T current_A) {
-  state.alike = select(regular, smaller(state.alike + T(0.5), T(2 * periods_of_dither)),
-                       larger(state.alike - T(unlike_weight), T(0)));
+constexpr void turn(DitherState<T>& state, T swing_A, bool regular, T current_A) {
+  state.alike =
+      regular ? smaller(state.alike + T(0.5), T(2 * periods_of_dither)) : larger(state.alike - T(unlike_weight), T(0));
   state.swing_A = swing_A;
   state.turned_A = state.extreme_A;
   state.extreme_A = current_A;
@@ -95,26 +95,26 @@ constexpr void begin(DitherState<T>& state, T current_A) {
 template <class T>
 [[gnu::always_inline]] constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
                                                          T time_step_s) {
-  const Mask<T> began = is_zero(state.since_s);
-  in_valves(began, state, [&] {
+  const bool began = is_zero(state.since_s);
+  if (began) {
     const T period_s = larger(state.period_s, T(shortest_dither_period_s));
     state.sample_per_period = smaller(time_step_s / period_s, T(0.5));
-  });
+  }
   state.since_s += time_step_s;
   const T back_A = state.direction * (state.extreme_A - current_A);
-  state.extreme_A = select(back_A < T(0), current_A, state.extreme_A);
+  if (back_A < T(0)) state.extreme_A = current_A;
   const T least_A = T(least_dither_swing_share) * largest_current_A;
-  const Mask<T> turns = back_A > larger(T(turning_share) * state.swing_A, T(0.5) * least_A);
-  const Mask<T> begins = turns && state.direction < T(0);
-  in_valves(turns, state, [&] {
+  const bool turns = back_A > larger(T(turning_share) * state.swing_A, T(0.5) * least_A);
+  const bool begins = turns && state.direction < T(0);
+  if (turns) {
     const T swing_A = state.direction * (state.extreme_A - state.turned_A);
-    const Mask<T> regular = swing_A > least_A && detail::alike(swing_A, state.swing_A, T(0)) &&
-                            (!begins || detail::alike(state.since_s, state.period_s, time_step_s));
+    const bool regular = swing_A > least_A && detail::alike(swing_A, state.swing_A, T(0)) &&
+                         (!begins || detail::alike(state.since_s, state.period_s, time_step_s));
     detail::turn(state, swing_A, regular, current_A);
-    state.period_s = select(begins, state.since_s, state.period_s);
-    state.since_s = select(begins, T(0), state.since_s);
-  });
-  in_valves(state.since_s > T(longest_dither_period_s), state, [&] { state.alike = state.swing_A = T(0); });
+    if (begins) state.period_s = state.since_s;
+    if (begins) state.since_s = T(0);
+  }
+  if (state.since_s > T(longest_dither_period_s)) state.alike = state.swing_A = T(0);
   return {!(state.alike < T(periods_of_dither)), begins, began, state.sample_per_period};
 }
 
@@ -141,9 +141,9 @@ struct FrictionSwingState {
   T last_highest_N{};
   T last_lowest_N{};
   T half_swing_N{};
-  T excess_N{};     ///< of the peaks over sliding friction, while the spool moves
-  Mask<T> frees{};  ///< dither the spool: both ways in each period
-  T periods{};      ///< since dither began, up to 2
+  T excess_N{};  ///< of the peaks over sliding friction, while the spool moves
+  bool frees{};  ///< dither the spool: both ways in each period
+  T periods{};   ///< since dither began, up to 2
 };
 
 static_assert(std::is_trivially_copyable_v<FrictionSwingState<float>>);
@@ -153,24 +153,24 @@ template <class T>
 constexpr void forget(FrictionSwingState<T>& state) {
   state.flow_force_N = state.half_swing_N = state.excess_N = state.periods = T(0);
   state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = T(0);
-  state.frees = Mask<T>(false);
+  state.frees = false;
 }
 
 /// What friction would have to be, over a period of dither; without dither, at this sample.
 template <class T>
 struct FrictionSwing {
   T middle_N;
-  T half_swing_N;   ///< >= 0
-  Mask<T> settled;  ///< a whole period tells
+  T half_swing_N;  ///< >= 0
+  bool settled;    ///< a whole period tells
 };
 
 /// A period is over: what was told in it is kept.
 template <class T>
 [[gnu::always_inline]] constexpr void turn_swing(FrictionSwingState<T>& state, T apparent_N) {
-  const Mask<T> lone = is_zero(state.periods);
+  const bool lone = is_zero(state.periods);
   state.periods = smaller(state.periods + T(1), T(2));
-  state.last_highest_N = select(lone, apparent_N, state.highest_N - state.flow_force_N);
-  state.last_lowest_N = select(lone, apparent_N, state.lowest_N - state.flow_force_N);
+  state.last_highest_N = lone ? apparent_N : state.highest_N - state.flow_force_N;
+  state.last_lowest_N = lone ? apparent_N : state.lowest_N - state.flow_force_N;
   state.highest_N = state.lowest_N = apparent_N;
   state.flow_force_N = T(0);
 }
@@ -179,26 +179,26 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
                                                                T apparent_N) {
-  const Mask<T> anew = !dither.present;
-  in_valves(anew, state, [&] {
+  const bool anew = !dither.present;
+  if (anew) {
     state.periods = state.half_swing_N = state.flow_force_N = T(0);
     state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = apparent_N;
-  });
-  if (!any(dither.present)) return {apparent_N, T(0), anew};
-  in_valves(dither.began && !anew, state, [&] { turn_swing(state, apparent_N); });
+  }
+  if (!dither.present) return {apparent_N, T(0), anew};
+  if (dither.began && !anew) turn_swing(state, apparent_N);
   const T then_N = apparent_N + state.flow_force_N;
   state.highest_N = larger(state.highest_N, then_N);
   state.lowest_N = smaller(state.lowest_N, then_N);
-  const Mask<T> settled = !(state.periods < T(2));
+  const bool settled = !(state.periods < T(2));
   const T highest_N = larger(state.highest_N, state.last_highest_N);
   const T lowest_N = smaller(state.lowest_N, state.last_lowest_N);
-  in_valves(dither.began && settled, state, [&] {
+  if (dither.began && settled) {
     const T half_N = (T(0.5) + T(0.5 * missed_swing) * squared(dither.sample_per_period)) * (highest_N - lowest_N);
     const T known_N = state.half_swing_N;
-    const T reach_N = select(known_N > T(0), T(swing_following) * known_N, half_N);
+    const T reach_N = known_N > T(0) ? T(swing_following) * known_N : half_N;
     state.half_swing_N = limited(half_N, known_N - reach_N, known_N + reach_N);
-  });
-  return {select(anew, apparent_N, T(0.5) * (highest_N + lowest_N) - state.flow_force_N), state.half_swing_N,
+  }
+  return {anew ? apparent_N : T(0.5) * (highest_N + lowest_N) - state.flow_force_N, state.half_swing_N,
           settled || anew};
 }
 

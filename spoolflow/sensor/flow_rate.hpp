@@ -11,7 +11,7 @@ template <class T>
 struct FlowRatePoint {
   T flow_m3_per_s;
   T pressure_difference_Pa;
-  Mask<T> inside;
+  bool inside;
 };
 
 /// Flow rate [m3/s] and pressure difference [Pa] over steady flow force [N] and spool position [m]: the inverse of the

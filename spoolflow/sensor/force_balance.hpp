@@ -21,12 +21,12 @@ struct ForceBalance {
   T half_swing_N;               ///< of friction under dither, >= 0; all friction here is that of its middle
   T noise_N;                    ///< one standard deviation of all forces together
   T direction;                  ///< 1 opening, -1 closing: of the motion or of the last
-  Mask<T> dithered;
-  Mask<T> freed;    ///< by dither, both ways in each period
-  Mask<T> settled;  ///< a whole period of dither tells, or a sample without dither
-  Mask<T> sliding;
-  Mask<T> slips;   ///< friction and inertia are in motion
-  Mask<T> closed;  ///< the spool covers the metering edge
+  bool dithered;
+  bool freed;    ///< by dither, both ways in each period
+  bool settled;  ///< a whole period of dither tells, or a sample without dither
+  bool sliding;
+  bool slips;   ///< friction and inertia are in motion
+  bool closed;  ///< the spool covers the metering edge
 };
 
 /// One standard deviation of all forces together [N], as the parts tell it. `moving_N` is that of what inertia, or the
@@ -66,16 +66,12 @@ template <class T>
   balance.apparent_friction_N = swing.middle_N;
   balance.half_swing_N = swing.half_swing_N;
   state.swing.frees = balance.freed;
-  if (!any(dither.present)) return;
-  state.friction.rest_s = select(balance.freed, T(0), state.friction.rest_s);
-  const Mask<T> moves = balance.freed || !is(position.motion, Motion::rest);
-  in_valves(dither.present && position.turn.odd, state.swing.excess_N, [&] {
+  if (!dither.present) return;
+  if (balance.freed) state.friction.rest_s = T(0);
+  const bool moves = balance.freed || position.motion != Motion::rest;
+  if (position.turn.odd)
     state.swing.excess_N = slips_excess_N(valve, swing.half_swing_N, state.dither.period_s, position.velocity_m_per_s);
-  });
-  const FrictionBounds<T> bounds =
-      within_swing(balance.bounds, swing.half_swing_N, select(moves, state.swing.excess_N, T(0)));
-  balance.bounds.sliding_N = select(dither.present, bounds.sliding_N, balance.bounds.sliding_N);
-  balance.bounds.sticking_N = select(dither.present, bounds.sticking_N, balance.bounds.sticking_N);
+  balance.bounds = within_swing(balance.bounds, swing.half_swing_N, moves ? state.swing.excess_N : T(0));
 }
 
 /// From coil current and position to friction; moves the memory of solenoid and friction. `opposing_N` is what another
@@ -84,7 +80,7 @@ template <class T>
 [[gnu::always_inline]] constexpr ForceBalance<T> balance_forces(const ObserverParameters<T>& valve,
                                                                 ObserverState<T>& state, const Sample<T>& sample,
                                                                 const PositionPoint<T>& position,
-                                                                const Dither<T>& dither, T opposing_N, Mask<T> begins) {
+                                                                const Dither<T>& dither, T opposing_N, bool begins) {
   ForceBalance<T> out;
   out.actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
@@ -104,17 +100,17 @@ template <class T>
                      out.apparent_friction_N, out.dithered, sample.time_step_s);
 
   out.closed = position.position_m < valve.closed_below_m;
-  const Mask<T> travels = is(position.motion, Motion::opening) || is(position.motion, Motion::closing);
+  const bool travels = position.motion == Motion::opening || position.motion == Motion::closing;
   out.sliding = travels || out.freed;
-  out.slips = is(position.motion, Motion::transient) && !out.freed;
-  out.direction = select(travels || !out.freed, select(position.travel_m > T(0), T(1), T(-1)), T(0));
-  out.friction_N = select(out.sliding, out.direction * out.bounds.sliding_N,
-                          limited(out.apparent_friction_N, out.resting.lower_N, out.resting.upper_N));
+  out.slips = position.motion == Motion::transient && !out.freed;
+  out.direction = travels || !out.freed ? (position.travel_m > T(0) ? T(1) : T(-1)) : T(0);
+  out.friction_N = out.sliding ? out.direction * out.bounds.sliding_N
+                               : limited(out.apparent_friction_N, out.resting.lower_N, out.resting.upper_N);
   // Paper (1): the mass takes a part of the force; position tells it late, so that it is no surer than its size.
-  const T inertia_N = select(travels && !out.dithered, valve.moving_mass_kg * position.acceleration_m_per_s2, T(0));
+  const T inertia_N = travels && !out.dithered ? valve.moving_mass_kg * position.acceleration_m_per_s2 : T(0);
   out.apparent_friction_N -= inertia_N;
   const T missed_N = T(missed_middle) * squared(dither.sample_per_period) * out.half_swing_N;
-  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, select(out.dithered, missed_N, inertia_N));
+  out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, out.dithered ? missed_N : inertia_N);
   return out;
 }
 

@@ -116,20 +116,20 @@ struct Contact {
   T holds_N;     ///< the same, by what the gauge may be wrong more
   T slack_m;     ///< what noise may fake
   T reach_N;     ///< how far friction may lie from the gauge
-  Mask<T> creeps;
+  bool creeps;
 };
 
 /// Whether the spool drags the sensor along, and which way.
 template <class T>
 [[gnu::always_inline]] constexpr void drag(FrictionState<T>& state, T moved_m, T slack_m, T time_step_s) {
-  const Mask<T> goes_on = !(moved_m * state.dragged_m < T(0));
-  const Mask<T> moves = !is_zero(moved_m);
-  state.dragged_m = select(goes_on, state.dragged_m, T(0)) + moved_m;
+  const bool goes_on = !(moved_m * state.dragged_m < T(0));
+  const bool moves = !is_zero(moved_m);
+  state.dragged_m = moved_m + (goes_on ? state.dragged_m : T(0));
   const T size2 = squared(state.dragged_m);
   const T doubtful2 = squared(T(doubtful_drag_slacks) * slack_m);
-  const T sure = select(state.dragged_m < T(0), T(-1), T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
+  const T sure = (state.dragged_m < T(0) ? T(-1) : T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
   const T left = T(1) - smaller(time_step_s / T(drag_memory_s), T(1));
-  state.dragging = select(moves, sure, left * state.dragging);
+  state.dragging = moves ? sure : left * state.dragging;
 }
 
 /// At rest: friction changes with the pre-sliding displacement. Dahl: stiffness fades towards the limit.
@@ -144,10 +144,10 @@ template <class T>
   const T before_m = state.followed_m;
   state.followed_m = limited(state.followed_m, state.smooth_m - contact.slack_m, state.smooth_m + contact.slack_m);
   const T moved_m = state.followed_m - before_m;
-  const T sign = select(moved_m < T(0), T(-1), T(1));
+  const T sign = moved_m < T(0) ? T(-1) : T(1);
   const T reserve = limited(T(1) - sign * contact.apparent_N / contact.holds_N, T(least_stiffness_share), T(1));
   state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
-  in_valves(!contact.creeps, state, [&] { drag(state, moved_m, contact.slack_m, time_step_s); });
+  if (!contact.creeps) drag(state, moved_m, contact.slack_m, time_step_s);
   // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
   const T most_N = larger(contact.sticking_N - contact.reach_N, T(0));
   state.gauge_N = limited(state.gauge_N, -most_N, most_N);
@@ -157,11 +157,11 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void follow_motion(FrictionState<T>& state, const Contact<T>& contact, T sliding_N,
                                                     const PositionPoint<T>& position) {
-  const T direction = select(position.travel_m > T(0), T(1), T(-1));
-  const Mask<T> sliding = !is(position.motion, Motion::transient);
+  const T direction = position.travel_m > T(0) ? T(1) : T(-1);
+  const bool sliding = position.motion != Motion::transient;
   const T friction_N =
-      select(sliding, direction * sliding_N, limited(contact.apparent_N, -contact.holds_N, contact.holds_N));
-  state.gauge_N = select(sliding, friction_N - direction * contact.reach_N, friction_N);
+      (sliding ? direction * sliding_N : limited(contact.apparent_N, -contact.holds_N, contact.holds_N));
+  state.gauge_N = sliding ? friction_N - direction * contact.reach_N : friction_N;
   state.smooth_m = position.position_m;
   state.followed_m = position.position_m - direction * contact.slack_m;
   state.rest_s = T(0);
@@ -172,10 +172,11 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void hold(FrictionState<T>& state, T apparent_N, T time_step_s) {
   state.held_s += time_step_s;
-  const Mask<T> delayed = state.held_s > T(breakaway_delay_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
-  state.held_s = select(delayed, T(0), state.held_s);
-  state.earlier_N = select(delayed, state.held_N, state.earlier_N);
-  state.held_N = select(delayed, apparent_N, state.held_N);
+  const bool delayed = state.held_s > T(breakaway_delay_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
+  if (!delayed) return;
+  state.held_s = T(0);
+  state.earlier_N = state.held_N;
+  state.held_N = apparent_N;
 }
 
 }  // namespace detail
@@ -187,35 +188,32 @@ template <class T>
 [[gnu::always_inline]] constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction,
                                                           FrictionState<T>& state, const FrictionBounds<T>& bounds,
                                                           const PositionSensor<T>& sensor,
-                                                          const PositionPoint<T>& position, T apparent_N,
-                                                          Mask<T> creeps, T time_step_s) {
-  in_valves(position.turn.closed, state,
-            [&] { state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s); });
+                                                          const PositionPoint<T>& position, T apparent_N, bool creeps,
+                                                          T time_step_s) {
+  if (position.turn.closed) state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s);
   const T slack_m = state.slack_m;
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;
   const detail::Contact<T> contact{apparent_N, bounds.sticking_N, holds_N, slack_m, reach_N, creeps};
   const T rested_s = state.rest_s;
-  const Mask<T> rests = is(position.motion, Motion::rest);
   T breakaway_N{};
-  in_valves(rests, state,
-            [&] { detail::follow_displacement(friction, state, contact, position.position_m, time_step_s); });
-  in_valves(!rests, state, [&] {
-    const Mask<T> breaks = !rests && rested_s > T(0);
-    if (any(breaks)) {
-      const T direction = select(position.travel_m > T(0), T(1), T(-1));
-      breakaway_N = select(breaks, direction * larger(direction * state.held_N, direction * state.earlier_N), T(0));
+  if (position.motion == Motion::rest) {
+    detail::follow_displacement(friction, state, contact, position.position_m, time_step_s);
+  } else {
+    if (rested_s > T(0)) {
+      const T direction = position.travel_m > T(0) ? T(1) : T(-1);
+      breakaway_N = direction * larger(direction * state.held_N, direction * state.earlier_N);
     }
     detail::follow_motion(state, contact, bounds.sliding_N, position);
-  });
-  in_valves(position.turn.closed, state, [&] { detail::hold(state, apparent_N, position.block_s); });
+  }
+  if (position.turn.closed) detail::hold(state, apparent_N, position.block_s);
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
-  if (!any(!creeps)) return out;
+  if (creeps) return out;
   // Friction lies on the side of the gauge to which the sensor is dragged.
   const T below_N = reach_N * (T(1) - T(drag_certainty) * larger(state.dragging, T(0)));
   const T above_N = reach_N * (T(1) + T(drag_certainty) * smaller(state.dragging, T(0)));
-  out.lower_N = select(creeps, out.lower_N, larger(state.gauge_N - below_N, -holds_N));
-  out.upper_N = select(creeps, out.upper_N, smaller(state.gauge_N + above_N, holds_N));
+  out.lower_N = larger(state.gauge_N - below_N, -holds_N);
+  out.upper_N = smaller(state.gauge_N + above_N, holds_N);
   return out;
 }
 

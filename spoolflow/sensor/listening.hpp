@@ -42,7 +42,7 @@ struct ListeningState {
   T given_A{};      ///< what was answered last: on its way to that amplitude, or to 0
   T asked_s{};      ///< for how long the request that runs has been asking
   T pause_s{};      ///< what is left of the pause
-  Mask<T> asks{};   ///< a request runs
+  bool asks{};      ///< a request runs
 };
 
 static_assert(std::is_trivially_copyable_v<ListeningParameters<float>>);
@@ -51,7 +51,7 @@ static_assert(std::is_trivially_copyable_v<ListeningState<float>>);
 /// What the electronics are asked to lay on the set current until the next sample.
 template <class T>
 struct DitherRequest {
-  Mask<T> active;
+  bool active;
   T amplitude_A;   ///< half of peak to peak; 0 where not active
   T frequency_Hz;  ///< 0 where not active
 };
@@ -60,10 +60,10 @@ namespace detail {
 
 /// The amplitude of the request that runs, `deaf` where it has not freed the spool, or of the next one.
 template <class T>
-[[gnu::always_inline]] constexpr void adapt(const ListeningParameters<T>& limits, ListeningState<T>& state,
-                                            Mask<T> deaf, Mask<T> was_enough, T step_s) {
-  const T raise = select(deaf, T(1) + T(amplitude_raise_per_s) * step_s, T(1));
-  const T change = select(was_enough, T(amplitude_lowering), raise);
+[[gnu::always_inline]] constexpr void adapt(const ListeningParameters<T>& limits, ListeningState<T>& state, bool deaf,
+                                            bool was_enough, T step_s) {
+  const T raise = deaf ? T(1) + T(amplitude_raise_per_s) * step_s : T(1);
+  const T change = was_enough ? T(amplitude_lowering) : raise;
   state.amplitude_A = limited(change * state.amplitude_A, limits.lowest_amplitude_A, limits.highest_amplitude_A);
 }
 
@@ -71,17 +71,17 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr T fade(const ListeningState<T>& state, T step_s) {
   const T step_A = state.amplitude_A * step_s;
-  const T aim_A = select(state.asks, state.amplitude_A, T(0));
+  const T aim_A = state.asks ? state.amplitude_A : T(0);
   return limited(aim_A, state.given_A - T(1 / dither_fall_s) * step_A, state.given_A + T(1 / dither_rise_s) * step_A);
 }
 
 /// What listening goes by, of the observer's last answer.
 template <class T>
 struct Heard {
-  Mask<T> known;   ///< there is an answer, and it was not held
-  Mask<T> closed;  ///< the spool covers the metering edge
-  Mask<T> wide;    ///< the band is wider than wanted
-  Mask<T> frees;   ///< dither has the spool tremble
+  bool known;   ///< there is an answer, and it was not held
+  bool closed;  ///< the spool covers the metering edge
+  bool wide;    ///< the band is wider than wanted
+  bool frees;   ///< dither has the spool tremble
 };
 
 /// `position_m`: of the spool, opening > 0; `valve` is what opens there.
@@ -90,10 +90,8 @@ template <class T>
                                                 const ObserverParameters<T>& valve, const ObserverState<T>& observer,
                                                 T position_m) {
   const Estimate<T>& last = observer.last;
-  Mask<T> known = observer.started;
-  if constexpr (one_valve<T>) {
-    known = known && !has(last.status, Status::sample_missing | Status::time_fault);
-  }
+  bool known = observer.started;
+  known = known && !has(last.status, Status::sample_missing | Status::time_fault);
   return {known,
           position_m<valve.closed_below_m, last.flow_upper_m3_per_s - last.flow_lower_m3_per_s> T(2) *
               limits.wanted_half_width_m3_per_s,
@@ -103,21 +101,21 @@ template <class T>
 template <class T>
 constexpr DitherRequest<T> listen(const ListeningParameters<T>& limits, ListeningState<T>& state, const Heard<T>& heard,
                                   T time_step_s) {
-  const T step_s = select(time_step_s >= T(0) && is_number(time_step_s), time_step_s, T(0));
+  const T step_s = time_step_s >= T(0) && is_number(time_step_s) ? time_step_s : T(0);
   state.asked_s += step_s;
   state.pause_s = larger(state.pause_s - step_s, T(0));
-  const Mask<T> lasted = state.asks && state.asked_s > limits.request_s - T(0.5) * step_s;  // no matter how it rounds
-  const Mask<T> ends = lasted || (state.asks && heard.closed);
-  const Mask<T> deaf = state.asks && heard.wide && !heard.frees && state.asked_s > T(hearing_s);
+  const bool lasted = state.asks && state.asked_s > limits.request_s - T(0.5) * step_s;  // no matter how it rounds
+  const bool ends = lasted || (state.asks && heard.closed);
+  const bool deaf = state.asks && heard.wide && !heard.frees && state.asked_s > T(hearing_s);
   adapt(limits, state, deaf, lasted && !heard.closed && !heard.wide, step_s);
-  state.pause_s = select(ends, limits.pause_s, state.pause_s);
-  const Mask<T> begins = heard.known && (!state.asks || ends) && !heard.closed && heard.wide &&
-                         !(state.pause_s > T(0)) && limits.request_s > T(0);
-  state.asked_s = select(begins, T(0), state.asked_s);
+  if (ends) state.pause_s = limits.pause_s;
+  const bool begins = heard.known && (!state.asks || ends) && !heard.closed && heard.wide && !(state.pause_s > T(0)) &&
+                      limits.request_s > T(0);
+  if (begins) state.asked_s = T(0);
   state.asks = begins || (state.asks && !ends);
-  state.given_A = select(heard.closed, T(0), smaller(fade(state, step_s), limits.highest_amplitude_A));
-  const Mask<T> active = state.given_A > T(0);
-  return {active, state.given_A, select(active, limits.frequency_Hz, T(0))};
+  state.given_A = heard.closed ? T(0) : smaller(fade(state, step_s), limits.highest_amplitude_A);
+  const bool active = state.given_A > T(0);
+  return {active, state.given_A, active ? limits.frequency_Hz : T(0)};
 }
 
 }  // namespace detail

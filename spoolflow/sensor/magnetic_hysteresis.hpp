@@ -120,52 +120,15 @@ template <bool Rising, unsigned K, class T>
   }
 }
 
-/// Stops of several valves, each on its own way to a flux.
-template <class T>
-struct StopsOfValves {
-  T way;                                    ///< 1 rising, -1 falling
-  std::array<T, hysteresis_elements> held;  ///< how far each would stand, were it elastic
-  std::array<Mask<T>, hysteresis_elements> yields;
-};
-
-template <class T>
-[[gnu::always_inline]] constexpr StopsOfValves<T> stops_of_valves(const MagneticHysteresis<T>& hysteresis,
-                                                                  const HysteresisState<T>& state, T flux) {
-  StopsOfValves<T> out;
-  out.way = select(flux < state.flux, T(-1), T(1));
-  Mask<T> before(true);
-  for (unsigned k = 0; k < hysteresis_elements; ++k) {
-    out.held[k] = out.way * elastic<true>(state.centre[k], flux);
-    out.yields[k] = before = before && hysteresis.threshold[k] < out.held[k];
-  }
-  return out;
-}
-
 }  // namespace detail
 
 template <class T>
 constexpr HysteresisPoint<T> hysteresis_at(const MagneticHysteresis<T>& hysteresis, const HysteresisState<T>& state,
                                            T flux) {
   const T share = smaller(magnitude(flux) * hysteresis.per_full_flux, T(1));
-  if constexpr (one_valve<T>) {
-    if (!(flux < state.flux)) return detail::answer_of_stops<true, 0>(hysteresis, state, flux, share);
-    const HysteresisPoint<T> falling = detail::answer_of_stops<false, 0>(hysteresis, state, flux, share);
-    return {-falling.value, falling.slope};
-  } else {
-    // The same sums in the same order, stop by stop.
-    const detail::StopsOfValves<T> stops = detail::stops_of_valves(hysteresis, state, flux);
-    detail::StopSum<T> answer, slope;
-    for (unsigned k = 0; k < hysteresis_elements; ++k) {
-      const T times = select(stops.yields[k], hysteresis.threshold[k], stops.held[k]);
-      answer.without_flux += hysteresis.stiffness[k] * times;
-      answer.increase += hysteresis.stiffness_increase[k] * times;
-    }
-    for (unsigned k = hysteresis_elements; k-- > 0;) {
-      slope.without_flux += select(stops.yields[k], T(0), hysteresis.stiffness[k]);
-      slope.increase += select(stops.yields[k], T(0), hysteresis.stiffness_increase[k]);
-    }
-    return {stops.way * answer.at(share), slope.at(share)};
-  }
+  if (!(flux < state.flux)) return detail::answer_of_stops<true, 0>(hysteresis, state, flux, share);
+  const HysteresisPoint<T> falling = detail::answer_of_stops<false, 0>(hysteresis, state, flux, share);
+  return {-falling.value, falling.slope};
 }
 
 /// How far a stop stands off its centre, within plus or minus its threshold.
@@ -177,11 +140,7 @@ constexpr T deflection(const HysteresisState<T>& state, unsigned k) {
 /// Moves the memory to a new flux.
 template <class T>
 constexpr void advance(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
-  if constexpr (!one_valve<T>) {
-    const detail::StopsOfValves<T> stops = detail::stops_of_valves(hysteresis, state, flux);
-    for (unsigned k = 0; k < hysteresis_elements; ++k)
-      state.centre[k] = select(stops.yields[k], flux - stops.way * hysteresis.threshold[k], state.centre[k]);
-  } else if (flux < state.flux) {
+  if (flux < state.flux) {
     detail::move_stops<false, 0>(hysteresis, state, flux);
   } else {
     detail::move_stops<true, 0>(hysteresis, state, flux);

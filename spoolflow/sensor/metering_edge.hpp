@@ -21,8 +21,8 @@ struct EdgePoint {
   T friction_N;                    ///< half width of the spool's friction, >= 0
   T friction_per_pressure_N_Pa;    ///< its slope over the pressure difference
   T conductance;                   ///< flow over the root of the pressure difference [m3/s/sqrt(Pa)]
-  Mask<T> inside;                  ///< position and pressure difference lie within what was measured
-  Mask<T> temperature_inside;
+  bool inside;                     ///< position and pressure difference lie within what was measured
+  bool temperature_inside;
 };
 
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure

@@ -21,16 +21,16 @@ inline constexpr double longest_oil_fault_s = 20;
 namespace detail {
 
 template <class T>
-constexpr Mask<T> is_oil_temperature(T temperature_K) {
+constexpr bool is_oil_temperature(T temperature_K) {
   return temperature_K > T(coldest_oil_K) && temperature_K < T(warmest_oil_K);
 }
 
 /// To be called before the first sample goes through the stages, and where time has leapt.
 template <class T>
 constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
-  state.started = Mask<T>(true);
+  state.started = true;
   state.oil_temperature_K =
-      select(is_oil_temperature(sample.oil_temperature_K), sample.oil_temperature_K, valve.edge.temperature_K.at(1));
+      (is_oil_temperature(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1));
   state.oil_fault_s = T(0);
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
   sensor::begin(state.position, position_m);
@@ -42,23 +42,23 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
 
 /// The oil temperature reads what no oil has, or leapt, or did so before: believed only where a leap has lasted.
 template <class T>
-constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, Mask<T> odd, T since_s) {
-  state.oil_fault_s = select(odd, state.oil_fault_s + since_s, T(0));
-  const Mask<T> lasted = is_oil_temperature(oil_temperature_K) && state.oil_fault_s > T(longest_oil_fault_s);
-  state.oil_temperature_K = select(lasted, oil_temperature_K, state.oil_temperature_K);
+constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, bool odd, T since_s) {
+  state.oil_fault_s = odd ? state.oil_fault_s + since_s : T(0);
+  const bool lasted = is_oil_temperature(oil_temperature_K) && state.oil_fault_s > T(longest_oil_fault_s);
+  if (lasted) state.oil_temperature_K = oil_temperature_K;
 }
 
 /// Where it is `due`. A missing oil temperature is held, and one that no oil has, too.
 template <class T>
-constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, Mask<T> due) {
-  in_valves(due && is_number(oil_temperature_K), state, [&] {
+constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, bool due) {
+  if (due && is_number(oil_temperature_K)) {
     const T since_s = slow_period_s(state.position);
     const T change_K = oil_temperature_K - state.oil_temperature_K;
-    const Mask<T> odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
+    const bool odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
     const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
-    state.oil_temperature_K += select(odd, T(0), pace) * change_K;
-    if (any(odd || state.oil_fault_s > T(0))) judge_temperature(state, oil_temperature_K, odd, since_s);
-  });
+    state.oil_temperature_K += (odd ? T(0) : pace) * change_K;
+    if (odd || state.oil_fault_s > T(0)) judge_temperature(state, oil_temperature_K, odd, since_s);
+  }
 }
 
 /// What a coil shows whose armature does not move.
@@ -72,7 +72,7 @@ constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
 template <class T>
 [[gnu::always_inline]] constexpr auto status(const ObserverParameters<T>& valve, const ObserverState<T>& state,
                                              const Sample<T>& sample, const ForceBalance<T>& balance) {
-  typename ScalarTypes<T>::StatusWord out{};
+  Status out{};
   mark(out, balance.closed, Status::closed);
   mark(out, !balance.sliding, Status::spool_at_rest);
   mark(out, balance.dithered, Status::dithered);
@@ -89,12 +89,12 @@ template <class T>
 /// difference may lie from the believed one is reckoned where it is its turn.
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, T velocity_m_per_s, Mask<T> reach_due) {
-  in_valves(reach_due, state.pressure.reach, [&] {
+                                             const ForceBalance<T>& balance, T velocity_m_per_s, bool reach_due) {
+  if (reach_due) {
     state.pressure.reach =
         pressure_reach(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
                        displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
-  });
+  }
   const PressureBand<T> band = pressure_band(state.pressure, valve.edge.highest_pressure_difference_Pa());
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
@@ -112,7 +112,7 @@ template <class T>
 struct DoubtfulPlace {
   T position_m;
   T elsewhere_m;  ///< where it is instead, if it is not there
-  Mask<T> fault;  ///< of the position signal
+  bool fault;     ///< of the position signal
 };
 
 /// While the position signal may be wrong, or the current is, forces tell nothing: the flow where the spool is believed
@@ -121,11 +121,11 @@ struct DoubtfulPlace {
 template <class T>
 [[gnu::noinline]] constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
                                                  const Sample<T>& sample, const DoubtfulPlace<T>& position,
-                                                 T opposing_N, Mask<T> begins) {
+                                                 T opposing_N, bool begins) {
   const ActuatorEstimate<T> actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
-           begins, Mask<T>(false));
-  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, T(0), Mask<T>(false));
+           begins, false);
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, T(0), false);
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -135,11 +135,11 @@ template <class T>
   out.pressure_difference_Pa = band.expected_Pa;
   out.flow_m3_per_s = edge.conductance * sqrt(band.expected_Pa);
   const T there = valve.edge.at(state.oil_temperature_K, believed_Pa, magnitude(position.elsewhere_m)).conductance;
-  const T elsewhere = select(position.fault, select(position.elsewhere_m < T(0), -there, there), edge.conductance);
+  const T elsewhere = position.fault ? (position.elsewhere_m < T(0) ? -there : there) : edge.conductance;
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
-  const T least = sqrt(select(coil.unanswered, T(0), band.least_Pa));
-  const T most = sqrt(select(coil.unanswered, highest_Pa, band.most_Pa));
-  band_of_flow(valve.band, smaller(edge.conductance * least, elsewhere * select(elsewhere < T(0), most, least)),
+  const T least = sqrt(coil.unanswered ? T(0) : band.least_Pa);
+  const T most = sqrt(coil.unanswered ? highest_Pa : band.most_Pa);
+  band_of_flow(valve.band, smaller(edge.conductance * least, elsewhere * (elsewhere < T(0) ? most : least)),
                larger(edge.conductance, elsewhere) * most, out);
   out.magnetic_force_N = actuator.magnetic_force_N - opposing_N;
   out.spring_force_N = valve.spring.at(position.position_m).value;
@@ -158,16 +158,16 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                      const Sample<T>& sample, const PositionPoint<T>& position,
-                                                     const Dither<T>& dither, T opposing_N, Mask<T> begins) {
+                                                     const Dither<T>& dither, T opposing_N, bool begins) {
   const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
   believe(valve, state, balance, position, sample.time_step_s);
-  in_valves(balance.dithered, state.swing, [&] {
+  if (balance.dithered) {
     state.swing.flow_force_N +=
         balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
-  });
-  in_valves(position.turn.even, state.pressure, [&] { follow_agreement(state.pressure); });
+  }
+  if (position.turn.even) follow_agreement(state.pressure);
   // Once a block, whatever the spool does.
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, position.block_s, position.turn.busy);
   answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
@@ -179,33 +179,23 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                               const Sample<T>& sample, const PositionPoint<T>& position,
-                                              const Dither<T>& dither, T opposing_N, Mask<T> begins) {
-  const Mask<T> doubtful = position.fault || state.actuator.coil_resistance.unanswered;
-  const auto doubt = [&](ObserverState<T> & of) __attribute__((always_inline)) {
-    answer_in_doubt(of, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N, begins);
-  };
-  const auto believe_forces = [&](ObserverState<T> & of) __attribute__((always_inline)) {
-    observe_forces(valve, of, sample, position, dither, opposing_N, begins);
-  };
-  if constexpr (one_valve<T>) {
-    if (unlikely(doubtful)) {
-      doubt(state);
-      return;
-    }
-    believe_forces(state);
-  } else {
-    in_either(doubtful, state, doubt, believe_forces);
+                                              const Dither<T>& dither, T opposing_N, bool begins) {
+  if (unlikely(position.fault || state.actuator.coil_resistance.unanswered)) {
+    answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
+                    begins);
+    return;
   }
+  observe_forces(valve, state, sample, position, dither, opposing_N, begins);
 }
 
 /// The band takes in all that may flow through the other direction's edge.
 template <class T>
 [[gnu::noinline]] constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
-                                           Mask<T> opens) {
+                                           bool opens) {
   const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
   const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
   Estimate<T>& out = state.last;
-  out.flow_lower_m3_per_s = select(opens, smaller(out.flow_lower_m3_per_s, -most), out.flow_lower_m3_per_s);
+  if (opens) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, -most);
   mark(out.status, opens, Status::other_direction);
 }
 
@@ -213,8 +203,8 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                             T position_m) {
-  const Mask<T> opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
-  if (unlikely(any(opens))) admit_all(valve, state, position_m, opens);
+  const bool opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
+  if (unlikely(opens)) admit_all(valve, state, position_m, opens);
 }
 
 /// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
@@ -222,15 +212,15 @@ template <class T>
 [[gnu::noinline]] constexpr void hold(ObserverState<T>& state, const Sample<T>& sample,
                                       const ObserverParameters<T>& valve) {
   const T time_step_s = sample.time_step_s;
-  const Mask<T> leapt = time_step_s > T(longest_step_s);  // not where it is no number
-  const Mask<T> seen = is_number(sample.position_m);
+  const bool leapt = time_step_s > T(longest_step_s);  // not where it is no number
+  const bool seen = is_number(sample.position_m);
   const T measured_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
-  in_valves(state.started && within(time_step_s, T(endless_step_s)), state, [&] {
-    widen_held(valve, state, {select(seen, measured_m, state.position.last_m), seen}, time_step_s, state.last);
-  });
+  if (state.started && within(time_step_s, T(endless_step_s))) {
+    widen_held(valve, state, {seen ? measured_m : state.position.last_m, seen}, time_step_s, state.last);
+  }
   state.started = state.started && !leapt;
   state.last.status = unusable(sample) | when(leapt, Status::time_fault);
-  admit_other_direction(valve, state, select(seen, measured_m, T(0)));
+  admit_other_direction(valve, state, seen ? measured_m : T(0));
 }
 
 }  // namespace detail
@@ -248,28 +238,23 @@ constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state,
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& sample) {
-  Mask<T> begins = !state.started, late = Mask<T>(false);
-  if constexpr (one_valve<T>) {
-    if (unlikely(!ordinary(sample))) {
-      begins = begins || time_leapt(sample.time_step_s);
-      late = is_late(sample.time_step_s);
-      if (unusable(sample) != Status::none) {
-        detail::hold(state, sample, valve);
-        return state.last;
-      }
-    }
-  } else {
+  bool begins = !state.started, late = false;
+  if (unlikely(!ordinary(sample))) {
     begins = begins || time_leapt(sample.time_step_s);
     late = is_late(sample.time_step_s);
+    if (unusable(sample) != Status::none) {
+      detail::hold(state, sample, valve);
+      return state.last;
+    }
   }
-  in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
+  if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
                                           state.oil_temperature_K, dither, state.swing.frees);
   detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_odd);
   detail::observe(valve, state, sample, position, dither, T(0), begins);
   detail::admit_other_direction(valve, state, position.position_m);
-  if (any(late)) mark(state.last.status, late, Status::time_fault);
+  if (late) state.last.status |= Status::time_fault;
   return state.last;
 }
 

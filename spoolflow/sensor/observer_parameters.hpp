@@ -65,7 +65,7 @@ struct ObserverState {
   T oil_temperature_K{};  ///< smoothed
   T oil_fault_s{};        ///< for how long its sensor has read what no oil has
   T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
-  Mask<T> started{};      ///< a sample came in
+  bool started{};         ///< a sample came in
   Estimate<T> last{};
 };
 

@@ -72,18 +72,6 @@ enum class Motion : std::uint8_t {
   closing,
 };
 
-constexpr bool is(Motion motion, Motion which) {
-  return motion == which;
-}
-template <class Choice, std::enable_if_t<std::is_same_v<Choice, Motion> || std::is_same_v<Choice, int>, int> = 0>
-constexpr Choice select(bool condition, Choice yes, Choice no) {
-  return condition ? yes : no;
-}
-
-/// What a spool does; of several, what each of them does.
-template <class T>
-using MotionOf = std::conditional_t<one_valve<T>, Motion, Index<T>>;
-
 inline constexpr int position_blocks = 32;  ///< of means over four blocks, for the long windows
 inline constexpr int short_blocks = 8;      ///< of means over one, for the short ones
 
@@ -116,31 +104,31 @@ struct PositionState {
   T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
   T velocity_m_per_s{};       ///< smoothed
   T acceleration_m_per_s2{};  ///< between the first and the last of three short windows
-  Mask<T> velocity_due{};     ///< with the next sample, which has less else to do
-  Mask<T> lone{};             ///< a block is one sample
-  Index<T> samples{};
-  Index<T> newest{};
-  Index<T> blocks{};
-  MotionOf<T> motion{};  ///< at rest
+  bool velocity_due{};        ///< with the next sample, which has less else to do
+  bool lone{};                ///< a block is one sample
+  int samples{};
+  int newest{};
+  int blocks{};
+  Motion motion{};  ///< at rest
 };
 
 /// Whose turn it is: what the answer can do without for some samples is not done in all of them, so that no sample has
 /// everything to do. Where a block is one sample, and at the first, all is done.
 template <class T>
 struct Turn {
-  Mask<T> closed{};     ///< this sample closed a block of positions
-  Mask<T> busy{};       ///< a block of several: what can wait for the next sample does
-  Mask<T> even{};       ///< every second of those that are not busy ...
-  Mask<T> odd{};        ///< ... and every other
-  Mask<T> slow_even{};  ///< one of them in every two blocks, and ...
-  Mask<T> slow_odd{};   ///< ... one of those: for what changes in seconds
+  bool closed{};     ///< this sample closed a block of positions
+  bool busy{};       ///< a block of several: what can wait for the next sample does
+  bool even{};       ///< every second of those that are not busy ...
+  bool odd{};        ///< ... and every other
+  bool slow_even{};  ///< one of them in every two blocks, and ...
+  bool slow_odd{};   ///< ... one of those: for what changes in seconds
 };
 
 template <class T>
 struct PositionPoint {
   T position_m;  ///< free of drift and faults
-  MotionOf<T> motion;
-  Mask<T> fault;         ///< a jump of the signal is taken out of it, or doubted
+  Motion motion;
+  bool fault;            ///< a jump of the signal is taken out of it, or doubted
   T travel_m;            ///< sign of the velocity of what `motion` tells
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};

@@ -129,15 +129,16 @@ template <class T>
 /// Whether an update came to what is no variance: forces that are many orders of magnitude beyond their noise leave
 /// nothing but rounding of it. NaN, too.
 template <class T>
-constexpr Mask<T> broken(const PressureState<T>& state) {
+constexpr bool broken(const PressureState<T>& state) {
   return !within(state.variance_Pa2, T(most_variance_Pa2));
 }
 
 /// Prediction while the spool slides.
 template <class T>
 constexpr void drift(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s, T highest_Pa) {
-  state.variance_Pa2 += select(state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa),
-                               squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s, T(0));
+  state.variance_Pa2 += state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa)
+                            ? squared(pressure.sliding_drift_Pa_per_sqrt_s) * time_step_s
+                            : T(0);
 }
 
 /// The friction ratio goes back towards what was calibrated: it has learnt where the spool was, and at what speed.
@@ -160,9 +161,8 @@ template <class T>
 
 /// Freed by dither the spool tells nothing of the friction ratio, and the covariance goes to zero by and by.
 template <class T>
-constexpr void drop_covariance(PressureState<T>& state, Mask<T> due) {
-  state.covariance_Pa =
-      select(due && magnitude(state.covariance_Pa) < T(least_covariance_Pa), T(0), state.covariance_Pa);
+constexpr void drop_covariance(PressureState<T>& state) {
+  if (magnitude(state.covariance_Pa) < T(least_covariance_Pa)) state.covariance_Pa = T(0);
 }
 
 /// Prediction while nothing tells: as restless as the supply has shown itself.
@@ -172,8 +172,8 @@ constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.drift_variance_Pa2 += variance_Pa2;
   state.unobserved_variance_Pa2 += variance_Pa2;
-  state.variance_Pa2 += select(state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa),
-                               state.process_noise * variance_Pa2, T(0));
+  state.variance_Pa2 +=
+      state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa) ? state.process_noise * variance_Pa2 : T(0);
 }
 
 /// Behind a closed valve the supply may do what it likes, however steady it has been.
@@ -194,22 +194,22 @@ constexpr T unobserved_change_Pa(const PressureState<T>& state, T unseen_factor)
 /// process noise. When first seen it tells nothing yet.
 template <class T>
 constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
-  in_valves(state.observed_Pa < T(0), state, [&] {
+  if (state.observed_Pa < T(0)) {
     state.drift_variance_Pa2 = T(0);
     state.process_noise = larger(state.process_noise, T(first_seen_process_noise));
-  });
-  in_valves(state.drift_variance_Pa2 > squared(noise_Pa), state, [&] {
+  }
+  if (state.drift_variance_Pa2 > squared(noise_Pa)) {
     const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
     const T shown = smaller(
         (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
         T(1));
     const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
-    const T pace = weight * select(shown > state.process_noise, T(process_noise_rise), T(process_noise_fall));
+    const T pace = weight * (shown > state.process_noise ? T(process_noise_rise) : T(process_noise_fall));
     state.process_noise =
         limited(state.process_noise + pace * (shown - state.process_noise), pressure.least_process_noise, T(1));
     state.drift_variance_Pa2 = T(0);
-  });
-  state.observed_Pa = select(is_zero(state.drift_variance_Pa2), state.pressure_difference_Pa, state.observed_Pa);
+  }
+  if (is_zero(state.drift_variance_Pa2)) state.observed_Pa = state.pressure_difference_Pa;
 }
 
 /// Kalman's terms of one innovation.
@@ -234,14 +234,13 @@ constexpr KalmanUpdate<T> weigh(PressureState<T>& state, const ForceInnovation<T
   T believed2 = slope * with_pressure + innovation.ratio_slope_N * with_ratio;
   const T excess2 = squared(innovation.force_N) * T(1 / (innovation_gate * innovation_gate)) - believed2 -
                     squared(innovation.noise_N);
-  const Mask<T> exceeds = excess2 > T(0);
-  if (any(exceeds)) {
+  if (excess2 > T(0)) {
     const T room_Pa2 = squared(T(most_deviation_share) * highest_Pa) - state.variance_Pa2;
     const T opened_N2 = excess2 * smaller(time_step_s / T(gate_opening_s), T(1));
     const T opened_Pa2 = smaller(opened_N2 / squared(slope), room_Pa2);
-    state.variance_Pa2 = select(exceeds, state.variance_Pa2 + opened_Pa2, state.variance_Pa2);
-    with_pressure = select(exceeds, with_pressure + opened_Pa2 * slope, with_pressure);
-    believed2 = select(exceeds, believed2 + opened_Pa2 * squared(slope), believed2);
+    state.variance_Pa2 += opened_Pa2;
+    with_pressure += opened_Pa2 * slope;
+    believed2 += opened_Pa2 * squared(slope);
   }
   const T variance2 = believed2 + noise_N2;
   const T gain_Pa_per_N = with_pressure / variance2;
@@ -292,7 +291,7 @@ constexpr void update_breakaway(const PressureParameters<T>& pressure, PressureS
 
 /// Whether the pressure difference, at a given friction ratio, is known better than `noise_N` makes of it.
 template <class T>
-constexpr Mask<T> observed(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
+constexpr bool observed(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
   const T variance2 = state.variance_Pa2 * state.ratio_variance - squared(state.covariance_Pa);
   return squared(slope_N_per_Pa) * variance2 <
          T(seen_deviation_share * seen_deviation_share) * squared(noise_N) * state.ratio_variance;
@@ -308,7 +307,7 @@ constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state
   const T force_N = smaller(time_step_s / pressure.yielding_s, T(1)) * beyond.force_N;
   const T yields_Pa = share * force_N / beyond.slope_N_per_Pa;
   state.pressure_difference_Pa = limited(state.pressure_difference_Pa + yields_Pa, T(0), highest_Pa);
-  state.yielded_Pa = yields_Pa + select(yields_Pa * state.yielded_Pa < T(0), T(0), state.yielded_Pa);
+  state.yielded_Pa = yields_Pa + (yields_Pa * state.yielded_Pa < T(0) ? T(0) : state.yielded_Pa);
   return (T(1) - share) * force_N;
 }
 

@@ -38,8 +38,7 @@ template <class T>
   const T aged = ageing(friction, balance.resting.rested_s);
   const T limit_N = aged * balance.spool_friction_N + balance.armature_friction_N;
   const T expected_N = balance.direction * larger(limit_N - balance.half_swing_N, T(0));
-  const T loosened_N =
-      select(balance.dithered, T(loosened_ageing_share) * (aged - T(1)) * balance.spool_friction_N, T(0));
+  const T loosened_N = balance.dithered ? T(loosened_ageing_share) * (aged - T(1)) * balance.spool_friction_N : T(0);
   return {balance.resting.breakaway_N - expected_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa,
                                balance.direction * aged * friction_slope_N_per_Pa),
@@ -50,15 +49,14 @@ template <class T>
 /// Prediction over one sample: the supply may have moved.
 template <class T>
 [[gnu::always_inline]] constexpr void predict(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                              const ForceBalance<T>& balance, Mask<T> slow, T time_step_s,
-                                              T highest_Pa) {
+                                              const ForceBalance<T>& balance, bool slow, T time_step_s, T highest_Pa) {
   PressureState<T>& pressure = state.pressure;
-  in_valves(balance.closed, pressure, [&] { expect_change(valve.pressure, pressure); });
-  in_valves(balance.sliding, pressure, [&] { drift(valve.pressure, pressure, time_step_s, highest_Pa); });
-  in_valves(balance.sliding && slow, pressure, [&] {
+  if (balance.closed) expect_change(valve.pressure, pressure);
+  if (balance.sliding) drift(valve.pressure, pressure, time_step_s, highest_Pa);
+  if (balance.sliding && slow) {
     forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, slow_period_s(state.position));
-  });
-  in_valves(!balance.sliding, pressure, [&] { drift_unseen(valve.pressure, pressure, time_step_s, highest_Pa); });
+  }
+  if (!balance.sliding) drift_unseen(valve.pressure, pressure, time_step_s, highest_Pa);
 }
 
 /// Prediction, then what the forces tell: the spool slides, breaks away, rests and yields, or nothing is seen.
@@ -72,34 +70,32 @@ template <class T>
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
   predict(valve, state, balance, position.turn.slow_even, time_step_s, highest_Pa);
 
-  in_valves(balance.settled && !balance.closed && balance.sliding, pressure, [&] {
-    in_valves(time_step_s > T(0), pressure, [&] {
+  if (balance.settled && !balance.closed && balance.sliding) {
+    if (time_step_s > T(0))
       update_sliding(valve.pressure, pressure, sliding_innovation(balance, friction_slope), time_step_s, highest_Pa);
-    });
-    if (!any(position.turn.even)) return;
-    drop_covariance(pressure, position.turn.even);
-    in_valves(position.turn.even && observed(pressure, slope, balance.noise_N), pressure,
-              [&] { learn_process_noise(valve.pressure, pressure, balance.noise_N / slope); });
-  });
-  const Mask<T> breaks = !balance.closed && !balance.sliding && !is_zero(balance.resting.breakaway_N) &&
-                         balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
-  in_valves(breaks, pressure, [&] {
+    if (!position.turn.even) return;
+    drop_covariance(pressure);
+    if (observed(pressure, slope, balance.noise_N))
+      learn_process_noise(valve.pressure, pressure, balance.noise_N / slope);
+  }
+  const bool breaks = !balance.closed && !balance.sliding && !is_zero(balance.resting.breakaway_N) &&
+                      balance.resting.rested_s > T(shortest_rest_s) + T(0.5) * time_step_s;
+  if (breaks) {
     update_breakaway(valve.pressure, pressure, breakaway_innovation(valve.friction, balance, friction_slope),
                      highest_Pa);
-  });
+  }
   const T beyond_N = balance.apparent_friction_N - balance.friction_N;
-  const Mask<T> yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
-                         is(position.motion, Motion::rest) && !is_zero(beyond_N);
-  in_valves(yields, pressure, [&] {
+  const bool yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
+                      (position.motion == Motion::rest) && !is_zero(beyond_N);
+  if (yields) {
     const T left_N =
         yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s, highest_Pa);
-    const Mask<T> holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
+    const bool holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
     const T gauge_N = state.friction.gauge_N;
-    state.friction.gauge_N = select(yields, gauge_N + select(holds, left_N, T(0)), gauge_N);
-  });
-  in_valves(broken(pressure), pressure, [&] {
+    if (holds) state.friction.gauge_N = gauge_N + left_N;
+  }
+  if (broken(pressure))
     begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unseen_factor);
-  });
 }
 
 }  // namespace spoolflow::sensor

@@ -32,7 +32,7 @@ inline constexpr double unseen_stroke_s = 0.4;
 
 /// Whether time leapt between the last sample and this one.
 template <class T>
-constexpr Mask<T> time_leapt(T time_step_s) {
+constexpr bool time_leapt(T time_step_s) {
   return lies_below(T(longest_step_s), time_step_s);
 }
 
@@ -45,7 +45,7 @@ constexpr bool ordinary(const Sample<T>& sample) {
 
 /// Whether the time step is longer than the sensor is made for.
 template <class T>
-constexpr Mask<T> is_late(T time_step_s) {
+constexpr bool is_late(T time_step_s) {
   return !lies_below(time_step_s, T(longest_regular_step_s));
 }
 
@@ -84,7 +84,7 @@ struct Estimate {
   T spring_force_N{};
   T flow_force_N{};
   T friction_force_N{};
-  typename ScalarTypes<T>::StatusWord status{};
+  Status status{};
 };
 
 /// What may flow [m3/s].
@@ -106,11 +106,11 @@ template <class T>
 /// Opens the band of a held answer to what may flow: at once, or as a spool that nobody sees goes to its ends in one
 /// more step of time [s], >= 0. The flow stays. What a broken state makes no number of opens nothing.
 template <class T>
-constexpr void open_band(Estimate<T>& held, const FlowRange<T>& range, Mask<T> at_once, T time_step_s) {
+constexpr void open_band(Estimate<T>& held, const FlowRange<T>& range, bool at_once, T time_step_s) {
   const T reach = smaller(time_step_s * T(1 / unseen_stroke_s), T(1)) * (range.most - range.least);
   const T lower = held.flow_lower_m3_per_s, upper = held.flow_upper_m3_per_s;
-  held.flow_lower_m3_per_s = smaller(lower, select(at_once, range.least, larger(lower - reach, range.least)));
-  held.flow_upper_m3_per_s = larger(upper, select(at_once, range.most, smaller(upper + reach, range.most)));
+  held.flow_lower_m3_per_s = smaller(lower, at_once ? range.least : larger(lower - reach, range.least));
+  held.flow_upper_m3_per_s = larger(upper, at_once ? range.most : smaller(upper + reach, range.most));
 }
 
 }  // namespace spoolflow::sensor

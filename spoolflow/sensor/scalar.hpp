@@ -1,7 +1,7 @@
 #pragma once
 /// The few operations that every scalar of the sensor supports: float in the valve, double on a host, an
-/// automatic-differentiation number in calibration, a SIMD pack across valves. Other scalars overload these for
-/// themselves, found by argument-dependent lookup.
+/// automatic-differentiation number in calibration, which overloads these for itself, found by argument-dependent
+/// lookup.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,54 +15,9 @@ namespace spoolflow::sensor {
 
 enum class Status : std::uint32_t;
 
-/// What belongs to a scalar: the answer of a comparison, an index into tables, a table's numbers, a status word. A SIMD
-/// pack has packs of them, and specialises this.
-template <class T>
-struct ScalarTypes {
-  template <int Count>
-  using Numbers = std::array<T, static_cast<unsigned>(Count)>;
-  using Mask = bool;
-  using Index = int;
-  using StatusWord = Status;
-};
-template <class T>
-using Mask = typename ScalarTypes<T>::Mask;
-template <class T, int Count>
-using Numbers = typename ScalarTypes<T>::template Numbers<Count>;
-template <class T>
-using Index = typename ScalarTypes<T>::Index;
-
-/// Whether a comparison has one answer, on which the program may branch.
-template <class T>
-inline constexpr bool one_valve = std::is_same_v<Mask<T>, bool>;
-
 /// The type parameter of what is there for float and double alone.
 template <class T>
 using IfNumber = std::enable_if_t<std::is_floating_point_v<T>, int>;
-
-/// `condition ? yes : no`, the one place where data decides; a SIMD pack blends instead.
-template <class T, IfNumber<T> = 0>
-constexpr T select(bool condition, T yes, T no) {
-  return condition ? yes : no;
-}
-
-/// Whether it holds for one valve at least; where it holds for none, nothing need be done.
-constexpr bool any(bool condition) {
-  return condition;
-}
-
-/// Does `body` to the state of those valves for which the condition holds: one valve branches, a pack does it to all
-/// and takes back what it did to the others. What the body writes beside the state it selects itself.
-template <class State, class Body>
-[[gnu::always_inline]] constexpr void in_valves(bool condition, State& /*state*/, const Body& body) {
-  if (condition) body();
-}
-
-/// `yes(state)` to the state of those valves for which the condition holds, `no(state)` to that of the others.
-template <class State, class Yes, class No>
-[[gnu::always_inline]] constexpr void in_either(bool condition, State& state, const Yes& yes, const No& no) {
-  condition ? yes(state) : no(state);
-}
 
 /// What the compiler may lay out the step for; C++20 has attributes for it.
 constexpr bool likely(bool condition) {
@@ -101,7 +56,7 @@ constexpr std::int32_t signed_bits(float value) {
 
 /// Whether 0 <= value < highest, where highest > 0.
 template <class T>
-constexpr Mask<T> within(T value, T highest) {
+constexpr bool within(T value, T highest) {
   return value >= T(0) && value < highest;
 }
 /// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.
@@ -111,7 +66,7 @@ constexpr bool within(float value, float highest) {
 
 /// Whether value < limit, where neither is below zero; NaN lies below nothing.
 template <class T>
-constexpr Mask<T> lies_below(T value, T limit) {
+constexpr bool lies_below(T value, T limit) {
   return value < limit;
 }
 /// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
@@ -121,7 +76,7 @@ constexpr bool lies_below(float value, float limit) {
 
 /// Whether value > limit, where neither is above zero; NaN lies above nothing.
 template <class T>
-constexpr Mask<T> lies_above(T value, T limit) {
+constexpr bool lies_above(T value, T limit) {
   return value > limit;
 }
 constexpr bool lies_above(float value, float limit) {
@@ -130,12 +85,12 @@ constexpr bool lies_above(float value, float limit) {
 
 template <class T>
 constexpr T smaller(T a, T b) {
-  return select(b < a, b, a);
+  return b < a ? b : a;
 }
 
 template <class T>
 constexpr T larger(T a, T b) {
-  return select(a < b, b, a);
+  return a < b ? b : a;
 }
 
 /// The larger of a number and zero.
@@ -156,7 +111,7 @@ constexpr T limited(T value, T lowest, T highest) {
 
 template <class T>
 constexpr T magnitude(T value) {
-  return select(value < T(0), -value, value);
+  return value < T(0) ? -value : value;
 }
 
 constexpr float magnitude(float value) {
@@ -177,7 +132,7 @@ constexpr T squared(T value) {
 #endif
 /// Whether a number is nothing, as what was never set; not whether arithmetic has come to nothing.
 template <class T>
-constexpr Mask<T> is_zero(T value) {
+constexpr bool is_zero(T value) {
   return value == T(0);
 }
 #if defined(__GNUC__)
@@ -186,7 +141,7 @@ constexpr Mask<T> is_zero(T value) {
 
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
-constexpr Mask<T> is_number(T value) {
+constexpr bool is_number(T value) {
   return value > T(-(1 << 30)) && value < T(1 << 30);
 }
 /// The same by the bits without their sign.

@@ -22,16 +22,10 @@ struct Axis {
 /// The grid cell that holds a point: `index` of its lower grid point and the share of the cell below the point.
 template <class T>
 struct Cell {
-  Index<T> index;
+  int index;
   T share;
-  Mask<T> inside;
+  bool inside;
 };
-
-/// The grid points from one on, to be taken by their distance from it.
-template <class T>
-constexpr const T* corner(const T* values, int index) {
-  return values + index;
-}
 
 /// Four neighbours, to be taken at once: their places are `number` to `number + 3`.
 template <class T>
@@ -45,44 +39,25 @@ constexpr std::array<T, 2> two(const T* from, int number) {
   return {from[number], from[number + 1]};
 }
 
-/// The same from there on.
-template <class T>
-constexpr const T* onward(const T* from, int index) {
-  return from + index;
-}
-
-/// The share of the cell, at -0 with the sign that one valve has there. Floats tell places by their bits, and have
-/// none; a pack of double overloads it.
-template <class T>
-constexpr T share_of_cell(T /*raw*/, T share) {
-  return share;
-}
-
 template <int Points, class T>
 constexpr Cell<T> locate(const Axis<T>& axis, T value) {
   const T raw = (value - axis.first) * axis.per_spacing;
   // Noise at an end is no extrapolation.
   const auto below_end = [&] { return raw <= T(Points - 0.75); };
   const auto above_begin = [&] { return raw >= T(-0.25); };
-  if constexpr (one_valve<T>) {
-    if (within(raw, T(Points - 1))) {  // first, for it is what nearly always holds
-      const int index = table_index(raw);
-      return {index, raw - T(index), true};
-    }
-    if (raw > T(0)) return {Points - 2, T(1), below_end()};
-    return {0, T(0), above_begin()};
-  } else {
-    const T kept = smaller(larger(T(0), raw), T(Points - 1));
-    const Index<T> index = table_index(smaller(kept, T(Points - 2)));
-    return {index, share_of_cell(raw, kept - T(index)), below_end() && above_begin()};
+  if (within(raw, T(Points - 1))) {  // first, for it is what nearly always holds
+    const int index = table_index(raw);
+    return {index, raw - T(index), true};
   }
+  if (raw > T(0)) return {Points - 2, T(1), below_end()};
+  return {0, T(0), above_begin()};
 }
 
 /// A point on an axis that begins at zero, counted in cells, with the cell that holds it.
 template <class T>
 struct Place {
   T cells;
-  Index<T> index;
+  int index;
 };
 
 /// How far beyond the end of an axis is still noise and no extrapolation, in cells.
@@ -131,34 +106,12 @@ constexpr Place<T> root_place(T& cells2, Status beyond, Status& status) {
   return above ? Place<T>{T(Cells), Cells - 1} : Place<T>{T(0), 0};
 }
 
-/// Places of several valves at once: nothing branches, and the caller keeps apart what is wild.
-template <int Cells, class T>
-constexpr Place<T> blended_place(T cells) {
-  const T kept = smaller(larger(T(0), cells), T(Cells));
-  return {kept, table_index(smaller(kept, T(Cells - 1)))};
-}
-/// Whether such a point lies on the axis but for noise.
-template <int Cells, class T>
-constexpr Mask<T> is_near(T cells) {
-  return cells < T(Cells + noise_cells) && cells > T(-noise_cells);
-}
-
-/// One number of a ring; a pack takes each valve's own.
-template <class T, std::size_t Size>
-constexpr T in_ring(const std::array<T, Size>& ring, int place) {
-  return ring[static_cast<unsigned>(place)];
-}
-template <class T, std::size_t Size>
-constexpr void put_in_ring(std::array<T, Size>& ring, int place, T value) {
-  ring[static_cast<unsigned>(place)] = value;
-}
-
 /// What a curve answers.
 template <class T>
 struct CurvePoint {
   T value;
   T slope;
-  Mask<T> inside;
+  bool inside;
 };
 
 /// y(x), linear between grid points.
@@ -167,11 +120,11 @@ struct Curve {
   static_assert(Points >= 2);
   static constexpr int points = Points;
   Axis<T> axis;
-  Numbers<T, Points> values;
+  std::array<T, Points> values;
 
   [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
     const Cell<T> cell = locate<Points>(axis, x);
-    const auto from = corner(values.data(), cell.index);
+    const auto from = values.data() + cell.index;
     const auto [low, high] = two(from, 0);
     const T rise = high - low;
     return {low + cell.share * rise, rise * axis.per_spacing, cell.inside};
@@ -184,7 +137,7 @@ struct MapPoint {
   T value;
   T row_slope;
   T column_slope;
-  Mask<T> inside;
+  bool inside;
 };
 
 /// z(row, column), bilinear in each cell.
@@ -195,7 +148,7 @@ struct Map {
   static constexpr int columns = Columns;
   Axis<T> row_axis;
   Axis<T> column_axis;
-  Numbers<T, Rows * Columns> values;  ///< row after row
+  std::array<T, Rows * Columns> values;  ///< row after row
 
   [[nodiscard]] constexpr T& node(int row, int column) { return values[static_cast<unsigned>(row * Columns + column)]; }
   [[nodiscard]] constexpr const T& node(int row, int column) const {
@@ -203,7 +156,7 @@ struct Map {
   }
 
   [[nodiscard]] constexpr MapPoint<T> at(const Cell<T>& row, const Cell<T>& column) const {
-    const auto from = corner(values.data(), row.index * Columns + column.index);
+    const auto from = values.data() + row.index * Columns + column.index;
     const auto [low_low, low_high] = two(from, 0);
     const auto [high_low, high_high] = two(from, Columns);
     const T low_rise = low_high - low_low;
@@ -229,9 +182,9 @@ struct VolumePoint {
 /// the four grid points around the line that is crossed.
 template <class T>
 struct VolumeCell {
-  Index<T> layer;
+  int layer;
   Cell<T> row;
-  Index<T> column;
+  int column;
   T lower_left, lower_right, upper_left, upper_right;  ///< of the layer below and above, the column left and right
   T per_row_spacing;
 };
@@ -252,7 +205,7 @@ constexpr VolumeCell<T> volume_cell(const Cell<T>& layer, const Cell<T>& row, co
 template <class T, int Layers, int Rows, int Columns>
 struct Volume {
   static_assert(Layers >= 2 && Rows >= 2 && Columns >= 2);
-  Numbers<T, Layers * Rows * Columns> values;  ///< row after row, column after column, layer after layer
+  std::array<T, Layers * Rows * Columns> values;  ///< row after row, column after column, layer after layer
 
   [[nodiscard]] constexpr T& node(int layer, int row, int column) {
     return values[static_cast<unsigned>((row * Columns + column) * Layers + layer)];
@@ -261,7 +214,7 @@ struct Volume {
     return values[static_cast<unsigned>((row * Columns + column) * Layers + layer)];
   }
   [[nodiscard]] constexpr VolumePoint<T> at(const VolumeCell<T>& cell) const {
-    const auto place = corner(values.data(), (cell.row.index * Columns + cell.column) * Layers + cell.layer);
+    const auto place = values.data() + (cell.row.index * Columns + cell.column) * Layers + cell.layer;
     const auto between = [&](int from) {
       const auto [low_left, high_left] = two(place, from);
       const auto [low_right, high_right] = two(place, from + Layers);

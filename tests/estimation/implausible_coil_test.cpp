@@ -1,12 +1,9 @@
 /// Coil currents and voltages that no coil carries: broken amplifiers and lines.
-#include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/estimation/batch/running_batch.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "tests/sensor/valve_course.hpp"
 
@@ -124,32 +121,6 @@ TEST(ImplausibleCoil, OfTheActiveSolenoidAloneIsFoundToo) {
   EXPECT_FALSE(has(running.step({0, 1, 10, -1e-3, 313}).status, Status::coil_fault));
   const Status broken = running.step({1e-3, 20, 10, -1e-3, 313}).status;
   EXPECT_TRUE(has(broken, Status::coil_fault) && has(broken, Status::sample_missing));
-}
-
-TEST(ImplausibleCoil, IsFoundInABatchAsAlone) {
-  const sensor::ObserverParameters<double> valve = calibrated_valve();
-  const auto single = [] {
-    sensor::ObserverParameters<float> out = sensor::closed_form_observer<float>(sensor::closed_form);
-    out.largest_voltage_V = 24;
-    return out;
-  }();
-  const std::vector<double> time_s{0, 1e-3, 2e-3, 3e-3}, current_A{1, 20, 1, 1}, voltage_V{10, 10, 400, 10},
-      position_m(4, 1e-3), oil_K(4, 313.0);
-  const Columns columns{time_s, current_A, voltage_V, position_m, oil_K};
-  const batch::BatchedValve<sensor::ObserverParameters<float>> batched{&single, rated_m3_per_s};
-  batch::RunningBatch<sensor::ObserverParameters<float>> batch(std::span(&batched, 1));
-  std::vector<sensor::Estimate<float>> answers(4);
-  const std::span<sensor::Estimate<float>> wanted(answers);
-  batch.run(std::span(&columns, 1), std::span(&wanted, 1));
-  RunningSensor alone(&valve, rated_m3_per_s);
-  for (std::size_t k = 0; k < answers.size(); ++k) {
-    const auto expected = alone.step(columns[k]);
-    EXPECT_EQ(answers[k].status, expected.status) << k;
-    EXPECT_NEAR(answers[k].flow_upper_m3_per_s, expected.flow_upper_m3_per_s, 1e-7) << k;
-  }
-  EXPECT_TRUE(has(answers[1].status, Status::coil_fault) && has(answers[1].status, Status::sample_missing));
-  EXPECT_TRUE(has(answers[2].status, Status::coil_fault));
-  EXPECT_FALSE(has(answers[3].status, Status::coil_fault));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "addons/live/blocks/steps.hpp"
-#include "addons/live/work_together.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::fleet {
@@ -152,42 +151,6 @@ TEST(ValveLine, GoesOnAnywhereBitForBit) {
   EXPECT_EQ(kept.position.state.samples, end.state.samples);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(kept.position.state.energy_J),
             std::bit_cast<std::uint64_t>(end.state.energy_J));
-}
-
-/// Seven valves that differ in which of their blocks lack the position; reports between them.
-TEST(ValveLine, MakesTheSameRowsAndStatesWhenBlocksOfSeveralValvesAreWorkedOnTogether) {
-  constexpr std::size_t valves = 7;
-  std::vector<std::unique_ptr<ValveLine>> together, alone;
-  for (std::size_t v = 0; v < valves; ++v) {
-    for (auto* const side : {&together, &alone})
-      side->push_back(std::make_unique<ValveLine>(fmt::format("hall/v{}", v), "test", delays));
-  }
-  live::WorkTogether work;
-  std::string all;
-  for (std::uint64_t number = 1; number <= 70; ++number) {
-    std::vector<Block> blocks;
-    std::vector<live::SampleBlock> samples(valves);
-    std::vector<live::ValveTurn> turns;
-    for (std::size_t v = 0; v < valves; ++v) {
-      Block& block = blocks.emplace_back(second(number, (number + 9 * v) % 60 < 40));
-      if ((number + v) % 31 == 0) block.report = SiteReport{.samples = 1000 * number};
-      block.samples.resize(block.report ? 0 : 1000 - 100 * v);
-      samples[v] = ValveLine::samples(block);
-      if (live::ValveAtWork* const valve = together[v]->begin_work(block, size_6()))
-        turns.push_back({valve, &samples[v]});
-      alone[v]->work(block, size_6());
-    }
-    work.work(turns);
-    for (std::size_t v = 0; v < valves; ++v) {
-      if (!blocks[v].report) together[v]->end_work(blocks[v]);
-      const ValveRows rows = *together[v]->take_rows(), expected = *alone[v]->take_rows();
-      ASSERT_EQ(text_of(rows), text_of(expected));
-      ASSERT_EQ(rows.position.state.bytes, expected.position.state.bytes);
-      all += text_of(expected);
-    }
-  }
-  EXPECT_THAT(all, HasSubstr("alarm 1 "));
-  EXPECT_THAT(all, HasSubstr("indicator "));
 }
 
 TEST(ValveLine, AnAcknowledgementTakesEffectBehindABlockAndGoesOnWithAnotherWorker) {

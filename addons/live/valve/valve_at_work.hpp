@@ -82,8 +82,6 @@ class ValveAtWork {
   std::size_t give_back(const ValveCommit& commit);
 
  private:
-  friend class WorkTogether;  // which steps the sensors of several valves at once
-
   /// What is made of a sample, in the grid of the fleet where it gets them, and of its sensor's answer, which depends
   /// on nothing here; and what is told behind a block.
   void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);

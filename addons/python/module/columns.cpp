@@ -29,4 +29,16 @@ ColumnArrays::ColumnArrays(const pybind11::dict& arrays) {
   }
 }
 
+void answer_run(estimation::RunningSensor& sensor, const estimation::Columns& columns, EstimateArrays& answers,
+                SignalCheck& check) {
+  constexpr std::size_t at_once = 1024;  // what fits into the processor's nearest memory
+  std::vector<sensor::Estimate<double>> estimates(at_once);
+  for (std::size_t from = 0; from < columns.size(); from += at_once) {
+    check();
+    const auto some = std::span(estimates).first(std::min(at_once, columns.size() - from));
+    estimation::run(sensor, part(columns, from, some.size()), some);
+    answers.put(from, some);
+  }
+}
+
 }  // namespace spoolflow::python

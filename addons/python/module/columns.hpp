@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "addons/python/module/fresh_array.hpp"
+#include "addons/python/module/signal_check.hpp"
 #include "spoolflow/estimation/columns.hpp"
 
 namespace spoolflow::python {
@@ -55,19 +56,18 @@ class ColumnArrays {
   estimation::Columns columns_;
 };
 
-/// A column a quantity, as they stand in sensor::Estimate<T>.
-template <class T>
+/// A column a quantity, as they stand in sensor::Estimate.
 class EstimateArrays {
  public:
   explicit EstimateArrays(std::size_t samples) : status_(fresh_array<std::uint32_t>(samples)) {
-    for (pybind11::array_t<T>& array : arrays_) array = fresh_array<T>(samples);
+    for (pybind11::array_t<double>& array : arrays_) array = fresh_array<double>(samples);
     for (std::size_t k = 0; k < arrays_.size(); ++k) columns_[k] = arrays_[k].mutable_data();
     words_ = status_.mutable_data();
   }
   /// Needs no lock of the interpreter.
-  void put(std::size_t from, std::span<const sensor::Estimate<T>> estimates) {
+  void put(std::size_t from, std::span<const sensor::Estimate<double>> estimates) {
     for (std::size_t k = 0; k < estimates.size(); ++k) {
-      const sensor::Estimate<T>& each = estimates[k];
+      const sensor::Estimate<double>& each = estimates[k];
       columns_[0][from + k] = each.flow_m3_per_s;
       columns_[1][from + k] = each.flow_lower_m3_per_s;
       columns_[2][from + k] = each.flow_upper_m3_per_s;
@@ -93,10 +93,14 @@ class EstimateArrays {
 
  private:
   static constexpr std::size_t quantities = 8;
-  std::array<pybind11::array_t<T>, quantities> arrays_;
+  std::array<pybind11::array_t<double>, quantities> arrays_;
   pybind11::array_t<std::uint32_t> status_;
-  std::array<T*, quantities> columns_{};
+  std::array<double*, quantities> columns_{};
   std::uint32_t* words_ = nullptr;
 };
+
+/// The answers of one sensor to one run; needs no lock of the interpreter.
+void answer_run(estimation::RunningSensor& sensor, const estimation::Columns& columns, EstimateArrays& answers,
+                SignalCheck& check);
 
 }  // namespace spoolflow::python

@@ -1,8 +1,12 @@
 #pragma once
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
 
 namespace spoolflow::python {
@@ -16,5 +20,12 @@ struct KeptModel {
   KeptModel(std::string from, const std::string& file) : text(std::move(from)), model(model::parse_model(text, file)) {}
 };
 using SharedModel = std::shared_ptr<KeptModel>;
+
+/// By the name that it has in Python. Throws std::invalid_argument.
+inline estimation::Estimator estimator_named(const std::string& name) {
+  if (name == "condensed") return estimation::Estimator::condensed;
+  if (name == "observer") return estimation::Estimator::observer;
+  throw std::invalid_argument(fmt::format("estimator: {} not in {{condensed,observer}}", name));
+}
 
 }  // namespace spoolflow::python

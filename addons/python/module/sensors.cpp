@@ -28,7 +28,7 @@ namespace py = pybind11;
 class WorkingSensor {
  public:
   WorkingSensor(SharedModel model, const std::string& estimator)
-      : model_(std::move(model)), sensor_(estimation::running_sensor(model_->model, named(estimator))) {}
+      : model_(std::move(model)), sensor_(estimation::running_sensor(model_->model, estimator_named(estimator))) {}
 
   /// One sample, its numbers in the order of column_names. Goes the library's way: a step compiled here, with less
   /// optimisation, would take the place of the library's for all of the module.
@@ -46,17 +46,8 @@ class WorkingSensor {
     const Turn turn(busy_);
     const ColumnArrays given(arrays);
     const estimation::Columns& columns = given.columns();
-    EstimateArrays<double> out(columns.size());
-    at_work([&](SignalCheck& check) {
-      constexpr std::size_t at_once = 1024;  // what fits into the processor's nearest memory
-      std::vector<sensor::Estimate<double>> estimates(at_once);
-      for (std::size_t from = 0; from < columns.size(); from += at_once) {
-        check();
-        const std::size_t count = std::min(at_once, columns.size() - from);
-        estimation::run(sensor_, part(columns, from, count), std::span(estimates).first(count));
-        out.put(from, std::span(estimates).first(count));
-      }
-    });
+    EstimateArrays out(columns.size());
+    at_work([&](SignalCheck& check) { answer_run(sensor_, columns, out, check); });
     return out.by_name();
   }
 
@@ -86,11 +77,6 @@ class WorkingSensor {
    private:
     std::atomic_flag& busy_;
   };
-  static estimation::Estimator named(const std::string& name) {
-    if (name == "condensed") return estimation::Estimator::condensed;
-    if (name == "observer") return estimation::Estimator::observer;
-    throw std::invalid_argument(fmt::format("estimator: {} not in {{condensed,observer}}", name));
-  }
 
   SharedModel model_;
   estimation::RunningSensor sensor_;

@@ -68,9 +68,8 @@ inline ImageRefusal begin(ImageCheck& check, const void* image, std::size_t size
   if (header.layout_version != image_layout_version) return ImageRefusal::other_layout;
   if (header.scalar != image_scalar_float) return ImageRefusal::other_scalar;
   if (header.header_bytes != image_header_bytes || header.total_bytes < image_header_bytes ||
-      header.total_bytes % image_table_alignment != 0) {
+      header.total_bytes % image_table_alignment != 0)
     return ImageRefusal::wrong_sizes;
-  }
   if (header.total_bytes > size) return ImageRefusal::too_short;
   check.header = &header;
   check.words = header.total_bytes / sizeof(std::uint32_t);  // kept: the page may become anything meanwhile

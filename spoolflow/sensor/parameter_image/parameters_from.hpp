@@ -39,9 +39,8 @@ const Tables* table_at(const ImageHeader& header, std::size_t place) {
                 alignof(Tables) == alignof(float));
   const ImageTable& table = header.tables[place];
   if (table.bytes != sizeof(Tables) || table.offset < image_header_bytes || table.offset % image_table_alignment != 0 ||
-      table.offset > header.total_bytes || header.total_bytes - table.offset < table.bytes) {
+      table.offset > header.total_bytes || header.total_bytes - table.offset < table.bytes)
     return nullptr;
-  }
   const void* const bytes = reinterpret_cast<const unsigned char*>(&header) + table.offset;
   return static_cast<const Tables*>(bytes);
 }

@@ -6,18 +6,20 @@
 
 namespace spoolflow::sensor {
 
-/// In those valves that are `seen_from_a`.
+/// As side a sees it, where it is `seen_from_a`.
 template <class T>
-constexpr PositionPoint<T> mirrored(Mask<T> seen_from_a, PositionPoint<T> point) {
-  using Motions = MotionOf<T>;
-  const Mask<T> opening = seen_from_a && is(point.motion, Motion::opening);
-  const Mask<T> closing = seen_from_a && is(point.motion, Motion::closing);
-  point.motion = select(opening, Motions(Motion::closing), select(closing, Motions(Motion::opening), point.motion));
-  point.position_m = select(seen_from_a, -point.position_m, point.position_m);
-  point.travel_m = select(seen_from_a, -point.travel_m, point.travel_m);
-  point.velocity_m_per_s = select(seen_from_a, -point.velocity_m_per_s, point.velocity_m_per_s);
-  point.acceleration_m_per_s2 = select(seen_from_a, -point.acceleration_m_per_s2, point.acceleration_m_per_s2);
-  point.elsewhere_m = select(seen_from_a, -point.elsewhere_m, point.elsewhere_m);
+constexpr PositionPoint<T> mirrored(bool seen_from_a, PositionPoint<T> point) {
+  if (!seen_from_a) return point;
+  if (point.motion == Motion::opening) {
+    point.motion = Motion::closing;
+  } else if (point.motion == Motion::closing) {
+    point.motion = Motion::opening;
+  }
+  point.position_m = -point.position_m;
+  point.travel_m = -point.travel_m;
+  point.velocity_m_per_s = -point.velocity_m_per_s;
+  point.acceleration_m_per_s2 = -point.acceleration_m_per_s2;
+  point.elsewhere_m = -point.elsewhere_m;
   return point;
 }
 
@@ -35,12 +37,12 @@ constexpr void mirror(FrictionState<T>& state) {
 
 /// Flow and forces; the pressure difference stays that of the open path.
 template <class T>
-constexpr Estimate<T> mirrored(Mask<T> seen_from_a, const Estimate<T>& estimate) {
-  const auto turned = [&](T value) { return select(seen_from_a, -value, value); };
+constexpr Estimate<T> mirrored(bool seen_from_a, const Estimate<T>& estimate) {
+  const auto turned = [&](T value) { return seen_from_a ? -value : value; };
   Estimate<T> out = estimate;
   out.flow_m3_per_s = turned(estimate.flow_m3_per_s);
-  out.flow_lower_m3_per_s = select(seen_from_a, -estimate.flow_upper_m3_per_s, estimate.flow_lower_m3_per_s);
-  out.flow_upper_m3_per_s = select(seen_from_a, -estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s);
+  out.flow_lower_m3_per_s = seen_from_a ? -estimate.flow_upper_m3_per_s : estimate.flow_lower_m3_per_s;
+  out.flow_upper_m3_per_s = seen_from_a ? -estimate.flow_lower_m3_per_s : estimate.flow_upper_m3_per_s;
   out.magnetic_force_N = turned(estimate.magnetic_force_N);
   out.spring_force_N = turned(estimate.spring_force_N);
   out.flow_force_N = turned(estimate.flow_force_N);

@@ -14,11 +14,10 @@ inline constexpr double load_settling_s = 0.3;
 /// direction's sign, and the answer's band takes in `share` of what is between them.
 template <class T>
 constexpr void widen_unsettled(T share, T& settled_m3_per_s, T time_step_s, Estimate<T>& out) {
-  const Mask<T> unsettled = share > T(0);
-  in_valves(unsettled, settled_m3_per_s, [&] {
+  const bool unsettled = share > T(0);
+  if (unsettled)
     settled_m3_per_s += (out.flow_m3_per_s - settled_m3_per_s) * smaller(time_step_s / T(load_settling_s), T(1));
-  });
-  in_valves(unsettled, out, [&] { widen_band(out, squared(share * (out.flow_m3_per_s - settled_m3_per_s))); });
+  if (unsettled) widen_band(out, squared(share * (out.flow_m3_per_s - settled_m3_per_s)));
 }
 
 }  // namespace spoolflow::sensor

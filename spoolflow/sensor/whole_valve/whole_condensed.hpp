@@ -13,8 +13,8 @@ struct WholeCondensedTables {
   const CondensedTables<T>* a;  ///< flow P to A
 };
 
-/// Those of the side into which the spool stands. A pack of valves brings its own.
-template <class T, std::enable_if_t<one_valve<T>, int> = 0>
+/// Those of the side into which the spool stands.
+template <class T>
 constexpr const CondensedTables<T>& of_side(const WholeCondensedTables<T>& valve, bool opens_a) {
   return opens_a ? *valve.a : *valve.b;
 }
@@ -29,30 +29,26 @@ struct WholeCondensedState {
 template <class T>
 [[gnu::noinline]] constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                       const WholeValveSample<T>& sample) {
-  const auto hold_side = [&](Mask<T> opens_a) {
+  const auto hold_side = [&](bool opens_a) {
     CondensedState<T> direction{mirrored(opens_a, state.last)};
     hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a));
     state.last = mirrored(opens_a, direction.last);
   };
   hold_side(sample.position_m < T(0));
-  in_valves(!is_number(sample.position_m), state, [&] { hold_side(Mask<T>(true)); });
+  if (!is_number(sample.position_m)) hold_side(true);
 }
 
 /// One sample; see the same of one direction. What the idle solenoid holds is left out.
 template <class T>
 constexpr const Estimate<T>& step(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
                                   const WholeValveSample<T>& sample) {
-  if constexpr (one_valve<T>) {
-    if (unlikely(!is_number(sample.position_m))) {
-      hold(valve, state, sample);
-      return state.last;
-    }
+  if (unlikely(!is_number(sample.position_m))) {
+    hold(valve, state, sample);
+    return state.last;
   }
-  const Mask<T> opens_a = sample.position_m < T(0);
+  const bool opens_a = sample.position_m < T(0);
   const auto turned = [&](const Estimate<T>& estimate) {
-    if constexpr (one_valve<T>) {
-      if (!opens_a) return estimate;
-    }
+    if (!opens_a) return estimate;
     return mirrored(opens_a, estimate);
   };
   CondensedState<T> direction{turned(state.last)};

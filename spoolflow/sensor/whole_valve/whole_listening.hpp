@@ -8,7 +8,7 @@ namespace spoolflow::sensor {
 
 /// After each step of the whole valve; see the same of one direction. A request ends where the spool covers the edges,
 /// and one on the other side begins anew.
-template <class T, std::enable_if_t<one_valve<T>, int> = 0>
+template <class T>
 constexpr DitherRequest<T> listen(const ListeningParameters<T>& limits, ListeningState<T>& state,
                                   const WholeValveParameters<T>& valve, const WholeValveState<T>& observer,
                                   T time_step_s) {

@@ -37,8 +37,7 @@ struct Sides {
   const ObserverParameters<T>& idle;
 };
 
-/// A pack of valves brings its own.
-template <class T, std::enable_if_t<one_valve<T>, int> = 0>
+template <class T>
 constexpr Sides<T> sides(const WholeValveParameters<T>& valve, bool opens_a) {
   return opens_a ? Sides<T>{*valve.a, *valve.b} : Sides<T>{*valve.b, *valve.a};
 }
@@ -95,38 +94,38 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
 /// force is read in one that is.
 template <class T>
 [[gnu::always_inline]] constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
-                                                  const Sample<T>& sample, Mask<T> begins, Mask<T> busy) {
-  const Mask<T> just_left = !begins && is_zero(idle.closed_s);
+                                                  const Sample<T>& sample, bool begins, bool busy) {
+  const bool just_left = !begins && is_zero(idle.closed_s);
   idle.closed_s += sample.time_step_s;
-  in_valves(!just_left, idle, [&] {
-    const Mask<T> silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
-    idle.quiet_s = select(silent, idle.quiet_s + sample.time_step_s, T(0));
-    in_valves(begins || !(idle.quiet_s > T(idle_settling_s)), idle, [&] {
+  if (!just_left) {
+    const bool silent = magnitude(sample.current_A) < T(quiet_current_share) * valve.largest_current_A;
+    idle.quiet_s = silent ? idle.quiet_s + sample.time_step_s : T(0);
+    if (begins || !(idle.quiet_s > T(idle_settling_s))) {
       idle.waiting_s += sample.time_step_s;
       idle.charge_As += sample.current_A * sample.time_step_s;
-      in_valves(!busy || idle.waiting_s > T(idle_patience_s), idle, [&] {
+      if (!busy || idle.waiting_s > T(idle_patience_s)) {
         Sample<T> mean = sample;
         mean.time_step_s = idle.waiting_s;
-        mean.current_A = select(idle.waiting_s > T(0), idle.charge_As / idle.waiting_s, sample.current_A);
+        mean.current_A = idle.waiting_s > T(0) ? idle.charge_As / idle.waiting_s : sample.current_A;
         magnetise(valve.actuator, idle.actuator, mean, begins);
         widen_flux_range(idle.actuator);
         idle.waiting_s = idle.charge_As = T(0);
-      });
-      in_valves(busy || begins, idle.magnetic_force_N, [&] {
+      }
+      if (busy || begins) {
         idle.magnetic_force_N =
             valve.actuator.magnetic_force.at(idle.actuator.coil.magnetising_current_A, sample.position_m).value;
-      });
-    });
-  });
+      }
+    }
+  }
 }
 
 /// Both coils silent and the spool at rest near zero: the springs have centred it.
 template <class T>
-constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, Mask<T> silent, T time_step_s) {
-  const Mask<T> centred = silent && is(position.motion, Motion::rest) && magnitude(position.position_m) < T(centring_m);
-  state.centred_s = select(centred, state.centred_s + time_step_s, T(0));
-  in_valves(!(state.centred_s < T(centring_rest_s)), state.zero_m,
-            [&] { state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1)); });
+constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& position, bool silent, T time_step_s) {
+  const bool centred = silent && position.motion == Motion::rest && magnitude(position.position_m) < T(centring_m);
+  state.centred_s = centred ? state.centred_s + time_step_s : T(0);
+  if (!(state.centred_s < T(centring_rest_s)))
+    state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
 }
 
 /// The flow rate by measured port pressures, signed in the direction's own sense.
@@ -148,7 +147,7 @@ constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState
 /// the supply.
 template <class T>
 constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
-  const Mask<T> within_supply = state.pressure.pressure_difference_Pa < valve.edge.highest_pressure_difference_Pa();
+  const bool within_supply = state.pressure.pressure_difference_Pa < valve.edge.highest_pressure_difference_Pa();
   mark(state.last.status, !within_supply && !(position_m < valve.closed_below_m), Status::ambiguous_load);
 }
 
@@ -159,25 +158,21 @@ constexpr void believe_measured(const ObserverParameters<T>& valve, PressureStat
   sensor::believe_measured(pressure, limited(drops.forcing_Pa(), T(0), valve.edge.highest_pressure_difference_Pa()));
 }
 
-/// The observer of the open side, with measured port pressures where they are. A pack of valves has none.
+/// The observer of the open side, with measured port pressures where they are.
 template <class T>
 [[gnu::always_inline]] constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
                                                    const WholeValveSample<T>& sample, const Sample<T>& own,
                                                    const PositionPoint<T>& position, const Dither<T>& dither,
-                                                   Mask<T> opens_a, Mask<T> begins) {
+                                                   bool opens_a, bool begins) {
   bool ports_measured = false;
-  if constexpr (one_valve<T>) {
-    ports_measured = measured(sample.ports);
-    if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
-  }
+  ports_measured = measured(sample.ports);
+  if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
   observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
-  if constexpr (one_valve<T>) {
-    if (ports_measured) {
-      const PathDrops<T> drops = path_drops(sample.ports, opens_a);
-      believe_measured(valve, state.open.pressure, drops);
-      follow_share(valve.inlet, state.inlet_share, drops, sample.time_step_s);
-      answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
-    }
+  if (ports_measured) {
+    const PathDrops<T> drops = path_drops(sample.ports, opens_a);
+    believe_measured(valve, state.open.pressure, drops);
+    follow_share(valve.inlet, state.inlet_share, drops, sample.time_step_s);
+    answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
   }
   if (!ports_measured) {
     doubt_load(valve, state.open, position.position_m);
@@ -188,20 +183,20 @@ template <class T>
 /// The chain of the side on which the spool stands; one valve calls it with either side written out: with its tables'
 /// addresses a compiler knows their numbers. `position` is in the valve's signs.
 template <class T>
-[[gnu::always_inline]] constexpr void observe_side(Mask<T> opens_a, const Sides<T>& now, WholeValveState<T>& state,
+[[gnu::always_inline]] constexpr void observe_side(bool opens_a, const Sides<T>& now, WholeValveState<T>& state,
                                                    const WholeValveSample<T>& sample,
                                                    const PositionSensor<T>& position_sensor, PositionPoint<T> position,
-                                                   const Dither<T>& dither, Mask<T> begins) {
+                                                   const Dither<T>& dither, bool begins) {
   const Sample<T> own = sample_of(sample, opens_a);
   const Sample<T> other = sample_of(sample, !opens_a);
-  const Mask<T> silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
-                         magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
+  const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
+                      magnitude(other.current_A) < T(quiet_current_share) * now.idle.largest_current_A;
   follow_zero(state, position, silent, sample.time_step_s);
-  const Mask<T> near = magnitude(position.position_m) <
-                       T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
+  const bool near = magnitude(position.position_m) <
+                    T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
   position = mirrored(opens_a, position);
 
-  const Mask<T> busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
+  const bool busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
   follow_idle(now.idle, state.idle, other, begins, busy);
   observe_path(now.open, state, sample, own, position, dither, opens_a, begins);
   state.open.last = mirrored(opens_a, state.open.last);
@@ -215,19 +210,21 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
                           const WholeValveSample<T>& sample) {
   const Sides<T> now = sides(valve, state.opens_a);
   const T time_step_s = sample.time_step_s;
-  const Mask<T> seen = is_number(sample.position_m);
+  const bool seen = is_number(sample.position_m);
   const T measured_m =
       drift_free_m(valve.b->position_sensor, sample.position_m - state.zero_m, state.open.oil_temperature_K);
-  const T signed_m = select(seen, measured_m, state.open.position.last_m);
-  const T position_m = select(state.opens_a, -signed_m, signed_m);
+  const T signed_m = seen ? measured_m : state.open.position.last_m;
+  const T position_m = state.opens_a ? -signed_m : signed_m;
   Estimate<T> held = mirrored(state.opens_a, state.open.last);
   sensor::widen_held(now.open, state.open, {position_m, seen}, time_step_s, held);
 
   const MeteringEdge<T>& other = now.idle.edge;
   const T highest_Pa = other.highest_pressure_difference_Pa();
-  const T other_m = select(seen, -position_m, other.position_m.at(edge_positions - 1));
+  const T other_m = seen ? -position_m : other.position_m.at(edge_positions - 1);
   const T most = other.at(state.open.oil_temperature_K, highest_Pa, other_m).conductance * sqrt(highest_Pa);
-  in_valves(!seen || position_m < T(0), held, [&] { open_band(held, {-most, T(0)}, seen, time_step_s); });
+  if (!seen || position_m < T(0)) {
+    open_band(held, {-most, T(0)}, seen, time_step_s);
+  }
   state.idle.closed_s += smaller(time_step_s, T(longest_step_s));
   state.open.last = mirrored(state.opens_a, held);
 }
@@ -238,9 +235,8 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
 template <class T>
 [[gnu::noinline]] constexpr void hold(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                       const WholeValveSample<T>& sample) {
-  const Mask<T> leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
-  in_valves(state.open.started && within(sample.time_step_s, T(endless_step_s)), state,
-            [&] { detail::widen_held(valve, state, sample); });
+  const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
+  if (state.open.started && within(sample.time_step_s, T(endless_step_s))) detail::widen_held(valve, state, sample);
   state.open.started = state.open.started && !leapt;
   state.open.last.status = unusable(sample) | when(leapt, Status::time_fault);
 }
@@ -250,16 +246,14 @@ template <class T>
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
                                   const WholeValveSample<T>& sample) {
-  if constexpr (one_valve<T>) {
-    if (unusable(sample) != Status::none) {
-      hold(valve, state, sample);
-      return state.open.last;
-    }
+  if (unusable(sample) != Status::none) {
+    hold(valve, state, sample);
+    return state.open.last;
   }
-  const Mask<T> leapt = time_leapt(sample.time_step_s), late = is_late(sample.time_step_s);
+  const bool leapt = time_leapt(sample.time_step_s), late = is_late(sample.time_step_s);
   using detail::sides;
-  const Mask<T> begins = !state.open.started || leapt;
-  in_valves(begins, state, [&] { detail::begin(valve, state, sample); });
+  const bool begins = !state.open.started || leapt;
+  if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
 
@@ -272,24 +266,20 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
                                     state.open.oil_temperature_K, dither, state.open.swing.frees);
   detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow_odd);
-  const T from_centre_m = select(state.opens_a, -position.position_m, position.position_m);
-  const Mask<T> changes = from_centre_m < T(-centre_hysteresis_m);
-  in_valves(changes, state, [&] { detail::change_sides(valve, state); });
+  const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
+  const bool changes = from_centre_m < T(-centre_hysteresis_m);
+  if (changes) detail::change_sides(valve, state);
   position.turn.odd = position.turn.odd || changes;  // friction and uncertainty are those of the other solenoid
 
-  const auto seen_from = [&](Mask<T> opens_a) __attribute__((always_inline)) {
+  const auto seen_from = [&](bool opens_a) __attribute__((always_inline)) {
     detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);
   };
-  if constexpr (one_valve<T>) {
-    if (state.opens_a) {
-      seen_from(true);
-    } else {
-      seen_from(false);
-    }
+  if (state.opens_a) {
+    seen_from(true);
   } else {
-    seen_from(state.opens_a);
+    seen_from(false);
   }
-  if (any(late)) mark(state.open.last.status, late, Status::time_fault);
+  if (late) state.open.last.status |= Status::time_fault;
   return state.open.last;
 }
 

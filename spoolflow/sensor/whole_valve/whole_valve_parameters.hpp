@@ -38,7 +38,7 @@ struct WholeValveState {
   T centred_s{};         ///< for how long the spool has rested there
   T inlet_share{};       ///< of the open path's pressure drop, as measured port pressures have shown it
   T settled_m3_per_s{};  ///< flow through the open path to which the load has settled, in that direction's sign
-  Mask<T> opens_a{};     ///< it stands on the side that opens P to A
+  bool opens_a{};        ///< it stands on the side that opens P to A
 };
 
 static_assert(std::is_trivially_copyable_v<WholeValveParameters<float>>);

@@ -19,16 +19,16 @@ struct WholeValveSample {
 
 /// What one side's electronics have, in that direction's signs.
 template <class T>
-constexpr Sample<T> sample_of(const WholeValveSample<T>& sample, Mask<T> side_a) {
-  return {sample.time_step_s, select(side_a, sample.current_a_A, sample.current_b_A),
-          select(side_a, sample.voltage_a_V, sample.voltage_b_V), select(side_a, -sample.position_m, sample.position_m),
+constexpr Sample<T> sample_of(const WholeValveSample<T>& sample, bool side_a) {
+  return {sample.time_step_s, side_a ? sample.current_a_A : sample.current_b_A,
+          (side_a ? sample.voltage_a_V : sample.voltage_b_V), side_a ? -sample.position_m : sample.position_m,
           sample.oil_temperature_K};
 }
 
 /// Why a sample cannot be estimated; see the same of one direction. Both currents are needed.
 template <class T>
 constexpr auto unusable(const WholeValveSample<T>& sample) {
-  return unusable(sample_of(sample, Mask<T>(false))) | when(!is_number(sample.current_a_A), Status::sample_missing);
+  return unusable(sample_of(sample, false)) | when(!is_number(sample.current_a_A), Status::sample_missing);
 }
 
 }  // namespace spoolflow::sensor

@@ -68,7 +68,7 @@ class Answer:
 class Estimate:
     """The flow rate of a run, sample by sample, in arrays of equal length.
 
-    Of sensors alone float64, of valves stepped together (`estimate_many`) float32. Forces: the magnetic one opens (> 0),
+    All float64. Forces: the magnetic one opens (> 0),
     spring and flow force close (> 0), friction has the sign of the velocity.
     """
 

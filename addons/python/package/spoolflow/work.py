@@ -328,14 +328,13 @@ def simulate(scenario: PathLike, *, truth: bool = False, progress: Optional[Prog
 
 def estimate_many(models: Union[Model, Sequence[Model]], runs: Sequence[Mapping[str, Any]], *,
                   estimator: Optional[str] = None, workers: int = 0) -> List[Estimate]:
-    """Runs of many valves through sensors that are stepped together in SIMD registers, in single precision.
+    """Runs of many valves, each through a sensor of its own, on all cores.
 
     models: a model for each run, or one for all. runs: recordings, or mappings with the names of `Model.estimate`; of any
-        lengths and rates, those of about one length waste least.
+        lengths and rates.
     estimator: "observer" or "condensed"; None: of each model the best. workers: threads, 0 for all cores.
 
-    An estimate for each run, its arrays float32: as from a sensor alone but for single precision; a break-away may be told
-    a sample earlier or later. Eight observers take about a third of the time of eight alone (docs/batch.md).
+    An estimate for each run, the same as from `Model.estimate`.
     """
     models = [models] * len(runs) if isinstance(models, Model) else list(models)
     if len(models) != len(runs):
@@ -350,9 +349,5 @@ def estimate_many(models: Union[Model, Sequence[Model]], runs: Sequence[Mapping[
             _native.check_units(columns[-1])
         except _native.Error as error:
             raise _native.Error(f"runs[{k}]: {error}") from None
-        pressures = sorted(name for name in columns[k] if name.startswith("pressure_"))
-        if pressures:
-            raise _native.Error(f"runs[{k}]: has {pressures[0]}, and valves stepped together read no port pressures; leave "
-                                "them away, or use model.estimate")
     answers = _native.estimate_many([model._kept for model in models], estimators, columns, workers)
     return [Estimate(column["time_s"], answer) for column, answer in zip(columns, answers)]
