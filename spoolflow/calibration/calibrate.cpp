@@ -12,6 +12,7 @@
 #include "spoolflow/consistency/campaign_doubts.hpp"
 #include "spoolflow/consistency/channel_doubts.hpp"
 #include "spoolflow/consistency/run_doubts.hpp"
+#include "spoolflow/consistency/zero_doubts.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -82,12 +83,17 @@ std::vector<std::string> doubts_about(const ReadCampaign& recordings, const reco
     if (!maps.joined.empty()) {
       const consistency::Benches path = benches_of(of, maps.joined, of.operation, campaign);
       keep(consistency::doubts_about(path));
-      if (!runs.empty()) paths.push_back(consistency::known_valve(path));
+      paths.push_back(consistency::known_valve(path));
       continue;
     }
     for (const Recordings* edge : {&maps.inlet, &maps.outlet}) {
       if (!edge->empty()) keep(consistency::doubts_about(benches_of(of, *edge, {}, campaign)));
     }
+  }
+  if (runs.empty() && paths.size() > 1) {
+    const auto centre =
+        consistency::doubt_about_centre(paths.front().opening, paths.back().opening, campaign.valve.stroke_m);
+    if (centre) keep({*centre});
   }
   if (refused.empty() && paths.size() > 1) {
     for (const recording::Recording* run : runs) {

@@ -13,6 +13,7 @@
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
 #include "spoolflow/consistency/valve_curves.hpp"
+#include "spoolflow/consistency/zero_doubts.hpp"
 
 namespace spoolflow::consistency {
 namespace {
@@ -71,6 +72,13 @@ class Trial {
     return out;
   }
 
+  /// One direction as its curves were fitted last, with the opening that its axial-force maps have.
+  [[nodiscard]] KnownValve known() const {
+    return {.hydraulics = hydraulics_,
+            .magnetics = magnetics_,
+            .resistance_Ohm = 0,
+            .opening = OpeningCurve(all(Role::axial_map), stroke_m_)};
+  }
   [[nodiscard]] double stroke_m() const { return stroke_m_; }
   [[nodiscard]] const HydraulicCurves& hydraulics() const { return hydraulics_; }
 
@@ -240,6 +248,27 @@ void add_reference_shifts(std::vector<Doubt>& to, Trial& trial) {
   }
 }
 
+/// Positions that count from another zero; each is taken off, and the curves are fitted without it.
+void add_zeros(std::vector<Doubt>& to, Trial& trial) {
+  const std::size_t before = to.size();
+  std::vector<Recording*> maps;
+  for (auto& [role, means] : trial.pieces) {
+    if (role == Role::axial_map) maps.push_back(&means);
+  }
+  for (Doubt& doubt : doubts_about_zeros(maps, trial.stroke_m())) to.push_back(std::move(doubt));
+  if (to.size() > before) trial.fit_curves(std::nullopt);
+  const KnownValve known = trial.known();
+  for (auto& [role, means] : trial.pieces) {
+    if (role == Role::spring) {
+      const auto doubt = doubt_about_zero(means, {maps.begin(), maps.end()}, trial.stroke_m());
+      if (doubt) to.push_back(*doubt);
+    }
+    if (role != Role::operation) continue;
+    for (const Doubt& doubt : doubts_about_zero(means, {&known, 1}))
+      to.push_back({doubt.cannot_be, fmt::format("{}: {}", file_of(means), doubt.text)});
+  }
+}
+
 }  // namespace
 
 std::vector<Doubt> doubts_about(const Benches& benches) {
@@ -251,6 +280,7 @@ std::vector<Doubt> doubts_about(const Benches& benches) {
   if (!out.empty()) return out;
   trial.fit_curves(std::nullopt);
   add_reference_shifts(out, trial);
+  add_zeros(out, trial);
   std::vector<Deviation> now = trial.deviations();
   for (int round = 0; round < most_slips; ++round) {
     const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);

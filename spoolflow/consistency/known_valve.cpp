@@ -56,8 +56,10 @@ KnownValve direction_of(const model::Evidence& evidence, double stroke_m) {
   }
   const Recording axial_strokes = axial.done();
   constexpr double any_density_kg_per_m3 = 870;  // the jet's momentum is not asked for
-  return {fit_hydraulics(nullptr, {&axial_strokes}, stroke_m, any_density_kg_per_m3),
-          fit_magnetics(magnetic.done(), stroke_m), 0};
+  return {.hydraulics = fit_hydraulics(nullptr, {&axial_strokes}, stroke_m, any_density_kg_per_m3),
+          .magnetics = fit_magnetics(magnetic.done(), stroke_m),
+          .resistance_Ohm = 0,
+          .opening = OpeningCurve({&axial_strokes}, stroke_m)};
 }
 
 }  // namespace
@@ -87,8 +89,10 @@ KnownValve known_valve(const Benches& benches) {
   const Recording spring = block_means(*benches.spring, most);
   const Recording force_map = block_means(*benches.solenoid_force_map, most);
   const double resistance_Ohm = coil_resistance(force_map);
-  return {fit_hydraulics(&spring, of, benches.stroke_m, benches.density_kg_per_m3),
-          fit_magnetics(force_map, benches.stroke_m), std::isfinite(resistance_Ohm) ? resistance_Ohm : 0};
+  return {.hydraulics = fit_hydraulics(&spring, of, benches.stroke_m, benches.density_kg_per_m3),
+          .magnetics = fit_magnetics(force_map, benches.stroke_m),
+          .resistance_Ohm = std::isfinite(resistance_Ohm) ? resistance_Ohm : 0,
+          .opening = OpeningCurve(of, benches.stroke_m)};
 }
 
 }  // namespace spoolflow::consistency

@@ -2,7 +2,8 @@
 /// The valve that a run is held against, as its model or its benches know it.
 #include <vector>
 
-#include "spoolflow/consistency/campaign_doubts.hpp"
+#include "spoolflow/consistency/benches.hpp"
+#include "spoolflow/consistency/position_zero.hpp"
 #include "spoolflow/consistency/valve_curves.hpp"
 #include "spoolflow/model/model.hpp"
 
@@ -15,6 +16,7 @@ struct KnownValve {
   double resistance_Ohm;                 ///< of the coil as calibrated; 0: not known
   double position_noise_m = 0;           ///< of a sample, as calibrated; 0: not known
   model::Range oil_temperature_K{0, 0};  ///< as calibrated; 0: not known
+  OpeningCurve opening{};                ///< empty: not known
 };
 
 /// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.

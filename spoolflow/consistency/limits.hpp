@@ -39,6 +39,11 @@ inline constexpr double earliest_meter_s = -0.2;        ///< blocks, and filters
 inline constexpr double latest_meter_s = 0.75;          ///< dead time and lag of the slowest meter
 inline constexpr double most_unexplained = 0.25;        ///< RMS over that of the reference, once it is shifted
 inline constexpr double most_shifted_share = 0.5;       ///< of what the best usual meter leaves
+inline constexpr double zero_share = 0.02;              ///< of the stroke, of an offset between zeros; sound ones 0.5 %
+inline constexpr double spring_zero_share = 0.03;       ///< the same by the springs' force; sound ones 1.1 %
+inline constexpr double centre_share = 0.03;            ///< between the edges of both directions; sound ones 2 %
+inline constexpr double most_zero_share = 0.5;          ///< of what flows leave without the offset
+inline constexpr double most_zero_residual = 0.05;      ///< of the RMS of the flows, with it
 inline constexpr double surely = 1.5;                   ///< times a limit: no valve does that
 inline constexpr double impossible = 10;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,7 @@
 #include "spoolflow/consistency/reference_shift.hpp"
 #include "spoolflow/consistency/run_relations.hpp"
 #include "spoolflow/consistency/slip.hpp"
+#include "spoolflow/consistency/zero_doubts.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/units/conversion.hpp"
 
@@ -96,6 +98,8 @@ class RunTrial {
   }
   [[nodiscard]] double stroke_m() const { return valve_.front().hydraulics.stroke_m; }
   [[nodiscard]] bool both() const { return both_; }
+  /// Those between which the run goes: the first one alone, or both.
+  [[nodiscard]] std::span<const KnownValve> directions() const { return std::span(valve_).first(both_ ? 2 : 1); }
 
   Recording run;
 
@@ -294,6 +298,8 @@ std::vector<Doubt> doubts_about(const std::vector<KnownValve>& valve, const RunM
     out.push_back({true, fmt::format("{}: {}", name, shown(*shift))});
     reference = values_later(time_s, reference, shift->late_s);
   }
+  for (const Doubt& doubt : doubts_about_zero(trial.run, trial.directions()))
+    out.push_back({doubt.cannot_be, fmt::format("{}: {}", name, doubt.text)});
   const std::optional<SlipDoubt> slip = slip_doubt(trial);
   const std::string coarse = coarse_position(valve.front(), run.position_grain());
   if (!coarse.empty() && !(slip && slip->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});

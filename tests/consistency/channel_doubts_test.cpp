@@ -13,12 +13,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/recording/campaign.hpp"
-#include "spoolflow/recording/reader.hpp"
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "tests/consistency/doubt_texts.hpp"
+#include "tests/consistency/example_campaign.hpp"
 #include "tests/consistency/rig_benches.hpp"
 
 namespace spoolflow::consistency {
@@ -42,13 +41,8 @@ std::string said_of(const RigBenches& valve, const std::string& file, const std:
 
 TEST(ChannelDoubts, AreNoneOfSoundCampaigns) {
   EXPECT_THAT(all_texts(channel_doubts(sound_size_10().all())), testing::IsEmpty());
-  const recording::Campaign campaign = recording::read_campaign(SPOOLFLOW_EXAMPLES "/valve_a/campaign.toml");
-  std::vector<Recording> recordings;
-  for (const recording::CampaignRecording& entry : campaign.recordings)
-    recordings.push_back(recording::read_recording(entry.file, {}));
-  std::vector<const Recording*> all;
-  for (const Recording& recording : recordings) all.push_back(&recording);
-  EXPECT_THAT(all_texts(channel_doubts(all)), testing::IsEmpty());
+  const RigBenches example = example_benches();
+  EXPECT_THAT(all_texts(channel_doubts(example.all())), testing::IsEmpty());
 }
 
 TEST(ChannelDoubts, NameAChannelOfABenchTestThatIsFrozenForHalfOfIt) {

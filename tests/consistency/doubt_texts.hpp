@@ -36,6 +36,27 @@ inline void shift_by(recording::Recording& run, double late_s) {
         sound[static_cast<std::size_t>(std::clamp(k - rows, std::ptrdiff_t{0}, last))];
 }
 
+/// The run, and behind it the same to the other side of a whole valve whose sides are alike.
+inline recording::Recording both_sides(const recording::Recording& run) {
+  recording::Recording out{run.file, {}};
+  const double duration_s =
+      2 * run.column(recording::Channel::time).back() - run.column(recording::Channel::time).end()[-2];
+  for (const int side : {1, -1}) {
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      out.column(recording::Channel::time)
+          .push_back(run.column(recording::Channel::time)[k] + (side > 0 ? 0 : duration_s));
+      out.column(recording::Channel::position).push_back(side * run.column(recording::Channel::position)[k]);
+      out.column(recording::Channel::flow_reference)
+          .push_back(side * run.column(recording::Channel::flow_reference)[k]);
+      out.column(recording::Channel::pressure_difference)
+          .push_back(run.column(recording::Channel::pressure_difference)[k]);
+      out.column(recording::Channel::current_b).push_back(side > 0 ? run.column(recording::Channel::current)[k] : 0);
+      out.column(recording::Channel::current_a).push_back(side < 0 ? run.column(recording::Channel::current)[k] : 0);
+    }
+  }
+  return out;
+}
+
 inline RunMeans means_of(const recording::Recording& run) {
   RunMeans out;
   out.take({run.columns, run.size()});

@@ -21,9 +21,9 @@ struct RigBenches {
   [[nodiscard]] Benches benches() const {
     Benches out{.rated_flow_m3_per_s = rated_flow_m3_per_s, .stroke_m = stroke_m};
     for (const auto& [file, recording] : recordings) {
-      if (file == "spring.csv") out.spring = &recording;
-      if (file == "solenoid_map.csv") out.solenoid_force_map = &recording;
-      if (file == "solenoid_dynamic.csv") out.solenoid_dynamic = {&recording};
+      if (file.starts_with("spring")) out.spring = &recording;
+      if (file.starts_with("solenoid_map")) out.solenoid_force_map = &recording;
+      if (file.starts_with("solenoid_dynamic")) out.solenoid_dynamic = {&recording};
       if (file.starts_with("axial_force_map")) out.axial_force_maps.push_back(&recording);
       if (file.starts_with("ramp")) out.operation.push_back(&recording);
     }

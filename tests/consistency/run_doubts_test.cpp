@@ -255,23 +255,6 @@ TEST(RunDoubts, NameOneSignedCurrentInTheColumnsOfBothCoils) {
               testing::HasSubstr("run.csv: current_a and current_b go together"));
 }
 
-/// The run, and behind it the same to the other side of a whole valve whose sides are alike.
-recording::Recording both_sides(const recording::Recording& run) {
-  recording::Recording out{run.file, {}};
-  const double duration_s = 2 * run.column(Channel::time).back() - run.column(Channel::time).end()[-2];
-  for (const int side : {1, -1}) {
-    for (std::size_t k = 0; k < run.size(); ++k) {
-      out.column(Channel::time).push_back(run.column(Channel::time)[k] + (side > 0 ? 0 : duration_s));
-      out.column(Channel::position).push_back(side * run.column(Channel::position)[k]);
-      out.column(Channel::flow_reference).push_back(side * run.column(Channel::flow_reference)[k]);
-      out.column(Channel::pressure_difference).push_back(run.column(Channel::pressure_difference)[k]);
-      out.column(Channel::current_b).push_back(side > 0 ? run.column(Channel::current)[k] : 0);
-      out.column(Channel::current_a).push_back(side < 0 ? run.column(Channel::current)[k] : 0);
-    }
-  }
-  return out;
-}
-
 TEST(RunDoubts, NameAReferenceThatIsTwoSecondsLateOrEarlyAndNoneOfOneThatIsAsLateAsAMeter) {
   const RigBenches& valve = sound_size_6();
   const std::vector<KnownValve> one{known_valve(valve.benches())}, whole{one.front(), one.front()};
