@@ -47,4 +47,38 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
+namespace {
+
+/// Whether a cell begins with a quote that nothing closes.
+bool leaves_quote_open(std::string_view line) {
+  bool open = false, cell_begins = true;
+  for (const char c : line) {
+    if (open) {
+      open = c != '"';
+    } else if (c == '"' && cell_begins) {
+      open = true;
+    }
+    if (c != ' ') cell_begins = c == ',' || c == ';' || c == '\t';
+  }
+  return open;
+}
+
+}  // namespace
+
+std::string_view take_quoted_line(std::string_view& text) {
+  constexpr int most_lines = 20;
+  const std::string_view begun = text;
+  const std::string_view first = take_line(text);
+  if (!leaves_quote_open(first)) return first;
+  std::string_view rest = text;
+  for (int k = 1; k < most_lines && !rest.empty(); ++k) {
+    const std::string_view line = take_line(rest);
+    const auto length = static_cast<std::size_t>(line.data() + line.size() - begun.data());
+    if (leaves_quote_open(begun.substr(0, length))) continue;
+    text = rest;
+    return begun.substr(0, length);
+  }
+  return first;
+}
+
 }  // namespace spoolflow::recording

@@ -22,4 +22,7 @@ struct CsvCell {
 /// Takes the next line off, without its line end.
 [[nodiscard]] std::string_view take_line(std::string_view& text);
 
+/// The same of a line above samples, whose cells in quotes may go on in the next lines, as names of spreadsheets do.
+[[nodiscard]] std::string_view take_quoted_line(std::string_view& text);
+
 }  // namespace spoolflow::recording

@@ -45,6 +45,8 @@ std::vector<FileColumn> columns_named(const std::vector<std::string_view>& names
   for (const std::string_view name : names) {
     std::string written(name);
     for (std::size_t at = 0; (at = written.find("\"\"", at)) != std::string::npos; ++at) written.erase(at, 1);
+    std::erase(written, '\r');
+    std::ranges::replace(written, '\n', ' ');
     written = name.empty() ? fmt::format("column {}", out.size() + 1) : utf8_of(written);
     out.push_back({written, written, {}});
   }
@@ -75,7 +77,7 @@ void find_units_in_samples(CsvDialect& dialect, std::string_view samples) {
 std::vector<std::string_view> first_lines(std::string_view text) {
   constexpr std::size_t most_lines = 400;
   std::vector<std::string_view> out;
-  while (out.size() < most_lines && text.find('\n') != std::string_view::npos) out.push_back(take_line(text));
+  while (out.size() < most_lines && text.find('\n') != std::string_view::npos) out.push_back(take_quoted_line(text));
   if (out.size() < 2 && !text.empty()) out.push_back(text);
   return out;
 }
@@ -184,8 +186,8 @@ CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file,
     for (std::size_t k = 0; k < std::min(units.size(), names.size()); ++k) dialect.columns[k].unit = utf8_of(units[k]);
   }
   for (std::size_t last = std::max(*place->header, place->units.value_or(0)) + 1; last > 0; --last) {
-    (void)take_line(rest);
-    ++dialect.header_lines;
+    const std::string_view taken = take_quoted_line(rest);
+    dialect.header_lines += 1 + static_cast<std::uint64_t>(std::ranges::count(taken, '\n'));
   }
   dialect.header_bytes = beginning.size() - rest.size();
   find_units_in_samples(dialect, rest);

@@ -59,6 +59,7 @@ TEST(TableSearch, ReadsNamesAsSpreadsheetsAndOtherProgramsWriteThem) {
            "# time_s,current_A,position_mm\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
            "# time_s current_A position_mm\n0.0e+00 1.25 0.5\n1.0e-03 1.5 1\n2.0e-03 1.5 1.5\n",
            "#time\tcurrent\tposition\n#s\tA\tmm\n0\t1.25\t0.5\n0.001\t1.5\t1\n0.002\t1.5\t1.5\n",
+           "\"time\n[s]\",\"current\r\n[A]\",position [mm]\r\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
            "% rig 3\n% time_s,current_A,position_mm\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
            "time,current,position\n(s),(A),(mm)\n\n0,1.25,0.5\n0.001,1.5,1\n0.002,1.5,1.5\n",
            "time;current;position;remark\ns;A;mm\n0;1,25;0,5;\n0,001;1,5;1;\n0,002;1,5;1,5;peak\n",
