@@ -101,10 +101,12 @@ struct OwnNames {
 
 OwnNames own_names(const FileContents& contents, const Proposal& proposal, bool several_clocks) {
   OwnNames out;
+  std::size_t times = 0, others = 0;
   for (std::size_t k = 0; k < contents.columns.size(); ++k) {
     const auto header = channel_header(contents.column(k));
     if (!header) continue;
     out.of_a_unit = out.of_a_unit || !header->unit.empty();
+    ++(header->channel == Channel::time ? times : others);
     if (header->channel == Channel::time && several_clocks) {  // each rate may have one, some without a unit
       out.of_time = true;
       continue;
@@ -114,6 +116,7 @@ OwnNames own_names(const FileContents& contents, const Proposal& proposal, bool 
       out.suffice = false;
     }
   }
+  if (times > 1 && others == 0) out.suffice = false;
   return out;
 }
 

@@ -159,6 +159,16 @@ TEST_F(Inspect, OfTwoColumnsOfTimeProposesAMapThatNamesOne) {
   EXPECT_EQ(run("inspect rig.csv --channels map.toml").status, 0);
 }
 
+TEST_F(Inspect, ShowsAnExportOfTwinCatScopeOfWhichNoChannelIsKnown) {
+  write("scope.csv",
+        "Name\tScope\nFile\tx\nStarttime of "
+        "export\t1\tMonday\n\nName\tvalve17\tName\tvalve18\nUnit\t(None)\tUnit\t(None)\n\n"
+        "0\t1\t0\t2\n1\t1\t0.5\t2\n2\t1\t1\t3\n");
+  const Answer answer = run("inspect scope.csv");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output, HasSubstr("4 columns: time of valve17, valve17, time of valve18, valve18"));
+}
+
 TEST_F(Inspect, RefusesFilesThatAreNoRecordingsWithStatus2) {
   write("list.json", "[{\"t\": 0}]\n");
   write("run.json", "{\"t\": [0]}\n");

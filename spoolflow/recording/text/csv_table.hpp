@@ -38,6 +38,7 @@ class CsvTable final : public SampleTable {
   void let_infinite_pass() override { infinite_passes_ = true; }
   /// Whether columns state times of their own: then rows belong together by PairedTable alone.
   [[nodiscard]] bool has_several_times() const { return dialect_.several_times; }
+  [[nodiscard]] std::uint64_t bytes_read() const { return input_->position(); }
   /// Before the first read().
   void count_text() { text_ = Text::counted; }
 

@@ -6,13 +6,16 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/declared_size.hpp"
 #include "spoolflow/recording/files/numbered_names.hpp"
 
 namespace spoolflow::recording {
 namespace {
 
-std::vector<std::vector<double>> all_numbers(CsvTable& text) {
-  constexpr std::size_t block_rows = 4096;
+/// Short rows of a wide table take more memory than the file: within the bounds of other formats.
+std::vector<std::vector<double>> all_numbers(CsvTable& text, const std::string& file) {
+  constexpr std::size_t block_numbers = std::size_t{1} << 18;
+  const std::size_t block_rows = 1 + block_numbers / text.columns().size();
   std::vector<std::size_t> all(text.columns().size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   text.select(all);
@@ -22,6 +25,8 @@ std::vector<std::vector<double>> all_numbers(CsvTable& text) {
   for (std::size_t rows = text.read(places, block_rows); rows > 0; rows = text.read(places, block_rows)) {
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k].insert(out[k].end(), block[k].begin(), block[k].begin() + static_cast<std::ptrdiff_t>(rows));
+    DeclaredSize(file, text.bytes_read())
+        .add(text.columns().back().name, out.back().size(), out.size(), sizeof(double));
   }
   return out;
 }
@@ -37,7 +42,7 @@ PairedTable::PairedTable(std::unique_ptr<CsvTable> text, const std::string& file
   text->let_infinite_pass();
   text->count_text();
   const std::vector<FileColumn>& all = text->columns();
-  std::vector<std::vector<double>> read = all_numbers(*text);
+  std::vector<std::vector<double>> read = all_numbers(*text, file);
   std::vector<std::size_t> same(all.size()), distinct;  // the first of equal times, and all that are first
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].own_time) continue;

@@ -66,6 +66,21 @@ TEST(PairedTable, ReadsAnExportInWhichChannelsShareAColumnOfTimes) {
   EXPECT_THAT(column_of("scope.csv", text, "time of p"), ElementsAre(0, 5));
 }
 
+TEST(PairedTable, RefusesShortRowsBelowManyNamesThatWouldFillTheMemory) {
+  std::string names = "Name", first = "0";
+  for (int k = 0; k < 20000; ++k) names += "\tc" + std::to_string(k), first += "\t1";
+  std::string text = "Name\tScope\nStarttime of export\t1\n\n" + names + "\n\n" + first + "\n";
+  for (int k = 1; k < 2000; ++k) text += std::to_string(k) + "\t1\n";
+  EXPECT_THAT(refusal([&] { (void)column_of("scope.csv", text, "c0"); }), HasSubstr("200 times its size"));
+}
+
+TEST(PairedTable, RefusesNamesThatHoldTheSeparator) {
+  const std::string text =
+      "Name Scope\nFile x.csv\nStarttime of export 1 Monday 10:00\n\nName I coil Name xSpool\nUnit A Unit mm\n\n0 1 0 "
+      "2\n";
+  EXPECT_THAT(refusal([&] { (void)column_of("scope.csv", text, "xSpool"); }), HasSubstr("export it again with tab"));
+}
+
 TEST(PairedTable, SaysWhereAChannelOfItHoldsText) {
   EXPECT_THAT(refusal([] { (void)read_pair(scope_export("0\t1\t0\t0.5\n1\tfault\t1\t1.5\n")); }),
               HasSubstr("column 'I_coil': 'fault' in line 15 is not a number"));
