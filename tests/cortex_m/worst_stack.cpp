@@ -18,7 +18,8 @@ struct CallGraph {
 
 CallGraph parsed(const std::string& text) {
   static const std::regex node("node: \\{ title: \"([^\"]+)\" label: \"([^\"]*)\".*"),
-      edge("edge: \\{ sourcename: \"([^\"]+)\" targetname: \"([^\"]+)\".*"), bytes(".*\\\\n([0-9]+) bytes \\(([^)]+)\\).*");
+      edge("edge: \\{ sourcename: \"([^\"]+)\" targetname: \"([^\"]+)\".*"),
+      bytes(".*\\\\n([0-9]+) bytes \\(([^)]+)\\).*");
   CallGraph out;
   std::istringstream lines(text);
   std::smatch found;

@@ -1,5 +1,6 @@
 #pragma once
-/// The most stack that a function can take with all that it calls, from what the compiler says of each function's frame.
+/// The most stack that a function can take with all that it calls, from what the compiler says of each function's
+/// frame.
 #include <cstdint>
 #include <string>
 

@@ -274,7 +274,8 @@ TEST(CInterface, NoAlteredNumberOfAStateThatIsTakenLeadsToAnAnswerThatIsNoNumber
     ASSERT_EQ(spoolflow_get_state(sensor.get(), state.data(), state.size()), SPOOLFLOW_OK);
     int refused = 0;
     for (std::size_t at = sizeof(exports::StateHeader); at + sizeof(double) <= state.size(); at += sizeof(double)) {
-      for (const double number : {NAN, -INFINITY, 1e300, -1e29, -1e6, -1.0, 0.0, 1e-300, 3.0, 1e9, 1e29}) {
+      for (const double number :
+           {double{NAN}, -double{INFINITY}, 1e300, -1e29, -1e6, -1.0, 0.0, 1e-300, 3.0, 1e9, 1e29}) {
         const std::vector<char> forged = forged_state(state, at, number);
         if (spoolflow_set_state(sensor.get(), forged.data(), forged.size(), nullptr, 0) != SPOOLFLOW_OK) {
           ++refused;
