@@ -72,7 +72,8 @@ TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
 
 TEST_P(CortexM, CondensedSensorOfAWholeValveAnswersAsTheHost) {
   // 150 but for a sample without a position, after which the band opens to both sides.
-  expect_fit_for_a_valve(replay(on_both_sides(model), Estimator::condensed, minute, GetParam()), {350, 4, 370, 400, 131072});
+  expect_fit_for_a_valve(replay(on_both_sides(model), Estimator::condensed, minute, GetParam()),
+                         {350, 4, 370, 400, 131072});
 }
 
 class SoftFloat : public CortexM {};
