@@ -50,7 +50,7 @@ struct CondensedTables {
   T cells_per_A{};
   T closed_below_cells{};
   T flow_residual_m3_per_s{};  ///< two standard deviations
-  std::array<T, CondensedLayout::record * CondensedLayout::position_cells> records;
+  Numbers<T, CondensedLayout::record * CondensedLayout::position_cells> records;
 };
 
 static_assert(std::is_trivially_copyable_v<CondensedParameters<float>>);

@@ -19,6 +19,10 @@ enum class Status : std::uint32_t;
 template <class T>
 using IfNumber = std::enable_if_t<std::is_floating_point_v<T>, int>;
 
+/// So many numbers of a table; counts are signed, as places are.
+template <class T, int Count>
+using Numbers = std::array<T, static_cast<unsigned>(Count)>;
+
 /// What the compiler may lay out the step for; C++20 has attributes for it.
 constexpr bool likely(bool condition) {
   return __builtin_expect(condition, true);

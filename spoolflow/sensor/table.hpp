@@ -120,7 +120,7 @@ struct Curve {
   static_assert(Points >= 2);
   static constexpr int points = Points;
   Axis<T> axis;
-  std::array<T, Points> values;
+  Numbers<T, Points> values;
 
   [[nodiscard]] constexpr CurvePoint<T> at(T x) const {
     const Cell<T> cell = locate<Points>(axis, x);
@@ -148,7 +148,7 @@ struct Map {
   static constexpr int columns = Columns;
   Axis<T> row_axis;
   Axis<T> column_axis;
-  std::array<T, Rows * Columns> values;  ///< row after row
+  Numbers<T, Rows * Columns> values;  ///< row after row
 
   [[nodiscard]] constexpr T& node(int row, int column) { return values[static_cast<unsigned>(row * Columns + column)]; }
   [[nodiscard]] constexpr const T& node(int row, int column) const {
@@ -205,7 +205,7 @@ constexpr VolumeCell<T> volume_cell(const Cell<T>& layer, const Cell<T>& row, co
 template <class T, int Layers, int Rows, int Columns>
 struct Volume {
   static_assert(Layers >= 2 && Rows >= 2 && Columns >= 2);
-  std::array<T, Layers * Rows * Columns> values;  ///< row after row, column after column, layer after layer
+  Numbers<T, Layers * Rows * Columns> values;  ///< row after row, column after column, layer after layer
 
   [[nodiscard]] constexpr T& node(int layer, int row, int column) {
     return values[static_cast<unsigned>((row * Columns + column) * Layers + layer)];
