@@ -30,6 +30,10 @@ struct ControlSettings {
 /// What of the sensor's answer the controller goes by.
 enum class Trust : std::uint32_t { flow = 0, position_alone = 1, feed_forward_alone = 2, nothing = 3 };
 
+inline Status without(Status status, Status bit) {
+  return static_cast<Status>(static_cast<std::uint32_t>(status) & ~static_cast<std::uint32_t>(bit));
+}
+
 /// Faults of the inputs, the gravest first. Limits are no reason not to trust: the band has them in it.
 inline Trust trust_in(Status status) {
   if (has(status, Status::sample_missing | Status::time_fault)) return Trust::nothing;
@@ -96,9 +100,11 @@ inline Orders control(const ControlSettings& set, ControlState& state, const sen
   Orders orders;
   const float time_step_s = sample.time_step_s;
   if (valve != nullptr) {
+    const bool unseen = state.unseen_s > 0;
     sample.time_step_s += state.unseen_s;  // the sensor's own time: after more than a second it begins anew
     state.unseen_s = 0;
-    orders.trust = trust_in(step(*valve, state.sensor, sample).status);
+    const Status status = step(*valve, state.sensor, sample).status;
+    orders.trust = trust_in(unseen ? without(status, Status::time_fault) : status);  // the gap is of its own making
     orders.dither = listen(set.listening, state.listening, *valve, state.sensor, sample.time_step_s);
   } else {
     state.unseen_s += time_step_s;

@@ -62,7 +62,8 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
   const sensor::PressureParameters<double> given_supply = parameters.pressure;
   constexpr double restless = 0.3;
-  parameters.pressure.least_process_noise = parameters.pressure.first_process_noise = restless;
+  parameters.pressure.first_process_noise = restless;
+  parameters.pressure.least_process_noise = restless * restless;
   const std::vector<Dial> all = told_dials(parameters, runs, full_scale_m3_per_s);
   out.not_told = not_told(parameters, all);
   std::vector<double> prior;

@@ -71,21 +71,29 @@ class CutLines {
   /// The best one; of no rows where there is none.
   [[nodiscard]] Stretch samples() const {
     Stretch best, now;
+    bool of_values = true, interrupted = false;  // of the stretch: each cell that says anything is a value; another
+                                                 // line stands behind it
     const auto judge = [&] {
       const bool better = now.ends_text != best.ends_text ? now.ends_text : now.rows > best.rows;
       if (now.rows > 0 && better) best = now;
       now = {};
+      of_values = true;
     };
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       if (is_blank(lines_[k]) || comments_[k]) continue;
       if (!is_row_of_samples(rows_[k]) || (delimiter_ == ' ' && std::ranges::count(rows_[k], "") > 0)) {
-        judge();
+        interrupted = true;
         continue;
       }
+      // A header that comes again, or a line of rubbish, ends no table of values: the reader has its say on it.
+      if (interrupted && !(of_values && rows_[k].size() == now.width)) judge();
+      interrupted = false;
       if (now.rows++ == 0) now.first = k;
       now.width = std::max(now.width, rows_[k].size());
+      of_values = of_values &&
+                  std::ranges::all_of(rows_[k], [](std::string_view cell) { return cell.empty() || is_value(cell); });
     }
-    now.ends_text = now.rows > 0;
+    now.ends_text = now.rows > 0 && !interrupted;
     judge();
     return best;
   }

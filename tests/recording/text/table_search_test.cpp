@@ -1,3 +1,4 @@
+#include "spoolflow/recording/text/table_search.hpp"
 /// Text whose table stands below other lines, or whose names are written in ways of their own.
 #include <cmath>
 
@@ -68,6 +69,22 @@ TEST(TableSearch, ReadsNamesAsSpreadsheetsAndOtherProgramsWriteThem) {
            "\xEF\xBB\xBF\"sep=;\"\n\"time_s\";\"current_A\";\"position_mm\"\n0;1,25;0,5\n0,001;1,5;1\n0,002;1,5;1,5\n",
        })
     expect_three_samples(text);
+}
+
+TEST(TableSearch, BeginsAtTheFirstHeaderThoughHeadersOrRubbishStandAmongTheRows) {
+  for (const std::string_view among : {"time_s,current_A,position_mm", "rubbish", "what,is,this"}) {
+    const std::vector<std::string_view> lines{"time_s,current_A,position_mm",
+                                              "0,1.25,0.5",
+                                              "0.001,1.5,1",
+                                              among,
+                                              "0.002,1.5,1.5",
+                                              "0.003,1.5,1.5",
+                                              "0.004,1.5,1.5"};
+    const auto found = find_table(lines, {});
+    ASSERT_TRUE(found) << among;
+    EXPECT_EQ(found->samples, 1U) << among;
+    EXPECT_EQ(found->header, std::optional<std::size_t>(0)) << among;
+  }
 }
 
 TEST(TableSearch, NamesAColumnWithoutANameByItsNumber) {
