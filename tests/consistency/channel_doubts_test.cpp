@@ -56,7 +56,9 @@ TEST(ChannelDoubts, NameAChannelOfABenchTestThatIsFrozenForHalfOfIt) {
                                                               {"axial_force_map_50.csv", Channel::flow},
                                                               {"ramp_25bar.csv", Channel::current},
                                                               {"ramp_25bar.csv", Channel::flow_reference}};
-  for (const auto& [file, channel] : channels) {
+  for (const auto& each : channels) {
+    const auto& file = each.first;
+    const Channel channel = each.second;
     EXPECT_THAT(said_of(sound_size_10(), file, [&](Recording& run) { freeze_half(run.column(channel), 0.3); }),
                 testing::StartsWith(fmt::format("{}: {} is frozen at", file, recording::name(channel))));
   }

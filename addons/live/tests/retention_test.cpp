@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 
 constexpr std::int64_t second_ms = 1000, hour_ms = 3'600'000, day_ms = 24 * hour_ms;
-constexpr std::int64_t begin_ms = 1'700'000'000'000;
+constexpr std::int64_t first_row_ms = 1'700'000'000'000;
 
 class RetentionTest : public InFolder {
  protected:
@@ -49,7 +49,7 @@ class RetentionTest : public InFolder {
     return database.number(std::string("SELECT count(*) FROM ") + table);
   }
 
-  Instant now_{begin_ms, 77 * hour_ms};
+  Instant now_{first_row_ms, 77 * hour_ms};
   std::int64_t kept_ = 0;
 };
 
