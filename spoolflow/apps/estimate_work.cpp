@@ -41,7 +41,7 @@ EstimateTask estimate_task(const EstimateArguments& arguments) {
                     {arguments.model},
                     recording::table_format(arguments.format),
                     arguments.quiet};
-  task.known = consistency::known_valve(task.model);
+  task.known = plausibility::known_valve(task.model);
   task.estimator = estimation::best_estimator(task.model);
   if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;
   if (arguments.estimator == "observer") task.estimator = estimation::Estimator::observer;
@@ -68,7 +68,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
   OutputFile output(target, task.inputs);  // first, as an input in its place is the worse slip
   const recording::TableFormat format = format_for(task, target);
   validation::EstimateSummary summary{.file = runs_on ? "standard input" : recording};
-  consistency::RunMeans means;
+  plausibility::RunMeans means;
   {
     Progress progress("estimating", task.quiet);
     const auto writer = recording::table_writer(format, std::move(head), output);
@@ -105,8 +105,8 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
     writer->finish();
   }
   output.commit();
-  for (consistency::Doubt& doubt : consistency::doubts_about(task.known, means, recording))
-    summary.doubts.push_back(std::move(doubt.text));
+  for (plausibility::Finding& finding : plausibility::run_findings(task.known, means, recording))
+    summary.doubts.push_back(std::move(finding.text));
   return summary;
 }
 

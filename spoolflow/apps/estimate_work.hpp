@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "spoolflow/apps/command_arguments.hpp"
-#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/recording/channel_map.hpp"
 #include "spoolflow/recording/written_tables/table_format.hpp"
 #include "spoolflow/validation/estimate_summary.hpp"
@@ -20,7 +20,7 @@ struct EstimateTask {
   model::Model model;
   estimation::Estimator estimator;
   recording::ChannelMap channels;
-  std::vector<consistency::KnownValve> known;  ///< what its recordings should be of
+  std::vector<plausibility::KnownValve> known;  ///< what its recordings should be of
   std::vector<std::filesystem::path> inputs;
   std::optional<recording::TableFormat> format;  ///< of the estimates; nothing: as their names say
   bool quiet;

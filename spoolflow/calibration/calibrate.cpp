@@ -9,10 +9,10 @@
 #include "spoolflow/calibration/fits/bench_dither.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
-#include "spoolflow/consistency/campaign_doubts.hpp"
-#include "spoolflow/consistency/channel_doubts.hpp"
-#include "spoolflow/consistency/run_doubts.hpp"
-#include "spoolflow/consistency/zero_doubts.hpp"
+#include "spoolflow/plausibility/campaign_findings.hpp"
+#include "spoolflow/plausibility/channel_findings.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
+#include "spoolflow/plausibility/zero_findings.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -47,8 +47,8 @@ void tell_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& oper
 }
 
 /// Benches of one path, and what its runs of one direction have to do with them.
-consistency::Benches benches_of(const CampaignRecordings& of, const Recordings& maps, const Recordings& operation,
-                                const recording::Campaign& campaign) {
+plausibility::Benches benches_of(const CampaignRecordings& of, const Recordings& maps, const Recordings& operation,
+                                 const recording::Campaign& campaign) {
   return {.spring = &of.spring,
           .solenoid_force_map = &of.solenoid_force_map,
           .solenoid_dynamic = of.solenoid_dynamic,
@@ -61,45 +61,45 @@ consistency::Benches benches_of(const CampaignRecordings& of, const Recordings& 
 
 /// Of each direction's recordings, and of runs through the centre where the path was measured as a whole. Throws
 /// CalibrationError where one cannot be and that is refused.
-std::vector<std::string> doubts_about(const ReadCampaign& recordings, const recording::Campaign& campaign,
-                                      Contradictions contradictions) {
+std::vector<std::string> findings_about(const ReadCampaign& recordings, const recording::Campaign& campaign,
+                                        Contradictions contradictions) {
   std::vector<std::string> out;
   std::string refused;
-  const auto keep = [&](const std::vector<consistency::Doubt>& doubts) {
-    for (const consistency::Doubt& doubt : doubts) {
-      if (std::ranges::count(out, doubt.text) > 0) continue;
-      out.push_back(doubt.text);
-      if (doubt.cannot_be) refused += (refused.empty() ? "" : "; also ") + doubt.text;
+  const auto keep = [&](const std::vector<plausibility::Finding>& findings) {
+    for (const plausibility::Finding& finding : findings) {
+      if (std::ranges::count(out, finding.text) > 0) continue;
+      out.push_back(finding.text);
+      if (finding.cannot_be) refused += (refused.empty() ? "" : "; also ") + finding.text;
     }
   };
   const bool equal_flows = campaign.load.area_ratio == 1;  // else the joined path is not the working one
   const Recordings runs = equal_flows ? recordings.through_centre() : Recordings{};
-  std::vector<consistency::KnownValve> paths;
-  keep(consistency::channel_doubts(recordings.all()));
+  std::vector<plausibility::KnownValve> paths;
+  keep(plausibility::channel_findings(recordings.all()));
   const std::vector<std::string> directions = refused.empty() ? recordings.directions() : std::vector<std::string>{};
   for (const std::string& direction : directions) {
     const CampaignRecordings of = recordings.of(direction);
     const AxialForceMaps& maps = of.axial_force_maps;
     if (!maps.joined.empty()) {
-      const consistency::Benches path = benches_of(of, maps.joined, of.operation, campaign);
-      keep(consistency::doubts_about(path));
-      paths.push_back(consistency::known_valve(path));
+      const plausibility::Benches path = benches_of(of, maps.joined, of.operation, campaign);
+      keep(plausibility::campaign_findings(path));
+      paths.push_back(plausibility::known_valve(path));
       continue;
     }
     for (const Recordings* edge : {&maps.inlet, &maps.outlet}) {
-      if (!edge->empty()) keep(consistency::doubts_about(benches_of(of, *edge, {}, campaign)));
+      if (!edge->empty()) keep(plausibility::campaign_findings(benches_of(of, *edge, {}, campaign)));
     }
   }
   if (runs.empty() && paths.size() > 1) {
     const auto centre =
-        consistency::doubt_about_centre(paths.front().opening, paths.back().opening, campaign.valve.stroke_m);
+        plausibility::centre_finding(paths.front().opening, paths.back().opening, campaign.valve.stroke_m);
     if (centre) keep({*centre});
   }
   if (refused.empty() && paths.size() > 1) {
     for (const recording::Recording* run : runs) {
-      consistency::RunMeans means;
+      plausibility::RunMeans means;
       means.take({run->columns, run->size()});
-      keep(consistency::doubts_about(paths, means, run->file));
+      keep(plausibility::run_findings(paths, means, run->file));
     }
   }
   if (refused.empty() || contradictions == Contradictions::noted) return out;
@@ -180,7 +180,7 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   const std::string direction =
       recordings.directions().empty() ? campaign.valve.direction : recordings.directions().front();
   progress("what physics says of the recordings", reading_share);
-  provenance.doubts = doubts_about(recordings, campaign, contradictions);
+  provenance.doubts = findings_about(recordings, campaign, contradictions);
   model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
   if (campaign.load.area_ratio != 1) valve.load_area_ratio = campaign.load.area_ratio;
   model::Model out =

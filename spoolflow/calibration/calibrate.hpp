@@ -22,7 +22,7 @@ using CalibrationProgress = std::function<void(const std::string& step, double s
                                                  const Recordings& through_centre, const model::Valve& valve,
                                                  const CalibrationProgress& progress);
 
-/// What becomes of recordings that contradict each other or physics (consistency/campaign_doubts.hpp).
+/// What becomes of recordings that contradict each other or physics (plausibility/campaign_findings.hpp).
 enum class Contradictions : std::uint8_t { refused, noted };
 
 /// Reads the recordings, fits every part and fills in provenance: of a whole valve where benches of both directions are

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/consistency/run_means.hpp"
+#include "spoolflow/plausibility/run_means.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/sensor/sample.hpp"
 #include "spoolflow/sensor/status.hpp"

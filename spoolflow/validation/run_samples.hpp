@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "spoolflow/consistency/run_means.hpp"
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
+#include "spoolflow/plausibility/run_means.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/validation/known_meter.hpp"
 
@@ -30,7 +30,7 @@ struct RunSamples {
   std::vector<float> reference_m3_per_s, pressure_difference_Pa;  ///< instruments; no sensor reads them
   std::vector<Answers> answers;                                   ///< in the order of the estimators
   recording::ReadNotes notes;
-  consistency::RunMeans means;  ///< of all channels that were read
+  plausibility::RunMeans means;  ///< of all channels that were read
 };
 
 /// Runs the estimators over a recording. The reference is the channel flow_reference, else flow; the pressure

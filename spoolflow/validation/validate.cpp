@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/numerics/median.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/validation/judge_run.hpp"
 #include "spoolflow/validation/judged_limits.hpp"
 #include "spoolflow/validation/run_samples.hpp"
@@ -56,8 +56,8 @@ PooledResult pooled_result(Pool pool, estimation::Estimator estimator) {
 }
 
 /// `before`: the runs that stand before it.
-void add_doubts(RunResult& result, std::span<const RunName> before, const std::vector<consistency::Doubt>& found) {
-  for (const consistency::Doubt& doubt : found) result.doubts.push_back(doubt.text);
+void add_findings(RunResult& result, std::span<const RunName> before, const std::vector<plausibility::Finding>& found) {
+  for (const plausibility::Finding& finding : found) result.doubts.push_back(finding.text);
   const auto same = std::ranges::find_if(
       before, [&](const RunName& run) { return !result.sha256.empty() && run.sha256 == result.sha256; });
   if (same != before.end()) {
@@ -73,7 +73,7 @@ class RunJudge {
            const ValidationOptions& options)
       : model_(model),
         options_(options),
-        known_(consistency::known_valve(model)),
+        known_(plausibility::known_valve(model)),
         pools_(options.estimators.size(), {ComparedSamples(model.valve.rated_flow_m3_per_s),
                                            empty_profiles(model.valve),
                                            empty_direction(model.valve),
@@ -92,7 +92,8 @@ class RunJudge {
     judged.result.file = named.file;
     judged.result.sha256 = named.sha256;
     judged.result.calibrated_with = named.calibrated_with;
-    add_doubts(judged.result, std::span(names_).first(k), consistency::doubts_about(known_, samples.means, recording));
+    add_findings(judged.result, std::span(names_).first(k),
+                 plausibility::run_findings(known_, samples.means, recording));
     if (!named.calibrated_with || !out_.held_out) pool(judged);
     out_.runs[k] = std::move(judged.result);
   }
@@ -127,7 +128,7 @@ class RunJudge {
 
   const model::Model& model_;
   const ValidationOptions& options_;
-  std::vector<consistency::KnownValve> known_;
+  std::vector<plausibility::KnownValve> known_;
   std::vector<Pool> pools_;
   std::vector<RunName> names_;
   Validation out_;

@@ -11,9 +11,9 @@
 #include "spoolflow/apps/work/readable_model.hpp"
 #include "spoolflow/apps/work/reading_notes.hpp"
 #include "spoolflow/calibration/calibrate.hpp"
-#include "spoolflow/consistency/run_doubts.hpp"
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
 #include "spoolflow/report/calibration/calibration_summary.hpp"
@@ -110,7 +110,7 @@ Json estimate(const Json& asked, const Outlet& outlet) {
   const auto out = recording::csv_table_writer(apps::estimate_table(), output);
   recording::TableRows rows;
   validation::EstimateSummary summary{.file = file};
-  consistency::RunMeans means;
+  plausibility::RunMeans means;
   recording::SampleBlock block;
   std::vector<sensor::Estimate<double>> estimates;
   while (reader->next(block)) {
@@ -125,8 +125,8 @@ Json estimate(const Json& asked, const Outlet& outlet) {
   out->finish();
   summary.notes = reader->notes();
   Json doubts = Json::array();
-  for (const consistency::Doubt& doubt : consistency::doubts_about(consistency::known_valve(model), means, file))
-    doubts.push_back(doubt.text);
+  for (const plausibility::Finding& finding : plausibility::run_findings(plausibility::known_valve(model), means, file))
+    doubts.push_back(finding.text);
   return {{"sentence", summary.sentence(model.valve.rated_flow_m3_per_s)},
           {"notes", apps::notes_text(summary.notes, file)},
           {"doubts", doubts}};

@@ -11,7 +11,7 @@
 #include "addons/python/module/columns.hpp"
 #include "addons/python/module/models.hpp"
 #include "addons/python/module/signal_check.hpp"
-#include "spoolflow/consistency/run_doubts.hpp"
+#include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/recording/plausibility.hpp"
 
 namespace spoolflow::python {
@@ -47,15 +47,16 @@ std::vector<std::string> doubts_about(const SharedModel& model, const py::dict& 
   const ColumnArrays given(arrays);
   return at_work([&](SignalCheck& check) {
     constexpr std::size_t at_once = 4096;
-    consistency::RunMeans means;
+    plausibility::RunMeans means;
     const std::size_t size = given.columns().size();
     for (std::size_t from = 0; from < size; from += at_once) {
       check();
       means.take(block_of(given.columns(), from, std::min(at_once, size - from)));
     }
     std::vector<std::string> out;
-    for (consistency::Doubt& doubt : consistency::doubts_about(consistency::known_valve(model->model), means, file))
-      out.push_back(std::move(doubt.text));
+    for (plausibility::Finding& finding :
+         plausibility::run_findings(plausibility::known_valve(model->model), means, file))
+      out.push_back(std::move(finding.text));
     return out;
   });
 }

@@ -1,0 +1,40 @@
+#include "spoolflow/plausibility/channel_findings.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "spoolflow/plausibility/block_means.hpp"
+#include "spoolflow/plausibility/coil_currents.hpp"
+#include "spoolflow/plausibility/frozen_channel.hpp"
+#include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/plausibility/relation.hpp"
+
+namespace spoolflow::plausibility {
+
+using recording::Channel;
+using recording::Recording;
+
+std::vector<Finding> channel_findings(const std::vector<const Recording*>& campaign) {
+  constexpr std::size_t most_blocks = 2500;
+  std::vector<Recording> all;
+  double changes_per_s = 0;
+  for (const Recording* recording : campaign) {
+    all.push_back(block_means(*recording, most_blocks));
+    changes_per_s = std::max(changes_per_s, oil_temperature_changes_per_s(all.back()));
+  }
+  std::vector<Finding> out;
+  const auto add = [&](const Recording& of, bool cannot_be, const std::string& text) {
+    if (!text.empty()) out.push_back({cannot_be, fmt::format("{}: {}", file_of(of), text)});
+  };
+  for (const Recording& means : all) {
+    add(means, true, frozen_channel(means));
+    add(means, true, signed_coil_currents(means));
+    if (changes_per_s * range_of(means.column(Channel::time)) >= fewest_oil_changes)
+      add(means, false, frozen_oil_temperature(means));
+  }
+  return out;
+}
+
+}  // namespace spoolflow::plausibility

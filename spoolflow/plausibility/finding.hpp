@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+namespace spoolflow::plausibility {
+
+/// What physics says against a recording.
+struct Finding {
+  bool cannot_be;    ///< and not only unusual
+  std::string text;  ///< one sentence: file, channel, likely cause, what tells it
+};
+
+}  // namespace spoolflow::plausibility

@@ -1,0 +1,28 @@
+#pragma once
+/// The valve that a run is held against, as its model or its benches know it.
+#include <vector>
+
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/plausibility/benches.hpp"
+#include "spoolflow/plausibility/position_zero.hpp"
+#include "spoolflow/plausibility/valve_curves.hpp"
+
+namespace spoolflow::plausibility {
+
+/// One direction of a calibrated valve, from the strokes that its model keeps as evidence.
+struct KnownValve {
+  HydraulicCurves hydraulics;
+  MagneticCurves magnetics;
+  double resistance_Ohm;                 ///< of the coil as calibrated; 0: not known
+  double position_noise_m = 0;           ///< of a sample, as calibrated; 0: not known
+  model::Range oil_temperature_K{0, 0};  ///< as calibrated; 0: not known
+  OpeningCurve opening{};                ///< empty: not known
+};
+
+/// The model's directions: "b", or "a" of a model of that alone, and then "a" of a whole valve.
+[[nodiscard]] std::vector<KnownValve> known_valve(const model::Model& model);
+
+/// One direction straight from its bench recordings; needs spring, force map and axial-force maps.
+[[nodiscard]] KnownValve known_valve(const Benches& benches);
+
+}  // namespace spoolflow::plausibility

@@ -1,0 +1,51 @@
+#include "spoolflow/plausibility/oil_temperature.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "spoolflow/numerics/median.hpp"
+#include "spoolflow/plausibility/limits.hpp"
+#include "spoolflow/units/conversion.hpp"
+#include "spoolflow/units/unit.hpp"
+
+namespace spoolflow::plausibility {
+namespace {
+
+using recording::Channel;
+
+/// Numbers of one unit that are read in another.
+struct Misread {
+  std::string_view looks;
+  std::string_view unit, read_in;  ///< of units::all_units()
+
+  [[nodiscard]] double true_K(double read_K) const {
+    return units::unit_named(unit)->to_SI(units::unit_named(read_in)->from_SI(read_K));
+  }
+};
+
+constexpr std::array misreadings{Misread{"in degF, not degC", "degF", "C"}, Misread{"in K, not degC", "K", "C"},
+                                 Misread{"in degC where K was said", "C", "K"}};
+
+}  // namespace
+
+std::string temperature_in_another_unit(const recording::Recording& run, const model::Range& calibrated_K) {
+  if (!run.has(Channel::oil_temperature) || !(calibrated_K.upper > 0)) return {};
+  const double read_K = numerics::median(run.column(Channel::oil_temperature));
+  const bool hot = read_K > std::max(calibrated_K.upper + usual_distance_K, hottest_usual_oil_K);
+  if (!hot && !(read_K < coldest_oil_K)) return {};
+  for (const Misread& misread : misreadings) {
+    const double K = misread.true_K(read_K);
+    if (!(K > calibrated_K.lower - usual_distance_K && K < calibrated_K.upper + usual_distance_K)) continue;
+    return fmt::format(
+        "oil_temperature looks {}: so read it is {:.0f} degC and not {:.0f}; the model's valve was "
+        "calibrated at {:.0f} to {:.0f} degC",
+        misread.looks, units::degC_from_K(K), units::degC_from_K(read_K), units::degC_from_K(calibrated_K.lower),
+        units::degC_from_K(calibrated_K.upper));
+  }
+  return {};
+}
+
+}  // namespace spoolflow::plausibility

@@ -1,0 +1,311 @@
+#include "spoolflow/plausibility/run_findings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "spoolflow/plausibility/bench_relations.hpp"
+#include "spoolflow/plausibility/block_means.hpp"
+#include "spoolflow/plausibility/coil_currents.hpp"
+#include "spoolflow/plausibility/frozen_channel.hpp"
+#include "spoolflow/plausibility/oil_temperature.hpp"
+#include "spoolflow/plausibility/recording_error.hpp"
+#include "spoolflow/plausibility/reference_shift.hpp"
+#include "spoolflow/plausibility/run_relations.hpp"
+#include "spoolflow/plausibility/zero_findings.hpp"
+#include "spoolflow/recording/coil_channels.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::plausibility {
+namespace {
+
+using recording::Channel;
+using recording::Recording;
+
+/// Rows in which the spool stands open to one side (+1 or -1), in that side's signs, with that side's coil.
+Recording one_side(const Recording& run, int side) {
+  const Channel current = side > 0 ? Channel::current_b : Channel::current_a;
+  const Channel voltage = side > 0 ? Channel::voltage_b : Channel::voltage_a;
+  const std::array<std::pair<Channel, Channel>, 6> taken{
+      {{Channel::time, Channel::time},
+       {Channel::position, Channel::position},
+       {Channel::current, current},
+       {Channel::voltage, voltage},
+       {Channel::flow, Channel::flow},
+       {Channel::pressure_difference, Channel::pressure_difference}}};
+  Recording out{run.file, {}};
+  const std::vector<double>& position_m = run.column(Channel::position);
+  for (const auto& [to, from] : taken) {
+    if (!run.has(from)) continue;
+    const bool is_signed = to == Channel::position || to == Channel::flow;
+    for (std::size_t k = 0; k < position_m.size(); ++k) {
+      if (side * position_m[k] > 0) out.column(to).push_back((is_signed ? side : 1) * run.column(from)[k]);
+    }
+  }
+  return out;
+}
+
+/// A run beside the valve that it should be of.
+class RunTrial {
+ public:
+  RunTrial(const std::vector<KnownValve>& valve, Recording means)
+      : run(std::move(means)), valve_(valve), both_(valve.size() > 1 && recording::has_both_coils(run)) {}
+
+  [[nodiscard]] std::vector<Deviation> deviations() const {
+    std::vector<Deviation> out;
+    if (!both_) {
+      add_run_deviations(out, valve_.front().hydraulics, valve_.front().magnetics, run);
+      const Recording slow = longer_blocks(run);
+      add_resistance_deviation(out, {&slow}, valve_.front().resistance_Ohm);
+      return out;
+    }
+    for (const int side : {1, -1}) {
+      const KnownValve& known = valve_[side > 0 ? 0 : 1];
+      const Recording part = one_side(run, side);
+      if (part.size() < 2) continue;
+      std::vector<Deviation> found;
+      const Recording slow = longer_blocks(part);
+      add_resistance_deviation(found, {&slow}, known.resistance_Ohm);
+      add_run_deviations(found, known.hydraulics, known.magnetics, part);
+      std::erase_if(found, [](const Deviation& deviation) { return deviation.of == "travel"; });
+      for (Deviation& deviation : found) {
+        if (deviation.of.ends_with(',')) deviation.of.pop_back();
+        deviation.of += side > 0 ? ", P to B," : ", P to A,";
+        out.push_back(std::move(deviation));
+      }
+    }
+    return out;
+  }
+  /// What the position makes of the pressure difference, > 0 from P to B of a whole valve.
+  [[nodiscard]] std::vector<double> expected_flow() const {
+    std::vector<double> out = plausibility::expected_flow(valve_.front().hydraulics, run);
+    if (!both_) return out;
+    Recording turned{run.file, {}};
+    for (const Channel channel : {Channel::time, Channel::position, Channel::pressure_difference})
+      turned.column(channel) = run.column(channel);
+    for (double& position_m : turned.column(Channel::position)) position_m *= -1;
+    const std::vector<double> of_a = plausibility::expected_flow(valve_.back().hydraulics, turned);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      if (turned.column(Channel::position)[k] > 0) out[k] = -of_a[k];
+    }
+    return out;
+  }
+  [[nodiscard]] double stroke_m() const { return valve_.front().hydraulics.stroke_m; }
+  [[nodiscard]] bool both() const { return both_; }
+  /// Those between which the run goes: the first one alone, or both.
+  [[nodiscard]] std::span<const KnownValve> directions() const { return std::span(valve_).first(both_ ? 2 : 1); }
+
+  Recording run;
+
+ private:
+  const std::vector<KnownValve>& valve_;
+  bool both_;
+};
+
+struct RunExplanation {
+  std::string text;  ///< "position looks reversed: with …"
+  bool of_position;  ///< the error is the position's
+  double badness;
+  std::vector<Deviation> deviations;
+};
+
+bool wholly(const RunExplanation& explanation) {
+  return std::ranges::max(explanation.deviations, {}, &Deviation::over_limit).over_limit <= 1;
+}
+
+void keep_better(std::optional<RunExplanation>& best, const RunTrial& trial, const std::vector<Deviation>& before,
+                 std::string text, bool of_position = false) {
+  std::vector<Deviation> deviations = trial.deviations();
+  if (!judges_as_much(deviations, before)) return;
+  const double left = badness(deviations);
+  if (!best || left < best->badness) best = RunExplanation{std::move(text), of_position, left, std::move(deviations)};
+}
+
+/// As the recording calls it, whose reference the relations take for the flow.
+std::string_view shown_name(Channel channel) {
+  return recording::name(channel == Channel::flow ? Channel::flow_reference : channel);
+}
+
+/// Two columns in each other's place. What stood in the second one's unit is read in the first one's.
+struct Swap {
+  Channel one, other;
+  double one_per_other = 1;  ///< SI of the first for the number that the second had, over SI of the second
+};
+
+void try_swaps(RunTrial& trial, const std::vector<Deviation>& before, std::optional<RunExplanation>& best) {
+  const double flow_per_pressure = units::m3_per_s_from_L_per_min(1) / units::Pa_from_bar(1);
+  const std::array<Swap, 6> swaps{{{Channel::current, Channel::voltage},
+                                   {Channel::current_a, Channel::current_b},
+                                   {Channel::voltage_a, Channel::voltage_b},
+                                   {Channel::position, Channel::current, units::m_from_mm(1)},
+                                   {Channel::flow, Channel::pressure_difference},
+                                   {Channel::flow, Channel::pressure_difference, flow_per_pressure}}};
+  for (const Swap& swap : swaps) {
+    if (!trial.run.has(swap.one) || !trial.run.has(swap.other)) continue;
+    std::vector<double>& one = trial.run.column(swap.one);
+    std::vector<double>& other = trial.run.column(swap.other);
+    const std::vector<double> kept_one = one, kept_other = other;
+    std::swap(one, other);
+    for (double& value : one) value *= swap.one_per_other;
+    for (double& value : other) value /= swap.one_per_other;
+    keep_better(
+        best, trial, before,
+        fmt::format("{} and {} look swapped: with each as the other", shown_name(swap.one), shown_name(swap.other)),
+        swap.one == Channel::position);
+    one = kept_one;
+    other = kept_other;
+  }
+  if (!trial.run.has(Channel::current_a) || !trial.run.has(Channel::voltage_a) || !trial.run.has(Channel::voltage_b))
+    return;
+  const auto exchange = [&] {
+    std::swap(trial.run.column(Channel::current_a), trial.run.column(Channel::current_b));
+    std::swap(trial.run.column(Channel::voltage_a), trial.run.column(Channel::voltage_b));
+  };
+  exchange();
+  keep_better(best, trial, before, "solenoids a and b look swapped: with current and voltage of each as the other's");
+  exchange();
+}
+
+std::optional<RunExplanation> best_explanation(RunTrial& trial, const std::vector<Deviation>& before) {
+  std::optional<RunExplanation> best;
+  for (const Channel channel :
+       {Channel::position, Channel::current, Channel::current_b, Channel::current_a, Channel::voltage,
+        Channel::voltage_b, Channel::voltage_a, Channel::flow, Channel::pressure_difference}) {
+    if (!trial.run.has(channel)) continue;
+    const std::vector<double> kept = trial.run.column(channel);
+    const std::string_view name = shown_name(channel);
+    for (const RecordingError& error : usual_recording_errors(channel)) {
+      if (error.from_other_end && trial.both()) continue;
+      for (double& value : trial.run.column(channel)) value = error.undone(value, trial.stroke_m());
+      keep_better(best, trial, before, fmt::format("{} looks {}: with {}", name, error.looks, error.undo),
+                  channel == Channel::position);
+      trial.run.column(channel) = kept;
+    }
+  }
+  try_swaps(trial, before, best);
+  if (best && wholly(*best)) return best;
+  // A reference that is off by no number of a usual recording error.
+  for (const Deviation& deviation : before) {
+    if (!deviation.of.starts_with(reference_ratio) || !(deviation.ratio > 0)) continue;
+    const std::vector<double> kept = trial.run.column(Channel::flow);
+    for (double& value : trial.run.column(Channel::flow)) value /= deviation.ratio;
+    keep_better(best, trial, before,
+                fmt::format("flow_reference reads {:.3g} times what this model's valve passes: with it divided by that",
+                            deviation.ratio));
+    trial.run.column(Channel::flow) = kept;
+  }
+  return best;
+}
+
+/// A position that is recorded more coarsely than in the campaign: the sensor takes its steps for motion, and does not
+/// see a slow spool move beneath its noise.
+std::string coarse_position(const KnownValve& known, const PositionResolution& resolution) {
+  const double noise_m = known.position_noise_m;
+  if (!(noise_m > 0)) return {};
+  const auto coarse = [&](std::string_view as, double value_m, std::string_view costs) {
+    return fmt::format(
+        "position comes {} {:.2g} um, and the model's valve was calibrated with noise of {:.2g} um: {}; record it as "
+        "finely as the bench tests were, or calibrate from bench tests recorded like this",
+        as, units::mm_from_m(value_m) * 1e3, units::mm_from_m(noise_m) * 1e3, costs);
+  };
+  if (resolution.step_m() > position_step_noises * noise_m) {
+    return coarse("in steps of", resolution.step_m(),
+                  "the sensor takes steps for motion of the spool, and its band is too narrow");
+  }
+  if (resolution.noise_m() > position_noise_factor * noise_m) {
+    return coarse("with noise of", resolution.noise_m(),
+                  "the sensor does not see a slow spool move, and its band widens to several percent");
+  }
+  return {};
+}
+
+/// A channel that stands still while what moves it does not: the voltage while the current changes, the reference flow
+/// while the spool moves.
+std::string dead_channel(const Recording& run, double stroke_m) {
+  constexpr double changing_A = 0.1, moving_share = 0.2;
+  std::vector<Channel> alive{Channel::position, Channel::current};
+  if (range_of(run.column(Channel::current)) > changing_A) alive.push_back(Channel::voltage);
+  if (range_of(run.column(Channel::position)) > moving_share * stroke_m) alive.push_back(Channel::flow);
+  for (const Channel channel : alive) {
+    if (const std::optional<double> value = standing_value(run.column(channel))) {
+      return fmt::format("{} stands still at {:.3g} (SI) all along: look at its wire and its column in the channel map",
+                         shown_name(channel), *value);
+    }
+  }
+  return {};
+}
+
+/// What the relations of a run say against it.
+struct ErrorFinding {
+  bool cannot_be;
+  bool of_position;  ///< an error of the position explains it: its noise is in that unit, too
+  std::string text;
+};
+
+std::optional<ErrorFinding> error_finding(RunTrial& trial) {
+  const std::vector<Deviation> now = trial.deviations();
+  const auto worst = std::ranges::max_element(now, {}, &Deviation::over_limit);
+  if (worst == now.end() || !(worst->over_limit > 1)) return std::nullopt;
+  const std::optional<RunExplanation> found = best_explanation(trial, now);
+  constexpr double left_share = 0.35;
+  const bool all = found && wholly(*found);
+  const bool explains =
+      all || (found && found->badness < left_share * badness(now) && over_limit_of(found->deviations, *worst) <= 1);
+  if (worst->of.starts_with(largest_opening) && !all) return std::nullopt;
+  const bool cannot_be = worst->over_limit > surely;
+  if (explains) {
+    return ErrorFinding{cannot_be, found->of_position,
+                        fmt::format("{}, {}", found->text, text(deciding_change(now, found->deviations)))};
+  }
+  return ErrorFinding{
+      cannot_be, false,
+      fmt::format("{} is {}, which no usual recording error of one channel explains: is the model of this valve, and "
+                  "is every channel in its unit?",
+                  worst->of, worst->shown)};
+}
+
+}  // namespace
+
+std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const RunMeans& run,
+                                  const std::filesystem::path& file) {
+  const std::string name = file == "-" ? "standard input" : file.filename().string();
+  std::vector<Finding> out;
+  if (run.gaps().count > 0) {
+    out.push_back({false, fmt::format("{}: {} gap{} without samples, the longest {:.3g} s from {:.3f} s on: the answer "
+                                      "is held there and begins anew behind it",
+                                      name, run.gaps().count, run.gaps().count == 1 ? "" : "s", run.gaps().longest_s,
+                                      run.gaps().longest_from_s)});
+  }
+  RunTrial trial(valve, run.means(file));
+  for (const std::string& dead :
+       {dead_channel(trial.run, trial.stroke_m()), signed_coil_currents(trial.run), frozen_channel(trial.run)}) {
+    if (dead.empty()) continue;
+    out.push_back({true, fmt::format("{}: {}", name, dead)});
+    return out;
+  }
+  if (const std::string oil = frozen_oil_temperature_alone(trial.run); !oil.empty())
+    out.push_back({false, fmt::format("{}: {}", name, oil)});
+  if (const std::string oil = temperature_in_another_unit(trial.run, valve.front().oil_temperature_K); !oil.empty())
+    out.push_back({false, fmt::format("{}: {}", name, oil)});
+  std::vector<double>& reference = trial.run.column(Channel::flow);
+  const std::vector<double>& time_s = trial.run.column(Channel::time);
+  if (const auto shift = reference_shift(time_s, trial.expected_flow(), reference)) {
+    out.push_back({true, fmt::format("{}: {}", name, shown(*shift))});
+    reference = values_later(time_s, reference, shift->late_s);
+  }
+  for (const Finding& finding : run_zero_findings(trial.run, trial.directions()))
+    out.push_back({finding.cannot_be, fmt::format("{}: {}", name, finding.text)});
+  const std::optional<ErrorFinding> error = error_finding(trial);
+  const std::string coarse = coarse_position(valve.front(), run.position_resolution());
+  if (!coarse.empty() && !(error && error->of_position)) out.push_back({false, fmt::format("{}: {}", name, coarse)});
+  if (error) out.push_back({error->cannot_be, fmt::format("{}: {}", name, error->text)});
+  return out;
+}
+
+}  // namespace spoolflow::plausibility

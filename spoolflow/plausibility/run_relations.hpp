@@ -1,0 +1,20 @@
+#pragma once
+/// What an operating run must satisfy beside the valve's curves.
+#include <vector>
+
+#include "spoolflow/plausibility/relation.hpp"
+#include "spoolflow/plausibility/valve_curves.hpp"
+
+namespace spoolflow::plausibility {
+
+/// What edge and pressure difference make of a run's positions, block by block [m3/s]; at the valve's highest pressure
+/// difference where none was recorded.
+[[nodiscard]] std::vector<double> expected_flow(const HydraulicCurves& hydraulics, const recording::Recording& run);
+
+/// Of an operating run against both: balance of forces, flow against what edge and pressure difference make, positions.
+/// Reads current, position, and of flow and pressure difference what is there; the flow in the rows as they are, as a
+/// meter's lag may be shorter than the stretches over which forces are judged (longer_blocks()).
+void add_run_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const MagneticCurves& magnetics,
+                        const recording::Recording& run);
+
+}  // namespace spoolflow::plausibility
