@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/validation/metrics.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace {
 
@@ -150,7 +150,7 @@ int main(int argc, char** argv) try {
   std::vector<Run> runs;
   fmt::print("{:<46}", "p95 / max [% FS], inside the band [%]");
   for (int k = 2; k < argc; k += 2) {
-    recording::ReadOptions options = validation::sensor_channels(model, {});
+    recording::ReadOptions options = estimation::sensor_channels(model, {});
     recording::ReadOptions of_truth;
     of_truth.required = {Channel::time, Channel::flow};
     const recording::Recording truth = recording::read_recording(argv[k + 1], of_truth);

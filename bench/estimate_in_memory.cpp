@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 
 namespace {
 
@@ -31,7 +31,7 @@ double run_s(const model::Model& model, estimation::Estimator estimator,
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimator);
   std::size_t place = 0;
   for (const recording::SampleBlock& block : blocks) {
-    estimation::run(sensor, validation::sensor_columns(block), std::span(estimates).subspan(place, block.rows));
+    estimation::run(sensor, estimation::sensor_columns(block), std::span(estimates).subspan(place, block.rows));
     if (kept) place += block.rows;
   }
   return static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     const model::Model model = model::read_model(argv[1]);
     const int rounds = argc > 3 ? std::atoi(argv[3]) : 5;
     std::vector<recording::SampleBlock> blocks(1);
-    const auto reader = validation::open_sensor_channels(argv[2], validation::sensor_channels(model, {}));
+    const auto reader = estimation::open_sensor_channels(argv[2], estimation::sensor_channels(model, {}));
     while (reader->next(blocks.back())) blocks.emplace_back();
     for (const estimation::Estimator estimator : estimation::all_estimators(model)) {
       fmt::print("{}", name(estimator));

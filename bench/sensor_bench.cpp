@@ -8,11 +8,11 @@
 #include <benchmark/benchmark.h>
 
 #include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::bench {
 namespace {
@@ -29,7 +29,7 @@ const std::vector<sensor::Sample<double>>& samples() {
   static const std::vector<sensor::Sample<double>> run = [] {
     using recording::Channel;
     const recording::Recording file = recording::read_recording(SPOOLFLOW_EXAMPLES "/valve_a/ramp_60bar.h5",
-                                                                validation::sensor_channels(valve(), {}));
+                                                                estimation::sensor_channels(valve(), {}));
     std::vector<sensor::Sample<double>> out;
     for (std::size_t k = 0; k < file.size(); ++k) {
       out.push_back({k == 0 ? 0 : file[Channel::time][k] - file[Channel::time][k - 1], file[Channel::current][k],

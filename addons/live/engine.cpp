@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "addons/live/valve/event_text.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/parallel/pace.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::live {
 
@@ -116,7 +116,7 @@ void Engine::start() {
 void Engine::start_source(std::size_t k) {
   Place& place = *valves_[k];
   const ValveSettings& settings = site_.valves[k];
-  const recording::ReadOptions channels = validation::sensor_channels(*settings.model.model, settings.channels);
+  const recording::ReadOptions channels = estimation::sensor_channels(*settings.model.model, settings.channels);
   if (const auto* tcp = std::get_if<TcpSettings>(&settings.source)) {
     place.source = std::make_unique<TcpSource>(tcp->listen, site_.allow, channels, place.after, *place.intake);
   } else if (const auto* pipe = std::get_if<PipeSettings>(&settings.source)) {

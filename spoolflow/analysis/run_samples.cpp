@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::analysis {
 
@@ -15,7 +15,7 @@ using recording::Channel;
 RunSamples run_samples(const recording::Recording& recording) {
   RunSamples out;
   out.name = recording.file == "-" ? "standard input" : recording.file.filename().string();
-  const estimation::Columns columns = validation::sensor_columns(recording);
+  const estimation::Columns columns = estimation::sensor_columns(recording);
   std::vector<std::size_t> complete;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     out.samples.push_back(columns[k]);

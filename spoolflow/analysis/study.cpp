@@ -10,13 +10,13 @@
 
 #include "spoolflow/analysis/virtual_model.hpp"
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/protocol.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/rig/plants/plant_group.hpp"
 #include "spoolflow/units/conversion.hpp"
 #include "spoolflow/validation/metrics.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::analysis {
 namespace {
@@ -85,7 +85,7 @@ std::vector<unsigned> numbers_per_factor() {
 /// The sensor over one simulated run, against the true flow of the plant.
 RunErrors run_errors(const model::Model& model, const rig::Simulation& run) {
   const std::vector<double>& flow_L_min = run.truth["flow_L_min"];
-  const estimation::Columns columns = validation::sensor_columns(run.recording);
+  const estimation::Columns columns = estimation::sensor_columns(run.recording);
   constexpr double finding_s = 0.5;  // until then nothing moves and nothing is known
   RunErrors out{};
   std::size_t k = 0;

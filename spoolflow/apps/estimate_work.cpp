@@ -9,9 +9,9 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/estimate_table.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -60,9 +60,9 @@ recording::TableFormat format_for(const EstimateTask& task, const std::filesyste
 validation::EstimateSummary estimate_recording(const EstimateTask& task, const std::string& recording,
                                                const std::filesystem::path& target, bool beside) {
   const bool runs_on = recording == "-";
-  recording::ReadOptions channels = validation::sensor_channels(task.model, task.channels);
+  recording::ReadOptions channels = estimation::sensor_channels(task.model, task.channels);
   channels.runs_on = runs_on;
-  const auto reader = validation::open_sensor_channels(recording, channels);
+  const auto reader = estimation::open_sensor_channels(recording, channels);
   estimation::RunningSensor sensor = estimation::running_sensor(task.model, task.estimator);
   recording::TableHead head = estimate_table(task.model, task.estimator, fmt::format("spoolflow {}", tool_version()));
   OutputFile output(target, task.inputs);  // first, as an input in its place is the worse slip
@@ -86,7 +86,7 @@ validation::EstimateSummary estimate_recording(const EstimateTask& task, const s
           ReadBlock* const read = reading.next();
           if (read == nullptr) return false;
           block.estimates.resize(read->samples.rows);
-          estimation::run(sensor, validation::sensor_columns(read->samples), block.estimates);
+          estimation::run(sensor, estimation::sensor_columns(read->samples), block.estimates);
           std::swap(block.time_s, read->samples.columns[static_cast<std::size_t>(recording::Channel::time)]);
           block.notes = read->notes;
           block.share = read->share;

@@ -1,8 +1,8 @@
 #include "spoolflow/validation/run_samples.hpp"
 
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/numerics/meter_lag.hpp"
 #include "spoolflow/numerics/meter_lag_uncertainty.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::validation {
 namespace {
@@ -54,13 +54,13 @@ void append_pressure_difference(std::vector<float>& to, const recording::SampleB
 RunSamples estimate_run(const model::Model& model, const std::filesystem::path& recording,
                         const recording::ChannelMap& channels, const std::vector<estimation::Estimator>& estimators,
                         const std::function<void(double)>& progress) {
-  recording::ReadOptions options = sensor_channels(model, channels);
+  recording::ReadOptions options = estimation::sensor_channels(model, channels);
   for (const Channel channel :
        {Channel::position_set, Channel::flow_reference, Channel::flow, Channel::pressure_difference,
         Channel::pressure_upstream, Channel::pressure_downstream}) {
     options.optional.push_back(channel);
   }
-  const auto reader = open_sensor_channels(recording, options);
+  const auto reader = estimation::open_sensor_channels(recording, options);
   const Channel reference = reader->has(Channel::flow_reference) ? Channel::flow_reference : Channel::flow;
   RunSamples run;
   std::vector<estimation::RunningSensor> sensors;
@@ -73,7 +73,7 @@ RunSamples estimate_run(const model::Model& model, const std::filesystem::path& 
   while (reader->next(block)) {
     estimates.resize(block.rows);
     for (std::size_t s = 0; s < sensors.size(); ++s) {
-      estimation::run(sensors[s], sensor_columns(block), estimates);
+      estimation::run(sensors[s], estimation::sensor_columns(block), estimates);
       append(run.answers[s], estimates);
     }
     run.means.take(block);

@@ -34,6 +34,9 @@ constexpr const char* page = R"(# Architecture
 | `fits/lines` | straight fits | units | - | - |
 | `fits/curves` | other fits | fits/lines, units | - | - |
 | `tables` | what fits found | fits | - | - |
+| `runs` | a running fit | units | - | - |
+| `runs/files` | the same of files | runs, recording | - | - |
+| `watch` | of a running fit | runs alone | - | - |
 | `apps` | the command | all | fmt, CLI11 | - |
 )";
 
@@ -111,6 +114,17 @@ TEST_F(FakeTree, KnowsTheRoomsOfAFolder) {
                                       "(spoolflow/fits/curves/curve.hpp)"));
 }
 
+TEST_F(FakeTree, KeepsAFolderThatIsMeantAloneFromItsRooms) {
+  write("spoolflow/runs/run.hpp", "#pragma once\n");
+  write("spoolflow/runs/files/file_run.hpp", "#pragma once\n#include \"spoolflow/runs/run.hpp\"\n");
+  write("spoolflow/watch/watch.hpp", "#pragma once\n#include \"spoolflow/runs/run.hpp\"\n");
+  EXPECT_THAT(includes(), IsEmpty());
+  EXPECT_EQ(floors(table()).at("watch"), 3);  // above runs, not above its room
+  write("spoolflow/watch/watch.cpp", "#include \"spoolflow/runs/files/file_run.hpp\"\n");
+  EXPECT_THAT(includes(), ElementsAre("spoolflow/watch/watch.cpp:1: watch must not include runs/files "
+                                      "(spoolflow/runs/files/file_run.hpp)"));
+}
+
 TEST_F(FakeTree, FindsARoomOutsideTheTableAndAFileOutsideTheRooms) {
   write("spoolflow/fits/planes/plane.hpp", "#pragma once\n");
   write("spoolflow/fits/all.hpp", "#pragma once\n");
@@ -125,7 +139,8 @@ TEST_F(FakeTree, TakesAFolderInsideOneWithoutRoomsForItsPart) {
 
 constexpr const char* linked_well =
     "spoolflow_sensor:\nspoolflow_recording: spoolflow_units fmt::fmt\nspoolflow_apps: spoolflow_rig\n"
-    "spoolflow_fits_lines: spoolflow_units\nspoolflow_tables: spoolflow_fits_curves\n";
+    "spoolflow_fits_lines: spoolflow_units\nspoolflow_tables: spoolflow_fits_curves\nspoolflow_runs:\n"
+    "spoolflow_runs_files: spoolflow_runs\nspoolflow_watch: spoolflow_runs\n";
 
 TEST_F(FakeTree, StandsFloorByFloor) {
   const Floors standing = floors(table());

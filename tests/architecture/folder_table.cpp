@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@ namespace spoolflow::architecture {
 namespace {
 
 const std::string addons = "addons/";
+const std::string alone = " alone";
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" `");
@@ -36,6 +39,8 @@ FolderRule read_rule(const std::string& may_include, const std::string& librarie
       rule.all_folders = true;
     } else if (word == "freestanding std") {
       rule.freestanding = true;
+    } else if (word.ends_with(alone)) {
+      rule.alone.insert(word.substr(0, word.size() - alone.size()));
     } else if (word != "std") {
       rule.folders.insert(word);
     }
@@ -58,21 +63,27 @@ std::vector<std::string> rows_meant(const FolderTable& table, const std::string&
   return rows;
 }
 
-/// Follows what may be included from the last of `way`, and throws where that leads back to a row on the way.
-void follow(const FolderTable& table, std::vector<std::string>& way) {
+/// Follows what may be included from the last of `way`, and throws where that leads back to a row on the way. `done`:
+/// rows from which no way leads round.
+void follow(const FolderTable& table, std::vector<std::string>& way, std::set<std::string>& done) {
   const std::string row = way.back();
+  if (done.contains(row)) return;
+  std::vector<std::string> rows(table.at(row).alone.begin(), table.at(row).alone.end());
   for (const std::string& name : table.at(row).folders) {
-    for (const std::string& next : rows_meant(table, name, row)) {
-      const bool round = std::find(way.begin(), way.end(), next) != way.end();
-      way.push_back(next);
-      if (round) throw std::runtime_error(fmt::format("round in a circle: {}", fmt::join(way, " -> ")));
-      follow(table, way);
-      way.pop_back();
-    }
+    for (std::string& meant : rows_meant(table, name, row)) rows.push_back(std::move(meant));
   }
+  for (const std::string& next : rows) {
+    const bool round = std::find(way.begin(), way.end(), next) != way.end();
+    way.push_back(next);
+    if (round) throw std::runtime_error(fmt::format("round in a circle: {}", fmt::join(way, " -> ")));
+    follow(table, way, done);
+    way.pop_back();
+  }
+  done.insert(row);
 }
 
 void check(const FolderTable& table) {
+  std::set<std::string> done;
   for (const auto& [folder, rule] : table) {
     for (const std::string& other : rule.folders) {
       if (rows_meant(table, other).empty())
@@ -80,8 +91,12 @@ void check(const FolderTable& table) {
       if (rule.never.contains(other))
         throw std::runtime_error(fmt::format("{} both may and must not include {}", folder, other));
     }
+    for (const std::string& other : rule.alone) {
+      if (!table.contains(other))
+        throw std::runtime_error(fmt::format("{} may include {} alone, which has no row", folder, other));
+    }
     std::vector<std::string> way{folder};
-    follow(table, way);
+    follow(table, way, done);
   }
 }
 
@@ -106,7 +121,7 @@ std::string row_of(const FolderTable& table, const std::string& folder) {
 
 bool allows(const FolderRule& rule, const std::string& other) {
   const std::vector<std::string> names = with_those_above(other);
-  return (rule.all_folders && !other.starts_with("addons/")) ||
+  return (rule.all_folders && !other.starts_with("addons/")) || rule.alone.contains(other) ||
          std::any_of(names.begin(), names.end(), [&](const std::string& name) {
            return rule.folders.contains(name) && (name == other || name != rule.house);
          });

@@ -11,6 +11,7 @@ namespace spoolflow::architecture {
 struct FolderRule {
   std::string house{};              ///< that the row is a room of, whose name means it alone here; empty: none
   std::set<std::string> folders;    ///< beside itself: "rig/plant", "rig" for all its rooms, "addons/live"
+  std::set<std::string> alone;      ///< "estimation": that folder without its rooms
   std::set<std::string> libraries;  ///< names as in the table: "fmt", "CLI11", "POSIX"
   std::set<std::string> never;      ///< forbidden words of the last column
   bool all_folders = false;         ///< of the core; never of an add-on

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "spoolflow/estimation/bare_steps.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::cortex_m {
 namespace {
@@ -39,7 +39,7 @@ void for_each_sample(recording::Reader& reader, Each&& each) {
   double last_s = 0;
   bool begun = false;
   while (reader.next(block)) {
-    const estimation::Columns columns = validation::sensor_columns(block);
+    const estimation::Columns columns = estimation::sensor_columns(block);
     for (std::size_t k = 0; k < block.rows; ++k) {
       const estimation::TimedSample timed = columns[k];
       each(sensor::Sample<double>{begun ? timed.time_s - last_s : 0.0, timed.current_A, timed.voltage_V,
@@ -209,7 +209,7 @@ std::string packed_whole(const model::Model& model, estimation::Estimator estima
 
 std::string packed_run(const model::Model& model, estimation::Estimator estimator,
                        const std::filesystem::path& recording) {
-  const auto reader = validation::open_sensor_channels(recording, validation::sensor_channels(model, {}));
+  const auto reader = estimation::open_sensor_channels(recording, estimation::sensor_channels(model, {}));
   return model.whole() ? packed_whole(model, estimator, *reader) : packed_direction(model, estimator, *reader);
 }
 

@@ -9,13 +9,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/export/number_groups.hpp"
 #include "spoolflow/export/parameters/image_summary.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/numerics/crc32.hpp"
 #include "spoolflow/sensor/parameter_image/parameters_from.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 #include "tests/export/exported_folder.hpp"
 
 namespace spoolflow::exports {
@@ -93,13 +93,13 @@ TEST(ParameterImage, AnswersAsTheExportedTableBitForBitOverARecording) {
   const model::Model model = whole_example_model();
   const ExportedFolder folder(model);
   folder.write("valve.bin", parameter_image(model, as_of_2023));
-  const auto reader = validation::open_sensor_channels(SPOOLFLOW_SOURCES "/examples/valve_a/duty_cycle_1.h5",
-                                                       validation::sensor_channels(model, {}));
+  const auto reader = estimation::open_sensor_channels(SPOOLFLOW_SOURCES "/examples/valve_a/duty_cycle_1.h5",
+                                                       estimation::sensor_channels(model, {}));
   std::string run;
   recording::SampleBlock block;
   double before_s = 0;
   while (reader->next(block) && run.size() < 20 * 20000) {
-    const estimation::Columns columns = validation::sensor_columns(block);
+    const estimation::Columns columns = estimation::sensor_columns(block);
     for (std::size_t k = 0; k < block.rows; ++k) {
       const auto in = columns[k];
       const std::array<float, 5> sample{static_cast<float>(in.time_s - before_s), static_cast<float>(in.current_A),

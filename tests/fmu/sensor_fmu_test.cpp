@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/estimation/estimator.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "tests/fmu/fmu_instance.hpp"
 
 namespace spoolflow::exports {
@@ -31,14 +31,14 @@ struct Rows {
 Rows example_rows(std::size_t count) {
   const model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
   const auto reader = recording::open_reader(SPOOLFLOW_SOURCES "/examples/valve_a/duty_cycle_1.h5",
-                                             validation::sensor_channels(model, {}));
+                                             estimation::sensor_channels(model, {}));
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
   Rows rows;
   recording::SampleBlock block;
   std::vector<sensor::Estimate<double>> estimates;
   while (rows.estimates.size() < count && reader->next(block)) {
     estimates.resize(block.rows);
-    estimation::run(sensor, validation::sensor_columns(block), estimates);
+    estimation::run(sensor, estimation::sensor_columns(block), estimates);
     const auto append = [&](std::vector<double>& to, recording::Channel channel) {
       const auto& from = block.columns[static_cast<std::size_t>(channel)];
       to.insert(to.end(), from.begin(), from.end());

@@ -2,7 +2,7 @@
 #include <sys/mman.h>
 
 #include "addons/live/sources/csv_stream.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "tests/fuzz/live_valve.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (file < 0 || ::write(file, data, size) != static_cast<::ssize_t>(size)) std::abort();
   ::lseek(file, 0, SEEK_SET);
   static const recording::ReadOptions options = [] {
-    recording::ReadOptions out = validation::sensor_channels(*fuzz::live_model().model, {});
+    recording::ReadOptions out = estimation::sensor_channels(*fuzz::live_model().model, {});
     out.runs_on = true;
     return out;
   }();

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 #include "tests/monitor/example.hpp"
 
 namespace spoolflow::monitor {
@@ -21,12 +21,12 @@ struct Answered {
 
 Answered run_of(const std::string& name) {
   Answered out;
-  const auto reader = validation::open_sensor_channels(std::string(SPOOLFLOW_EXAMPLES) + "/" + name,
-                                                       validation::sensor_channels(example(), {}));
+  const auto reader = estimation::open_sensor_channels(std::string(SPOOLFLOW_EXAMPLES) + "/" + name,
+                                                       estimation::sensor_channels(example(), {}));
   estimation::RunningSensor sensor = estimation::running_sensor(example(), estimation::Estimator::observer);
   recording::SampleBlock block;
   while (reader->next(block)) {
-    const estimation::Columns columns = validation::sensor_columns(block);
+    const estimation::Columns columns = estimation::sensor_columns(block);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       out.samples.push_back(columns[k]);
       out.answers.push_back(sensor.step(columns[k]));

@@ -11,7 +11,7 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 
@@ -34,8 +34,8 @@ std::vector<validation::EstimateSummary> estimate_by_fleet(const EstimateTask& t
   Progress progress("estimating by the fleet", arguments.quiet);
   for (std::size_t k = 0; k < count; ++k) {
     attempt(k, [&] {
-      (void)validation::open_sensor_channels(arguments.recordings[k],
-                                             validation::sensor_channels(task.model, task.channels));
+      (void)estimation::open_sensor_channels(arguments.recordings[k],
+                                             estimation::sensor_channels(task.model, task.channels));
       const auto as = suffix(format_for(task, targets[k]));
       SentPiece piece{{.kind = "estimate", .arguments = fmt::format("{} {}", as, arguments.estimator)}};
       fleet.add(piece, arguments.model);

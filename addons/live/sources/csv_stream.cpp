@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "spoolflow/estimation/columns.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 
 namespace spoolflow::live {
 
 std::vector<estimation::TimedSample> samples_of(const recording::SampleBlock& block) {
-  const estimation::Columns columns = validation::sensor_columns(block);
+  const estimation::Columns columns = estimation::sensor_columns(block);
   std::vector<estimation::TimedSample> samples;
   samples.reserve(block.rows);
   for (std::size_t k = 0; k < block.rows; ++k) samples.push_back(columns[k]);
@@ -19,7 +19,7 @@ std::vector<estimation::TimedSample> samples_of(const recording::SampleBlock& bl
 std::uint64_t read_csv(std::unique_ptr<recording::InputBytes> input, const recording::ReadOptions& options,
                        std::uint64_t next, Intake& intake) {
   try {
-    const auto reader = validation::open_sensor_channels(std::move(input), options);
+    const auto reader = estimation::open_sensor_channels(std::move(input), options);
     intake.tell({});
     recording::SampleBlock block;
     std::uint64_t left_out = 0;

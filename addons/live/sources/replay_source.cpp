@@ -3,7 +3,7 @@
 #include <cmath>
 #include <exception>
 
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 
 namespace spoolflow::live {
 namespace {
@@ -18,7 +18,7 @@ ReplaySource::ReplaySource(ReplaySettings settings, recording::ReadOptions optio
                            Intake& intake)
     : settings_(std::move(settings)), options_(std::move(options)), skip_(after.next), intake_(intake) {
   options_.runs_on = true;
-  (void)validation::open_sensor_channels(settings_.recording, options_);  // tells at once what is wrong with it
+  (void)estimation::open_sensor_channels(settings_.recording, options_);  // tells at once what is wrong with it
   intake_.count_connection();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -27,7 +27,7 @@ void ReplaySource::run(const std::stop_token& stop) {
   try {
     do {
       const std::uint64_t before = next_;
-      if (!play(*validation::open_sensor_channels(settings_.recording, options_), stop)) return;
+      if (!play(*estimation::open_sensor_channels(settings_.recording, options_), stop)) return;
       const double pass_s = last_s_ - first_s_ + last_step_s_;
       const std::uint64_t pass = next_ - before;
       if (pass == 0) break;

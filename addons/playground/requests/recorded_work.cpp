@@ -13,6 +13,7 @@
 #include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/estimation/columns.hpp"
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/plausibility/run_findings.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
@@ -23,7 +24,6 @@
 #include "spoolflow/rig/bench/recording_file.hpp"
 #include "spoolflow/rig/bench/scenario.hpp"
 #include "spoolflow/validation/estimate_summary.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::playground {
 namespace {
@@ -103,7 +103,7 @@ Json calibrate(const Json& asked, const Outlet& outlet) {
 Json estimate(const Json& asked, const Outlet& outlet) {
   const model::Model model = model::read_model(asked.at("model").get<std::string>());
   const std::string file = asked.at("recording");
-  const auto reader = validation::open_sensor_channels(file, validation::sensor_channels(model, channels_of(asked)));
+  const auto reader = estimation::open_sensor_channels(file, estimation::sensor_channels(model, channels_of(asked)));
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::best_estimator(model));
   const auto stream = opened(outlet, asked.at("output"));
   OneStream output(*stream);
@@ -115,7 +115,7 @@ Json estimate(const Json& asked, const Outlet& outlet) {
   std::vector<sensor::Estimate<double>> estimates;
   while (reader->next(block)) {
     estimates.resize(block.rows);
-    estimation::run(sensor, validation::sensor_columns(block), estimates);
+    estimation::run(sensor, estimation::sensor_columns(block), estimates);
     means.take(block);
     apps::put_estimates(rows, block.column(recording::Channel::time), estimates);
     out->write(rows);

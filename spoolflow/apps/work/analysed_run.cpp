@@ -4,15 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 
 using recording::Channel;
 
 AnalysedRun read_analysed_run(const model::Model& model, const std::string& file, recording::ChannelMap channels) {
-  recording::ReadOptions options = validation::sensor_channels(model, std::move(channels));
+  recording::ReadOptions options = estimation::sensor_channels(model, std::move(channels));
   for (const Channel channel : {Channel::flow_reference, Channel::flow, Channel::current_a, Channel::current_b})
     options.optional.push_back(channel);
   options.stands_in = {{Channel::current, Channel::current_b}};  // so that a whole valve's run is told as such

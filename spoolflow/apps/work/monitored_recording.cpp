@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "spoolflow/estimation/estimator.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/model/json_limits.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
-#include "spoolflow/validation/sensor_channels.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -50,13 +50,13 @@ void BandWatch::take(const model::Model& model, const monitor::Watch& watch, con
 void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
                        monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
                        const std::function<void(std::optional<double>)>& progress) {
-  recording::ReadOptions options = validation::sensor_channels(model, channels);
+  recording::ReadOptions options = estimation::sensor_channels(model, channels);
   options.optional.push_back(recording::Channel::position_set);
-  const auto reader = validation::open_sensor_channels(recording, options);
+  const auto reader = estimation::open_sensor_channels(recording, options);
   estimation::RunningSensor sensor = estimation::running_sensor(model, estimation::Estimator::observer);
   recording::SampleBlock block;
   while (reader->next(block)) {
-    const estimation::Columns columns = validation::sensor_columns(block);
+    const estimation::Columns columns = estimation::sensor_columns(block);
     const std::vector<double>& command = block.column(recording::Channel::position_set);
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const estimation::TimedSample sample = columns[k];

@@ -8,7 +8,7 @@
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/reader.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation {
 
 [[nodiscard]] recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels);
 /// As recording::open_reader, with these channels and perhaps more. Throws RecordingError where no coil current is
@@ -21,7 +21,7 @@ namespace spoolflow::validation {
                                                                       const recording::ReadOptions& options);
 
 /// The same of a block or a recording in memory, which must outlive what is returned.
-[[nodiscard]] estimation::Columns sensor_columns(const recording::SampleBlock& block);
-[[nodiscard]] estimation::Columns sensor_columns(const recording::Recording& recording);
+[[nodiscard]] Columns sensor_columns(const recording::SampleBlock& block);
+[[nodiscard]] Columns sensor_columns(const recording::Recording& recording);
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation

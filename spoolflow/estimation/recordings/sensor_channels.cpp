@@ -1,11 +1,11 @@
-#include "spoolflow/validation/sensor_channels.hpp"
+#include "spoolflow/estimation/recordings/sensor_channels.hpp"
 
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 
-namespace spoolflow::validation {
+namespace spoolflow::estimation {
 
 using recording::Channel;
 
@@ -51,13 +51,13 @@ std::unique_ptr<recording::Reader> open_sensor_channels(std::unique_ptr<recordin
 namespace {
 
 template <class Source>
-estimation::Columns columns_of(const Source& source) {
+Columns columns_of(const Source& source) {
   const recording::CoilChannels coil = recording::coil_channels(source);
-  estimation::Columns out{.time_s = source.column(Channel::time),
-                          .current_A = source.column(coil.current),
-                          .voltage_V = source.column(coil.voltage),
-                          .position_m = source.column(Channel::position),
-                          .oil_temperature_K = source.column(Channel::oil_temperature)};
+  Columns out{.time_s = source.column(Channel::time),
+              .current_A = source.column(coil.current),
+              .voltage_V = source.column(coil.voltage),
+              .position_m = source.column(Channel::position),
+              .oil_temperature_K = source.column(Channel::oil_temperature)};
   if (recording::has_both_coils(source)) {
     out.current_a_A = source.column(Channel::current_a);
     out.voltage_a_V = source.column(Channel::voltage_a);
@@ -71,12 +71,12 @@ estimation::Columns columns_of(const Source& source) {
 
 }  // namespace
 
-estimation::Columns sensor_columns(const recording::SampleBlock& block) {
+Columns sensor_columns(const recording::SampleBlock& block) {
   return columns_of(block);
 }
 
-estimation::Columns sensor_columns(const recording::Recording& recording) {
+Columns sensor_columns(const recording::Recording& recording) {
   return columns_of(recording);
 }
 
-}  // namespace spoolflow::validation
+}  // namespace spoolflow::estimation
