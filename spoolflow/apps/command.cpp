@@ -168,6 +168,14 @@ CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::
       ->type_name("FLEET.toml");
 }
 
+CLI::Option* add_environment_option(CLI::App& command, std::string& environment) {
+  return command
+      .add_option("--environment", environment,
+                  "what the machine leaves open, for the band: bench, machine, or a TOML file with [environment]; the "
+                  "model's own where not given")
+      ->type_name("NAME|FILE.toml");
+}
+
 void add_units(CLI::App& command, std::vector<std::string>& units) {
   // One word: a list would swallow the arguments behind it.
   const auto split = [&units](const std::string& list) {

@@ -30,6 +30,8 @@ void add_quiet(CLI::App& command, bool& quiet);
 
 /// `--fleet FLEET.toml`: workers of a fleet do what falls into pieces. `which`: "of the global study".
 CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::string& which);
+/// `environment` stays empty where nobody asks: then it is the model's.
+CLI::Option* add_environment_option(CLI::App& command, std::string& environment);
 
 /// `--units LIST`: the units of the report.
 void add_units(CLI::App& command, std::vector<std::string>& units);

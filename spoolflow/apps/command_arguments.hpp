@@ -42,6 +42,7 @@ struct EstimateArguments {
   std::string estimator;   ///< "condensed" or "observer"; empty: the observer where the model has one
   std::string channels;    ///< channel map; empty: none
   std::string json = {};   ///< summary to write; empty: none
+  std::string environment = {};  ///< "bench", "machine" or a file; empty: the model's
   bool strict = false;     ///< faults and doubts fail
   std::string fleet = {};  ///< whose workers do the work; empty: this machine
   bool quiet = false;
@@ -56,6 +57,7 @@ struct ValidateArguments {
   std::string json;                       ///< to write; empty: none
   std::string channels;                   ///< channel map; empty: none
   std::string requirements = {};          ///< requirements file; empty: none
+  std::string environment = {};           ///< "bench", "machine" or a file; empty: the model's
   std::vector<std::string> compare = {};  ///< figures of other validations
   std::string estimator = "both";
   std::vector<std::string> units = {};  ///< of the report

@@ -95,6 +95,9 @@ void estimate(const EstimateArguments& arguments) {
   std::vector<validation::EstimateSummary> summaries;
   const bool one = arguments.recordings.size() == 1;
   if (!arguments.fleet.empty()) {
+    if (!arguments.environment.empty())
+      throw std::invalid_argument("--environment is not known to workers; give [environment] in the campaign, or leave "
+                                  "--fleet out");
     if (one && arguments.recordings.front() == "-")
       throw std::invalid_argument("--fleet sends whole recordings; name a file instead of -");
     if (!one) make_output_folder(arguments.output);
@@ -148,6 +151,7 @@ void add_estimate_command(CLI::App& program) {
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");
+  add_environment_option(*command, arguments->environment);
   command->add_option("--json", arguments->json, "summary to write: mean flow and band, share of each status, doubts")
       ->type_name("SUMMARY.json");
   command->add_flag("--strict", arguments->strict,

@@ -9,6 +9,7 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/apps/work/estimate_table.hpp"
+#include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/written_tables/table_writers.hpp"
@@ -41,6 +42,8 @@ EstimateTask estimate_task(const EstimateArguments& arguments) {
                     {arguments.model},
                     recording::table_format(arguments.format),
                     arguments.quiet};
+  if (!arguments.environment.empty())
+    calibration::apply(recording::read_environment(arguments.environment), task.model);
   task.known = plausibility::known_valve(task.model);
   task.estimator = estimation::best_estimator(task.model);
   if (arguments.estimator == "condensed") task.estimator = estimation::Estimator::condensed;

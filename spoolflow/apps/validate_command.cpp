@@ -14,6 +14,7 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/report/json/metrics_json.hpp"
 #include "spoolflow/report/validation/requirements_table.hpp"
 #include "spoolflow/report/validation/validation_report.hpp"
@@ -90,7 +91,8 @@ void validate(const ValidateArguments& arguments) {
   for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
   refuse_other_kinds("validate", roles);
   const report::ReaderUnits units(arguments.units);
-  const model::Model model = model::read_model(arguments.model);
+  model::Model model = model::read_model(arguments.model);
+  if (!arguments.environment.empty()) calibration::apply(recording::read_environment(arguments.environment), model);
   validation::ValidationOptions options{chosen(arguments.estimator, model), {}, {}, arguments.apply_reference_lag};
   if (arguments.reference_lag_ms) options.reference_lag_s = *arguments.reference_lag_ms * 1e-3;
   if (!arguments.channels.empty()) options.channels = recording::read_channel_map(arguments.channels);
@@ -151,6 +153,7 @@ void add_validate_command(CLI::App& program) {
       command
           ->add_option("--requirements", arguments->requirements, "limits (TOML) against which the figures are judged")
           ->type_name("LIMITS.toml");
+  add_environment_option(*command, arguments->environment);
   command->add_flag("--fail-unmet", arguments->fail_unmet, "exit status 1 where a requirement is not met")
       ->needs(requirements);
   command

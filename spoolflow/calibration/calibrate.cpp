@@ -6,6 +6,7 @@
 
 #include "spoolflow/calibration/condensed.hpp"
 #include "spoolflow/calibration/edges_in_operation.hpp"
+#include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/fits/bench_dither.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
@@ -192,6 +193,8 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   out.instruments = {instruments.position_uncertainty_m, instruments.current_uncertainty_A,
                      instruments.force_uncertainty_N, instruments.pressure_uncertainty_Pa,
                      instruments.temperature_uncertainty_K};
+  limit_currents(out);
+  apply(campaign.environment, out);
   out.provenance = std::move(provenance);
   progress("done", 1.0);
   return out;

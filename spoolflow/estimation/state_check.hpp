@@ -29,6 +29,7 @@ inline bool may_be_answer(const sensor::Estimate<double>& answer) {
 
 inline bool may_be_observer(sensor::ObserverState<double> state) {
   if (std::isnan(state.position.voltage_V)) state.position.voltage_V = 0;  // nobody measures it
+  if (state.held_currents < 0 || state.held_currents > sensor::most_held_currents) return false;
   return may_be_track(state.position) && may_be_answer(state.last) && holds_numbers(state);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The sensor's constants that are the same for all valves; see parameter.hpp. Their values stand where they are used.
 #include "spoolflow/model/describe_dither_constants.hpp"
+#include "spoolflow/model/describe_machine_constants.hpp"
 #include "spoolflow/model/describe_signal_constants.hpp"
 #include "spoolflow/model/describe_whole_valve_constants.hpp"
 #include "spoolflow/model/parameter.hpp"
@@ -270,6 +271,7 @@ void describe_constants(Visitor&& visitor) {
   describe_dither_constants(visitor);
   describe_listening_constants(visitor);
   describe_whole_valve_constants(visitor);
+  describe_machine_constants(visitor);
 }
 
 }  // namespace spoolflow::model

@@ -3,6 +3,7 @@
 #include "spoolflow/model/describe_axes.hpp"
 #include "spoolflow/model/describe_band.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
+#include "spoolflow/model/describe_environment.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -323,6 +324,8 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
                   .meaning = "of the coil, either way, in the calibration's recordings; 0: not known",
                   .otherwise = 0.0},
                  parameters.largest_voltage_V);
+  describe_current_limits(parameters.current_limits, visitor);
+  describe_environment(parameters.environment, visitor);
 }
 
 }  // namespace spoolflow::model

@@ -17,10 +17,11 @@ struct StatusRule {
   double share;
   Ne107 sign;
 };
-inline constexpr std::array<StatusRule, 8> status_rules{{
+inline constexpr std::array<StatusRule, 9> status_rules{{
     {sensor::Status::coil_fault, 10, 0.5, Ne107::failure},
     {sensor::Status::position_fault, 60, 0.1, Ne107::failure},
     {sensor::Status::temperature_fault, 60, 0.5, Ne107::failure},
+    {sensor::Status::current_fault, 60, 0.1, Ne107::failure},
     {sensor::Status::sample_missing, 10, 0.2, Ne107::function_check},
     {sensor::Status::time_fault, 10, 0.2, Ne107::function_check},
     {sensor::Status::outside_force_map, 600, 0.5, Ne107::out_of_specification},

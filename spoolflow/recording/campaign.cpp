@@ -216,7 +216,7 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
 Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the campaign"};
-  document.allow_only({"valve", "fluid", "instruments", "load", "channels", "recording"});
+  document.allow_only({"valve", "fluid", "instruments", "load", "environment", "channels", "recording"});
   Campaign campaign;
   campaign.file = file;
   campaign.valve = valve_of(table_of(document, "valve"));
@@ -224,6 +224,7 @@ Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) 
   if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
   if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
   if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
+  campaign.environment = environment_of(document, "bench");
   const toml::array* recordings = read["recording"].as_array();
   if (recordings == nullptr || recordings->empty()) {
     throw RecordingError(fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spoolflow/recording/channel_map.hpp"
+#include "spoolflow/recording/environment.hpp"
 
 namespace spoolflow::recording {
 
@@ -69,6 +70,7 @@ struct Campaign {
   CampaignFluid fluid;
   CampaignInstruments instruments;
   CampaignLoad load;
+  Environment environment{};  ///< of the machine that the valve is for
   ChannelMap channels{};  ///< of all files that have the columns; a recording's own entries come before it
   std::vector<CampaignRecording> recordings;
 

@@ -42,11 +42,15 @@ struct ActuatorEstimate {
   T uncertainty_N{};              ///< one standard deviation of the magnetic force
   T friction_half_width_N{};      ///< armature friction while it slides, >= 0; its sign is that of the velocity
   T force_per_current_N_per_A{};  ///< what an error of the current means for the force
+  T force_per_position_N_per_m{};
   bool inside_map{};              ///< current and position lie within what was calibrated
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
 static_assert(std::is_trivially_copyable_v<ActuatorState<float>>);
+
+/// Saturation may take so much of what the force rises by above the largest current of its map: one standard deviation.
+inline constexpr double saturation_share = 0.5;
 
 /// Keeps the flux linkage's range since the first sample.
 template <class T>
@@ -116,9 +120,14 @@ template <class T>
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);
   const Cell<T> position = locate<force_map_positions>(force_map.column_axis, sample.position_m);
   const MapPoint<T> force = force_map.at(current, position);
-  if (judged)
+  // Above the largest current of the map the force goes on with its slope, which saturation makes too large.
+  const T beyond_A = larger(state.coil.magnetising_current_A - force_map.row_axis.at(force_map_currents - 1), T(0));
+  const T beyond_N = force.row_slope * beyond_A;
+  if (judged) {
     judge_force(actuator, state, current, position, force.row_slope, sample.current_A - state.coil.static_current_A);
-  return {force.value, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.inside};
+    if (beyond_A > T(0)) state.uncertainty_N += T(saturation_share) * beyond_N;
+  }
+  return {force.value + beyond_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope, force.inside};
 }
 
 }  // namespace spoolflow::sensor

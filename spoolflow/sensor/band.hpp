@@ -1,7 +1,7 @@
 #pragma once
 /// The 95 % band: what the errors of the forces and unobserved changes of the supply leave open of the pressure
 /// difference, cut off where friction at rest would lie outside its bounds, and what that makes of the flow rate.
-#include "spoolflow/sensor/force_balance.hpp"
+#include "spoolflow/sensor/environment.hpp"
 
 namespace spoolflow::sensor {
 
@@ -92,7 +92,8 @@ template <class T>
 [[gnu::always_inline]] constexpr PressureReach<T> pressure_reach(const BandParameters<T>& band,
                                                                  const PressureState<T>& pressure,
                                                                  const ForceBalance<T>& balance, T rest_s,
-                                                                 T velocity_m_per_s, T displaced_ratio) {
+                                                                 T velocity_m_per_s, T displaced_ratio,
+                                                                 T environment_N) {
   const T share = balance.sliding ? band.force_share : band.rest_share;
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unseen_factor));
@@ -100,18 +101,26 @@ template <class T>
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
   if (balance.sliding || balance.dithered)
     open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s, displaced_ratio));
+  open_N2 += squared(band.coverage_factor * environment_N);
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
   PressureReach<T> reach{open_Pa, open_Pa, T(0)};
   const bool bounded = !balance.sliding && !balance.slips && !balance.closed;
   if (bounded) {
     open_N2 += squared(T(yielded_factor) * slope * pressure.yielded_Pa);
-    const T certain_N = band.coverage_factor * (band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s));
+    const T bounds_N = band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s);
+    const T certain_N = band.coverage_factor * sqrt(squared(bounds_N) + squared(environment_N));
     const T to_upper_N = larger(balance.resting.upper_N - balance.apparent_friction_N, T(0)) + certain_N;
     const T to_lower_N = larger(balance.apparent_friction_N - balance.resting.lower_N, T(0)) + certain_N;
     const T per_open_1_N2 = T(1) / open_N2;
     reach.below_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_upper_N);
     reach.above_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_lower_N);
     reach.ahead_Pa = T(lopsided_share) * (reach.above_Pa - reach.below_Pa);
+    // What the pressure difference yielded friction may have held instead: it may be back where it was.
+    const T yielded_Pa = pressure.yielded_Pa;
+    const T usual_Pa = band.coverage_factor * unobserved_change_Pa(pressure, band.unseen_factor);
+    reach.ahead_Pa -= T(lopsided_share) * (yielded_Pa - limited(yielded_Pa, -usual_Pa, usual_Pa));
+    if (yielded_Pa > T(0)) reach.below_Pa = sqrt(squared(reach.below_Pa) + squared(yielded_Pa));
+    if (yielded_Pa < T(0)) reach.above_Pa = sqrt(squared(reach.above_Pa) + squared(yielded_Pa));
   }
   const bool yielded = !is_zero(pressure.yielded_Pa) && !balance.sliding && !balance.closed;
   if (yielded) reach.ahead_Pa += unseen_Pa(pressure, balance);
@@ -130,11 +139,37 @@ template <class T>
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
 /// flow's own residual, which knows nothing of it.
 template <class T>
-[[gnu::always_inline]] constexpr void band_of_flow(const BandParameters<T>& band, T least_m3_per_s, T most_m3_per_s,
+[[gnu::always_inline]] constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s, T most_m3_per_s,
                                                    Estimate<T>& out) {
+  const BandParameters<T>& band = valve.band;
   out.flow_lower_m3_per_s = least_m3_per_s;
   out.flow_upper_m3_per_s = most_m3_per_s;
-  widen_band(out, squared(T(flow_residual_factor) * band.flow_residual_m3_per_s));
+  widen_band(out, squared(T(flow_residual_factor) * band.flow_residual_m3_per_s) +
+                      squared(band.coverage_factor) * (squared(valve.environment.flow_share * out.flow_m3_per_s) +
+                                                       squared(valve.environment.leakage_m3_per_s)));
+}
+
+/// A stalled actuator: the cylinder stands at its end or a load holds it, nothing flows through an open valve, and no
+/// pressure difference is left over it. It is as likely as a small pressure difference where the flow force is this
+/// share of sliding friction ...
+inline constexpr double stalled_friction_share = 0.3;
+/// ... and the pressure difference this share of the highest.
+inline constexpr double stalled_pressure_share = 0.025;
+/// Beyond so many times that share no actuator is thought to have stalled.
+inline constexpr double stalled_pressure_reach = 4;
+/// A band of 95 % holds what is more likely than this.
+inline constexpr double least_likelihood = 0.05;
+
+/// Where the actuator may have stalled the expected flow is that much less, and the band holds none.
+template <class T>
+constexpr void admit_stall(const ForceBalance<T>& balance, T pressure_difference_Pa, T highest_Pa, Estimate<T>& out) {
+  const T stalled_Pa = T(stalled_pressure_share) * highest_Pa;
+  if (balance.closed || !(pressure_difference_Pa < T(stalled_pressure_reach) * stalled_Pa)) return;
+  const T stalled_N = T(stalled_friction_share) * (balance.spool_friction_N + balance.armature_friction_N);
+  const T size2 = squared(pressure_difference_Pa / stalled_Pa) + squared(balance.edge.flow_force_N / stalled_N);
+  const T stalled = T(1) / (T(1) + squared(size2));
+  out.flow_m3_per_s *= T(1) - stalled;
+  if (stalled > T(least_likelihood)) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, T(0));
 }
 
 /// What is left open of the pressure difference while no force tells of it. `edge` is that of the last position or of
@@ -143,7 +178,8 @@ template <class T>
 constexpr PressureBand<T> unobserved_pressure_band(const BandParameters<T>& band, const ObserverState<T>& state,
                                                    const EdgePoint<T>& edge, T highest_Pa) {
   const T believed_Pa = limited(state.pressure.pressure_difference_Pa, T(0), highest_Pa);
-  const T known_Pa = band.rest_share * pressure_deviation_Pa(edge, state.force_noise_N);
+  const T known_N2 = squared(band.rest_share * state.force_noise_N) + squared(state.environment_N);
+  const T known_Pa = pressure_deviation_Pa(edge, sqrt(known_N2));
   const T open_Pa = band.coverage_factor * state.pressure.band_factor *
                     sqrt(squared(unobserved_change_Pa(state.pressure, band.unseen_factor)) + squared(known_Pa));
   return {larger(believed_Pa - open_Pa, T(0)), believed_Pa, smaller(believed_Pa + open_Pa, highest_Pa)};
@@ -164,7 +200,7 @@ constexpr void widen_held(const ObserverParameters<T>& valve, ObserverState<T>& 
                           T time_step_s, Estimate<T>& held) {
   PressureState<T>& pressure = state.pressure;
   const MeteringEdge<T>& edges = valve.edge;
-  const T highest_Pa = edges.highest_pressure_difference_Pa();
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
   const T believed_Pa = pressure.pressure_difference_Pa;
   const EdgePoint<T> edge = edges.at(state.oil_temperature_K, believed_Pa, at.position_m);
@@ -175,7 +211,7 @@ constexpr void widen_held(const ObserverParameters<T>& valve, ObserverState<T>& 
   const T least_conductance = at.seen ? edge.conductance : T(0);
   Estimate<T> now{};
   now.flow_m3_per_s = least_conductance * sqrt(band.expected_Pa);
-  band_of_flow(valve.band, least_conductance * sqrt(band.least_Pa), most_conductance * sqrt(band.most_Pa), now);
+  band_of_flow(valve, least_conductance * sqrt(band.least_Pa), most_conductance * sqrt(band.most_Pa), now);
   open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
 }
 

@@ -25,6 +25,16 @@ struct EdgePoint {
   bool temperature_inside;
 };
 
+/// From what was measured at the highest pressure difference `measured_Pa` to a larger one: at a given opening the
+/// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
+/// section 2.1.3), and the conductance stays.
+template <class T>
+[[gnu::noinline]] constexpr void continue_beyond(EdgePoint<T>& point, T pressure_difference_Pa, T measured_Pa) {
+  point.flow_force_per_pressure_N_Pa = larger(point.flow_force_N / measured_Pa, T(least_force_per_pressure_N_Pa));
+  point.flow_force_N *= pressure_difference_Pa / measured_Pa;
+  point.friction_N += larger(point.friction_per_pressure_N_Pa, T(0)) * (pressure_difference_Pa - measured_Pa);
+}
+
 /// Steady flow force (paper (2), terms 1 and 2), spool friction and flow over oil temperature [K] (layers), pressure
 /// difference [Pa] (rows) and spool position [m] (columns), measured on the axial-force rig (paper section 3, Fig 5).
 /// The flow force is the mean of both directions less the spring, the friction half their distance. Flow is kept as
@@ -43,6 +53,11 @@ struct MeteringEdge {
     return pressure_difference_Pa.at(edge_pressures - 1);
   }
 
+  /// Whether a pressure difference lies above what was measured, by more than noise at the end of the axis.
+  [[nodiscard]] constexpr bool is_beyond(T pressure_difference) const {
+    return pressure_difference > highest_pressure_difference_Pa();
+  }
+
   [[nodiscard]] constexpr Cell<T> layer_at(T temperature) const {
     return locate<edge_temperatures>(temperature_K, temperature);
   }
@@ -53,13 +68,16 @@ struct MeteringEdge {
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
     const VolumePoint<T> force = flow_force_N.at(cell);
     const VolumePoint<T> friction = friction_N.at(cell);
-    return {force.value,
-            larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
-            friction.value,
-            friction.row_slope,
-            conductance.at(cell).value,
-            row.inside && column.inside,
-            layer.inside};
+    EdgePoint<T> point{force.value,
+                       larger(force.row_slope, T(least_force_per_pressure_N_Pa)),
+                       friction.value,
+                       friction.row_slope,
+                       conductance.at(cell).value,
+                       row.inside && column.inside,
+                       layer.inside};
+    if (unlikely(is_beyond(pressure_difference)))
+      continue_beyond(point, pressure_difference, highest_pressure_difference_Pa());
+    return point;
   }
   [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
     return at(layer_at(temperature), pressure_difference, position);

@@ -1,6 +1,8 @@
 #pragma once
 /// The full soft sensor (paper Fig 3): spool position, actuator, spring, friction fed back from the estimated flow and
 /// metering edge by temperature, with the pressure difference as the hidden state.
+#include <limits>
+
 #include "spoolflow/sensor/band.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
@@ -17,6 +19,9 @@ inline constexpr double warmest_oil_K = 423.15;
 inline constexpr double oil_leap_K = 15;
 /// ... what has lasted for longer [s] is believed.
 inline constexpr double longest_oil_fault_s = 20;
+/// Of currents that leapt as no coil lets them so many in a row are replaced by the last credible one; what lasts is
+/// believed.
+inline constexpr int most_held_currents = 2;
 
 namespace detail {
 
@@ -32,11 +37,12 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   state.oil_temperature_K =
       (is_oil_temperature(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1));
   state.oil_fault_s = T(0);
+  state.held_currents = 0;
   const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
   sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
-  sensor::begin(valve.pressure, state.pressure, valve.edge.highest_pressure_difference_Pa(),
+  sensor::begin(valve.pressure, state.pressure, valve.highest_pressure_difference_Pa(),
                 valve.friction.operation_ratio, valve.band.unseen_factor);
 }
 
@@ -77,7 +83,8 @@ template <class T>
   mark(out, !balance.sliding, Status::spool_at_rest);
   mark(out, balance.dithered, Status::dithered);
   mark(out, !balance.actuator.inside_map, Status::outside_force_map);
-  mark(out, !balance.edge.inside && !balance.closed, Status::outside_flow_force_map);
+  const bool capped = !(state.pressure.pressure_difference_Pa < valve.highest_pressure_difference_Pa());
+  mark(out, (!balance.edge.inside || capped) && !balance.closed, Status::outside_flow_force_map);
   mark(out, !balance.edge.temperature_inside, Status::outside_temperature);
   mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
   mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
@@ -89,17 +96,22 @@ template <class T>
 /// difference may lie from the believed one is reckoned where it is its turn.
 template <class T>
 [[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, T velocity_m_per_s, bool reach_due) {
-  if (reach_due) {
+                                             const ForceBalance<T>& balance, const PositionPoint<T>& position,
+                                             T current_A) {
+  if (position.turn.even) {
+    if (!is_bench(valve.environment))
+      state.environment_N = environment_N(valve, state, balance, position.position_m, current_A);
     state.pressure.reach =
-        pressure_reach(valve.band, state.pressure, balance, state.friction.rest_s, velocity_m_per_s,
-                       displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio));
+        pressure_reach(valve.band, state.pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
+                       displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio),
+                       state.environment_N);
   }
-  const PressureBand<T> band = pressure_band(state.pressure, valve.edge.highest_pressure_difference_Pa());
+  const PressureBand<T> band = pressure_band(state.pressure, valve.highest_pressure_difference_Pa());
   const T conductance = balance.edge.conductance;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));
-  band_of_flow(valve.band, conductance * sqrt(band.least_Pa), conductance * sqrt(band.most_Pa), out);
+  band_of_flow(valve, conductance * sqrt(band.least_Pa), conductance * sqrt(band.most_Pa), out);
+  admit_stall(balance, band.expected_Pa, valve.highest_pressure_difference_Pa(), out);
   out.pressure_difference_Pa = band.expected_Pa;
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;
@@ -126,7 +138,7 @@ template <class T>
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
            begins, false);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, T(0), false);
-  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
   const T believed_Pa = state.pressure.pressure_difference_Pa;
   const EdgePoint<T> edge = valve.edge.at(state.oil_temperature_K, believed_Pa, position.position_m);
@@ -139,7 +151,7 @@ template <class T>
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
   const T least = sqrt(coil.unanswered ? T(0) : band.least_Pa);
   const T most = sqrt(coil.unanswered ? highest_Pa : band.most_Pa);
-  band_of_flow(valve.band, smaller(edge.conductance * least, elsewhere * (elsewhere < T(0) ? most : least)),
+  band_of_flow(valve, smaller(edge.conductance * least, elsewhere * (elsewhere < T(0) ? most : least)),
                larger(edge.conductance, elsewhere) * most, out);
   out.magnetic_force_N = actuator.magnetic_force_N - opposing_N;
   out.spring_force_N = valve.spring.at(position.position_m).value;
@@ -170,7 +182,7 @@ template <class T>
   if (position.turn.even) follow_agreement(state.pressure);
   // Once a block, whatever the spool does.
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, position.block_s, position.turn.busy);
-  answer(valve, state, balance, position.velocity_m_per_s, position.turn.even);
+  answer(valve, state, balance, position, sample.current_A);
   state.last.status = status(valve, state, sample, balance);
 }
 
@@ -188,11 +200,41 @@ template <class T>
   observe_forces(valve, state, sample, position, dither, opposing_N, begins);
 }
 
+/// Whether the current leapt since the last sample as the coil's equation allows none: `jump_A` at once, and as voltage
+/// over incremental inductance with the time.
+template <class T>
+[[gnu::always_inline]] constexpr bool current_leaps(const CurrentLimits<T>& limits, T last_A, const Sample<T>& sample) {
+  return magnitude(sample.current_A - last_A) > limits.jump_A + limits.slope_A_per_s * sample.time_step_s &&
+         limits.jump_A > T(0);
+}
+
+/// Of a current that leapt: whether the last credible one is taken for it. Once more in a row.
+template <class T>
+constexpr bool is_held(ObserverState<T>& state) {
+  const bool held = state.held_currents < most_held_currents;
+  state.held_currents = held ? state.held_currents + 1 : 0;
+  return held;
+}
+
+/// The sample, or where its current leapt with the last credible one, and no voltage.
+template <class T>
+[[gnu::always_inline]] constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                           const Sample<T>& measured, Sample<T>& held) {
+  const bool leaps = current_leaps(valve.current_limits, state.position.current_A, measured);
+  if (likely(!leaps || !is_held(state))) {
+    if (!leaps) state.held_currents = 0;
+    return measured;
+  }
+  constexpr T missing = std::numeric_limits<T>::quiet_NaN();
+  held = {measured.time_step_s, state.position.current_A, missing, measured.position_m, measured.oil_temperature_K};
+  return held;
+}
+
 /// The band takes in all that may flow through the other direction's edge.
 template <class T>
 [[gnu::noinline]] constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
                                            bool opens) {
-  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
   Estimate<T>& out = state.last;
   if (opens) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, -most);
@@ -237,16 +279,18 @@ constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state,
 /// the voltage tells of the coil alone and may be missing. The answer stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                  const Sample<T>& sample) {
+                                  const Sample<T>& measured) {
   bool begins = !state.started, late = false;
-  if (unlikely(!ordinary(sample))) {
-    begins = begins || time_leapt(sample.time_step_s);
-    late = is_late(sample.time_step_s);
-    if (unusable(sample) != Status::none) {
-      detail::hold(state, sample, valve);
+  if (unlikely(!ordinary(measured))) {
+    begins = begins || time_leapt(measured.time_step_s);
+    late = is_late(measured.time_step_s);
+    if (unusable(measured) != Status::none) {
+      detail::hold(state, measured, valve);
       return state.last;
     }
   }
+  Sample<T> held;
+  const Sample<T>& sample = begins ? measured : detail::credible(valve, state, measured, held);
   if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
@@ -255,6 +299,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   detail::observe(valve, state, sample, position, dither, T(0), begins);
   detail::admit_other_direction(valve, state, position.position_m);
   if (late) state.last.status |= Status::time_fault;
+  if (unlikely(state.held_currents > 0)) state.last.status |= Status::current_fault;
   return state.last;
 }
 

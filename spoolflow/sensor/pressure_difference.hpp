@@ -11,10 +11,10 @@
 namespace spoolflow::sensor {
 
 /// Belief before the first sample, and its standard deviation, as shares of the highest pressure difference.
-inline constexpr double first_pressure_share = 0.33;
-inline constexpr double first_deviation_share = 0.3;
+inline constexpr double first_pressure_share = 0.275;
+inline constexpr double first_deviation_share = 0.25;
 /// The standard deviation grows up to this share of the highest pressure difference: more says no more.
-inline constexpr double most_deviation_share = 0.4;
+inline constexpr double most_deviation_share = 1.0 / 3;
 /// Normalised innovations squared are averaged over so much sliding [s].
 inline constexpr double innovation_averaging_s = 5;
 /// Their average where the band is as wide as its parts tell. Less than 1, since most of what they tell is common to

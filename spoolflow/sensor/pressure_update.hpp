@@ -65,7 +65,7 @@ template <class T>
                                               const ForceBalance<T>& balance, const PositionPoint<T>& position,
                                               T time_step_s) {
   PressureState<T>& pressure = state.pressure;
-  const T highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T friction_slope = pressure.friction_ratio * balance.edge.friction_per_pressure_N_Pa;
   predict(valve, state, balance, position.turn.slow_even, time_step_s, highest_Pa);
@@ -88,8 +88,10 @@ template <class T>
   const bool yields = balance.settled && !balance.closed && !balance.sliding && !breaks &&
                       (position.motion == Motion::rest) && !is_zero(beyond_N);
   if (yields) {
+    // Friction that holds more than calibrated shows likewise: alone it leads to no pressure difference beyond that.
+    const T most_Pa = larger(pressure.pressure_difference_Pa, valve.edge.highest_pressure_difference_Pa());
     const T left_N =
-        yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s, highest_Pa);
+        yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N}, time_step_s, most_Pa);
     const bool holds = magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N;
     const T gauge_N = state.friction.gauge_N;
     if (holds) state.friction.gauge_N = gauge_N + left_N;

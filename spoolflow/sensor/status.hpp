@@ -29,6 +29,7 @@ enum class Status : std::uint32_t {
   time_fault = 1U << 19,       ///< the time does not advance: where it runs backwards the last answer is held
   coil_fault = 1U << 20,  ///< voltage and current give a resistance that no sound coil has, or none that it carries
   temperature_fault = 1U << 21,  ///< the oil temperature reads what no oil has, or leapt: the one before is held
+  current_fault = 1U << 23,      ///< the current leapt as no coil lets it: the last credible current is used
   model_doubt = 1U << 22,  ///< of no sensor: a monitor beside it has raised indicators that contradict the model, and
                            ///< has widened the band by what they say
 };
@@ -58,7 +59,7 @@ struct StatusName {
   const char* name;
 };
 /// The written name of each bit that sensors set, in the order in which they are listed.
-inline constexpr std::array<StatusName, 16> status_names{{
+inline constexpr std::array<StatusName, 17> status_names{{
     {Status::closed, "closed"},
     {Status::spool_at_rest, "spool_at_rest"},
     {Status::outside_force_map, "outside_force_map"},
@@ -75,6 +76,7 @@ inline constexpr std::array<StatusName, 16> status_names{{
     {Status::time_fault, "time_fault"},
     {Status::coil_fault, "coil_fault"},
     {Status::temperature_fault, "temperature_fault"},
+    {Status::current_fault, "current_fault"},
 }};
 /// And of that which a monitor adds.
 inline constexpr StatusName monitor_status_name{Status::model_doubt, "model_doubt"};

@@ -68,6 +68,8 @@ const char* meaning(sensor::Status bit) {
       return "The spool opens the direction of flow of which the model knows nothing: the band is all that may flow "
              "there. "
              "Calibrate the whole valve, or look at the sign of the position.";
+    case Status::current_fault:
+      return "The current leapt as no coil lets it; the last credible one is used.";
     case Status::temperature_fault:
       return "The oil temperature read what no oil has, or leapt; the one before was held. Look at its sensor and "
              "line.";

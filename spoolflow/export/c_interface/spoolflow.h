@@ -98,6 +98,7 @@ typedef enum spoolflow_estimator {
 #define SPOOLFLOW_STATUS_TIME_FAULT (UINT32_C(1) << 19)     /* time stood still, ran backwards, or is NaN; see spoolflow_step */
 #define SPOOLFLOW_STATUS_COIL_FAULT (UINT32_C(1) << 20)     /* voltage and current give a resistance that no sound coil has, or either is far beyond the calibration's */
 #define SPOOLFLOW_STATUS_TEMPERATURE_FAULT (UINT32_C(1) << 21) /* the oil temperature reads what no oil has: the one before is held */
+#define SPOOLFLOW_STATUS_CURRENT_FAULT (UINT32_C(1) << 23) /* the current leapt as no coil lets it: the last credible one is used */
 /* Any of the faults. */
 #define SPOOLFLOW_STATUS_FAULTS UINT32_C(0xFFFF0000)
 

@@ -29,6 +29,7 @@ static_assert(same(SPOOLFLOW_STATUS_SAMPLE_MISSING, Status::sample_missing));
 static_assert(same(SPOOLFLOW_STATUS_TIME_FAULT, Status::time_fault));
 static_assert(same(SPOOLFLOW_STATUS_COIL_FAULT, Status::coil_fault));
 static_assert(same(SPOOLFLOW_STATUS_TEMPERATURE_FAULT, Status::temperature_fault));
+static_assert(same(SPOOLFLOW_STATUS_CURRENT_FAULT, Status::current_fault));
 #define SPOOLFLOW_TEXT_OF(NUMBER) #NUMBER
 #define SPOOLFLOW_TEXT(NUMBER) SPOOLFLOW_TEXT_OF(NUMBER)
 static_assert(std::string_view(SPOOLFLOW_VERSION) == SPOOLFLOW_BUILT_VERSION, "spoolflow.h names another version");
@@ -36,7 +37,7 @@ static_assert(std::string_view(SPOOLFLOW_VERSION) ==
               SPOOLFLOW_TEXT(SPOOLFLOW_VERSION_MAJOR) "." SPOOLFLOW_TEXT(SPOOLFLOW_VERSION_MINOR) "." SPOOLFLOW_TEXT(
                   SPOOLFLOW_VERSION_PATCH));
 static_assert(SPOOLFLOW_STATUS_FAULTS == spoolflow::sensor::fault_bits);
-static_assert(spoolflow::sensor::status_names.size() == 16, "a new status bit belongs into spoolflow.h, too");
+static_assert(spoolflow::sensor::status_names.size() == 17, "a new status bit belongs into spoolflow.h, too");
 
 }  // namespace
 

@@ -51,7 +51,7 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   begin(now.open, state.open, sample_of(sample, state.opens_a));
   sensor::begin(state.open.position,
                 drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil_temperature_K));
-  sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.edge.highest_pressure_difference_Pa(),
+  sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.highest_pressure_difference_Pa(),
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
   state.idle.waiting_s = state.idle.charge_As = T(0);
@@ -84,7 +84,7 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   forget(state.open.swing);
   PressureState<T>& pressure = state.open.pressure;
   expect_change(open.pressure, pressure);
-  drift_unseen(open.pressure, pressure, state.idle.closed_s, open.edge.highest_pressure_difference_Pa());
+  drift_unseen(open.pressure, pressure, state.idle.closed_s, open.highest_pressure_difference_Pa());
   state.idle.magnetic_force_N = magnitude(state.open.last.magnetic_force_N);
   state.idle.closed_s = state.idle.quiet_s = state.idle.waiting_s = state.idle.charge_As = T(0);
 }
@@ -137,7 +137,7 @@ constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState
   const T uncertain_Pa = valve.band.coverage_factor * drop.deviation_Pa;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = conductance * signed_root(drop.drop_Pa);
-  band_of_flow(valve.band, conductance * signed_root(drop.drop_Pa - uncertain_Pa),
+  band_of_flow(valve, conductance * signed_root(drop.drop_Pa - uncertain_Pa),
                conductance * signed_root(drop.drop_Pa + uncertain_Pa), out);
   out.pressure_difference_Pa = drops.inlet_Pa + drops.outlet_Pa;
   mark(out.status, flow_reversed(drops), Status::flow_reversed);
@@ -147,7 +147,7 @@ constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState
 /// the supply.
 template <class T>
 constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
-  const bool within_supply = state.pressure.pressure_difference_Pa < valve.edge.highest_pressure_difference_Pa();
+  const bool within_supply = state.pressure.pressure_difference_Pa < valve.highest_pressure_difference_Pa();
   mark(state.last.status, !within_supply && !(position_m < valve.closed_below_m), Status::ambiguous_load);
 }
 
@@ -155,7 +155,7 @@ constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& 
 template <class T>
 constexpr void believe_measured(const ObserverParameters<T>& valve, PressureState<T>& pressure,
                                 const PathDrops<T>& drops) {
-  sensor::believe_measured(pressure, limited(drops.forcing_Pa(), T(0), valve.edge.highest_pressure_difference_Pa()));
+  sensor::believe_measured(pressure, limited(drops.forcing_Pa(), T(0), valve.highest_pressure_difference_Pa()));
 }
 
 /// The observer of the open side, with measured port pressures where they are.
@@ -203,6 +203,27 @@ template <class T>
   mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
 
+/// The sample, with the last credible current of the side that is open where its own is none that the coil can have; see
+/// the same of one direction.
+template <class T>
+[[gnu::always_inline]] constexpr const WholeValveSample<T>& credible(const WholeValveParameters<T>& valve,
+                                                                     WholeValveState<T>& state,
+                                                                     const WholeValveSample<T>& measured,
+                                                                     WholeValveSample<T>& held) {
+  const ObserverParameters<T>& open = sides(valve, state.opens_a).open;
+  const Sample<T> own = sample_of(measured, state.opens_a);
+  const bool leaps = current_leaps(open.current_limits, state.open.position.current_A, own);
+  if (likely(!leaps || !is_held(state.open))) {
+    if (!leaps) state.open.held_currents = 0;
+    return measured;
+  }
+  constexpr T missing = std::numeric_limits<T>::quiet_NaN();
+  held = measured;
+  (state.opens_a ? held.current_a_A : held.current_b_A) = state.open.position.current_A;
+  (state.opens_a ? held.voltage_a_V : held.voltage_b_V) = missing;
+  return held;
+}
+
 /// One more sample in which no force tells; see the same of one direction. On the other side of the centre nothing is
 /// known of the pressure difference.
 template <class T>
@@ -245,14 +266,16 @@ template <class T>
 /// otherwise the last flow is held (`hold`). The answer, in the valve's signs, stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
-                                  const WholeValveSample<T>& sample) {
-  if (unusable(sample) != Status::none) {
-    hold(valve, state, sample);
+                                  const WholeValveSample<T>& measured) {
+  if (unusable(measured) != Status::none) {
+    hold(valve, state, measured);
     return state.open.last;
   }
-  const bool leapt = time_leapt(sample.time_step_s), late = is_late(sample.time_step_s);
+  const bool leapt = time_leapt(measured.time_step_s), late = is_late(measured.time_step_s);
   using detail::sides;
   const bool begins = !state.open.started || leapt;
+  WholeValveSample<T> held;
+  const WholeValveSample<T>& sample = begins ? measured : detail::credible(valve, state, measured, held);
   if (begins) detail::begin(valve, state, sample);
   const PositionSensor<T>& position_sensor = valve.b->position_sensor;
   const Sample<T> own = sample_of(sample, state.opens_a);
@@ -268,7 +291,10 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow_odd);
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
   const bool changes = from_centre_m < T(-centre_hysteresis_m);
-  if (changes) detail::change_sides(valve, state);
+  if (changes) {
+    detail::change_sides(valve, state);
+    state.open.position.current_A = sample_of(sample, state.opens_a).current_A;
+  }
   position.turn.odd = position.turn.odd || changes;  // friction and uncertainty are those of the other solenoid
 
   const auto seen_from = [&](bool opens_a) __attribute__((always_inline)) {
@@ -280,6 +306,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
     seen_from(false);
   }
   if (late) state.open.last.status |= Status::time_fault;
+  if (unlikely(state.open.held_currents > 0)) state.open.last.status |= Status::current_fault;
   return state.open.last;
 }
 

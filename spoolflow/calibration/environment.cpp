@@ -1,0 +1,77 @@
+#include "spoolflow/calibration/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace spoolflow::calibration {
+namespace {
+
+constexpr double standard = 2;  ///< standard deviations in a half width at 95 %
+/// Mineral oil's viscosity falls by so much a kelvin [1/K], where the campaign gives no viscosities: HLP 46.
+constexpr double usual_viscosity_fall_1_per_K = 0.032;
+
+double viscosity_fall_1_per_K(const model::Fluid& fluid) {
+  if (!fluid.viscosity_40C_m2_per_s || !fluid.viscosity_100C_m2_per_s) return usual_viscosity_fall_1_per_K;
+  constexpr double between_K = 60;
+  const double fall = std::log(*fluid.viscosity_40C_m2_per_s / *fluid.viscosity_100C_m2_per_s) / between_K;
+  return fall > 0 ? fall : usual_viscosity_fall_1_per_K;
+}
+
+sensor::Environment<double> of_valve(const recording::Environment& from, const model::Fluid& fluid,
+                                     const sensor::ObserverParameters<double>& valve) {
+  const double viscous_K = std::log1p(from.viscosity) / viscosity_fall_1_per_K(fluid);
+  // Standard deviations over the amplitude; of a current that is sampled in step with its ripple, which is a triangle,
+  // the same part of it may stand in every sample.
+  const double of_sine = 1 / std::numbers::sqrt2, of_triangle = 1 / std::numbers::sqrt3;
+  const double highest_Pa = valve.edge.highest_pressure_difference_Pa();
+  sensor::Environment<double> out;
+  out.position_m = from.position_zero_m / standard;
+  out.position_share = from.position_gain / standard;
+  out.oil_temperature_K = std::hypot(from.temperature_K, viscous_K) / standard;
+  out.current_share = std::hypot(from.current_gain / standard, from.pwm_ripple / 2 * of_triangle);
+  out.force_N = valve.moving_mass_kg * from.vibration_m_per_s2 * of_sine;
+  out.friction_share = from.friction / standard;
+  out.ripple_Pa = from.ripple_Pa;
+  out.flow_share = from.density / 2 / standard;  // the orifice equation's root
+  out.leakage_m3_per_s = from.leakage_m3_per_s / standard;
+  out.highest_pressure_Pa = std::max(from.highest_Pa.value_or(usual_highest_pressure_ratio * highest_Pa), highest_Pa);
+  return out;
+}
+
+sensor::CurrentLimits<double> current_limits(const sensor::ObserverParameters<double>& valve) {
+  if (!(valve.largest_voltage_V > 0)) return {};
+  const auto& flux = valve.actuator.coil.flux_linkage.map;
+  double least_H = std::numeric_limits<double>::infinity();
+  for (int row = 0; row + 1 < sensor::flux_map_currents; ++row) {
+    for (int column = 0; column < sensor::flux_map_positions; ++column)
+      least_H = std::min(least_H, (flux.node(row + 1, column) - flux.node(row, column)) * flux.row_axis.per_spacing);
+  }
+  const double rate_V =
+      valve.largest_voltage_V + valve.largest_current_A * valve.actuator.coil_resistance.resistance_Ohm;
+  // Noise and the ripple of the current controller come on top of what the coil lets.
+  constexpr double of_controller = 0.02;
+  return {valve.actuator.coil.eddy_currents.at(rate_V).current_A + of_controller * valve.largest_current_A,
+          rate_V / least_H};
+}
+
+}  // namespace
+
+void apply(const recording::Environment& environment, model::Model& model) {
+  const auto into = [&](std::optional<model::Observer>& observer) {
+    if (observer) observer->parameters.environment = of_valve(environment, model.fluid, observer->parameters);
+  };
+  into(model.observer);
+  if (model.p_to_a) into(model.p_to_a->observer);
+}
+
+void limit_currents(model::Model& model) {
+  if (model.observer) model.observer->parameters.current_limits = current_limits(model.observer->parameters);
+  if (model.p_to_a && model.p_to_a->observer) {
+    sensor::ObserverParameters<double>& other = model.p_to_a->observer->parameters;
+    other.current_limits = current_limits(other);
+  }
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,21 @@
+#pragma once
+/// What a declared machine leaves open, as the sensor's own numbers of one valve.
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/environment.hpp"
+
+namespace spoolflow::calibration {
+
+/// The pressure difference up to which a model answers, over the highest that was calibrated, where nobody declares it:
+/// flow force in proportion to the pressure difference holds so far (paper (2)).
+inline constexpr double usual_highest_pressure_ratio = 1.2;
+
+/// Puts the environment into every observer of the model; a model without one stays as it is. `environment.highest_Pa`
+/// below the calibrated pressure difference leaves that.
+void apply(const recording::Environment& environment, model::Model& model);
+
+/// Tells every observer of the model how the coil current changes at most between two samples, by the coil's equation:
+/// voltage, and the current's own, over the least incremental inductance, and at once the eddy currents of that voltage.
+/// Nothing where the recordings held no voltage.
+void limit_currents(model::Model& model);
+
+}  // namespace spoolflow::calibration
