@@ -1,8 +1,10 @@
 #include "spoolflow/uncertainty/input_uncertainties.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -69,6 +71,7 @@ class Collection {
       add({InputQuantity::pressure_belief, 0, Evaluation::type_b, Distribution::normal, infinite,
            "the observer's own filter here; band_coverage_factor of its deviations are 95 %"});
     }
+    if (observer_) machine();
     auto& all = inputs_.uncertainties;
     std::sort(all.begin(), all.end(),
               [](const InputUncertainty& a, const InputUncertainty& b) { return a.quantity < b.quantity; });
@@ -215,6 +218,24 @@ class Collection {
     of_map.standard_uncertainty = std::hypot(of_map.standard_uncertainty, parameters.pressure.ratio_deviation);
     of_map.source += "; and friction_ratio_deviation";
     add(std::move(of_map));
+  }
+
+  /// What the declared machine leaves open beside the instruments (sensor/environment.hpp).
+  void machine() {
+    const sensor::Environment<double>& open = model_.observer->parameters.environment;
+    const std::array<std::pair<InputQuantity, double>, 6> declared{
+        {{InputQuantity::position_zero, open.position_m},
+         {InputQuantity::position_gain, open.position_share},
+         {InputQuantity::current_gain, open.current_share},
+         {InputQuantity::oil_temperature, open.oil_temperature_K},
+         {InputQuantity::friction, open.friction_share},
+         {InputQuantity::oil_density, 2 * open.flow_share}}};  // the flow goes with its root
+    for (const auto& [quantity, deviation] : declared) {
+      if (!(deviation > 0)) continue;
+      const auto found = std::ranges::find(inputs_.uncertainties, quantity, &InputUncertainty::quantity);
+      found->standard_uncertainty = std::hypot(found->standard_uncertainty, deviation);
+      found->source += "; the declared machine, [environment]";
+    }
   }
 
   /// Whether no recording showed that parameter of the observer.
