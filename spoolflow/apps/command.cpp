@@ -171,8 +171,8 @@ CLI::Option* add_fleet_option(CLI::App& command, std::string& fleet, const std::
 CLI::Option* add_environment_option(CLI::App& command, std::string& environment) {
   return command
       .add_option("--environment", environment,
-                  "what the machine leaves open, for the band: bench, machine, or a TOML file with [environment]; the "
-                  "model's own where not given")
+                  "what the machine leaves open, for the band:\n"
+                  "bench, machine, or a TOML file with [environment];\nthe model's own where not given")
       ->type_name("NAME|FILE.toml");
 }
 

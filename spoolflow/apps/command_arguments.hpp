@@ -42,11 +42,11 @@ struct EstimateArguments {
   std::string estimator;   ///< "condensed" or "observer"; empty: the observer where the model has one
   std::string channels;    ///< channel map; empty: none
   std::string json = {};   ///< summary to write; empty: none
-  std::string environment = {};  ///< "bench", "machine" or a file; empty: the model's
   bool strict = false;     ///< faults and doubts fail
   std::string fleet = {};  ///< whose workers do the work; empty: this machine
   bool quiet = false;
-  std::string format = {};  ///< of the estimates, "parquet"; empty: by the output's suffix, of several CSV
+  std::string format = {};       ///< of the estimates, "parquet"; empty: by the output's suffix, of several CSV
+  std::string environment = {};  ///< "bench", "machine" or a file; empty: the model's
 };
 void estimate(const EstimateArguments& arguments);
 
@@ -57,7 +57,6 @@ struct ValidateArguments {
   std::string json;                       ///< to write; empty: none
   std::string channels;                   ///< channel map; empty: none
   std::string requirements = {};          ///< requirements file; empty: none
-  std::string environment = {};           ///< "bench", "machine" or a file; empty: the model's
   std::vector<std::string> compare = {};  ///< figures of other validations
   std::string estimator = "both";
   std::vector<std::string> units = {};  ///< of the report
@@ -65,6 +64,7 @@ struct ValidateArguments {
   bool apply_reference_lag = true;
   bool fail_unmet = false;  ///< a requirement that is not met fails
   bool quiet = false;
+  std::string environment = {};  ///< "bench", "machine" or a file; empty: the model's
 };
 void validate(const ValidateArguments& arguments);
 

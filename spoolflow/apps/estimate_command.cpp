@@ -96,8 +96,9 @@ void estimate(const EstimateArguments& arguments) {
   const bool one = arguments.recordings.size() == 1;
   if (!arguments.fleet.empty()) {
     if (!arguments.environment.empty())
-      throw std::invalid_argument("--environment is not known to workers; give [environment] in the campaign, or leave "
-                                  "--fleet out");
+      throw std::invalid_argument(
+          "--environment is not known to workers; give [environment] in the campaign, or leave "
+          "--fleet out");
     if (one && arguments.recordings.front() == "-")
       throw std::invalid_argument("--fleet sends whole recordings; name a file instead of -");
     if (!one) make_output_folder(arguments.output);

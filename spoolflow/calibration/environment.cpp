@@ -8,7 +8,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr double standard = 2;  ///< standard deviations in a half width at 95 %
+constexpr double deviations_at_95 = 2;  ///< standard deviations in a half width at 95 %
 /// Mineral oil's viscosity falls by so much a kelvin [1/K], where the campaign gives no viscosities: HLP 46.
 constexpr double usual_viscosity_fall_1_per_K = 0.032;
 
@@ -27,15 +27,15 @@ sensor::Environment<double> of_valve(const recording::Environment& from, const m
   const double of_sine = 1 / std::numbers::sqrt2, of_triangle = 1 / std::numbers::sqrt3;
   const double highest_Pa = valve.edge.highest_pressure_difference_Pa();
   sensor::Environment<double> out;
-  out.position_m = from.position_zero_m / standard;
-  out.position_share = from.position_gain / standard;
-  out.oil_temperature_K = std::hypot(from.temperature_K, viscous_K) / standard;
-  out.current_share = std::hypot(from.current_gain / standard, from.pwm_ripple / 2 * of_triangle);
+  out.position_m = from.position_zero_m / deviations_at_95;
+  out.position_share = from.position_gain / deviations_at_95;
+  out.oil_temperature_K = std::hypot(from.temperature_K, viscous_K) / deviations_at_95;
+  out.current_share = std::hypot(from.current_gain / deviations_at_95, from.pwm_ripple / 2 * of_triangle);
   out.force_N = valve.moving_mass_kg * from.vibration_m_per_s2 * of_sine;
-  out.friction_share = from.friction / standard;
+  out.friction_share = from.friction / deviations_at_95;
   out.ripple_Pa = from.ripple_Pa;
-  out.flow_share = from.density / 2 / standard;  // the orifice equation's root
-  out.leakage_m3_per_s = from.leakage_m3_per_s / standard;
+  out.flow_share = from.density / 2 / deviations_at_95;  // the orifice equation's root
+  out.leakage_m3_per_s = from.leakage_m3_per_s / deviations_at_95;
   out.highest_pressure_Pa = std::max(from.highest_Pa.value_or(usual_highest_pressure_ratio * highest_Pa), highest_Pa);
   return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
-/// How sure the observer may be, each number described once; see parameter.hpp.
+/// How sure the observer may be, and what the machine leaves open, each number described once; see parameter.hpp.
 #include "spoolflow/model/parameter.hpp"
+#include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::model {
 
@@ -62,6 +63,89 @@ void describe_band(Band& band, Visitor& visitor) {
                   .meaning = "standard deviation of unseen changes of pressure over the liveliest random walk",
                   .evidence = "duty_cycle_1: p95 3.36, 3.31, 3.21 % FS, band 91.7, 96.8, 99.4 %"},
                  band.unseen_factor);
+}
+
+template <class Limits, class Visitor>
+void describe_current_limits(Limits& limits, Visitor& visitor) {
+  visitor.number({.key = "largest_current_jump_A",
+                  .unit = "A",
+                  .limits = {0, 1e3},
+                  .meaning = "the coil current changes by no more at once: eddy currents and noise; 0: not known",
+                  .otherwise = 0},
+                 limits.jump_A);
+  visitor.number({.key = "fastest_current_A_per_s",
+                  .unit = "A/s",
+                  .limits = {0, 1e7},
+                  .meaning = "and by so much more with the time: largest voltage over least incremental inductance",
+                  .otherwise = 0},
+                 limits.slope_A_per_s);
+}
+
+template <class Environment, class Visitor>
+void describe_environment(Environment& environment, Visitor& visitor) {
+  const auto number = [&](const char* key, const char* unit, Limits limits, const char* meaning, auto& value) {
+    visitor.number({.key = key, .unit = unit, .limits = limits, .meaning = meaning, .otherwise = 0}, value);
+  };
+  number("environment_position_m", "m", {0, 1e-2}, "standard uncertainty of the position's zero",
+         environment.position_m);
+  number("environment_position_share", "1", {0, 1}, "standard uncertainty of the position's gain",
+         environment.position_share);
+  number("environment_oil_temperature_K", "K", {0, 100},
+         "standard uncertainty of the oil temperature, and what an unknown viscosity comes to",
+         environment.oil_temperature_K);
+  number("environment_current_share", "1", {0, 1}, "standard uncertainty of the current's gain",
+         environment.current_share);
+  number("environment_force_N", "N", {0, 1e4}, "standard deviation of forces on the spool from outside: vibration",
+         environment.force_N);
+  number("environment_friction_share", "1", {0, 10}, "standard uncertainty of friction", environment.friction_share);
+  number("environment_ripple_Pa", "Pa", {0, 1e9}, "amplitude of the pressure difference's ripple",
+         environment.ripple_Pa);
+  number("environment_flow_share", "1", {0, 1}, "standard uncertainty of the conductance", environment.flow_share);
+  number("environment_leakage_m3_per_s", "m3/s", {0, 1}, "standard uncertainty of leakage past the metering edge",
+         environment.leakage_m3_per_s);
+  number("environment_highest_pressure_Pa", "Pa", {0, 1e9},
+         "highest pressure difference that is answered; 0: the calibrated one", environment.highest_pressure_Pa);
+}
+
+template <class Visitor>
+void describe_machine_constants(Visitor& visitor) {
+  visitor.constant({.name = "most_held_currents",
+                    .unit = "1",
+                    .meaning = "so many currents in a row that leapt as no coil lets them are replaced"},
+                   sensor::most_held_currents);
+  visitor.constant({.name = "stalled_friction_share",
+                    .unit = "1",
+                    .meaning = "a stalled actuator is as likely as not where the flow force is this share of sliding "
+                               "friction"},
+                   sensor::stalled_friction_share);
+  visitor.constant({.name = "stalled_pressure_share",
+                    .unit = "1",
+                    .meaning = "and the pressure difference this share of the highest that is answered"},
+                   sensor::stalled_pressure_share);
+  visitor.constant({.name = "stalled_pressure_reach",
+                    .unit = "1",
+                    .meaning = "beyond so many times that share no actuator is thought to have stalled"},
+                   sensor::stalled_pressure_reach);
+  visitor.constant({.name = "least_likelihood", .unit = "1", .meaning = "the band holds a stall that is more likely"},
+                   sensor::least_likelihood);
+  visitor.constant(
+      {.name = "least_conductance_share",
+       .unit = "1",
+       .meaning = "changes of the conductance are taken of no less than this share of the widest opening's"},
+      sensor::least_conductance_share);
+  visitor.constant({.name = "least_conductance",
+                    .unit = "m3/s/Pa(1/2)",
+                    .meaning = "a smaller conductance is none: shares divide by it"},
+                   sensor::least_conductance);
+  visitor.constant({.name = "most_environment_N",
+                    .unit = "N",
+                    .meaning = "more than this leaves nothing known of the pressure difference"},
+                   sensor::most_environment_N);
+  visitor.constant({.name = "saturation_share",
+                    .unit = "1",
+                    .meaning = "one standard deviation of the force's rise above the largest current of its map, as a "
+                               "share of it"},
+                   sensor::saturation_share);
 }
 
 }  // namespace spoolflow::model

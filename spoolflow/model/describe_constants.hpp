@@ -1,7 +1,7 @@
 #pragma once
 /// The sensor's constants that are the same for all valves; see parameter.hpp. Their values stand where they are used.
+#include "spoolflow/model/describe_band.hpp"
 #include "spoolflow/model/describe_dither_constants.hpp"
-#include "spoolflow/model/describe_machine_constants.hpp"
 #include "spoolflow/model/describe_signal_constants.hpp"
 #include "spoolflow/model/describe_whole_valve_constants.hpp"
 #include "spoolflow/model/parameter.hpp"

@@ -3,7 +3,6 @@
 #include "spoolflow/model/describe_axes.hpp"
 #include "spoolflow/model/describe_band.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
-#include "spoolflow/model/describe_environment.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -211,6 +210,13 @@ void describe_friction(Friction& friction, Visitor& visitor) {
                   .limits = {sensor::least_friction_ratio, sensor::most_friction_ratio},
                   .meaning = "friction in operation over half the width of the bench's loops, to begin with"},
                  friction.operation_ratio);
+  visitor.number(
+      {.key = "freeing_share",
+       .unit = "1",
+       .limits = {0.5, 10},
+       .meaning = "dither frees the spool where half the swing of friction is so many times sliding friction",
+       .otherwise = 1.2},
+      friction.freeing_share);
 }
 
 template <class Pressure, class Visitor>

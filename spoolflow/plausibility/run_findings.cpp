@@ -86,13 +86,13 @@ class RunTrial {
   [[nodiscard]] std::vector<double> expected_flow() const {
     std::vector<double> out = plausibility::expected_flow(valve_.front().hydraulics, run);
     if (!both_) return out;
-    Recording turned{run.file, {}};
+    Recording mirrored_run{run.file, {}};
     for (const Channel channel : {Channel::time, Channel::position, Channel::pressure_difference})
-      turned.column(channel) = run.column(channel);
-    for (double& position_m : turned.column(Channel::position)) position_m *= -1;
-    const std::vector<double> of_a = plausibility::expected_flow(valve_.back().hydraulics, turned);
+      mirrored_run.column(channel) = run.column(channel);
+    for (double& position_m : mirrored_run.column(Channel::position)) position_m *= -1;
+    const std::vector<double> of_a = plausibility::expected_flow(valve_.back().hydraulics, mirrored_run);
     for (std::size_t k = 0; k < out.size(); ++k) {
-      if (turned.column(Channel::position)[k] > 0) out[k] = -of_a[k];
+      if (mirrored_run.column(Channel::position)[k] > 0) out[k] = -of_a[k];
     }
     return out;
   }

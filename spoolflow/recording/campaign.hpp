@@ -71,7 +71,7 @@ struct Campaign {
   CampaignInstruments instruments;
   CampaignLoad load;
   Environment environment{};  ///< of the machine that the valve is for
-  ChannelMap channels{};  ///< of all files that have the columns; a recording's own entries come before it
+  ChannelMap channels{};      ///< of all files that have the columns; a recording's own entries come before it
   std::vector<CampaignRecording> recordings;
 
   [[nodiscard]] std::vector<const CampaignRecording*> of(Protocol protocol) const;

@@ -37,9 +37,10 @@ constexpr std::array keys{Key{"position_zero_um", &Environment::position_zero_m,
 Environment of_kind(const std::string& kind, const std::string& place) {
   if (kind == "bench") return {};
   if (kind == "machine") return machine_environment();
-  throw RecordingError(fmt::format("{}: environment \"{}\" is not known; allowed: \"bench\" (nothing is left open), "
-                                   "\"machine\" (usual unknowns of a valve in the field)",
-                                   place, kind));
+  throw RecordingError(
+      fmt::format("{}: environment \"{}\" is not known; allowed: \"bench\" (nothing is left open), "
+                  "\"machine\" (usual unknowns of a valve in the field)",
+                  place, kind));
 }
 
 void require_known_keys(const TomlTable& table) {

@@ -9,20 +9,20 @@ struct TomlTable;
 
 /// What a machine leaves open that a bench knows. Half widths at 95 %, SI; the defaults are those of the bench: none.
 struct Environment {
-  std::string kind = "bench";           ///< "bench" or "machine": whose defaults the rest began with
-  double position_zero_m = 0;           ///< of the position sensor's zero after an exchange
-  double position_gain = 0;             ///< of its gain, as a share
-  double viscosity = 0;                 ///< of the oil's viscosity at a temperature, as a share
-  double temperature_K = 0;             ///< of the oil at the edge: error and lag of the sensor
-  double density = 0;                   ///< of the oil, as a share; air in it counts
-  double current_gain = 0;              ///< of the current, as a share
-  double pwm_ripple = 0;                ///< of a current that is sampled, not averaged: peak to peak, as a share of it
-  double leakage_m3_per_s = 0;          ///< past the metering edge
-  double friction = 0;                  ///< as a share
-  double vibration_m_per_s2 = 0;        ///< amplitude of the valve's acceleration along the spool
-  double ripple_Pa = 0;                 ///< amplitude of the pressure difference's ripple
-  std::optional<double> highest_Pa{};   ///< pressure difference up to which the valve is used; absent: 1.2 times the
-                                        ///< calibrated one
+  std::string kind = "bench";          ///< "bench" or "machine": whose defaults the rest began with
+  double position_zero_m = 0;          ///< of the position sensor's zero after an exchange
+  double position_gain = 0;            ///< of its gain, as a share
+  double viscosity = 0;                ///< of the oil's viscosity at a temperature, as a share
+  double temperature_K = 0;            ///< of the oil at the edge: error and lag of the sensor
+  double density = 0;                  ///< of the oil, as a share; air in it counts
+  double current_gain = 0;             ///< of the current, as a share
+  double pwm_ripple = 0;               ///< of a current that is sampled, not averaged: peak to peak, as a share of it
+  double leakage_m3_per_s = 0;         ///< past the metering edge
+  double friction = 0;                 ///< as a share
+  double vibration_m_per_s2 = 0;       ///< amplitude of the valve's acceleration along the spool
+  double ripple_Pa = 0;                ///< amplitude of the pressure difference's ripple
+  std::optional<double> highest_Pa{};  ///< pressure difference up to which the valve is used; absent: 1.2 times the
+                                       ///< calibrated one
 };
 
 /// A valve in a machine of which nothing is known. Sources stand in docs/environment.md.

@@ -43,7 +43,7 @@ struct ActuatorEstimate {
   T friction_half_width_N{};      ///< armature friction while it slides, >= 0; its sign is that of the velocity
   T force_per_current_N_per_A{};  ///< what an error of the current means for the force
   T force_per_position_N_per_m{};
-  bool inside_map{};              ///< current and position lie within what was calibrated
+  bool inside_map{};  ///< current and position lie within what was calibrated
 };
 
 static_assert(std::is_trivially_copyable_v<ActuatorParameters<float>>);
@@ -127,7 +127,8 @@ template <class T>
     judge_force(actuator, state, current, position, force.row_slope, sample.current_A - state.coil.static_current_A);
     if (beyond_A > T(0)) state.uncertainty_N += T(saturation_share) * beyond_N;
   }
-  return {force.value + beyond_N, state.uncertainty_N, state.friction_half_width_N, force.row_slope, force.column_slope, force.inside};
+  return {force.value + beyond_N, state.uncertainty_N, state.friction_half_width_N,
+          force.row_slope,        force.column_slope,  force.inside};
 }
 
 }  // namespace spoolflow::sensor

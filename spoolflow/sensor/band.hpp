@@ -1,9 +1,62 @@
 #pragma once
 /// The 95 % band: what the errors of the forces and unobserved changes of the supply leave open of the pressure
 /// difference, cut off where friction at rest would lie outside its bounds, and what that makes of the flow rate.
-#include "spoolflow/sensor/environment.hpp"
+///
+/// What the machine around the valve leaves open (Environment) is common to many samples: no filter averages it away,
+/// so that it enters the band and not the filter.
+#include "spoolflow/sensor/force_balance.hpp"
 
 namespace spoolflow::sensor {
+
+/// Shares of the conductance are taken of no less than this share of the widest opening's.
+inline constexpr double least_conductance_share = 0.01;
+/// A smaller conductance [m3/s/Pa(1/2)] is none: shares divide by it.
+inline constexpr double least_conductance = 1e-12;
+/// More than this [N] leaves nothing known of the pressure difference.
+inline constexpr double most_environment_N = 1e5;
+
+/// Whether nothing is left open beside what the flow itself is widened by.
+template <class T>
+[[gnu::always_inline]] constexpr bool is_bench(const Environment<T>& environment) {
+  return !(environment.position_m + environment.position_share + environment.current_share + environment.force_N +
+               environment.oil_temperature_K + environment.friction_share + environment.ripple_Pa >
+           T(0));
+}
+
+/// What an edge elsewhere, or of other oil, does to the flow rate that is told from a force [N]: as the force that
+/// would change it alike. An edge with more flow force is thought to have more pressure difference than it has; one
+/// with more conductance passes more.
+template <class T>
+constexpr T edge_effect_N(const EdgePoint<T>& edge, const EdgePoint<T>& other, T pressure_difference_Pa, T least) {
+  const T conductance_share = (other.conductance - edge.conductance) / larger(edge.conductance, least);
+  return T(2) * limited(conductance_share, T(-1), T(1)) * edge.flow_force_per_pressure_N_Pa * pressure_difference_Pa -
+         (other.flow_force_N - edge.flow_force_N);
+}
+
+/// What the environment leaves open of the force that the pressure difference is told from [N], one standard deviation.
+/// What a position error does to force and conductance belongs together: the one takes off the other.
+template <class T>
+[[gnu::noinline]] constexpr T environment_N(const ObserverParameters<T>& valve, const ObserverState<T>& state,
+                                            const ForceBalance<T>& balance, T position_m, T current_A) {
+  const Environment<T>& environment = valve.environment;
+  const MeteringEdge<T>& edge = valve.edge;
+  const T believed_Pa = state.pressure.pressure_difference_Pa;
+  const T widest = edge.conductance.node(0, 1, edge_positions - 1);
+  const T least = larger(T(least_conductance_share) * widest, T(least_conductance));
+  const T off_m = sqrt(squared(environment.position_m) + squared(environment.position_share * position_m));
+  const EdgePoint<T> there = edge.at(state.oil_temperature_K, believed_Pa, position_m + off_m);
+  const T stiffness_N_per_m = valve.spring.at(position_m).slope - balance.actuator.force_per_position_N_per_m;
+  const T moved_N = edge_effect_N(balance.edge, there, believed_Pa, least) - stiffness_N_per_m * off_m;
+  const EdgePoint<T> warmer = edge.at(state.oil_temperature_K + environment.oil_temperature_K, believed_Pa, position_m);
+  const T warmer_N = edge_effect_N(balance.edge, warmer, believed_Pa, least);
+  const T current_N = environment.current_share * current_A * balance.actuator.force_per_current_N_per_A;
+  const T ripple_N = balance.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;
+  const T freed_N = smaller(ripple_N, balance.bounds.sliding_N);
+  const T friction_N = environment.friction_share * (balance.spool_friction_N + balance.armature_friction_N);
+  const T all_N = sqrt(squared(environment.force_N) + squared(current_N) + squared(moved_N) + squared(warmer_N) +
+                       squared(ripple_N) + squared(freed_N) + squared(friction_N));
+  return smaller(all_N, T(most_environment_N));
+}
 
 /// Half the width that the flow's own residual takes in the band, over its standard deviation.
 inline constexpr double flow_residual_factor = 2.1;
@@ -139,8 +192,8 @@ template <class T>
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
 /// flow's own residual, which knows nothing of it.
 template <class T>
-[[gnu::always_inline]] constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s, T most_m3_per_s,
-                                                   Estimate<T>& out) {
+[[gnu::always_inline]] constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s,
+                                                   T most_m3_per_s, Estimate<T>& out) {
   const BandParameters<T>& band = valve.band;
   out.flow_lower_m3_per_s = least_m3_per_s;
   out.flow_upper_m3_per_s = most_m3_per_s;

@@ -128,9 +128,6 @@ inline constexpr double missed_swing = 0.8;
 /// One standard deviation of where the middle lies between peaks of which each may be missed, over half the swing and
 /// 1/n2. At most it is pi2/4, where a sample meets the one peak and two pass the other.
 inline constexpr double missed_middle = 2;
-/// Dither frees the spool altogether where half the swing of friction is so many times sliding friction: what a sample
-/// takes for the swing is not quite all of it, and contacts that hold for a moment in each period are not freed.
-inline constexpr double freeing_share = 1.2;
 /// 2 pi / sqrt(4.5): see slip_excess_N.
 inline constexpr double slip_excess_factor = 2.962;
 

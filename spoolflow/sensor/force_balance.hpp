@@ -61,7 +61,7 @@ template <class T>
   const FrictionSwing<T> swing = follow_swing(state.swing, dither, balance.apparent_friction_N);
   balance.dithered = dither.present;
   // Where dither frees the spool altogether, no contact grows old.
-  balance.freed = dither.present && swing.half_swing_N > T(freeing_share) * balance.bounds.sliding_N;
+  balance.freed = dither.present && swing.half_swing_N > valve.friction.freeing_share * balance.bounds.sliding_N;
   balance.settled = swing.settled;
   balance.apparent_friction_N = swing.middle_N;
   balance.half_swing_N = swing.half_swing_N;

@@ -18,6 +18,8 @@ struct FrictionParameters {
   T tolerance_N{};                ///< standard deviation of friction told by the pre-sliding displacement
   T breakaway_share{};            ///< standard deviation of the break-away force about ageing, as a share of it
   T operation_ratio{};            ///< friction in operation over half the width of the bench's loops, to begin with
+  T freeing_share = T(1.2);       ///< dither frees the spool where half the swing of friction is so many times sliding
+                                  ///< friction: contacts that hold for a moment in each period are not freed
 };
 
 template <class T>

@@ -42,8 +42,8 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
-  sensor::begin(valve.pressure, state.pressure, valve.highest_pressure_difference_Pa(),
-                valve.friction.operation_ratio, valve.band.unseen_factor);
+  sensor::begin(valve.pressure, state.pressure, valve.highest_pressure_difference_Pa(), valve.friction.operation_ratio,
+                valve.band.unseen_factor);
 }
 
 /// The oil temperature reads what no oil has, or leapt, or did so before: believed only where a leap has lasted.
@@ -101,10 +101,9 @@ template <class T>
   if (position.turn.even) {
     if (!is_bench(valve.environment))
       state.environment_N = environment_N(valve, state, balance, position.position_m, current_A);
-    state.pressure.reach =
-        pressure_reach(valve.band, state.pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
-                       displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio),
-                       state.environment_N);
+    state.pressure.reach = pressure_reach(
+        valve.band, state.pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
+        displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio), state.environment_N);
   }
   const PressureBand<T> band = pressure_band(state.pressure, valve.highest_pressure_difference_Pa());
   const T conductance = balance.edge.conductance;

@@ -42,19 +42,19 @@ struct CurrentLimits {
   T slope_A_per_s{};  ///< and with the time since the last sample: voltage over incremental inductance
 };
 
-/// What the machine around the valve leaves unknown, one standard deviation each; {} is the bench (environment.hpp).
+/// What the machine around the valve leaves unknown, one standard deviation each; {} is the bench (band.hpp).
 template <class T>
 struct Environment {
-  T position_m{};          ///< of the position's zero
-  T position_share{};      ///< of the position's gain
-  T oil_temperature_K{};   ///< of the oil temperature, or what another viscosity comes to
-  T current_share{};       ///< of the current's gain, or of its mean over a sample
-  T force_N{};             ///< that acts on the spool beside those of the model: acceleration of the valve
-  T friction_share{};      ///< of friction about what was calibrated
-  T ripple_Pa{};           ///< amplitude of the pressure difference's ripple
-  T flow_share{};          ///< of the conductance: oil
-  T leakage_m3_per_s{};    ///< past the metering edge
-  T highest_pressure_Pa{}; ///< pressure difference up to which the model answers, at least the calibrated one
+  T position_m{};           ///< of the position's zero
+  T position_share{};       ///< of the position's gain
+  T oil_temperature_K{};    ///< of the oil temperature, or what another viscosity comes to
+  T current_share{};        ///< of the current's gain, or of its mean over a sample
+  T force_N{};              ///< that acts on the spool beside those of the model: acceleration of the valve
+  T friction_share{};       ///< of friction about what was calibrated
+  T ripple_Pa{};            ///< amplitude of the pressure difference's ripple
+  T flow_share{};           ///< of the conductance: oil
+  T leakage_m3_per_s{};     ///< past the metering edge
+  T highest_pressure_Pa{};  ///< pressure difference up to which the model answers, at least the calibrated one
 };
 
 /// Everything about one valve that the observer needs; trivially copyable, fit for constexpr flash.
@@ -93,10 +93,11 @@ struct ObserverState {
   FrictionSwingState<T> swing;
   T oil_temperature_K{};  ///< smoothed
   T oil_fault_s{};        ///< for how long its sensor has read what no oil has
-  T environment_N{};      ///< what the machine leaves open of the force that tells the pressure difference, one standard deviation
-  int held_currents{};    ///< so many currents before this sample's were none that a coil can have
-  T force_noise_N{};      ///< one standard deviation of all forces together, as the parts tell it
-  bool started{};         ///< a sample came in
+  T environment_N{};    ///< what the machine leaves open of the force that tells the pressure difference, one standard
+                        ///< deviation
+  int held_currents{};  ///< so many currents before this sample's were none that a coil can have
+  T force_noise_N{};    ///< one standard deviation of all forces together, as the parts tell it
+  bool started{};       ///< a sample came in
   Estimate<T> last{};
 };
 

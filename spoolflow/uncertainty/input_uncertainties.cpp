@@ -220,7 +220,7 @@ class Collection {
     add(std::move(of_map));
   }
 
-  /// What the declared machine leaves open beside the instruments (sensor/environment.hpp).
+  /// What the declared machine leaves open beside the instruments (sensor/band.hpp).
   void machine() {
     const sensor::Environment<double>& open = model_.observer->parameters.environment;
     const std::array<std::pair<InputQuantity, double>, 6> declared{

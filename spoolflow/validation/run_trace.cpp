@@ -35,15 +35,15 @@ class Tracer {
   [[nodiscard]] std::vector<float> highest(const std::vector<float>& values) const {
     return edge([&](std::size_t k) { return values[k]; }, [](float a, float b) { return std::fmax(a, b); });
   }
-  [[nodiscard]] std::vector<std::uint16_t> status(const std::vector<sensor::Status>& values) const {
-    static_assert(sensor::status_names.size() <= 16);
-    std::vector<std::uint16_t> out;
+  [[nodiscard]] std::vector<std::uint32_t> status(const std::vector<sensor::Status>& values) const {
+    static_assert(sensor::status_names.size() <= 32);
+    std::vector<std::uint32_t> out;
     for (const Stretch& stretch : stretches_) {
       sensor::Status any = sensor::Status::none;
       for (std::size_t k = stretch.begin; k < stretch.end; ++k) any |= values[k];
-      std::uint16_t places = 0;
+      std::uint32_t places = 0;
       for (std::size_t n = 0; n < sensor::status_names.size(); ++n) {
-        if (sensor::has(any, sensor::status_names[n].bit)) places |= static_cast<std::uint16_t>(1U << n);
+        if (sensor::has(any, sensor::status_names[n].bit)) places |= 1U << n;
       }
       out.push_back(places);
     }

@@ -24,7 +24,7 @@ struct TracedEstimator {
   /// The forces stacked on each other: spring and flow; spring, flow and friction.
   TracedChannel spring_and_flow_N, all_forces_N;
   /// All that was said in the stretch: bit n is the n-th of the sensor's status names.
-  std::vector<std::uint16_t> status;
+  std::vector<std::uint32_t> status;
 };
 
 struct RunTrace {

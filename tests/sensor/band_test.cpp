@@ -76,7 +76,7 @@ struct RestingSpool {
   [[nodiscard]] PressureBand<double> band() const {
     PressureState<double> now = pressure;
     now.reach = pressure_reach(parameters.band, pressure, balance, 3.0, 0.0,
-                               displaced_ratio(parameters.pressure, pressure, calibrated_ratio));
+                               displaced_ratio(parameters.pressure, pressure, calibrated_ratio), environment_N);
     return pressure_band(now, 1000e5);
   }
 
@@ -84,6 +84,7 @@ struct RestingSpool {
   ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
   PressureState<double> pressure{};
   ForceBalance<double> balance{};
+  double environment_N = 0;
 };
 
 TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
@@ -144,8 +145,29 @@ TEST(Band, InMotionDoubtsFrictionThatIsNotAsCalibrated) {
   }
 }
 
+TEST(Band, HoldsWhatTheMachineLeavesOpenInMotionAndBeyondFrictionsBoundsAtRest) {
+  RestingSpool spool;
+  const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
+  spool.environment_N = 2;
+  const double uncertain_N = 2 * bounds_deviation_N(spool.parameters.band, 3.0);
+  EXPECT_NEAR((40e5 - spool.band().least_Pa) * slope, 1 + std::hypot(uncertain_N, 4), 0.1);
+  spool.balance.sliding = true;
+  spool.pressure.unobserved_variance_Pa2 = 0;
+  spool.balance.friction_N = spool.balance.apparent_friction_N;
+  EXPECT_NEAR((40e5 - spool.band().least_Pa) * slope, 4, 0.3);
+}
+
+TEST(Band, AtRestHoldsThatFrictionMayHaveHeldWhatThePressureYielded) {
+  RestingSpool spool;
+  const double before_Pa = 40e5 - spool.band().least_Pa;
+  spool.pressure.yielded_Pa = 15e5;  // it went up by so much because friction was not thought able to hold it
+  EXPECT_GT(40e5 - spool.band().least_Pa, std::hypot(before_Pa, 14e5));
+  EXPECT_LT(spool.band().least_Pa, 25e5);
+}
+
 TEST(Band, OfTheFlowCountsItsOwnResidualAsIndependentOfThePressure) {
-  BandParameters<double> parameters{.flow_residual_m3_per_s = 1e-6};
+  ObserverParameters<double> parameters{};
+  parameters.band.flow_residual_m3_per_s = 1e-6;
   Estimate<double> answer{.flow_m3_per_s = 5e-4};
   band_of_flow(parameters, 5e-4, 5e-4, answer);
   EXPECT_NEAR(answer.flow_upper_m3_per_s - 5e-4, flow_residual_factor * 1e-6, 1e-12);

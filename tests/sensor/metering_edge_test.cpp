@@ -32,8 +32,15 @@ TEST(MeteringEdge, SaysWhatItWasNotMeasuredAt) {
   EXPECT_FALSE(edge.at(350.0, 40e5, 1e-3).temperature_inside);
   EXPECT_FALSE(edge.at(313.0, 110e5, 1e-3).inside);
   EXPECT_FALSE(edge.at(313.0, 40e5, 2.6e-3).inside);
-  // Answered at the edge: no flow force grows without end.
-  EXPECT_NEAR(edge.at(313.0, 110e5, 1e-3).flow_force_N, ClosedFormValve::flow_force_N(1e-3, 90e5), 1e-9);
+}
+
+TEST(MeteringEdge, GoesOnAboveTheHighestPressureByPhysics) {
+  const MeteringEdge<double> edge = closed_form_edge<double>(closed_form);
+  const EdgePoint<double> beyond = edge.at(313.0, 110e5, 1e-3);
+  EXPECT_NEAR(beyond.flow_force_N, ClosedFormValve::flow_force_N(1e-3, 110e5), 1e-9);
+  EXPECT_NEAR(beyond.flow_force_per_pressure_N_Pa, ClosedFormValve::flow_force_per_pressure(1e-3), 1e-12);
+  EXPECT_NEAR(beyond.friction_N, ClosedFormValve::spool_friction_N(110e5, 313), 1e-9);
+  EXPECT_NEAR(beyond.conductance, closed_form.conductance(1e-3, 313), 1e-15);
 }
 
 TEST(MeteringEdge, NeverDividesByASlopeOfNothing) {

@@ -87,7 +87,7 @@ TEST(RunTrace, TellsAllThatWasSaidInAStretch) {
     }
     return 0U;
   };
-  const std::vector<std::uint16_t>& said = trace.estimators.front().status;
+  const std::vector<std::uint32_t>& said = trace.estimators.front().status;
   const unsigned both = place_of(sensor::Status::closed) | place_of(sensor::Status::position_fault);
   EXPECT_EQ(std::count(said.begin(), said.end(), both), 1);
   EXPECT_EQ(std::count(said.begin(), said.end(), place_of(sensor::Status::closed)),

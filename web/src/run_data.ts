@@ -58,7 +58,7 @@ export interface Panel {
 export interface Status {
   title: string;
   names: StatusName[];
-  bits: Uint16Array;
+  bits: Uint32Array;
 }
 
 export interface Run {
@@ -92,6 +92,6 @@ export function runOf(packed: PackedRun): Run {
                  drawn: series.top ? channelOf(series.top) : own };
       }),
     })),
-    status: status ? { ...status, bits: new Uint16Array(bytesOf(status.values).buffer) } : null,
+    status: status ? { ...status, bits: new Uint32Array(bytesOf(status.values).buffer) } : null,
   };
 }

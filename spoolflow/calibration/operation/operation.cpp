@@ -64,6 +64,9 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   constexpr double restless = 0.3;
   parameters.pressure.first_process_noise = restless;
   parameters.pressure.least_process_noise = restless * restless;
+  // Dither that hardly frees the spool tells of friction, and the search must not pass it by.
+  const double given_freeing_share = parameters.friction.freeing_share;
+  parameters.friction.freeing_share = 1;
   const std::vector<Dial> all = told_dials(parameters, runs, full_scale_m3_per_s);
   out.not_told = not_told(parameters, all);
   std::vector<double> prior;
@@ -84,6 +87,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   out.force_error_ratio = force_error_ratio(parameters, runs);
   if (!rests) out.force_error_ratio = std::max(out.force_error_ratio, least_dithered_force_error_ratio);
   scale_band(parameters, out.force_error_ratio);
+  parameters.friction.freeing_share = given_freeing_share;
   const OperationOutcome outcome =
       together(replay_stretches(parameters, runs, std::numeric_limits<double>::infinity()));
   out.flow_m3_per_s = outcome.error;

@@ -38,6 +38,9 @@ std::string base64_of_numbers(std::span<const Number> numbers) {
 std::string base64_of(std::span<const std::uint16_t> numbers) {
   return base64_of_numbers(numbers);
 }
+std::string base64_of(std::span<const std::uint32_t> numbers) {
+  return base64_of_numbers(numbers);
+}
 
 PackedNumbers packed(std::span<const float> values, double factor) {
   double lowest = std::numeric_limits<double>::infinity();

@@ -28,5 +28,6 @@ struct PackedTimes {
 [[nodiscard]] PackedTimes packed_times(std::span<const double> time_s);
 
 [[nodiscard]] std::string base64_of(std::span<const std::uint16_t> numbers);
+[[nodiscard]] std::string base64_of(std::span<const std::uint32_t> numbers);
 
 }  // namespace spoolflow::report

@@ -203,8 +203,8 @@ template <class T>
   mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
 
-/// The sample, with the last credible current of the side that is open where its own is none that the coil can have; see
-/// the same of one direction.
+/// The sample, with the last credible current of the side that is open where its own is none that the coil can have;
+/// see the same of one direction.
 template <class T>
 [[gnu::always_inline]] constexpr const WholeValveSample<T>& credible(const WholeValveParameters<T>& valve,
                                                                      WholeValveState<T>& state,
