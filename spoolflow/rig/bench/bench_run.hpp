@@ -6,6 +6,7 @@
 
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/rig/bench/course.hpp"
+#include "spoolflow/rig/bench/machine.hpp"
 #include "spoolflow/rig/electronics/electronics.hpp"
 #include "spoolflow/rig/plant/valve_plant.hpp"
 
@@ -62,6 +63,7 @@ struct BenchRun {
   std::vector<Span<double>> sample_rate_Hz;
   std::vector<Span<double>> test;            ///< numbers of the parts; empty: none
   std::vector<recording::Channel> channels;  ///< in the order of the file's columns
+  Machine machine;                           ///< round the valve at work
   double position_faults_per_s = 0;          ///< acquisition faults beside those of the LVDT's own figures
 
   [[nodiscard]] double duration_s() const { return sample_rate_Hz.empty() ? 0 : sample_rate_Hz.back().until_s; }

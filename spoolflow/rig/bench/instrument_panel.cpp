@@ -30,13 +30,13 @@ InstrumentPanel::InstrumentPanel(const Instruments& instruments, std::uint64_t s
                                  const PlantOutput& plant, double oil_temperature_C)
     : lvdt(instruments.lvdt, seed, plant.position_m, oil_temperature_C),
       whole_valve_(run.whole_valve),
-      driven_coil_(instruments, seed, ""),
+      driven_coil_(instruments, seed, "", run.machine.pwm, run.machine.spikes),
       load_cell_(errors(instruments.load_cell), seed, "load cell", plant.load_cell_force_N),
       upstream_(errors(instruments.upstream), seed, "upstream pressure", plant.path.upstream_pressure_Pa),
       downstream_(errors(instruments.downstream), seed, "downstream pressure", downstream_Pa(plant, run.whole_valve)),
       thermometer_(errors(instruments.thermometer), seed, "thermometer", oil_temperature_C),
-      coil_a_(instruments, seed, " a"),
-      coil_b_(instruments, seed, " b"),
+      coil_a_(instruments, seed, " a", run.machine.pwm, run.machine.spikes),
+      coil_b_(instruments, seed, " b", run.machine.pwm, run.machine.spikes),
       flow_meter_(instruments.flow_meter, seed, flow_m3_per_s(plant, run.whole_valve)) {
   if (records(run, Channel::pressure_p) || records(run, Channel::pressure_a) || records(run, Channel::pressure_b) ||
       records(run, Channel::pressure_t)) {
@@ -118,9 +118,9 @@ void InstrumentPanel::store(recording::Recording& recording, const std::vector<C
                             const SetValues& set) {
   // A first sample without a period before it is a single conversion.
   const double conversions = static_cast<double>(std::max<std::int64_t>(1, conversions_));
-  driven_coil_.end_period(conversions);
-  coil_a_.end_period(conversions);
-  coil_b_.end_period(conversions);
+  driven_coil_.end_period(conversions, set.time_s);
+  coil_a_.end_period(conversions, set.time_s);
+  coil_b_.end_period(conversions, set.time_s);
   conversions_ = 0;
   for (const Channel channel : channels) {
     recording.column(channel).push_back(reading(channel, set));

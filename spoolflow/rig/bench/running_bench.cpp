@@ -21,6 +21,15 @@ void surround(PlantInput& input, const BenchRun& run, const Supply& supply, doub
   }
 }
 
+/// What the machine adds; `share` of the held difference is left by its actuator.
+void disturb(PlantInput& input, const Machine& machine, const Spool& spool, double share, double time_s) {
+  const double ripple_Pa = pump_ripple_Pa(machine.ripple, time_s);
+  input.held_pressure_difference_Pa = share * (input.held_pressure_difference_Pa + ripple_Pa);
+  input.supply_pressure_Pa += ripple_Pa;
+  const double mass_kg = spool.spool_mass_kg + 2 * spool.armature_mass_kg;
+  input.foreign_force_N = vibration_force_N(machine.vibration, mass_kg, time_s);
+}
+
 PlantInput surroundings_at_start(const BenchRun& run, const Supply& supply) {
   PlantInput input;
   surround(input, run, supply, 0);
@@ -94,6 +103,7 @@ RunningBench::RunningBench(const ValveUnderTest& valve, const BenchRun& run, std
       truth_(observe(tested_.plant, state_, input_)),
       panel_(instruments_, seed, run, truth_, input_.oil_temperature_C),
       coil_supply_(tested_, run, seed),
+      actuator_(run.machine.actuator_end),
       sample_rate_(run.sample_rate_Hz),
       test_(run.test) {}
 
@@ -106,7 +116,7 @@ void RunningBench::store_sample(recording::Recording& recording, const Simulatio
                {.time_s = time_s,
                 .position = run_.position_set.at(time_s),
                 .current_A = run_.current_A.at(time_s),
-                .pressure_difference_Pa = input_.held_pressure_difference_Pa,
+                .pressure_difference_Pa = run_.pressure_difference_Pa.at(time_s),
                 .test = test_.at(time_s, 0)});
   hand_over(options, run_, time_s, recording, coil_supply_, tested_.plant);
   truth_.time_s = time_s;
@@ -131,6 +141,8 @@ bool RunningBench::begin(const PlantOutput* truth, recording::Recording& recordi
     input_.oil_temperature_C = run_.oil_temperature_C.at(now_s);
   }
   surround(input_, run_, tested_.plant.supply, now_s);
+  disturb(input_, run_.machine, tested_.plant.spool, actuator_.share(now_s, truth_.flow_m3_per_s, electronics_period_s),
+          now_s);
   const bool sampled = samples();
   if (sampled) {
     store_sample(recording, options, now_s);

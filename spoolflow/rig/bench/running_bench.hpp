@@ -78,6 +78,7 @@ class RunningBench {
   PlantOutput truth_;
   InstrumentPanel panel_;
   CoilSupply coil_supply_;
+  ActuatorAtEnd actuator_;
   SpanReader<double> sample_rate_;
   SpanReader<double> test_;
   SolenoidVoltages voltages_;

@@ -74,6 +74,23 @@ void take(const BenchChoices& choices, const std::string& file, Scenario& scenar
   if (edge.direction_a) scenario.direction_a = *edge.direction_a;
 }
 
+/// Throws SettingsError where no machine can do so.
+void check_machine(const std::string& file, const Scenario& scenario) {
+  if (scenario.machine == Machine{}) return;
+  if (is_bench_test(scenario.protocol)) {
+    throw SettingsError(
+        fmt::format("{}: [machine] is of the valve at work; this protocol is a bench test, so remove "
+                    "[machine]",
+                    file));
+  }
+  if (scenario.machine.actuator_end.stands_s > 0 && !holds_difference(scenario.valve.plant.load.kind)) {
+    throw SettingsError(
+        fmt::format("{}: machine.actuator_end is of loads that hold the pressure difference; with this "
+                    "load remove it, or choose a cylinder and its cylinder_stroke_m",
+                    file));
+  }
+}
+
 /// The protocol alone, read first: it decides which keys [run] may hold.
 Protocol protocol_of(const SettingsSource& source) {
   Protocol protocol;
@@ -115,8 +132,10 @@ Scenario read_scenario(const std::filesystem::path& file) {
       scenario.protocol);
   BenchChoices choices;
   add_bench_choices(settings, scenario, choices);
+  settings.add("machine", scenario.machine);
   apply(source, settings);
   take(choices, source.name, scenario);
+  check_machine(source.name, scenario);
   return scenario;
 }
 
@@ -124,6 +143,9 @@ PlannedScenario plan(const Scenario& scenario) {
   ValveUnderTest valve = as_built(scenario.valve);
   if (scenario.direction_a) valve = turned_round(std::move(valve));
   BenchRun run = plan(scenario.protocol, valve, valve.seed);
+  run.machine = scenario.machine;
+  // The bench's own ripple would go on through a valve whose actuator stands.
+  if (run.machine.actuator_end.stands_s > 0) valve.plant.supply.ripple_Pa = 0;
   return {.valve = std::move(valve), .run = std::move(run)};
 }
 

@@ -9,6 +9,8 @@
 ///                                      # images), or one edge of "PB", "AT", "PA", "BT"
 ///     [run]                            # settings of the protocol
 ///     pressure_differences_bar = [60]
+///     [machine.ripple]                 # operation: what a machine does to the valve (machine.hpp)
+///     amplitude_bar = 3
 ///     [plant.spool_friction]           # anything a valve file may hold
 ///     base_N = 2.0
 #include <filesystem>
@@ -21,6 +23,7 @@ struct Scenario {
   ValveUnderTest valve;  ///< before spread and wear
   Protocol protocol;
   bool direction_a = false;  ///< a bench test of direction a, P to A
+  Machine machine;           ///< round the valve at work
 };
 
 /// Throws SettingsError with file, line, value, range and the nearest key.

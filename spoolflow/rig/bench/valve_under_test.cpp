@@ -64,6 +64,7 @@ void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
   settings.add("rating", valve.rating).add("plant", valve.plant).add("electronics", valve.electronics);
   settings.add("bench_amplifier", valve.bench_amplifier).add("instruments", valve.instruments);
   settings.add("wear", valve.wear).add("spread", valve.spread);
+  settings.add_seed("spread.seed", valve.spread_seed);
   settings.add_choice("hysteresis", {"jiles_atherton", "preisach"}, [&plant = valve.plant](std::size_t kind) {
     plant.solenoid_a.hysteresis.kind = plant.solenoid_b.hysteresis.kind = static_cast<HysteresisKind>(kind);
   });
@@ -79,7 +80,7 @@ void add_valve_settings(Settings& settings, ValveUnderTest& valve) {
 }
 
 ValveUnderTest as_built(ValveUnderTest valve) {
-  draw(valve.spread, valve.seed, valve.plant, valve.instruments.lvdt);
+  draw(valve.spread, valve.spread_seed != 0 ? valve.spread_seed : valve.seed, valve.plant, valve.instruments.lvdt);
   valve.plant = worn(valve.plant, valve.wear);
   valve.electronics.sign_chooses = valve.whole;
   if (valve.whole && valve.plant.load.kind == LoadKind::held_difference) valve.plant.load.kind = LoadKind::held_path;

@@ -37,7 +37,9 @@ struct ValveUnderTest {
   std::string name = "NG6 4/3 proportional, virtual";
   std::string fluid = "HLP46";
   std::uint64_t seed = 1;  ///< of spread, instruments and random courses
-  bool whole = false;      ///< measured and driven in both directions; else it is the valve of one, P to B
+  std::uint64_t spread_seed =
+      0;               ///< key `spread.seed`: of the spread alone, one valve in runs of many seeds; 0: `seed`
+  bool whole = false;  ///< measured and driven in both directions; else it is the valve of one, P to B
   Rating rating;
   PlantParameters plant;
   Electronics electronics;

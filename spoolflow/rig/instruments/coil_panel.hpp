@@ -1,39 +1,62 @@
 #pragma once
-/// Shunt and voltage divider of one coil; both readings are means over a sample period.
+/// Shunt and voltage divider of one coil; both readings are means over a sample period, but for what a machine does to
+/// the current's.
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "spoolflow/rig/instruments/current_spikes.hpp"
 #include "spoolflow/rig/instruments/instruments.hpp"
+#include "spoolflow/rig/instruments/pwm_ripple.hpp"
 
 namespace spoolflow::rig {
 
 class CoilPanel {
  public:
   /// `coil` tells the noise of several apart; empty for the only one.
-  CoilPanel(const Instruments& instruments, std::uint64_t seed, std::string_view coil)
-      : shunt_(errors(instruments.shunt), seed, std::string("shunt").append(coil), 0),
+  CoilPanel(const Instruments& instruments, std::uint64_t seed, std::string_view coil, const PwmRipple& pwm = {},
+            const CurrentSpikes& spikes = {})
+      : pwm_(pwm),
+        spikes_(spikes),
+        chance_(seed, std::string("current spikes").append(coil)),
+        shunt_(errors(instruments.shunt), seed, std::string("shunt").append(coil), 0),
         divider_(errors(instruments.voltage), seed, std::string("voltage").append(coil), 0) {}
 
   /// One period of the electronics went by with this mean voltage and this current at its end.
   void follow(double current_A, double voltage_V) {
     current_sum_A_ += current_A;
+    last_current_A_ = current_A;
     voltage_sum_V_ += voltage_V;
   }
-  /// Ends the sample period of that many conversions; the readings are of it until the next.
-  void end_period(double conversions) {
-    shunt_.follow(current_sum_A_ / conversions, 0);
+  /// Ends at `time_s`, which the ripple alone needs, the sample period of that many conversions; the readings are of it
+  /// until the next.
+  void end_period(double conversions, double time_s = 0) {
+    shunt_.follow(period_current_A(conversions, time_s), 0);
     divider_.follow(voltage_sum_V_ / conversions, 0);
     current_sum_A_ = voltage_sum_V_ = 0;
     noise_share_ = 1 / std::sqrt(conversions);
+    spike_A_ = spikes_.share > 0 && chance_.uniform() < spikes_.share
+                   ? (chance_.uniform() < 0.5 ? -spikes_.height_A : spikes_.height_A)
+                   : 0.0;
   }
-  [[nodiscard]] double current_A() { return shunt_.reading(noise_share_); }
+  [[nodiscard]] double current_A() { return shunt_.reading(pwm_.share > 0 ? 1.0 : noise_share_) + spike_A_; }
   [[nodiscard]] double voltage_V() { return divider_.reading(noise_share_); }
 
  private:
+  /// Mean, or the last conversion with the ripple of the switching.
+  [[nodiscard]] double period_current_A(double conversions, double time_s) const {
+    if (pwm_.share == 0) return current_sum_A_ / conversions;
+    const double phase = pwm_.frequency_Hz * time_s - std::floor(pwm_.frequency_Hz * time_s);
+    const double triangle = 4 * std::abs(phase - 0.5) - 1;
+    return last_current_A_ * (1 + 0.5 * pwm_.share * triangle);
+  }
+
+  PwmRipple pwm_;
+  CurrentSpikes spikes_;
+  Noise chance_;
   Transducer shunt_, divider_;
-  double current_sum_A_ = 0, voltage_sum_V_ = 0, noise_share_ = 1;
+  double current_sum_A_ = 0, voltage_sum_V_ = 0, noise_share_ = 1, last_current_A_ = 0, spike_A_ = 0;
 };
 
 }  // namespace spoolflow::rig

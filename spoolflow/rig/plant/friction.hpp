@@ -3,6 +3,8 @@
 ///
 ///     f_i <- clamp(f_i + k_i dx, -alpha_i W, +alpha_i W),   F = sum f_i          (pre-sliding, break-away)
 ///     W = level [1 + (stiction - 1 + ageing a) / (1 + (v/v_s)^2)]                 (Stribeck)
+///     level <- level (1 - (1 - s) (|v| - v_1)/(v_2 - v_1))   between v_1 and v_2: friction that falls with speed
+///     W <- W (1 + (n - 1) (a - 0.9 a_n)/(0.1 a_n))           up to n times at a_n, the age after a rest of t_n: silt
 ///     da/dt = (1 - a)/t_rest - a |v|/l_rest                                       (contact ages at rest, is wiped by
 ///     sliding)
 ///
@@ -28,6 +30,11 @@ struct FrictionOf {
   Scalar contact_stiffness_N_per_m = 4.0e6;
   Scalar viscosity_exponent = 0.12;
   Scalar wear_factor = 1.0;
+  Scalar silt_factor = 1.0;
+  Scalar silt_rest_s = 5.0;
+  Scalar falls_to = 1.0;
+  Scalar falls_from_m_per_s = 1.2e-4;
+  Scalar falls_until_m_per_s = 4.8e-4;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -50,6 +57,17 @@ struct FrictionOf {
     visit(Parameter{"viscosity_exponent", "1", 0, 0.5, "sliding friction follows (viscosity/46 mm2/s)^n"},
           self.viscosity_exponent);
     visit(Parameter{"wear_factor", "1", 0.2, 5, "fault: scales all sliding friction; 1 is new"}, self.wear_factor);
+    visit(
+        Parameter{"silt_factor", "1", 1, 5, "on break-away after the rest below: dirt between spool and bore; 1: none"},
+        self.silt_factor);
+    visit(Parameter{"silt_rest_s", "s", 0.1, 1000, "rest of a freshly slid contact after which silt holds it"},
+          self.silt_rest_s);
+    visit(Parameter{"falls_to", "1", 0.2, 1, "share of sliding friction left at speed, a film that carries; 1: none"},
+          self.falls_to);
+    visit(Parameter{"falls_from_m_per_s", "m/s", 1e-6, 0.1, "where it begins to fall; 5 %/s of 2.4 mm"},
+          self.falls_from_m_per_s);
+    visit(Parameter{"falls_until_m_per_s", "m/s", 1e-6, 0.2, "where it has fallen; 20 %/s of 2.4 mm"},
+          self.falls_until_m_per_s);
   }
 };
 using Friction = FrictionOf<double>;
@@ -76,6 +94,8 @@ struct FrictionConstantsOf {
   Scalar stiction, ageing_gain;  ///< stiction ratio less 1
   Scalar stribeck2_m2_per_s2;
   Scalar per_ageing_time_s, per_ageing_distance_m;
+  Scalar silt_gain, silt_begin, per_silt;  ///< factor less 1; age where it begins; over the age in which it grows
+  Scalar falls, falls_from_m_per_s, per_fall_s_per_m;  ///< share lost; over the speeds between
 };
 using FrictionConstants = FrictionConstantsOf<double>;
 
@@ -86,6 +106,10 @@ inline FrictionConstantsOf<Scalar> friction_constants(const FrictionOf<Scalar>& 
   if (any(thickens)) {
     factor = select(thickens, factor * power(viscosity_m2_per_s / 46e-6, friction.viscosity_exponent), factor);
   }
+  Scalar silt_age = 1.0;
+  const Mask<Scalar> silts = friction.silt_factor > 1.0;
+  if (any(silts)) silt_age = 1.0 - exponential(-friction.silt_rest_s / friction.ageing_time_s);
+  constexpr double least_m_per_s = 1e-6;
   const Scalar stiffness = friction.contact_stiffness_N_per_m / static_cast<Scalar>(friction_elements);
   return {.base_N = factor * friction.base_N,
           .load_factor = factor,
@@ -95,7 +119,14 @@ inline FrictionConstantsOf<Scalar> friction_constants(const FrictionOf<Scalar>& 
           .ageing_gain = friction.ageing_gain,
           .stribeck2_m2_per_s2 = friction.stribeck_velocity_m_per_s * friction.stribeck_velocity_m_per_s,
           .per_ageing_time_s = 1.0 / friction.ageing_time_s,
-          .per_ageing_distance_m = 1.0 / friction.ageing_distance_m};
+          .per_ageing_distance_m = 1.0 / friction.ageing_distance_m,
+          .silt_gain = friction.silt_factor - 1.0,
+          .silt_begin = 0.9 * silt_age,
+          .per_silt = 10.0 / silt_age,
+          .falls = 1.0 - friction.falls_to,
+          .falls_from_m_per_s = friction.falls_from_m_per_s,
+          .per_fall_s_per_m =
+              1.0 / larger(friction.falls_until_m_per_s - friction.falls_from_m_per_s, Scalar(least_m_per_s))};
 }
 
 /// Level W [N] the set can carry at a velocity; `load_N` is the load's part of the sliding friction, unscaled.
@@ -103,9 +134,18 @@ template <class Scalar>
 inline Scalar breakaway_N(const FrictionConstantsOf<Scalar>& friction, Scalar load_N, Scalar age,
                           Scalar velocity_m_per_s) {
   const Scalar v2 = velocity_m_per_s * velocity_m_per_s;
-  return (friction.base_N + friction.load_factor * load_N) *
-         (1.0 + (friction.stiction + friction.ageing_gain * age) * friction.stribeck2_m2_per_s2 /
-                    (friction.stribeck2_m2_per_s2 + v2));
+  Scalar level_N = friction.base_N + friction.load_factor * load_N;
+  if (any(friction.falls > 0.0)) {
+    const Scalar fallen = (magnitude(velocity_m_per_s) - friction.falls_from_m_per_s) * friction.per_fall_s_per_m;
+    level_N = level_N * (1.0 - friction.falls * clamped(fallen, Scalar(0.0), Scalar(1.0)));
+  }
+  Scalar breakaway_N = level_N * (1.0 + (friction.stiction + friction.ageing_gain * age) *
+                                            friction.stribeck2_m2_per_s2 / (friction.stribeck2_m2_per_s2 + v2));
+  if (any(friction.silt_gain > 0.0)) {
+    const Scalar silted = (age - friction.silt_begin) * friction.per_silt;
+    breakaway_N = breakaway_N * (1.0 + friction.silt_gain * clamped(silted, Scalar(0.0), Scalar(1.0)));
+  }
+  return breakaway_N;
 }
 
 template <class Scalar>

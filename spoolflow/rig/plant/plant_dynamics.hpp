@@ -145,7 +145,7 @@ inline void plant_rates(const PlantParametersOf<Scalar>& p, const PlantConstants
   out.end_stop = end_stop_force(p.spool, x, v);
   out.drag_N = (c.spool_drag_N_s_per_m + c.armature_drag_N_s_per_m) * v;
   out.rate[state_x] = v;
-  out.rate[state_v] = (force - out.drag_N - out.end_stop.force_N) / c.mass_kg;
+  out.rate[state_v] = (force + input.foreign_force_N - out.drag_N - out.end_stop.force_N) / c.mass_kg;
 }
 
 }  // namespace spoolflow::rig

@@ -25,6 +25,7 @@ struct PlantInputOf {
   Scalar supply_pressure_Pa = 100e5;         ///< set value, gauge; all loads but the held difference
   Scalar held_pressure_difference_Pa = 0.0;  ///< set value; load held_difference
   Scalar load_force_N = 0.0;                 ///< on the cylinder, > 0 against moving out
+  Scalar foreign_force_N = 0.0;              ///< on spool and armatures towards +x, from outside the valve
   Scalar oil_temperature_C = 50.0;           ///< at the supply
   Scalar ambient_temperature_C = 25.0;
   std::optional<PrescribedMotionOf<Scalar>> motion;  ///< absent: spool moves freely

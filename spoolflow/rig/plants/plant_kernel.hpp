@@ -172,6 +172,7 @@ struct PlantLanes {
       out.supply_pressure_Pa.set(valve, input.supply_pressure_Pa);
       out.held_pressure_difference_Pa.set(valve, input.held_pressure_difference_Pa);
       out.load_force_N.set(valve, input.load_force_N);
+      out.foreign_force_N.set(valve, input.foreign_force_N);
       out.oil_temperature_C.set(valve, input.oil_temperature_C);
       out.ambient_temperature_C.set(valve, input.ambient_temperature_C);
       if (moved) put<count>(*out.motion, valve, *input.motion);

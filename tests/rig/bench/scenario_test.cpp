@@ -71,5 +71,26 @@ TEST(Scenario, RefusesDirectionsAndEdgesThatDoNotFit) {
   EXPECT_THAT(refusal_of("protocol = \"spring\"\nedge = \"TB\"\n"), HasSubstr("path, PB, AT, PA, BT"));
 }
 
+TEST(Scenario, AMachineIsRoundTheValveAtWorkAndOnNoBench) {
+  using testing::HasSubstr;
+  const std::string shaken = "[machine.vibration]\nacceleration_g = 1.5\n";
+  EXPECT_EQ(plan(scenario_of("protocol = \"ramps\"\n" + shaken)).run.machine.vibration.acceleration_g, 1.5);
+  EXPECT_EQ(plan(scenario_of("protocol = \"ramps\"\n")).run.machine, Machine{});
+  EXPECT_THAT(refusal_of("protocol = \"spring\"\n" + shaken), HasSubstr("[machine] is of the valve at work"));
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\n[machine.ripple]\namplitude_bar = 30\n"), HasSubstr("line 3"));
+  EXPECT_THAT(refusal_of("protocol = \"ramps\"\n[machine.ripple]\namplitude_Pa = 3\n"), HasSubstr("amplitude_bar"));
+  EXPECT_THAT(
+      refusal_of("protocol = \"ramps\"\n[plant.load]\nkind = \"motor\"\n[machine.actuator_end]\nstands_s = 1\n"),
+      HasSubstr("machine.actuator_end is of loads that hold"));
+}
+
+TEST(Scenario, OneValveOfASeriesRunsWithManySeeds) {
+  const std::string drawn = "protocol = \"duty_cycle\"\n[spread]\namount = 1\nseed = 41\n";
+  const PlannedScenario one = plan(scenario_of("seed = 3\n" + drawn)), other = plan(scenario_of("seed = 4\n" + drawn));
+  EXPECT_EQ(one.valve.plant.spring_b.preload_N, other.valve.plant.spring_b.preload_N);
+  EXPECT_NE(one.valve.plant.spring_b.preload_N, ValveUnderTest{}.plant.spring_b.preload_N);
+  EXPECT_NE(one.run.position_set.at(5), other.run.position_set.at(5));
+}
+
 }  // namespace
 }  // namespace spoolflow::rig

@@ -83,6 +83,16 @@ TEST(RigMeteringEdge, WornEdgeOpensEarlierAndPassesMore) {
   EXPECT_GT(flow(worn, 0.3e-3, 60e5).flow_m3_per_s, 1.05 * flow({}, 0.3e-3, 60e5).flow_m3_per_s);
 }
 
+TEST(RigMeteringEdge, AScratchLeaksInProportionToThePressureWhateverTheOpening) {
+  const MeteringEdge scratched{.scratch_m3_per_s_Pa = 8.3e-13};
+  for (const double travel_m : {-0.5e-3, 0.14e-3, 1.5e-3}) {
+    const EdgeFlow with = flow(scratched, travel_m, 60e5), without = flow({}, travel_m, 60e5);
+    EXPECT_NEAR(60000 * (with.flow_m3_per_s - without.flow_m3_per_s), 0.3, 0.002);  // L/min
+    EXPECT_NEAR(with.leakage_m3_per_s - without.leakage_m3_per_s, 60e5 * 8.3e-13, 1e-12);
+    EXPECT_EQ(with.flow_gain_m2_per_s, without.flow_gain_m2_per_s);
+  }
+}
+
 TEST(RigFlowForce, IsTheMomentumOfJetAndOutlet) {
   const MeteringEdge edge;
   const FlowForce law;

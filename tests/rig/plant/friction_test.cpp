@@ -80,5 +80,39 @@ TEST(RigFriction, GrowsWithLoadWearAndOilThickness) {
   EXPECT_GT(friction_constants({}, 75e-6).base_N, friction_constants({}, 11e-6).base_N);
 }
 
+TEST(RigFriction, SiltMultipliesTheBreakAwayAfterItsRestAndAMicrometreOrThreeWipeItOff) {
+  const Friction clean{.ageing_gain = 2.0, .ageing_time_s = 2.0, .ageing_distance_m = 3e-5};
+  Friction dirty = clean;
+  dirty.silt_factor = 2.2;
+  dirty.silt_rest_s = 3.0;
+  const FrictionConstants without = friction_constants(clean, cold_viscosity);
+  const FrictionConstants with = friction_constants(dirty, cold_viscosity);
+  const auto times_at = [&](double age) {
+    return breakaway_N(with, 1.0, age, 0.0) / breakaway_N(without, 1.0, age, 0.0);
+  };
+  double age = 0.0;
+  EXPECT_EQ(times_at(age), 1.0);
+  for (int i = 0; i < 10000; ++i) age = aged(with, age, 0.0, 1e-4);
+  EXPECT_EQ(times_at(age), 1.0);  // 1 s
+  for (int i = 0; i < 20000; ++i) age = aged(with, age, 0.0, 1e-4);
+  EXPECT_NEAR(times_at(age), 2.2, 1e-3);  // 3 s
+  for (int i = 0; i < 100; ++i) age = aged(with, age, 3.5e-8, 1e-6);
+  EXPECT_EQ(times_at(age), 1.0);
+}
+
+TEST(RigFriction, SlidingFrictionFallsToItsShareBetweenTwoSpeeds) {
+  const Friction film{.stiction_ratio = 1.0,
+                      .ageing_gain = 0.0,
+                      .falls_to = 0.6,
+                      .falls_from_m_per_s = 1e-4,
+                      .falls_until_m_per_s = 5e-4};
+  const FrictionConstants contact = friction_constants(film, cold_viscosity);
+  const double slow_N = breakaway_N(contact, 2.0, 0.0, 0.5e-4);
+  EXPECT_EQ(breakaway_N(contact, 2.0, 0.0, -1e-4), slow_N);
+  EXPECT_NEAR(breakaway_N(contact, 2.0, 0.0, -3e-4), 0.8 * slow_N, 1e-9);
+  EXPECT_NEAR(breakaway_N(contact, 2.0, 0.0, 5e-4), 0.6 * slow_N, 1e-9);
+  EXPECT_NEAR(breakaway_N(contact, 2.0, 0.0, 0.1), 0.6 * slow_N, 1e-9);
+}
+
 }  // namespace
 }  // namespace spoolflow::rig

@@ -51,6 +51,12 @@ std::vector<PlantParameters> series(const Case& which, std::size_t valves) {
     p.spool_friction.viscosity_exponent = k == 1 ? 0.0 : p.spool_friction.viscosity_exponent;
     p.edge_PB.overlap_m *= numbers.uniform(0.5, 1.5);
     p.spring_b.rate_N_per_m *= numbers.uniform(0.9, 1.1);
+    if (k % 3 == 1) {  // silted, with a film at speed and a scratch, among valves without
+      p.spool_friction.silt_factor = 2;
+      p.spool_friction.silt_rest_s = 0.05;
+      p.spool_friction.falls_to = 0.6;
+      p.edge_PB.scratch_m3_per_s_Pa = 8e-13;
+    }
     if (k == 3) p.integration.longest_step_s = 3e-5;
     out.push_back(p);
   }
@@ -66,6 +72,7 @@ PlantInput drive(const Case& which, std::size_t valve, int tick, Noise& noise) {
   input.supply_pressure_Pa = 90e5 + 20e5 * noise.uniform();
   input.held_pressure_difference_Pa = (20 + 5 * static_cast<double>(valve)) * 1e5;
   input.load_force_N = 300.0 * part;
+  input.foreign_force_N = valve % 2 == 0 ? 1.5 * sine_of_turns(35e-4 * tick) : 0.0;
   input.oil_temperature_C = 40 + 10 * (tick / 400 % 3);
   if (which.arrangement != Arrangement::valve) {
     const auto place_m = [&](int at) { return 1.1e-3 * sine_of_turns((at + 11.0 * static_cast<double>(valve)) / 800); };
