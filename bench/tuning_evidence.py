@@ -3,7 +3,11 @@
 the number halved and doubled. Numbers are the named constants of spoolflow/sensor and the observer's parameters that no
 bench measures.
 
-tuning_evidence.py SPOOLFLOW MODEL.json RECORDING.csv TRUTH.csv [RECORDING.csv TRUTH.csv …] [--markdown]
+tuning_evidence.py SPOOLFLOW MODEL.json RECORDING.csv TRUTH.csv [RECORDING.csv TRUTH.csv …] [--markdown | --update]
+
+--update writes what it found into spoolflow/model/tuning_evidence.csv; numbers that it does not vary keep their rows. That file has
+the runs temperature_sweep, duty_cycle_1, ramps_30_to_70bar, orifice_duty_dither, ramp_60bar, ramp_60bar_dither, motor_load and
+fast_10kHz of valve A.
 
 SPOOLFLOW is the built command: `export cpp` gives the sensor's headers and the model. In the copy of the headers the
 constants become variables, so one program tries them all. Needs g++ and nothing else. RECORDING.csv has the columns of
@@ -18,6 +22,20 @@ pressure.sliding_drift_Pa_per_sqrt_s pressure.resting_drift_Pa_per_sqrt_s pressu
 pressure.first_process_noise pressure.yielding_s pressure.force_correlation_s pressure.ratio_deviation
 pressure.ratio_memory_s band.friction_share band.coverage_factor band.force_share band.rest_share band.tolerance_N
 band.creep_per_s band.unseen_factor moving_mass_kg""".split()
+# of these, how the model file calls them where not by the last name
+KEYS = {"friction.ageing_ratio": "friction_ageing_ratio",
+        "friction.ageing_s": "friction_ageing_s",
+        "friction.tolerance_N": "friction_tolerance_N",
+        "position_sensor.backlash_m": "position_backlash_m",
+        "pressure.ratio_deviation": "friction_ratio_deviation",
+        "pressure.ratio_memory_s": "friction_ratio_memory_s",
+        "band.friction_share": "band_friction_share",
+        "band.coverage_factor": "band_coverage_factor",
+        "band.force_share": "band_force_share",
+        "band.rest_share": "band_rest_share",
+        "band.tolerance_N": "band_tolerance_N",
+        "band.creep_per_s": "band_creep_per_s",
+        "band.unseen_factor": "band_unseen_factor"}
 
 PROGRAM = """
 #include <algorithm>
@@ -104,7 +122,7 @@ def tunable_headers(folder):
 
 
 def main():
-    arguments = [a for a in sys.argv[1:] if a != "--markdown"]
+    arguments = [a for a in sys.argv[1:] if not a.startswith("--")]
     if len(arguments) < 4 or len(arguments) % 2:
         fail(__doc__.split("\n\n")[1])
     spoolflow, model, *files = arguments
@@ -123,17 +141,18 @@ def main():
             runs.append(folder / f"run{k}")
             pack(files[k], files[k + 1], runs[-1])
         lines = subprocess.run([folder / "trials", *runs], check=True, capture_output=True, text=True).stdout.split("\n")
-    tell([line.split() for line in lines if line], [pathlib.Path(f).stem for f in files[::2]], "--markdown" in sys.argv)
+    found, names = [line.split() for line in lines if line], [pathlib.Path(f).stem for f in files[::2]]
+    if "--update" in sys.argv:
+        update(found, names)
+    else:
+        tell(found, names, "--markdown" in sys.argv)
 
 
-def tell(lines, runs, markdown):
-    """One line a number: the run that shows most of it."""
+def findings(lines, runs):
+    """Of each number: name, the run that shows most of it (none: nothing does), and there p95 and share in the band halved, as it is
+    and doubled."""
     found = {(name, factor): [float(v) for v in values] for name, factor, *values in lines}
     base = found["as_is", "1"]
-    if not markdown:
-        print("as it is:", ", ".join(f"{r} {base[2 * k]:.2f} % FS, {base[2 * k + 1]:.1f} % in band" for k, r in enumerate(runs)))
-    else:
-        print("| number | run that shows most | halved | as it is | doubled |\n|---|---|---|---|---|")
     for name in dict.fromkeys(n for n, _ in found if n != "as_is"):
         half, double = found[name, "0.5"], found[name, "2"]
 
@@ -142,12 +161,38 @@ def tell(lines, runs, markdown):
             return p95 + max(abs(v[2 * k + 1] - base[2 * k + 1]) for v in (half, double)) / 20
 
         k = max(range(len(runs)), key=shown)
-        cell = [f"{v[2 * k]:.2f} / {v[2 * k + 1]:.1f} %" for v in (half, base, double)]
-        if shown(k) < 0.005:
+        yield name, runs[k] if shown(k) >= 0.005 else None, [(v[2 * k], v[2 * k + 1]) for v in (half, base, double)]
+
+
+def tell(lines, runs, markdown):
+    """One line a number."""
+    base = [float(v) for v in lines[0][2:]]
+    if not markdown:
+        print("as it is:", ", ".join(f"{r} {base[2 * k]:.2f} % FS, {base[2 * k + 1]:.1f} % in band" for k, r in enumerate(runs)))
+    else:
+        print("| number | run that shows most | halved | as it is | doubled |\n|---|---|---|---|---|")
+    for name, run, values in findings(lines, runs):
+        cell = [f"{p95:.2f} / {band:.1f} %" for p95, band in values]
+        if run is None:
             print(f"| `{name}` | none of these |  |  |  |" if markdown else f"{name:42} nothing")
         else:
-            print(f"| `{name}` | {runs[k]} | {cell[0]} | {cell[1]} | {cell[2]} |" if markdown else
-                  f"{name:42} {runs[k]:20} halved {cell[0]:>16}   as is {cell[1]:>16}   doubled {cell[2]:>16}")
+            print(f"| `{name}` | {run} | {cell[0]} | {cell[1]} | {cell[2]} |" if markdown else
+                  f"{name:42} {run:20} halved {cell[0]:>16}   as is {cell[1]:>16}   doubled {cell[2]:>16}")
+
+
+def update(lines, runs):
+    path = pathlib.Path(__file__).resolve().parent.parent / "spoolflow/model/tuning_evidence.csv"
+    with open(path, newline="") as file:
+        head, *old = csv.reader(file)
+    rows = {row[0]: row for row in old}
+    for name, run, values in findings(lines, runs):
+        key = KEYS.get(name, name.split(".")[-1])
+        if run is None:
+            rows[key] = [key] + [""] * 7 + ["none of the runs"]
+        else:
+            rows[key] = [key, run, *(f"{p95:.2f}" for p95, _ in values), *(f"{band:.1f}" for _, band in values), ""]
+    with open(path, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *rows.values()])
 
 
 if __name__ == "__main__":

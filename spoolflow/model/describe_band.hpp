@@ -11,8 +11,7 @@ void describe_band(Band& band, Visitor& visitor) {
   visitor.number({.key = "band_friction_share",
                   .unit = "1",
                   .limits = {0, 10},
-                  .meaning = "standard deviation of sliding friction about its map, as a share of it",
-                  .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 94.5, 95.7, 98.1 %"},
+                  .meaning = "standard deviation of sliding friction about its map, as a share of it"},
                  band.friction_share);
   visitor.number({.key = "band_force_residual_N",
                   .unit = "N",
@@ -27,20 +26,17 @@ void describe_band(Band& band, Visitor& visitor) {
   visitor.number({.key = "band_coverage_factor",
                   .unit = "1",
                   .limits = {0.1, 100},
-                  .meaning = "standard deviations in the 95 % band",
-                  .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.32 % FS, band 86.3, 95.7, 99.1 %"},
+                  .meaning = "standard deviations in the 95 % band"},
                  band.coverage_factor);
   visitor.number({.key = "band_force_share",
                   .unit = "1",
                   .limits = {1e-3, 10},
-                  .meaning = "how much of the forces' errors the band counts while the spool slides",
-                  .evidence = "ramp_60bar: p95 0.30, 0.30, 0.30 % FS, band 93.7, 97.7, 99.5 %"},
+                  .meaning = "how much of the forces' errors the band counts while the spool slides"},
                  band.force_share);
   visitor.number({.key = "band_rest_share",
                   .unit = "1",
                   .limits = {1e-3, 100},
-                  .meaning = "how much of the forces' errors the band counts while the spool rests",
-                  .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.32 % FS, band 88.8, 95.7, 98.3 %"},
+                  .meaning = "how much of the forces' errors the band counts while the spool rests"},
                  band.rest_share);
   visitor.number(
       {.key = "band_tolerance_N",
@@ -48,20 +44,17 @@ void describe_band(Band& band, Visitor& visitor) {
        .limits = {0, 1e4},
        .meaning = "how far friction at rest may lie outside of what the pre-sliding displacement bounds, one "
                   "standard deviation as the band counts it: friction_tolerance_N scaled by how the forces' "
-                  "errors proved on operating recordings",
-       .evidence = "duty_cycle_1: p95 3.27, 3.31, 3.37 % FS, band 96.5, 96.8, 97.1 %"},
+                  "errors proved on operating recordings"},
       band.tolerance_N);
   visitor.number({.key = "band_creep_per_s",
                   .unit = "1/s",
                   .limits = {0, 10},
-                  .meaning = "growth of that tolerance with the time at rest, as a share of it",
-                  .evidence = "duty_cycle_1: p95 3.28, 3.31, 3.35 % FS, band 96.7, 96.8, 97.0 %"},
+                  .meaning = "growth of that tolerance with the time at rest, as a share of it"},
                  band.creep_per_s);
   visitor.number({.key = "band_unseen_factor",
                   .unit = "1",
                   .limits = {1e-3, 100},
-                  .meaning = "standard deviation of unseen changes of pressure over the liveliest random walk",
-                  .evidence = "duty_cycle_1: p95 3.36, 3.31, 3.21 % FS, band 91.7, 96.8, 99.4 %"},
+                  .meaning = "standard deviation of unseen changes of pressure over the liveliest random walk"},
                  band.unseen_factor);
 }
 

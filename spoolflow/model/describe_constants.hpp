@@ -15,31 +15,27 @@ template <class Visitor>
 void describe_friction_constants(Visitor& visitor) {
   visitor.constant({.name = "gauge_smoothing_s",
                     .unit = "s",
-                    .meaning = "smoothing of the position that the gauge of pre-sliding reads",
-                    .evidence = "ramp_60bar: p95 0.29, 0.30, 0.39 % FS, band 97.8, 97.7, 97.5 %"},
+                    .meaning = "smoothing of the position that the gauge of pre-sliding reads"},
                    sensor::gauge_smoothing_s);
   visitor.constant(
       {.name = "gauge_slack_deviations",
        .unit = "1",
-       .meaning = "standard deviations of the smoothed position's noise that the gauge takes for no motion",
-       .evidence = "motor_load: p95 2.87, 2.89, 3.64 % FS, band 98.0, 97.9, 97.3 %"},
+       .meaning = "standard deviations of the smoothed position's noise that the gauge takes for no motion"},
       sensor::gauge_slack_deviations);
   visitor.constant({.name = "doubtful_drag_slacks",
                     .unit = "1",
-                    .meaning = "a drag of the sensor by so many times what noise may fake is as likely as not noise",
-                    .evidence = "motor_load: p95 2.76, 2.89, 3.07 % FS, band 97.9, 97.9, 97.8 %"},
+                    .meaning = "a drag of the sensor by so many times what noise may fake is as likely as not noise"},
                    sensor::doubtful_drag_slacks);
   visitor.constant({.name = "drag_certainty",
                     .unit = "1",
                     .meaning = "share of the reach to the other side of the gauge that is out of question where the "
-                               "sensor is surely dragged",
-                    .evidence = "temperature_sweep: p95 0.27, 0.28, 0.46 % FS, band 97.2, 97.1, 95.6 %"},
+                               "sensor is surely dragged"},
                    sensor::drag_certainty);
-  visitor.constant({.name = "drag_memory_s",
-                    .unit = "s",
-                    .meaning = "for so long after it was dragged the sensor tells at which end of its backlash it lies",
-                    .evidence = "motor_load: p95 3.04, 2.89, 2.75 % FS, band 97.8, 97.9, 98.0 %"},
-                   sensor::drag_memory_s);
+  visitor.constant(
+      {.name = "drag_memory_s",
+       .unit = "s",
+       .meaning = "for so long after it was dragged the sensor tells at which end of its backlash it lies"},
+      sensor::drag_memory_s);
   visitor.constant({.name = "least_stiffness_share",
                     .unit = "1",
                     .meaning = "what is left of the contact's stiffness at the limit of sticking"},
@@ -47,22 +43,16 @@ void describe_friction_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "sticking_limit_deviations",
        .unit = "1",
-       .meaning = "standard deviations of the gauge by which friction at rest may exceed the sticking limit",
-       .evidence = "ramp_60bar: p95 0.31, 0.30, 0.29 % FS, band 97.7, 97.7, 97.7 %"},
+       .meaning = "standard deviations of the gauge by which friction at rest may exceed the sticking limit"},
       sensor::sticking_limit_deviations);
   visitor.constant({.name = "longest_rest_s", .unit = "s", .meaning = "a longer rest says no more"},
                    sensor::longest_rest_s);
   visitor.constant({.name = "least_rest_s", .unit = "s", .meaning = "a time at rest divides by no less"},
                    sensor::least_rest_s);
-  visitor.constant({.name = "breakaway_delay_s",
-                    .unit = "s",
-                    .meaning = "how much later a break-away shows in the position",
-                    .evidence = "ramp_60bar: p95 0.31, 0.30, 0.28 % FS, band 97.6, 97.7, 97.7 %"},
-                   sensor::breakaway_delay_s);
-  visitor.constant({.name = "shortest_rest_s",
-                    .unit = "s",
-                    .meaning = "a spool breaks away only after so long a rest",
-                    .evidence = "fast_10kHz: p95 2.33, 2.36, 2.27 % FS, band 95.0, 95.0, 95.0 %"},
+  visitor.constant(
+      {.name = "breakaway_delay_s", .unit = "s", .meaning = "how much later a break-away shows in the position"},
+      sensor::breakaway_delay_s);
+  visitor.constant({.name = "shortest_rest_s", .unit = "s", .meaning = "a spool breaks away only after so long a rest"},
                    sensor::shortest_rest_s);
 }
 
@@ -71,40 +61,29 @@ template <class Visitor>
 void describe_pressure_constants(Visitor& visitor) {
   visitor.constant({.name = "first_pressure_share",
                     .unit = "1",
-                    .meaning = "belief before the first sample, as a share of the highest pressure difference",
-                    .evidence = "ramp_60bar: p95 0.33, 0.30, 0.29 % FS, band 96.5, 97.7, 97.7 %"},
+                    .meaning = "belief before the first sample, as a share of the highest pressure difference"},
                    sensor::first_pressure_share);
-  visitor.constant({.name = "first_deviation_share",
-                    .unit = "1",
-                    .meaning = "its standard deviation, as a share of the same",
-                    .evidence = "ramp_60bar: p95 0.34, 0.30, 0.30 % FS, band 96.8, 97.7, 97.7 %"},
-                   sensor::first_deviation_share);
+  visitor.constant(
+      {.name = "first_deviation_share", .unit = "1", .meaning = "its standard deviation, as a share of the same"},
+      sensor::first_deviation_share);
   visitor.constant({.name = "most_deviation_share",
                     .unit = "1",
                     .meaning = "share of the same up to which the standard deviation grows, by drift or by forces "
-                               "that it does not explain",
-                    .evidence = "ramp_60bar: p95 0.32, 0.30, 0.30 % FS, band 97.4, 97.7, 97.7 %"},
+                               "that it does not explain"},
                    sensor::most_deviation_share);
   visitor.constant({.name = "innovation_averaging_s",
                     .unit = "s",
-                    .meaning = "sliding over which normalised innovations squared are averaged",
-                    .evidence = "ramp_60bar: p95 0.30, 0.30, 0.30 % FS, band 97.0, 97.7, 98.2 %"},
+                    .meaning = "sliding over which normalised innovations squared are averaged"},
                    sensor::innovation_averaging_s);
   visitor.constant({.name = "usual_innovation_squared",
                     .unit = "1",
-                    .meaning = "their average where the band is as wide as its parts tell",
-                    .evidence = "duty_cycle_1: p95 3.29, 3.31, 3.32 % FS, band 97.5, 96.8, 95.9 %"},
+                    .meaning = "their average where the band is as wide as its parts tell"},
                    sensor::usual_innovation_squared);
   visitor.constant({.name = "innovation_gate",
                     .unit = "1",
-                    .meaning = "innovations beyond so many standard deviations open the variance",
-                    .evidence = "ramp_60bar_dither: p95 0.37, 0.33, 0.33 % FS, band 94.7, 98.5, 98.6 %"},
+                    .meaning = "innovations beyond so many standard deviations open the variance"},
                    sensor::innovation_gate);
-  visitor.constant({.name = "gate_opening_s",
-                    .unit = "s",
-                    .meaning = "the pace of that",
-                    .evidence = "orifice_duty_dither: p95 0.94, 0.92, 0.92 % FS, band 97.9, 98.2, 98.3 %"},
-                   sensor::gate_opening_s);
+  visitor.constant({.name = "gate_opening_s", .unit = "s", .meaning = "the pace of that"}, sensor::gate_opening_s);
   visitor.constant(
       {.name = "least_friction_ratio", .unit = "1", .meaning = "least friction in operation over that on the bench"},
       sensor::least_friction_ratio);
@@ -113,40 +92,31 @@ void describe_pressure_constants(Visitor& visitor) {
       sensor::most_friction_ratio);
   visitor.constant({.name = "least_slope_share",
                     .unit = "1",
-                    .meaning = "least share of the flow force's slope that friction leaves when the spool closes",
-                    .evidence = "ramps_30_to_70bar: p95 0.34, 0.32, 0.32 % FS, band 95.1, 95.7, 95.8 %"},
+                    .meaning = "least share of the flow force's slope that friction leaves when the spool closes"},
                    sensor::least_slope_share);
   visitor.constant({.name = "seen_deviation_share",
                     .unit = "1",
                     .meaning = "the pressure difference counts as seen where it is known to this share of what the "
-                               "forces' noise makes of it",
-                    .evidence = "ramps_30_to_70bar: p95 0.78, 0.32, 0.32 % FS, band 97.7, 95.7, 95.6 %"},
+                               "forces' noise makes of it"},
                    sensor::seen_deviation_share);
   visitor.constant({.name = "process_noise_rise",
                     .unit = "1",
-                    .meaning = "share by which the process noise follows an observed change that is more than thought",
-                    .evidence = "motor_load: p95 3.13, 2.89, 2.78 % FS, band 96.5, 97.9, 98.3 %"},
+                    .meaning = "share by which the process noise follows an observed change that is more than thought"},
                    sensor::process_noise_rise);
-  visitor.constant({.name = "process_noise_fall",
-                    .unit = "1",
-                    .meaning = "the same of one that is less",
-                    .evidence = "motor_load: p95 2.56, 2.89, 3.34 % FS, band 99.4, 97.9, 94.9 %"},
+  visitor.constant({.name = "process_noise_fall", .unit = "1", .meaning = "the same of one that is less"},
                    sensor::process_noise_fall);
   visitor.constant({.name = "first_seen_process_noise",
                     .unit = "1",
-                    .meaning = "least process noise when the pressure difference is first seen",
-                    .evidence = "temperature_sweep: p95 0.28, 0.28, 0.28 % FS, band 97.1, 97.1, 97.1 %"},
+                    .meaning = "least process noise when the pressure difference is first seen"},
                    sensor::first_seen_process_noise);
   visitor.constant(
       {.name = "telling_drift_share",
        .unit = "1",
-       .meaning = "a change tells half where its drift variance is so many times that of the forces' noise",
-       .evidence = "motor_load: p95 3.02, 2.89, 2.75 % FS, band 97.5, 97.9, 98.1 %"},
+       .meaning = "a change tells half where its drift variance is so many times that of the forces' noise"},
       sensor::telling_drift_share);
   visitor.constant({.name = "told_late_s",
                     .unit = "s",
-                    .meaning = "how much later the forces tell of a change of the pressure difference",
-                    .evidence = "orifice_duty_dither: p95 0.92, 0.92, 0.92 % FS, band 97.8, 98.2, 98.6 %"},
+                    .meaning = "how much later the forces tell of a change of the pressure difference"},
                    sensor::told_late_s);
   visitor.constant({.name = "least_covariance_Pa",
                     .unit = "Pa",
@@ -164,8 +134,7 @@ template <class Visitor>
 void describe_answer_constants(Visitor& visitor) {
   visitor.constant({.name = "least_band_factor",
                     .unit = "1",
-                    .meaning = "the band becomes narrower than its parts tell by no more than this factor",
-                    .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.32 % FS, band 91.7, 95.7, 99.1 %"},
+                    .meaning = "the band becomes narrower than its parts tell by no more than this factor"},
                    sensor::least_band_factor);
   visitor.constant({.name = "most_band_factor",
                     .unit = "1",
@@ -174,20 +143,16 @@ void describe_answer_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "flow_residual_factor",
        .unit = "1",
-       .meaning = "half the width that the flow's own residual takes in the band, over its standard deviation",
-       .evidence = "ramp_60bar: p95 0.30, 0.30, 0.30 % FS, band 92.6, 97.7, 99.9 %"},
+       .meaning = "half the width that the flow's own residual takes in the band, over its standard deviation"},
       sensor::flow_residual_factor);
   visitor.constant({.name = "friction_share_per_speed_s_per_m",
                     .unit = "s/m",
                     .meaning = "half the width that friction's dependence on the spool's speed takes in the band, as a "
-                               "share of friction over the speed",
-                    .evidence = "ramp_60bar: p95 0.30, 0.30, 0.30 % FS, band 97.2, 97.7, 98.6 %"},
+                               "share of friction over the speed"},
                    sensor::friction_share_per_speed_s_per_m);
-  visitor.constant({.name = "most_friction_share_of_speed",
-                    .unit = "1",
-                    .meaning = "the same at most, as a share of friction",
-                    .evidence = "fast_10kHz: p95 2.36, 2.36, 2.36 % FS, band 94.7, 95.0, 95.1 %"},
-                   sensor::most_friction_share_of_speed);
+  visitor.constant(
+      {.name = "most_friction_share_of_speed", .unit = "1", .meaning = "the same at most, as a share of friction"},
+      sensor::most_friction_share_of_speed);
   visitor.constant({.name = "displaced_friction_factor",
                     .unit = "1",
                     .meaning = "half the width that friction takes in the band, over the share of it by which its "
@@ -195,19 +160,16 @@ void describe_answer_constants(Visitor& visitor) {
                    sensor::displaced_friction_factor);
   visitor.constant({.name = "innovation_factor",
                     .unit = "1",
-                    .meaning = "half the width that an innovation takes in the band while the spool slides, over it",
-                    .evidence = "orifice_duty_dither: p95 0.92, 0.92, 0.92 % FS, band 97.5, 98.2, 98.8 %"},
+                    .meaning = "half the width that an innovation takes in the band while the spool slides, over it"},
                    sensor::innovation_factor);
   visitor.constant(
       {.name = "yielded_factor",
        .unit = "1",
-       .meaning = "half the width that what the pressure difference yielded to at rest takes in the band, over it",
-       .evidence = "duty_cycle_1: p95 3.37, 3.31, 3.21 % FS, band 96.7, 96.8, 97.0 %"},
+       .meaning = "half the width that what the pressure difference yielded to at rest takes in the band, over it"},
       sensor::yielded_factor);
   visitor.constant({.name = "longest_regular_step_s",
                     .unit = "s",
-                    .meaning = "a time step of this length or more is estimated with time_fault",
-                    .evidence = "status alone: the answers of no run depend on it"},
+                    .meaning = "a time step of this length or more is estimated with time_fault"},
                    sensor::longest_regular_step_s);
   visitor.constant({.name = "unseen_stroke_s",
                     .unit = "s",
@@ -217,40 +179,27 @@ void describe_answer_constants(Visitor& visitor) {
   visitor.constant({.name = "lopsided_share",
                     .unit = "1",
                     .meaning = "share of the difference between what is left open to either side at rest, by which "
-                               "the pressure difference is expected beyond the believed one",
-                    .evidence = "orifice_duty_dither: p95 0.93, 0.92, 1.01 % FS, band 98.2, 98.2, 98.2 %"},
+                               "the pressure difference is expected beyond the believed one"},
                    sensor::lopsided_share);
   visitor.constant({.name = "ripple_share",
                     .unit = "1",
                     .meaning = "how far the band reaches beyond the highest calibrated pressure difference, as a share "
                                "of it"},
                    sensor::ripple_share);
-  visitor.constant({.name = "slip_widening",
-                    .unit = "1",
-                    .meaning = "the band is so many times wider while the spool slips",
-                    .evidence = "fast_10kHz: p95 2.36, 2.36, 2.36 % FS, band 93.3, 95.0, 95.7 %"},
-                   sensor::slip_widening);
+  visitor.constant(
+      {.name = "slip_widening", .unit = "1", .meaning = "the band is so many times wider while the spool slips"},
+      sensor::slip_widening);
   visitor.constant(
       {.name = "unseen_room_share",
        .unit = "1",
-       .meaning = "share of what friction leaves by which a supply that moved at rest is taken to have gone on unseen",
-       .evidence = "duty_cycle_1: p95 3.80, 3.31, 3.10 % FS, band 96.8, 96.8, 96.8 %"},
+       .meaning = "share of what friction leaves by which a supply that moved at rest is taken to have gone on unseen"},
       sensor::unseen_room_share);
-  visitor.constant({.name = "temperature_smoothing_s",
-                    .unit = "s",
-                    .meaning = "smoothing of the oil temperature",
-                    .evidence = "temperature_sweep: p95 0.28, 0.28, 0.29 % FS, band 97.2, 97.1, 96.3 %"},
+  visitor.constant({.name = "temperature_smoothing_s", .unit = "s", .meaning = "smoothing of the oil temperature"},
                    sensor::temperature_smoothing_s);
-  visitor.constant({.name = "coldest_oil_K",
-                    .unit = "K",
-                    .meaning = "a lower oil temperature is a fault of its sensor",
-                    .evidence = "temperature_sweep: p95 0.28, 0.28, 2.54 % FS, band 97.1, 97.1, 47.9 %"},
-                   sensor::coldest_oil_K);
-  visitor.constant({.name = "warmest_oil_K",
-                    .unit = "K",
-                    .meaning = "and a higher one",
-                    .evidence = "temperature_sweep: p95 2.54, 0.28, 0.28 % FS, band 47.9, 97.1, 97.1 %"},
-                   sensor::warmest_oil_K);
+  visitor.constant(
+      {.name = "coldest_oil_K", .unit = "K", .meaning = "a lower oil temperature is a fault of its sensor"},
+      sensor::coldest_oil_K);
+  visitor.constant({.name = "warmest_oil_K", .unit = "K", .meaning = "and a higher one"}, sensor::warmest_oil_K);
   visitor.constant({.name = "oil_leap_K",
                     .unit = "K",
                     .meaning = "a reading further from those before is a fault of the oil temperature's sensor"},

@@ -17,8 +17,7 @@ void describe_dither_constants(Visitor& visitor) {
       sensor::least_dither_swing_share);
   visitor.constant({.name = "turning_share",
                     .unit = "1",
-                    .meaning = "the current has turned where it went back by this share of its last swing",
-                    .evidence = "orifice_duty_dither: p95 0.91, 0.92, 0.94 % FS, band 98.4, 98.2, 98.1 %"},
+                    .meaning = "the current has turned where it went back by this share of its last swing"},
                    sensor::turning_share);
   visitor.constant({.name = "longest_dither_period_s", .unit = "s", .meaning = "no dither has a longer period"},
                    sensor::longest_dither_period_s);
@@ -26,8 +25,7 @@ void describe_dither_constants(Visitor& visitor) {
                    sensor::shortest_dither_period_s);
   visitor.constant({.name = "alike_ratio",
                     .unit = "1",
-                    .meaning = "periods of dither are alike where neither is more than so many times the other",
-                    .evidence = "ramp_60bar_dither: p95 6.37, 0.33, 0.33 % FS, band 82.2, 98.5, 98.5 %"},
+                    .meaning = "periods of dither are alike where neither is more than so many times the other"},
                    sensor::alike_ratio);
   visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "so many periods alike are dither"},
                    sensor::periods_of_dither);
@@ -36,33 +34,27 @@ void describe_dither_constants(Visitor& visitor) {
       sensor::unlike_weight);
   visitor.constant({.name = "swing_following",
                     .unit = "1",
-                    .meaning = "share of itself by which half the swing follows that of a period at most",
-                    .evidence = "ramp_60bar_dither: p95 0.33, 0.33, 0.33 % FS, band 98.3, 98.5, 98.5 %"},
+                    .meaning = "share of itself by which half the swing follows that of a period at most"},
                    sensor::swing_following);
   visitor.constant({.name = "missed_swing",
                     .unit = "1",
-                    .meaning = "of a swing, samples miss this over the square of those in a period",
-                    .evidence = "ramp_60bar_dither: p95 0.33, 0.33, 0.34 % FS, band 98.6, 98.5, 97.9 %"},
+                    .meaning = "of a swing, samples miss this over the square of those in a period"},
                    sensor::missed_swing);
   visitor.constant({.name = "missed_middle",
                     .unit = "1",
-                    .meaning = "one standard deviation of its middle, over half the swing and the same",
-                    .evidence = "ramp_60bar_dither: p95 0.34, 0.33, 0.31 % FS, band 98.1, 98.5, 99.0 %"},
+                    .meaning = "one standard deviation of its middle, over half the swing and the same"},
                    sensor::missed_middle);
   visitor.constant({.name = "slip_excess_factor",
                     .unit = "1",
-                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes",
-                    .evidence = "orifice_duty_dither: p95 1.08, 0.92, 0.93 % FS, band 94.4, 98.2, 97.9 %"},
+                    .meaning = "2 pi over the root of 4.5: the excess of force in a slip that dither makes"},
                    sensor::slip_excess_factor);
   visitor.constant({.name = "swing_deviation_share",
                     .unit = "1",
-                    .meaning = "half the width that peaks no sample met take in the band, over half the swing",
-                    .evidence = "ramp_60bar_dither: p95 0.33, 0.33, 0.33 % FS, band 98.0, 98.5, 99.4 %"},
+                    .meaning = "half the width that peaks no sample met take in the band, over half the swing"},
                    sensor::swing_deviation_share);
   visitor.constant({.name = "loosened_ageing_share",
                     .unit = "1",
-                    .meaning = "one standard deviation of what ageing adds to a break-away under dither, over itself",
-                    .evidence = "orifice_duty_dither: p95 0.92, 0.92, 0.94 % FS, band 98.1, 98.2, 98.3 %"},
+                    .meaning = "one standard deviation of what ageing adds to a break-away under dither, over itself"},
                    sensor::loosened_ageing_share);
 }
 

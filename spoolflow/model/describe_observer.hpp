@@ -151,8 +151,7 @@ void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
   visitor.number({.key = "position_backlash_m",
                   .unit = "m",
                   .limits = {0, 1e-3},
-                  .meaning = "half width of what the spool may creep unseen",
-                  .evidence = "temperature_sweep: p95 0.47, 0.28, 0.28 % FS, band 94.0, 97.1, 96.7 %"},
+                  .meaning = "half width of what the spool may creep unseen"},
                  sensor.backlash_m);
   visitor.number({.key = "position_drift_m_per_K",
                   .unit = "m/K",
@@ -167,8 +166,7 @@ void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
   visitor.number({.key = "hardest_acceleration_m_per_s2",
                   .unit = "m/s2",
                   .limits = {1e-3, 1e5},
-                  .meaning = "no spool accelerates harder: a jump of the position beyond it is a fault of the signal",
-                  .evidence = "ramps_30_to_70bar: p95 0.34, 0.32, 0.32 % FS, band 95.0, 95.7, 95.7 %"},
+                  .meaning = "no spool accelerates harder: a jump of the position beyond it is a fault of the signal"},
                  sensor.hardest_acceleration_m_per_s2);
 }
 
@@ -177,33 +175,26 @@ void describe_friction(Friction& friction, Visitor& visitor) {
   visitor.number({.key = "friction_ageing_ratio",
                   .unit = "1",
                   .limits = {1, 20},
-                  .meaning = "the spool's friction after a long rest over its sliding friction",
-                  .evidence = "temperature_sweep: p95 1.12, 0.28, 1.68 % FS, band 65.3, 97.1, 64.1 %"},
+                  .meaning = "the spool's friction after a long rest over its sliding friction"},
                  friction.ageing_ratio);
-  visitor.number({.key = "friction_ageing_s",
-                  .unit = "s",
-                  .limits = {1e-4, 1e4},
-                  .meaning = "time constant of that growth",
-                  .evidence = "ramps_30_to_70bar: p95 0.96, 0.32, 0.65 % FS, band 72.3, 95.7, 83.9 %"},
-                 friction.ageing_s);
+  visitor.number(
+      {.key = "friction_ageing_s", .unit = "s", .limits = {1e-4, 1e4}, .meaning = "time constant of that growth"},
+      friction.ageing_s);
   visitor.number({.key = "contact_stiffness_N_per_m",
                   .unit = "N/m",
                   .limits = {0, 1e10},
-                  .meaning = "stiffness of the contacts in pre-sliding",
-                  .evidence = "temperature_sweep: p95 0.56, 0.28, 0.46 % FS, band 93.3, 97.1, 93.3 %"},
+                  .meaning = "stiffness of the contacts in pre-sliding"},
                  friction.contact_stiffness_N_per_m);
   visitor.number({.key = "friction_tolerance_N",
                   .unit = "N",
                   .limits = {1e-6, 1e4},
                   .meaning = "standard deviation of friction at rest about what the pre-sliding displacement tells, "
-                             "where pressure difference and friction share a force that does not fit",
-                  .evidence = "temperature_sweep: p95 0.46, 0.28, 0.29 % FS, band 92.0, 97.1, 96.4 %"},
+                             "where pressure difference and friction share a force that does not fit"},
                  friction.tolerance_N);
   visitor.number({.key = "breakaway_share",
                   .unit = "1",
                   .limits = {0, 10},
-                  .meaning = "standard deviation of the break-away force about ageing, as a share of it",
-                  .evidence = "ramps_30_to_70bar: p95 0.36, 0.32, 0.32 % FS, band 93.1, 95.7, 96.1 %"},
+                  .meaning = "standard deviation of the break-away force about ageing, as a share of it"},
                  friction.breakaway_share);
   visitor.number({.key = "operation_friction_ratio",
                   .unit = "1",
@@ -224,53 +215,45 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
   visitor.number({.key = "sliding_drift_Pa_per_sqrt_s",
                   .unit = "Pa/s(1/2)",
                   .limits = {0, 1e9},
-                  .meaning = "random walk of the pressure difference while the spool slides",
-                  .evidence = "temperature_sweep: p95 0.27, 0.28, 0.61 % FS, band 98.2, 97.1, 97.3 %"},
+                  .meaning = "random walk of the pressure difference while the spool slides"},
                  pressure.sliding_drift_Pa_per_sqrt_s);
   visitor.number({.key = "resting_drift_Pa_per_sqrt_s",
                   .unit = "Pa/s(1/2)",
                   .limits = {0, 1e9},
-                  .meaning = "random walk of the pressure difference while the spool rests",
-                  .evidence = "duty_cycle_1: p95 3.61, 3.31, 3.22 % FS, band 93.7, 96.8, 96.9 %"},
+                  .meaning = "random walk of the pressure difference while the spool rests"},
                  pressure.resting_drift_Pa_per_sqrt_s);
   visitor.number({.key = "least_process_noise",
                   .unit = "1",
                   .limits = {1e-12, 1},
                   .meaning = "process noise where the supply has proved steady, as a share of that walk's variance",
-                  .relation = not_above("first_process_noise"),
-                  .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.32 % FS, band 95.5, 95.7, 95.5 %"},
+                  .relation = not_above("first_process_noise")},
                  pressure.least_process_noise);
   visitor.number(
       {.key = "first_process_noise",
        .unit = "1",
        .limits = {1e-6, 1},
-       .meaning = "process noise of a supply of which nothing is known yet, as a share of that walk's variance",
-       .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.32 % FS, band 95.2, 95.7, 95.8 %"},
+       .meaning = "process noise of a supply of which nothing is known yet, as a share of that walk's variance"},
       pressure.first_process_noise);
   visitor.number({.key = "force_correlation_s",
                   .unit = "s",
                   .limits = {1e-6, 10},
-                  .meaning = "for how long errors of the forces stay alike: samples within are no new evidence",
-                  .evidence = "temperature_sweep: p95 0.29, 0.28, 0.40 % FS, band 95.5, 97.1, 97.9 %"},
+                  .meaning = "for how long errors of the forces stay alike: samples within are no new evidence"},
                  pressure.force_correlation_s);
   visitor.number({.key = "friction_ratio_deviation",
                   .unit = "1",
                   .limits = {1e-3, 2},
-                  .meaning = "standard deviation of the friction ratio at any time",
-                  .evidence = "ramp_60bar_dither: p95 0.31, 0.33, 0.50 % FS, band 98.7, 98.5, 82.6 %"},
+                  .meaning = "standard deviation of the friction ratio at any time"},
                  pressure.ratio_deviation);
   visitor.number({.key = "friction_ratio_memory_s",
                   .unit = "s",
                   .limits = {1e-3, 1e6},
-                  .meaning = "time of sliding in which the friction ratio forgets what it has learnt",
-                  .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.34 % FS, band 95.6, 95.7, 95.0 %"},
+                  .meaning = "time of sliding in which the friction ratio forgets what it has learnt"},
                  pressure.ratio_memory_s);
   visitor.number(
       {.key = "yielding_s",
        .unit = "s",
        .limits = {1e-5, 1e3},
-       .meaning = "how fast the pressure difference gives way to a force that resting friction cannot explain",
-       .evidence = "motor_load: p95 2.69, 2.89, 3.14 % FS, band 98.0, 97.9, 97.7 %"},
+       .meaning = "how fast the pressure difference gives way to a force that resting friction cannot explain"},
       pressure.yielding_s);
 }
 
@@ -313,7 +296,6 @@ void describe_observer(Parameters& parameters, Visitor&& visitor) {
                   .unit = "kg",
                   .limits = {1e-3, 100},
                   .meaning = "spool, push rod and armature together",
-                  .evidence = "orifice_duty_dither: p95 1.02, 0.92, 0.87 % FS, band 96.5, 98.2, 99.1 %",
                   .otherwise = 0.11},
                  parameters.moving_mass_kg);
   visitor.number(

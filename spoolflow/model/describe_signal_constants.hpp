@@ -16,8 +16,7 @@ void describe_map_constants(Visitor& visitor) {
                    sensor::wild_cells<double>);
   visitor.constant({.name = "least_force_per_pressure_N_Pa",
                     .unit = "N/Pa",
-                    .meaning = "no less is taken for the slope of the flow force over the pressure difference",
-                    .evidence = "none of the runs"},
+                    .meaning = "no less is taken for the slope of the flow force over the pressure difference"},
                    sensor::least_force_per_pressure_N_Pa);
 }
 
@@ -66,32 +65,25 @@ void describe_coil_constants(Visitor& visitor) {
 template <class Visitor>
 // long: a list, one entry a constant
 void describe_position_constants(Visitor& visitor) {
-  visitor.constant({.name = "block_length_s",
-                    .unit = "s",
-                    .meaning = "length of the blocks over which the position is averaged",
-                    .evidence = "ramp_60bar: p95 14.93, 0.30, 0.44 % FS, band 82.7, 97.7, 98.5 %"},
-                   sensor::block_length_s);
+  visitor.constant(
+      {.name = "block_length_s", .unit = "s", .meaning = "length of the blocks over which the position is averaged"},
+      sensor::block_length_s);
   visitor.constant(
       {.name = "short_window_deviations",
        .unit = "1",
-       .meaning = "standard deviations of the noise beyond which short windows must travel for the spool to slide",
-       .evidence = "orifice_duty_dither: p95 0.93, 0.92, 0.86 % FS, band 98.1, 98.2, 97.4 %"},
+       .meaning = "standard deviations of the noise beyond which short windows must travel for the spool to slide"},
       sensor::short_window_deviations);
-  visitor.constant({.name = "long_window_deviations",
-                    .unit = "1",
-                    .meaning = "the same of long windows, for a spool that creeps",
-                    .evidence = "ramp_60bar: p95 0.34, 0.30, 15.46 % FS, band 95.0, 97.7, 77.3 %"},
-                   sensor::long_window_deviations);
+  visitor.constant(
+      {.name = "long_window_deviations", .unit = "1", .meaning = "the same of long windows, for a spool that creeps"},
+      sensor::long_window_deviations);
   visitor.constant({.name = "even_travel_ratio",
                     .unit = "1",
-                    .meaning = "windows travel evenly where the longest is no more than so many times the shortest",
-                    .evidence = "fast_10kHz: p95 3.25, 2.36, 1.97 % FS, band 94.2, 95.0, 95.5 %"},
+                    .meaning = "windows travel evenly where the longest is no more than so many times the shortest"},
                    sensor::even_travel_ratio);
   visitor.constant(
       {.name = "slowing_travel_ratio",
        .unit = "1",
-       .meaning = "a spool whose newest window travels less than one over this of the others is about to stop",
-       .evidence = "fast_10kHz: p95 3.57, 2.36, 2.38 % FS, band 96.1, 95.0, 94.8 %"},
+       .meaning = "a spool whose newest window travels less than one over this of the others is about to stop"},
       sensor::slowing_travel_ratio);
   visitor.constant({.name = "longest_tremble_block_s",
                     .unit = "s",
@@ -103,37 +95,22 @@ void describe_position_constants(Visitor& visitor) {
                    sensor::shortest_block_s);
   visitor.constant({.name = "fastest_m_per_s", .unit = "m/s", .meaning = "no spool moves faster"},
                    sensor::fastest_m_per_s);
-  visitor.constant({.name = "velocity_smoothing_s",
-                    .unit = "s",
-                    .meaning = "smoothing of the velocity",
-                    .evidence = "orifice_duty_dither: p95 0.88, 0.92, 0.97 % FS, band 98.4, 98.2, 97.5 %"},
+  visitor.constant({.name = "velocity_smoothing_s", .unit = "s", .meaning = "smoothing of the velocity"},
                    sensor::velocity_smoothing_s);
-  visitor.constant({.name = "slip_speed_m_per_s",
-                    .unit = "m/s",
-                    .meaning = "a slip is faster than this",
-                    .evidence = "fast_10kHz: p95 2.34, 2.36, 2.31 % FS, band 95.0, 95.0, 94.9 %"},
+  visitor.constant({.name = "slip_speed_m_per_s", .unit = "m/s", .meaning = "a slip is faster than this"},
                    sensor::slip_speed_m_per_s);
-  visitor.constant({.name = "slip_deviations",
-                    .unit = "1",
-                    .meaning = "standard deviations of the noise beyond which a slip moves",
-                    .evidence = "temperature_sweep: p95 2.38, 0.28, 0.28 % FS, band 59.4, 97.1, 97.1 %"},
-                   sensor::slip_deviations);
-  visitor.constant({.name = "slip_settling_s",
-                    .unit = "s",
-                    .meaning = "how long friction and inertia are in motion after a slip",
-                    .evidence = "ramps_30_to_70bar: p95 0.33, 0.32, 0.31 % FS, band 94.8, 95.7, 96.2 %"},
-                   sensor::slip_settling_s);
+  visitor.constant(
+      {.name = "slip_deviations", .unit = "1", .meaning = "standard deviations of the noise beyond which a slip moves"},
+      sensor::slip_deviations);
+  visitor.constant(
+      {.name = "slip_settling_s", .unit = "s", .meaning = "how long friction and inertia are in motion after a slip"},
+      sensor::slip_settling_s);
   visitor.constant(
       {.name = "credible_jump_deviations",
        .unit = "1",
-       .meaning = "standard deviations of the noise up to which a change of the position signal is credible",
-       .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 95.7, 95.7, 95.1 %"},
+       .meaning = "standard deviations of the noise up to which a change of the position signal is credible"},
       sensor::credible_jump_deviations);
-  visitor.constant({.name = "credible_jump_m",
-                    .unit = "m",
-                    .meaning = "and so much more",
-                    .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 95.7, 95.7, 95.1 %"},
-                   sensor::credible_jump_m);
+  visitor.constant({.name = "credible_jump_m", .unit = "m", .meaning = "and so much more"}, sensor::credible_jump_m);
   visitor.constant(
       {.name = "position_noise_excess",
        .unit = "1",
@@ -156,8 +133,7 @@ void describe_position_constants(Visitor& visitor) {
                    sensor::quiet_voltage_share);
   visitor.constant({.name = "quiet_jump_m",
                     .unit = "m",
-                    .meaning = "no acceleration is credible for more than this where neither changed",
-                    .evidence = "ramps_30_to_70bar: p95 0.32, 0.32, 0.33 % FS, band 95.7, 95.7, 95.1 %"},
+                    .meaning = "no acceleration is credible for more than this where neither changed"},
                    sensor::quiet_jump_m);
   visitor.constant({.name = "longest_position_fault_s",
                     .unit = "s",

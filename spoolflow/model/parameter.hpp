@@ -2,7 +2,8 @@
 /// How a number of a valve is described: once, with everything that JSON, FMU, C++ export, load check and documentation
 /// need to know of it. To add one, give it a member in a structure of spoolflow/sensor and one call in
 /// describe_observer.hpp or describe_condensed.hpp; `otherwise` lets files without it be read. A constant of the code
-/// gets one call in describe_constants.hpp. Then `ci/parameters_page.sh` writes docs/formats/parameters.md anew.
+/// gets one call in describe_constants.hpp. What runs show of a number stands in tuning_evidence.csv, which
+/// `bench/tuning_evidence.py --update` writes. Then `ci/parameters_page.sh` writes docs/formats/parameters.md anew.
 #include <limits>
 #include <optional>
 #include <string>
@@ -53,7 +54,6 @@ struct Parameter {
   Limits limits;
   const char* meaning;
   Relation relation{};
-  const char* evidence = "";          ///< which run shows what it does
   std::optional<double> otherwise{};  ///< what a file that does not give it is read with
 };
 
@@ -74,7 +74,6 @@ struct TableParameter {
   AxisParameter rows{"", "", {0, 0}, 0};     ///< of a map; a curve has no rows, a volume's axes stand beside it
   AxisParameter columns{"", "", {0, 0}, 0};  ///< of a map or curve
   Relation relation{};
-  const char* evidence = "";
 };
 
 /// A number that is the same for all valves, and stands in the code.
@@ -82,7 +81,6 @@ struct Constant {
   const char* name;
   const char* unit;
   const char* meaning;
-  const char* evidence = "";
 };
 
 }  // namespace spoolflow::model

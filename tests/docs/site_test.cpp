@@ -1,7 +1,9 @@
 /// The pages under docs/ hang together and name what exists.
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
+#include <stdexcept>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -9,10 +11,12 @@
 
 #include "spoolflow/model/describe_condensed.hpp"
 #include "spoolflow/model/describe_constants.hpp"
+#include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/sensor/status.hpp"
 #include "tests/docs/markdown.hpp"
+#include "tests/docs/tuning_evidence.hpp"
 
 namespace spoolflow::docs {
 namespace {
@@ -169,6 +173,51 @@ TEST(Parameters, NameEveryConstantOfTheSensor) {
     }
   }
   EXPECT_THAT(missing, IsEmpty());
+}
+
+/// Numbers that may have evidence: constants, and what the observer's description names.
+struct Numbers {
+  std::set<std::string> all;
+  void number(const model::Parameter& about, double /*value*/) { all.insert(about.key); }
+  template <class Values>
+  void list(const model::Parameter& about, const Values& /*values*/) {
+    all.insert(about.key);
+  }
+  template <class Axis>
+  void axis(const model::AxisParameter& /*about*/, const Axis& /*axis*/, int /*points*/) {}
+  template <class Table>
+  void curve(const model::TableParameter& /*about*/, const Table& /*curve*/) {}
+  template <class Table>
+  void map(const model::TableParameter& /*about*/, const Table& /*map*/) {}
+  template <class Table>
+  void volume(const model::TableParameter& /*about*/, const Table& /*volume*/) {}
+};
+
+TEST(Parameters, HaveTheirEvidenceAndEvidenceItsParameter) {
+  const auto evidence = read_tuning_evidence(root / "spoolflow/model/tuning_evidence.csv");
+  ConstantNames constants;
+  model::describe_constants(constants);
+  for (const std::string& name : constants.all)
+    EXPECT_EQ(evidence.count(name), 1U) << name << ": no row; bench/tuning_evidence.py --update writes it";
+  Numbers numbers;
+  const sensor::ObserverParameters<double> observer{};
+  model::describe_observer(observer, numbers);
+  for (const auto& [name, text] : evidence)
+    EXPECT_TRUE(constants.all.count(name) == 1 || numbers.all.count(name) == 1) << name << ": evidence of no number";
+}
+
+TEST(TuningEvidence, IsRefusedWhereARowIsShortSaysNothingOrComesAgain) {
+  const fs::path file = fs::temp_directory_path() / ("spoolflow-evidence-" + std::to_string(::getpid()) + ".csv");
+  const auto read = [&](const std::string& rows) {
+    std::ofstream(file) << "number,run,a,b,c,d,e,f,note\n" << rows;
+    return read_tuning_evidence(file);
+  };
+  EXPECT_EQ(read("one,ramp,1,2,3,4,5,6,\ntwo,,,,,,,,none, as no run does it\n"),
+            (std::map<std::string, std::string>{{"one", "ramp: p95 1, 2, 3 % FS, band 4, 5, 6 %"},
+                                                {"two", "none, as no run does it"}}));
+  for (const char* wrong : {"one,ramp,1,2,3\n", "one,,,,,,,,\n", "one,,,,,,,,a\none,,,,,,,,b\n"})
+    EXPECT_THROW((void)read(wrong), std::runtime_error) << wrong;
+  fs::remove(file);
 }
 
 TEST(Markdown, FindsHeadingsLinksAndCodeOutsideOfBlocks) {
