@@ -66,8 +66,8 @@ std::string definition(const std::string& type, const std::string& name, const s
   std::vector<float> single;
   for (const double number : numbers) single.push_back(single_precision(number));
   return fmt::format(
-      "inline constexpr auto {1} = __builtin_bit_cast(spoolflow::sensor::{0}<float>, (std::array<float, "
-      "{2}>{{\n{3}}}));\n"
+      "inline SPOOLFLOW_TABLE auto {1} = spoolflow::sensor::bits_as<spoolflow::sensor::{0}<float>>(std::array<float, "
+      "{2}>{{\n{3}}});\n"
       "inline constexpr std::uint32_t {1}_crc32 = 0x{4:08X}U;\n\n",
       type, name, numbers.size(), literals(numbers, groups),
       numerics::crc32({reinterpret_cast<const std::uint8_t*>(single.data()), single.size() * sizeof(float)}));

@@ -126,10 +126,10 @@ void describe_machine_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "changes of the conductance are taken of no less than this share of the widest opening's"},
       sensor::least_conductance_share);
-  visitor.constant({.name = "least_conductance",
+  visitor.constant({.name = "vanishing_conductance",
                     .unit = "m3/s/Pa(1/2)",
                     .meaning = "a smaller conductance is none: shares divide by it"},
-                   sensor::least_conductance);
+                   sensor::vanishing_conductance);
   visitor.constant({.name = "most_environment_N",
                     .unit = "N",
                     .meaning = "more than this leaves nothing known of the pressure difference"},

@@ -5,7 +5,8 @@
 
 #include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/coil_resistance.hpp"
-#include "spoolflow/sensor/magnetic_force.hpp"
+#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
 namespace spoolflow::sensor {
@@ -72,8 +73,8 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 /// was never calibrated says nothing. Every sample counts in the mean. The rest is done in the first sample that is not
 /// `busy` with other things, at least `period_s` after the last time.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                  const Sample<T>& sample, T largest_current_A, T period_s, bool busy) {
+SPOOLFLOW_INLINE constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                            const Sample<T>& sample, T largest_current_A, T period_s, bool busy) {
   average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
   const bool due = !busy && state.coil_resistance.waits_s > period_s - T(0.5) * sample.time_step_s;
   if (due && is_number(sample.voltage_V)) {
@@ -86,8 +87,8 @@ template <class T>
 /// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It begins anew at
 /// the first, and where a coil current that no coil has, or a leap in time, left a flux that no coil has.
 template <class T>
-[[gnu::always_inline]] constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                const Sample<T>& sample, bool first) {
+SPOOLFLOW_INLINE constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                          const Sample<T>& sample, bool first) {
   const bool begins = first || !is_number(state.coil.magnetising_current_A);
   const Cell<T> flux_position =
       locate<flux_map_positions>(actuator.coil.flux_linkage.map.column_axis, sample.position_m);
@@ -97,9 +98,9 @@ template <class T>
 
 /// What the magnetic force may be wrong by, and the armature's friction.
 template <class T>
-[[gnu::always_inline]] constexpr void judge_force(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                                  const Cell<T>& current, const Cell<T>& position,
-                                                  T force_per_current_N_per_A, T eddy_A) {
+SPOOLFLOW_INLINE constexpr void judge_force(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                            const Cell<T>& current, const Cell<T>& position,
+                                            T force_per_current_N_per_A, T eddy_A) {
   widen_flux_range(state);
   const T current_variance_A2 = squared(actuator.current_uncertainty_A) + squared(actuator.eddy_uncertainty * eddy_A) +
                                 squared(unknown_memory_A(actuator, state));
@@ -112,9 +113,8 @@ template <class T>
 /// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction,
 /// which are slow, may be those of an earlier sample where they are not `judged`.
 template <class T>
-[[gnu::always_inline]] constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator,
-                                                          ActuatorState<T>& state, const Sample<T>& sample, bool first,
-                                                          bool judged = true) {
+SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> step(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
+                                                    const Sample<T>& sample, bool first, bool judged = true) {
   magnetise(actuator, state, sample, first);
   const auto& force_map = actuator.magnetic_force.map;
   const Cell<T> current = locate<force_map_currents>(force_map.row_axis, state.coil.magnetising_current_A);

@@ -4,6 +4,7 @@
 ///
 /// What the machine around the valve leaves open (Environment) is common to many samples: no filter averages it away,
 /// so that it enters the band and not the filter.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 
 namespace spoolflow::sensor {
@@ -11,13 +12,13 @@ namespace spoolflow::sensor {
 /// Shares of the conductance are taken of no less than this share of the widest opening's.
 inline constexpr double least_conductance_share = 0.01;
 /// A smaller conductance [m3/s/Pa(1/2)] is none: shares divide by it.
-inline constexpr double least_conductance = 1e-12;
+inline constexpr double vanishing_conductance = 1e-12;
 /// More than this [N] leaves nothing known of the pressure difference.
 inline constexpr double most_environment_N = 1e5;
 
 /// Whether nothing is left open beside what the flow itself is widened by.
 template <class T>
-[[gnu::always_inline]] constexpr bool is_bench(const Environment<T>& environment) {
+SPOOLFLOW_INLINE constexpr bool is_bench(const Environment<T>& environment) {
   return !(environment.position_m + environment.position_share + environment.current_share + environment.force_N +
                environment.oil_temperature_K + environment.friction_share + environment.ripple_Pa >
            T(0));
@@ -36,13 +37,13 @@ constexpr T edge_effect_N(const EdgePoint<T>& edge, const EdgePoint<T>& other, T
 /// What the environment leaves open of the force that the pressure difference is told from [N], one standard deviation.
 /// What a position error does to force and conductance belongs together: the one takes off the other.
 template <class T>
-[[gnu::noinline]] constexpr T environment_N(const ObserverParameters<T>& valve, const ObserverState<T>& state,
+SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve, const ObserverState<T>& state,
                                             const ForceBalance<T>& balance, T position_m, T current_A) {
   const Environment<T>& environment = valve.environment;
   const MeteringEdge<T>& edge = valve.edge;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
   const T widest = edge.conductance.node(0, 1, edge_positions - 1);
-  const T least = larger(T(least_conductance_share) * widest, T(least_conductance));
+  const T least = larger(T(least_conductance_share) * widest, T(vanishing_conductance));
   const T off_m = sqrt(squared(environment.position_m) + squared(environment.position_share * position_m));
   const EdgePoint<T> there = edge.at(state.oil_temperature_K, believed_Pa, position_m + off_m);
   const T stiffness_N_per_m = valve.spring.at(position_m).slope - balance.actuator.force_per_position_N_per_m;
@@ -95,7 +96,7 @@ constexpr T bounds_deviation_N(const BandParameters<T>& band, T rest_s) {
 
 /// One standard deviation of the pressure difference that a force error makes [Pa].
 template <class T>
-[[gnu::always_inline]] constexpr T pressure_deviation_Pa(const EdgePoint<T>& edge, T force_N) {
+SPOOLFLOW_INLINE constexpr T pressure_deviation_Pa(const EdgePoint<T>& edge, T force_N) {
   return force_N / edge.flow_force_per_pressure_N_Pa;
 }
 
@@ -110,7 +111,7 @@ struct PressureBand {
 /// By how much the pressure difference at rest is expected beyond the believed one, as what may have gone on unseen: in
 /// the way in which it yielded.
 template <class T>
-[[gnu::always_inline]] constexpr T unseen_Pa(const PressureState<T>& pressure, const ForceBalance<T>& balance) {
+SPOOLFLOW_INLINE constexpr T unseen_Pa(const PressureState<T>& pressure, const ForceBalance<T>& balance) {
   const T yielded_Pa = pressure.yielded_Pa;
   const bool rises = yielded_Pa > T(0);
   const T room_N = rises ? balance.apparent_friction_N - balance.resting.lower_N
@@ -124,8 +125,7 @@ template <class T>
 /// depends on speed, friction that operation has shown to differ by `displaced_ratio` (>= 0) from what was calibrated,
 /// and the swing of friction under dither.
 template <class T>
-[[gnu::always_inline]] constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s,
-                                                      T displaced_ratio) {
+SPOOLFLOW_INLINE constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s, T displaced_ratio) {
   const T of_speed =
       smaller(T(friction_share_per_speed_s_per_m) * magnitude(velocity_m_per_s), T(most_friction_share_of_speed));
   const T sliding_N = T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
@@ -135,14 +135,14 @@ template <class T>
 
 /// Half the width [Pa] where both what is open (one over its square) and how far friction's bound lies limit the error.
 template <class T>
-[[gnu::always_inline]] constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open_1_N2, T bound_N) {
+SPOOLFLOW_INLINE constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open_1_N2, T bound_N) {
   return pressure_deviation_Pa(edge, bound_N / sqrt(T(1) + squared(bound_N) * per_open_1_N2));
 }
 
 /// After the pressure difference was believed; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
 /// open and how far friction's bounds and their uncertainty reach limit the error: each side lies below either.
 template <class T>
-[[gnu::always_inline]] constexpr PressureReach<T> pressure_reach(const BandParameters<T>& band,
+SPOOLFLOW_INLINE constexpr PressureReach<T> pressure_reach(const BandParameters<T>& band,
                                                                  const PressureState<T>& pressure,
                                                                  const ForceBalance<T>& balance, T rest_s,
                                                                  T velocity_m_per_s, T displaced_ratio,
@@ -182,7 +182,7 @@ template <class T>
 
 /// The pressure difference to answer with, from 0 to the highest that was calibrated, and what is left open of it.
 template <class T>
-[[gnu::always_inline]] constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure, T highest_Pa) {
+SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure, T highest_Pa) {
   const T believed_Pa = pressure.pressure_difference_Pa;
   return {larger(believed_Pa - pressure.reach.below_Pa, T(0)),
           limited(believed_Pa + pressure.reach.ahead_Pa, T(0), highest_Pa),
@@ -192,7 +192,7 @@ template <class T>
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
 /// flow's own residual, which knows nothing of it.
 template <class T>
-[[gnu::always_inline]] constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s,
+SPOOLFLOW_INLINE constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s,
                                                    T most_m3_per_s, Estimate<T>& out) {
   const BandParameters<T>& band = valve.band;
   out.flow_lower_m3_per_s = least_m3_per_s;

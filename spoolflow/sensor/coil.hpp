@@ -2,6 +2,7 @@
 /// From coil current to magnetising current: hysteresis and eddy currents taken off.
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/magnetic_hysteresis.hpp"
 #include "spoolflow/sensor/table.hpp"
 
@@ -94,8 +95,8 @@ struct CoilGuess {
 /// constant is the last one; the flux that the position alone has moved counts as a change, too. Close enough for
 /// hysteresis to be asked there, also where dither has turned the current round between two samples.
 template <class T>
-[[gnu::always_inline]] constexpr T predicted_change_A(const CoilState<T>& state, const CoilGuess<T>& guess, T current_A,
-                                                      T weight, T time_constant_per_step) {
+SPOOLFLOW_INLINE constexpr T predicted_change_A(const CoilState<T>& state, const CoilGuess<T>& guess, T current_A,
+                                                T weight, T time_constant_per_step) {
   const T moved_A = (guess.flux.value - state.hysteresis.flux) / guess.flux.row_slope;
   return (current_A - state.static_current_A - time_constant_per_step * moved_A) / (weight + time_constant_per_step);
 }
@@ -107,8 +108,8 @@ template <class T>
 /// in the mean over the step: one Newton step from the prediction. What it leaves is taken up by the next sample. Where
 /// a coil begins, `guess` is the prediction.
 template <class T>
-[[gnu::always_inline]] constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
-                                                    const CoilGuess<T>& guess, bool begins) {
+SPOOLFLOW_INLINE constexpr void solve_current(const Coil<T>& coil, CoilState<T>& state, const CoilStep<T>& step,
+                                              const CoilGuess<T>& guess, bool begins) {
   const T per_step = T(1) / larger(step.time_step_s, T(shortest_step_s));
   const T time_constant_per_step = state.time_constant_s * per_step;
   const T weight = end_weight(time_constant_per_step);
@@ -140,8 +141,8 @@ constexpr void demagnetise(CoilState<T>& state) {
 /// Follows the coil current with the flux. The first sample begins: nothing is known of the coil's history, it is taken
 /// to have been demagnetised and then brought to this current slowly. Costs no more than any other step.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
-                                                     const Cell<T>& position, bool begins) {
+SPOOLFLOW_INLINE constexpr void follow_current(const Coil<T>& coil, CoilState<T>& state, CoilStep<T> step,
+                                               const Cell<T>& position, bool begins) {
   const auto& flux_map = coil.flux_linkage.map;
   const T last_A = begins ? step.current_A : state.magnetising_current_A;
   const CoilGuess<T> guess{last_A, flux_map.at(locate<flux_map_currents>(flux_map.row_axis, last_A), position)};

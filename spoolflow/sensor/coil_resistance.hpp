@@ -1,6 +1,7 @@
 #pragma once
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
@@ -57,8 +58,7 @@ static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);
 /// One sample, `time_step_s` long. The equation is linear: what holds of each sample holds of their mean, if it is
 /// taken of all of them. A voltage that is NaN leaves the mean alone.
 template <class T>
-[[gnu::always_inline]] constexpr void average(CoilResistanceState<T>& state, const CoilEquation<T>& sample,
-                                              T time_step_s) {
+SPOOLFLOW_INLINE constexpr void average(CoilResistanceState<T>& state, const CoilEquation<T>& sample, T time_step_s) {
   if (is_number(sample.voltage_V)) {
     state.waits_s += time_step_s;
     const T share = smaller(time_step_s * T(1 / coil_averaging_s), T(1));

@@ -3,6 +3,7 @@
 #include <array>
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/condensed_tables.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
@@ -77,8 +78,8 @@ constexpr T largest_flow(const CondensedTables<T>& valve, T position_m) {
 /// A sample that cannot be used: the last flow is held, and its band opens to all that may flow, at the position that
 /// is measured or, without one, at any.
 template <class T>
-[[gnu::noinline]] constexpr void hold(const CondensedTables<T>& valve, CondensedState<T>& state,
-                                      const Sample<T>& sample) {
+SPOOLFLOW_NOINLINE constexpr void hold(const CondensedTables<T>& valve, CondensedState<T>& state,
+                                       const Sample<T>& sample) {
   Estimate<T>& out = state.last;
   const T end_m = T(CondensedLayout::position_cells) / valve.cells_per_m;
   const T position_m = is_number(sample.position_m) ? limited(sample.position_m, T(0), end_m) : end_m;

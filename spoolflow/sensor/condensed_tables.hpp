@@ -3,8 +3,7 @@
 #include <type_traits>
 
 #include "spoolflow/sensor/flow_rate.hpp"
-#include "spoolflow/sensor/magnetic_force.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::sensor {
 

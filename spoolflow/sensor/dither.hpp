@@ -8,6 +8,7 @@
 /// limit. So friction is told by the middle of its swing, and its limits are nearer by half the swing.
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
@@ -93,8 +94,8 @@ constexpr void begin(DitherState<T>& state, T current_A) {
 
 /// One sample of the coil current.
 template <class T>
-[[gnu::always_inline]] constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
-                                                         T time_step_s) {
+SPOOLFLOW_INLINE constexpr Dither<T> follow_dither(DitherState<T>& state, T current_A, T largest_current_A,
+                                                   T time_step_s) {
   const bool began = is_zero(state.since_s);
   if (began) {
     const T period_s = larger(state.period_s, T(shortest_dither_period_s));
@@ -166,7 +167,7 @@ struct FrictionSwing {
 
 /// A period is over: what was told in it is kept.
 template <class T>
-[[gnu::always_inline]] constexpr void turn_swing(FrictionSwingState<T>& state, T apparent_N) {
+SPOOLFLOW_INLINE constexpr void turn_swing(FrictionSwingState<T>& state, T apparent_N) {
   const bool lone = is_zero(state.periods);
   state.periods = smaller(state.periods + T(1), T(2));
   state.last_highest_N = lone ? apparent_N : state.highest_N - state.flow_force_N;
@@ -177,8 +178,8 @@ template <class T>
 
 /// One sample. `apparent_N` is what friction would have to be.
 template <class T>
-[[gnu::always_inline]] constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
-                                                               T apparent_N) {
+SPOOLFLOW_INLINE constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
+                                                         T apparent_N) {
   const bool anew = !dither.present;
   if (anew) {
     state.periods = state.half_swing_N = state.flow_force_N = T(0);
@@ -210,7 +211,7 @@ template <class T>
 ///
 /// `slip_m` is the way in one period, less what the contacts give elastically. Leaves out drag within the slip.
 template <class T>
-[[gnu::always_inline]] constexpr T slip_excess_N(T moving_mass_kg, T half_swing_N, T slip_m, T period_s) {
+SPOOLFLOW_INLINE constexpr T slip_excess_N(T moving_mass_kg, T half_swing_N, T slip_m, T period_s) {
   return T(slip_excess_factor) * sqrt(moving_mass_kg * half_swing_N * larger(slip_m, T(0))) /
          larger(period_s, T(shortest_dither_period_s));
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// The forces on spool and armature at the believed pressure difference: what they leave is friction, and what friction
 /// cannot be is the innovation of the pressure difference. Paper (1) and section 3.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::sensor {
@@ -32,8 +33,8 @@ struct ForceBalance {
 /// One standard deviation of all forces together [N], as the parts tell it. `moving_N` is that of what inertia, or the
 /// swing under dither, may be wrong by.
 template <class T>
-[[gnu::always_inline]] constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
-                                                 const FrictionBounds<T>& bounds, T moving_N) {
+SPOOLFLOW_INLINE constexpr T force_noise_N(const BandParameters<T>& band, const ActuatorEstimate<T>& actuator,
+                                           const FrictionBounds<T>& bounds, T moving_N) {
   return sqrt(squared(moving_N) + squared(band.force_residual_N) + squared(actuator.uncertainty_N) +
               squared(band.friction_share * bounds.sliding_N));
 }
@@ -55,9 +56,9 @@ constexpr T slips_excess_N(const ObserverParameters<T>& valve, T half_swing_N, T
 
 /// Friction over a period of dither, or at this sample, and its bounds.
 template <class T>
-[[gnu::always_inline]] constexpr void swing(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                            const Dither<T>& dither, const PositionPoint<T>& position,
-                                            ForceBalance<T>& balance) {
+SPOOLFLOW_INLINE constexpr void swing(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                      const Dither<T>& dither, const PositionPoint<T>& position,
+                                      ForceBalance<T>& balance) {
   const FrictionSwing<T> swing = follow_swing(state.swing, dither, balance.apparent_friction_N);
   balance.dithered = dither.present;
   // Where dither frees the spool altogether, no contact grows old.
@@ -77,10 +78,9 @@ template <class T>
 /// From coil current and position to friction; moves the memory of solenoid and friction. `opposing_N` is what another
 /// solenoid holds against this one's; `begins` at the first sample.
 template <class T>
-[[gnu::always_inline]] constexpr ForceBalance<T> balance_forces(const ObserverParameters<T>& valve,
-                                                                ObserverState<T>& state, const Sample<T>& sample,
-                                                                const PositionPoint<T>& position,
-                                                                const Dither<T>& dither, T opposing_N, bool begins) {
+SPOOLFLOW_INLINE constexpr ForceBalance<T> balance_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                          const Sample<T>& sample, const PositionPoint<T>& position,
+                                                          const Dither<T>& dither, T opposing_N, bool begins) {
   ForceBalance<T> out;
   out.actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
@@ -88,15 +89,15 @@ constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& frictio
 
 /// By how much noise may fake a displacement at rest.
 template <class T>
-[[gnu::always_inline]] constexpr T gauge_slack_m(T noise_m, T time_step_s) {
+SPOOLFLOW_INLINE constexpr T gauge_slack_m(T noise_m, T time_step_s) {
   const T smoothing_s = T(gauge_smoothing_s);
   return T(gauge_slack_deviations) * noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
 }
 
 /// How far to either side of what the pre-sliding displacement tells friction may lie.
 template <class T>
-[[gnu::always_inline]] constexpr T gauge_reach_N(const FrictionParameters<T>& friction, const PositionSensor<T>& sensor,
-                                                 T slack_m) {
+SPOOLFLOW_INLINE constexpr T gauge_reach_N(const FrictionParameters<T>& friction, const PositionSensor<T>& sensor,
+                                           T slack_m) {
   return friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
 }
 
@@ -123,7 +124,7 @@ struct Contact {
 
 /// Whether the spool drags the sensor along, and which way.
 template <class T>
-[[gnu::always_inline]] constexpr void drag(FrictionState<T>& state, T moved_m, T slack_m, T time_step_s) {
+SPOOLFLOW_INLINE constexpr void drag(FrictionState<T>& state, T moved_m, T slack_m, T time_step_s) {
   const bool goes_on = !(moved_m * state.dragged_m < T(0));
   const bool moves = !is_zero(moved_m);
   state.dragged_m = moved_m + (goes_on ? state.dragged_m : T(0));
@@ -136,9 +137,8 @@ template <class T>
 
 /// At rest: friction changes with the pre-sliding displacement. Dahl: stiffness fades towards the limit.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_displacement(const FrictionParameters<T>& friction,
-                                                          FrictionState<T>& state, const Contact<T>& contact,
-                                                          T position_m, T time_step_s) {
+SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>& friction, FrictionState<T>& state,
+                                                    const Contact<T>& contact, T position_m, T time_step_s) {
   state.rest_s = smaller(state.rest_s + time_step_s, T(longest_rest_s));
   const T share =
       larger(time_step_s / larger(state.rest_s, T(least_rest_s)), time_step_s / (T(gauge_smoothing_s) + time_step_s));
@@ -157,8 +157,8 @@ template <class T>
 
 /// In motion: friction is that of sliding, or in a slip what the forces leave; from there the next rest begins.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_motion(FrictionState<T>& state, const Contact<T>& contact, T sliding_N,
-                                                    const PositionPoint<T>& position) {
+SPOOLFLOW_INLINE constexpr void follow_motion(FrictionState<T>& state, const Contact<T>& contact, T sliding_N,
+                                              const PositionPoint<T>& position) {
   const T direction = position.travel_m > T(0) ? T(1) : T(-1);
   const bool sliding = position.motion != Motion::transient;
   const T friction_N =
@@ -172,7 +172,7 @@ template <class T>
 
 /// Keeps what friction was `breakaway_delay_s` ago and before.
 template <class T>
-[[gnu::always_inline]] constexpr void hold(FrictionState<T>& state, T apparent_N, T time_step_s) {
+SPOOLFLOW_INLINE constexpr void hold(FrictionState<T>& state, T apparent_N, T time_step_s) {
   state.held_s += time_step_s;
   const bool delayed = state.held_s > T(breakaway_delay_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
   if (!delayed) return;
@@ -187,11 +187,10 @@ template <class T>
 /// while the spool slips it is all there is. Where contacts creep, as dither lets them, where the spool stands tells no
 /// friction. Returns where friction may lie at rest.
 template <class T>
-[[gnu::always_inline]] constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction,
-                                                          FrictionState<T>& state, const FrictionBounds<T>& bounds,
-                                                          const PositionSensor<T>& sensor,
-                                                          const PositionPoint<T>& position, T apparent_N, bool creeps,
-                                                          T time_step_s) {
+SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, FrictionState<T>& state,
+                                                    const FrictionBounds<T>& bounds, const PositionSensor<T>& sensor,
+                                                    const PositionPoint<T>& position, T apparent_N, bool creeps,
+                                                    T time_step_s) {
   if (position.turn.closed) state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s);
   const T slack_m = state.slack_m;
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);

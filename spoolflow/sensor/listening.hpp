@@ -9,6 +9,7 @@
 /// rest before it ends.
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::sensor {
@@ -60,8 +61,8 @@ namespace detail {
 
 /// The amplitude of the request that runs, `deaf` where it has not freed the spool, or of the next one.
 template <class T>
-[[gnu::always_inline]] constexpr void adapt(const ListeningParameters<T>& limits, ListeningState<T>& state, bool deaf,
-                                            bool was_enough, T step_s) {
+SPOOLFLOW_INLINE constexpr void adapt(const ListeningParameters<T>& limits, ListeningState<T>& state, bool deaf,
+                                      bool was_enough, T step_s) {
   const T raise = deaf ? T(1) + T(amplitude_raise_per_s) * step_s : T(1);
   const T change = was_enough ? T(amplitude_lowering) : raise;
   state.amplitude_A = limited(change * state.amplitude_A, limits.lowest_amplitude_A, limits.highest_amplitude_A);
@@ -69,7 +70,7 @@ template <class T>
 
 /// Dither on its way to its amplitude, or to nothing.
 template <class T>
-[[gnu::always_inline]] constexpr T fade(const ListeningState<T>& state, T step_s) {
+SPOOLFLOW_INLINE constexpr T fade(const ListeningState<T>& state, T step_s) {
   const T step_A = state.amplitude_A * step_s;
   const T aim_A = state.asks ? state.amplitude_A : T(0);
   return limited(aim_A, state.given_A - T(1 / dither_fall_s) * step_A, state.given_A + T(1 / dither_rise_s) * step_A);
@@ -86,9 +87,8 @@ struct Heard {
 
 /// `position_m`: of the spool, opening > 0; `valve` is what opens there.
 template <class T>
-[[gnu::always_inline]] constexpr Heard<T> heard(const ListeningParameters<T>& limits,
-                                                const ObserverParameters<T>& valve, const ObserverState<T>& observer,
-                                                T position_m) {
+SPOOLFLOW_INLINE constexpr Heard<T> heard(const ListeningParameters<T>& limits, const ObserverParameters<T>& valve,
+                                          const ObserverState<T>& observer, T position_m) {
   const Estimate<T>& last = observer.last;
   bool known = observer.started;
   known = known && !has(last.status, Status::sample_missing | Status::time_fault);

@@ -2,6 +2,7 @@
 #include <array>
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
@@ -87,8 +88,8 @@ constexpr StopSum<T> stiffness_from(const MagneticHysteresis<T>& hysteresis) {
 
 /// Adds what stop K and those after it answer, which hold.
 template <bool Rising, unsigned K, class T>
-[[gnu::always_inline]] constexpr StopSum<T> with_held(const StopSum<T>& sum, const MagneticHysteresis<T>& hysteresis,
-                                                      const HysteresisState<T>& state, T flux) {
+SPOOLFLOW_INLINE constexpr StopSum<T> with_held(const StopSum<T>& sum, const MagneticHysteresis<T>& hysteresis,
+                                                const HysteresisState<T>& state, T flux) {
   if constexpr (K < hysteresis_elements) {
     return with_held<Rising, K + 1>(with_stop<K>(sum, hysteresis, elastic<Rising>(state.centre[K], flux)), hysteresis,
                                     state, flux);
@@ -99,8 +100,8 @@ template <bool Rising, unsigned K, class T>
 /// What all stops answer on this way, those before stop K yielding. Where one holds, all with higher thresholds hold:
 /// two stops never lie further apart than their thresholds do.
 template <bool Rising, unsigned K, class T>
-[[gnu::always_inline]] constexpr HysteresisPoint<T> answer_of_stops(const MagneticHysteresis<T>& hysteresis,
-                                                                    const HysteresisState<T>& state, T flux, T share) {
+SPOOLFLOW_INLINE constexpr HysteresisPoint<T> answer_of_stops(const MagneticHysteresis<T>& hysteresis,
+                                                              const HysteresisState<T>& state, T flux, T share) {
   if constexpr (K < hysteresis_elements) {
     if (lies_below(hysteresis.threshold[K], elastic<Rising>(state.centre[K], flux)))
       return answer_of_stops<Rising, K + 1>(hysteresis, state, flux, share);
@@ -111,8 +112,7 @@ template <bool Rising, unsigned K, class T>
 
 /// Moves stop K and those after it, up to the first that holds.
 template <bool Rising, unsigned K, class T>
-[[gnu::always_inline]] constexpr void move_stops(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state,
-                                                 T flux) {
+SPOOLFLOW_INLINE constexpr void move_stops(const MagneticHysteresis<T>& hysteresis, HysteresisState<T>& state, T flux) {
   if constexpr (K < hysteresis_elements) {
     if (!lies_below(hysteresis.threshold[K], elastic<Rising>(state.centre[K], flux))) return;
     state.centre[K] = Rising ? flux - hysteresis.threshold[K] : flux + hysteresis.threshold[K];

@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::sensor {
@@ -29,7 +30,7 @@ struct EdgePoint {
 /// steady flow force is in proportion to it (paper (2) with the orifice equation), friction goes on linearly (paper
 /// section 2.1.3), and the conductance stays.
 template <class T>
-[[gnu::noinline]] constexpr void continue_beyond(EdgePoint<T>& point, T pressure_difference_Pa, T measured_Pa) {
+SPOOLFLOW_NOINLINE constexpr void continue_beyond(EdgePoint<T>& point, T pressure_difference_Pa, T measured_Pa) {
   point.flow_force_per_pressure_N_Pa = larger(point.flow_force_N / measured_Pa, T(least_force_per_pressure_N_Pa));
   point.flow_force_N *= pressure_difference_Pa / measured_Pa;
   point.friction_N += larger(point.friction_per_pressure_N_Pa, T(0)) * (pressure_difference_Pa - measured_Pa);
@@ -61,8 +62,8 @@ struct MeteringEdge {
   [[nodiscard]] constexpr Cell<T> layer_at(T temperature) const {
     return locate<edge_temperatures>(temperature_K, temperature);
   }
-  [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference,
-                                                              T position) const {
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(const Cell<T>& layer, T pressure_difference,
+                                                           T position) const {
     const Cell<T> row = locate<edge_pressures>(pressure_difference_Pa, pressure_difference);
     const Cell<T> column = locate<edge_positions>(position_m, position);
     const VolumeCell<T> cell = volume_cell(layer, row, column, pressure_difference_Pa.per_spacing);
@@ -79,7 +80,7 @@ struct MeteringEdge {
       continue_beyond(point, pressure_difference, highest_pressure_difference_Pa());
     return point;
   }
-  [[nodiscard, gnu::always_inline]] constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
+  [[nodiscard]] SPOOLFLOW_INLINE constexpr EdgePoint<T> at(T temperature, T pressure_difference, T position) const {
     return at(layer_at(temperature), pressure_difference, position);
   }
 };

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "spoolflow/sensor/band.hpp"
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/pressure_update.hpp"
@@ -76,8 +77,8 @@ constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
 
 /// What the sample and its answer must be taken with.
 template <class T>
-[[gnu::always_inline]] constexpr auto status(const ObserverParameters<T>& valve, const ObserverState<T>& state,
-                                             const Sample<T>& sample, const ForceBalance<T>& balance) {
+SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const ObserverState<T>& state,
+                                       const Sample<T>& sample, const ForceBalance<T>& balance) {
   Status out{};
   mark(out, balance.closed, Status::closed);
   mark(out, !balance.sliding, Status::spool_at_rest);
@@ -95,7 +96,7 @@ template <class T>
 /// Flow rate of this instant at the expected pressure difference, with its band; paper section 3. How far the pressure
 /// difference may lie from the believed one is reckoned where it is its turn.
 template <class T>
-[[gnu::always_inline]] constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
+SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                              const ForceBalance<T>& balance, const PositionPoint<T>& position,
                                              T current_A) {
   if (position.turn.even) {
@@ -130,9 +131,9 @@ struct DoubtfulPlace {
 /// to be, at the pressure difference last believed, and in the band what that may have become. It holds what flows at
 /// the other place where the spool may be, too; beyond the centre as much as through the direction's own edge.
 template <class T>
-[[gnu::noinline]] constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
-                                                 const Sample<T>& sample, const DoubtfulPlace<T>& position,
-                                                 T opposing_N, bool begins) {
+SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
+                                                  const Sample<T>& sample, const DoubtfulPlace<T>& position,
+                                                  T opposing_N, bool begins) {
   const ActuatorEstimate<T> actuator =
       step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
            begins, false);
@@ -167,9 +168,9 @@ template <class T>
 
 /// Forces of this sample are to be believed: the place of the spool is known, and the current answers the voltage.
 template <class T>
-[[gnu::always_inline]] constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                     const Sample<T>& sample, const PositionPoint<T>& position,
-                                                     const Dither<T>& dither, T opposing_N, bool begins) {
+SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                               const Sample<T>& sample, const PositionPoint<T>& position,
+                                               const Dither<T>& dither, T opposing_N, bool begins) {
   const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
   state.force_noise_N = balance.noise_N;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -188,9 +189,9 @@ template <class T>
 /// From where the spool is and what it does to the answer, which stays in the state. `opposing_N` is what another
 /// solenoid holds against this one's.
 template <class T>
-[[gnu::always_inline]] constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                              const Sample<T>& sample, const PositionPoint<T>& position,
-                                              const Dither<T>& dither, T opposing_N, bool begins) {
+SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                        const Sample<T>& sample, const PositionPoint<T>& position,
+                                        const Dither<T>& dither, T opposing_N, bool begins) {
   if (unlikely(position.fault || state.actuator.coil_resistance.unanswered)) {
     answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
                     begins);
@@ -202,7 +203,7 @@ template <class T>
 /// Whether the current leapt since the last sample as the coil's equation allows none: `jump_A` at once, and as voltage
 /// over incremental inductance with the time.
 template <class T>
-[[gnu::always_inline]] constexpr bool current_leaps(const CurrentLimits<T>& limits, T last_A, const Sample<T>& sample) {
+SPOOLFLOW_INLINE constexpr bool current_leaps(const CurrentLimits<T>& limits, T last_A, const Sample<T>& sample) {
   return magnitude(sample.current_A - last_A) > limits.jump_A + limits.slope_A_per_s * sample.time_step_s &&
          limits.jump_A > T(0);
 }
@@ -217,7 +218,7 @@ constexpr bool is_held(ObserverState<T>& state) {
 
 /// The sample, or where its current leapt with the last credible one, and no voltage.
 template <class T>
-[[gnu::always_inline]] constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
+SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                            const Sample<T>& measured, Sample<T>& held) {
   const bool leaps = current_leaps(valve.current_limits, state.position.current_A, measured);
   if (likely(!leaps || !is_held(state))) {
@@ -231,7 +232,7 @@ template <class T>
 
 /// The band takes in all that may flow through the other direction's edge.
 template <class T>
-[[gnu::noinline]] constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
+SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
                                            bool opens) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
@@ -242,16 +243,16 @@ template <class T>
 
 /// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
 template <class T>
-[[gnu::always_inline]] constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                            T position_m) {
+SPOOLFLOW_INLINE constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                      T position_m) {
   const bool opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
   if (unlikely(opens)) admit_all(valve, state, position_m, opens);
 }
 
 /// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
 template <class T>
-[[gnu::noinline]] constexpr void hold(ObserverState<T>& state, const Sample<T>& sample,
-                                      const ObserverParameters<T>& valve) {
+SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>& sample,
+                                       const ObserverParameters<T>& valve) {
   const T time_step_s = sample.time_step_s;
   const bool leapt = time_step_s > T(longest_step_s);  // not where it is no number
   const bool seen = is_number(sample.position_m);

@@ -9,7 +9,7 @@
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
 #include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::sensor {
 

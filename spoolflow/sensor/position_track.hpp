@@ -1,5 +1,6 @@
 #pragma once
 /// What the spool does, from a position signal with noise, drift and acquisition faults.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/dither.hpp"
 #include "spoolflow/sensor/position_state.hpp"
 #include "spoolflow/sensor/sample.hpp"
@@ -23,7 +24,7 @@ constexpr T four_blocks(const PositionState<T>& state, int back) {
 /// Three windows in a row that travel the same way, evenly and beyond noise: the spool slides. `mean_m(k)` is the mean
 /// at the end of the k-th window before now.
 template <class T, class Mean>
-[[gnu::always_inline]] constexpr Motion even_travel(const Mean& mean_m, T threshold_m) {
+SPOOLFLOW_INLINE constexpr Motion even_travel(const Mean& mean_m, T threshold_m) {
   const T before = mean_m(1);
   const T newest_m = mean_m(0) - before;
   const T size_m = magnitude(newest_m);
@@ -46,7 +47,7 @@ template <class T, class Mean>
 
 /// Puts the mean of the samples since the last block into the ring.
 template <class T>
-[[gnu::always_inline]] constexpr void close_block(PositionState<T>& state) {
+SPOOLFLOW_INLINE constexpr void close_block(PositionState<T>& state) {
   state.newest = (state.newest + 1) & (position_blocks - 1);
   state.per_block_samples = T(1) / T(state.samples);
   state.lone = !(state.per_block_samples < T(1));
@@ -63,7 +64,7 @@ template <class T>
 
 /// Opening or closing where the blocks travel evenly, else rest. `noise_m` is that of the difference of two blocks.
 template <class T>
-[[gnu::always_inline]] constexpr Motion even_motion(const PositionState<T>& state, T noise_m) {
+SPOOLFLOW_INLINE constexpr Motion even_motion(const PositionState<T>& state, T noise_m) {
   Motion motion = Motion::rest;
   if (state.blocks > 3 * short_window_blocks) {
     motion =
@@ -78,7 +79,7 @@ template <class T>
 
 /// Velocity and acceleration over three short windows.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
+SPOOLFLOW_INLINE constexpr void follow_velocity(const PositionSensor<T>& sensor, PositionState<T>& state) {
   constexpr int window = short_window_blocks;
   const bool whole = state.blocks > 3 * window;
   state.velocity_due = false;
@@ -108,7 +109,7 @@ constexpr void follow_noise(const PositionSensor<T>& sensor, PositionNoise<T>& n
 
 /// What the spool does, after each block.
 template <class T>
-[[gnu::always_inline]] constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
+SPOOLFLOW_INLINE constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
   const T noise_m = state.noise.times * sensor.noise_m * sqrt(T(2) * state.per_block_samples);
   const Motion motion = even_motion(state, noise_m);
   const bool even = motion != Motion::rest;
@@ -171,8 +172,8 @@ constexpr T outlast_fault(PositionState<T>& state, T position_m, T time_step_s) 
 
 /// A change beyond what is credible is taken out of the signal until it jumps back, or `longest_position_fault_s` long.
 template <class T>
-[[gnu::always_inline]] constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                  const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
+SPOOLFLOW_INLINE constexpr T without_faults(const PositionSensor<T>& sensor, PositionState<T>& state,
+                                            const Sample<T>& sample, const QuietCoil<T>& coil, T position_m) {
   const T noise_m = T(credible_jump_deviations) * sensor.noise_m * state.noise.times + T(credible_jump_m);
   const T change_m = position_m - state.offset_m - state.last_m;
   if (magnitude(change_m - state.step_m) > noise_m)
@@ -223,9 +224,9 @@ constexpr Turn<T> turn_of(const PositionState<T>& state, bool closed, bool follo
 
 /// One sample.
 template <class T>
-[[gnu::always_inline]] constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
-                                                        const Sample<T>& sample, const QuietCoil<T>& coil,
-                                                        T oil_temperature_K, const Dither<T>& dither, bool freed) {
+SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
+                                                  const Sample<T>& sample, const QuietCoil<T>& coil,
+                                                  T oil_temperature_K, const Dither<T>& dither, bool freed) {
   const T time_step_s = sample.time_step_s;
   const bool due = state.velocity_due;
   if (due) detail::follow_velocity(sensor, state);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
@@ -121,7 +122,7 @@ constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& st
 /// supply that leaps, narrower where every sample confirms the one before. The root of the normalised innovation's
 /// size, which changes within seconds.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_agreement(PressureState<T>& state) {
+SPOOLFLOW_INLINE constexpr void follow_agreement(PressureState<T>& state) {
   state.band_factor = limited(sqrt(sqrt(state.innovation_squared * (T(1) / T(usual_innovation_squared)))),
                               T(least_band_factor), T(most_band_factor));
 }
@@ -154,8 +155,8 @@ constexpr void forget_ratio(const PressureParameters<T>& pressure, PressureState
 /// By how much the friction ratio was found to differ from the calibrated one, beyond what is expected of it at any
 /// time.
 template <class T>
-[[gnu::always_inline]] constexpr T displaced_ratio(const PressureParameters<T>& pressure, const PressureState<T>& state,
-                                                   T calibrated_ratio) {
+SPOOLFLOW_INLINE constexpr T displaced_ratio(const PressureParameters<T>& pressure, const PressureState<T>& state,
+                                             T calibrated_ratio) {
   return larger(magnitude(state.friction_ratio - calibrated_ratio) - pressure.ratio_deviation, T(0));
 }
 

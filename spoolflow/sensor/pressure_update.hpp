@@ -1,6 +1,7 @@
 #pragma once
 /// What a force balance tells of the pressure difference. While the spool slides every newton tells; at a break-away
 /// friction stands at its limit; at rest only what friction cannot explain tells, else nothing does.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 
 namespace spoolflow::sensor {
@@ -17,14 +18,14 @@ inline constexpr double loosened_ageing_share = 0.25;
 
 /// Where friction lies: `slope` of the flow force over the pressure difference, friction's taken with it.
 template <class T>
-[[gnu::always_inline]] constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_slope_N_per_Pa) {
+SPOOLFLOW_INLINE constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_slope_N_per_Pa) {
   return larger(slope_N_per_Pa + friction_slope_N_per_Pa, T(least_slope_share) * slope_N_per_Pa);
 }
 
 /// The innovation while the spool slides.
 template <class T>
-[[gnu::always_inline]] constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance,
-                                                                       T friction_slope_N_per_Pa) {
+SPOOLFLOW_INLINE constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance,
+                                                                 T friction_slope_N_per_Pa) {
   return {balance.apparent_friction_N - balance.friction_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa, balance.direction * friction_slope_N_per_Pa),
           balance.direction * (balance.edge.friction_N + balance.actuator.friction_half_width_N), balance.noise_N};
@@ -32,9 +33,9 @@ template <class T>
 
 /// The innovation when the spool breaks away: friction before it was all that the contacts could hold after that rest.
 template <class T>
-[[gnu::always_inline]] constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction,
-                                                                         const ForceBalance<T>& balance,
-                                                                         T friction_slope_N_per_Pa) {
+SPOOLFLOW_INLINE constexpr ForceInnovation<T> breakaway_innovation(const FrictionParameters<T>& friction,
+                                                                   const ForceBalance<T>& balance,
+                                                                   T friction_slope_N_per_Pa) {
   const T aged = ageing(friction, balance.resting.rested_s);
   const T limit_N = aged * balance.spool_friction_N + balance.armature_friction_N;
   const T expected_N = balance.direction * larger(limit_N - balance.half_swing_N, T(0));
@@ -48,8 +49,8 @@ template <class T>
 
 /// Prediction over one sample: the supply may have moved.
 template <class T>
-[[gnu::always_inline]] constexpr void predict(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                              const ForceBalance<T>& balance, bool slow, T time_step_s, T highest_Pa) {
+SPOOLFLOW_INLINE constexpr void predict(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                        const ForceBalance<T>& balance, bool slow, T time_step_s, T highest_Pa) {
   PressureState<T>& pressure = state.pressure;
   if (balance.closed) expect_change(valve.pressure, pressure);
   if (balance.sliding) drift(valve.pressure, pressure, time_step_s, highest_Pa);
@@ -61,9 +62,9 @@ template <class T>
 
 /// Prediction, then what the forces tell: the spool slides, breaks away, rests and yields, or nothing is seen.
 template <class T>
-[[gnu::always_inline]] constexpr void believe(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                              const ForceBalance<T>& balance, const PositionPoint<T>& position,
-                                              T time_step_s) {
+SPOOLFLOW_INLINE constexpr void believe(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                        const ForceBalance<T>& balance, const PositionPoint<T>& position,
+                                        T time_step_s) {
   PressureState<T>& pressure = state.pressure;
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;

@@ -1,5 +1,6 @@
 #pragma once
 /// What goes into the sensor and what comes out, each sample.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 #include "spoolflow/sensor/status.hpp"
 
@@ -97,7 +98,7 @@ struct FlowRange {
 /// Opens the band to both sides by an error that is independent of what made it; `half2` is the square of half its
 /// width [m6/s2].
 template <class T>
-[[gnu::always_inline]] constexpr void widen_band(Estimate<T>& out, T half2) {
+SPOOLFLOW_INLINE constexpr void widen_band(Estimate<T>& out, T half2) {
   const T flow = out.flow_m3_per_s;
   out.flow_lower_m3_per_s = flow - sqrt(squared(flow - out.flow_lower_m3_per_s) + half2);
   out.flow_upper_m3_per_s = flow + sqrt(squared(out.flow_upper_m3_per_s - flow) + half2);

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "spoolflow/sensor/compiler.hpp"
+
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "a missing input is a NaN: compile without -ffast-math and -ffinite-math-only"
 #endif
@@ -23,27 +25,16 @@ using IfNumber = std::enable_if_t<std::is_floating_point_v<T>, int>;
 template <class T, int Count>
 using Numbers = std::array<T, static_cast<unsigned>(Count)>;
 
-/// What the compiler may lay out the step for; C++20 has attributes for it.
-constexpr bool likely(bool condition) {
-  return __builtin_expect(condition, true);
-}
-constexpr bool unlikely(bool condition) {
-  return __builtin_expect(condition, false);
-}
-
 /// The integer part of a number >= 0, as a table index.
 template <class T, IfNumber<T> = 0>
 constexpr int table_index(T value) {
   return static_cast<int>(value);
 }
 
-/// The root of a number >= 0. On an Arm core with a floating-point unit it is the unit's instruction and nothing else:
-/// for the sake of errno a compiler would also call the library's sqrtf, which firmware need not have.
+/// The root of a number >= 0.
 inline float sqrt(float value) {
-#if defined(__ARM_FP) && defined(__arm__)
-  float root;
-  __asm__("vsqrt.f32 %0, %1" : "=t"(root) : "t"(value));
-  return root;
+#if SPOOLFLOW_ROOT_OF_UNIT
+  return root_of_unit(value);
 #else
   return std::sqrt(value);
 #endif
@@ -52,20 +43,10 @@ inline double sqrt(double value) {
   return std::sqrt(value);
 }
 
-/// A float's bits as a number with a sign, which orders positive floats as they are. By way of the number without a
-/// sign that `within` compares: compilers then see that it is the same word, and fetch it once.
-constexpr std::int32_t signed_bits(float value) {
-  return static_cast<std::int32_t>(__builtin_bit_cast(std::uint32_t, value));
-}
-
 /// Whether 0 <= value < highest, where highest > 0.
 template <class T>
 constexpr bool within(T value, T highest) {
   return value >= T(0) && value < highest;
-}
-/// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.
-constexpr bool within(float value, float highest) {
-  return __builtin_bit_cast(std::uint32_t, value) < __builtin_bit_cast(std::uint32_t, highest);
 }
 
 /// Whether value < limit, where neither is below zero; NaN lies below nothing.
@@ -73,18 +54,11 @@ template <class T>
 constexpr bool lies_below(T value, T limit) {
   return value < limit;
 }
-/// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
-constexpr bool lies_below(float value, float limit) {
-  return signed_bits(value) < signed_bits(limit);
-}
 
 /// Whether value > limit, where neither is above zero; NaN lies above nothing.
 template <class T>
 constexpr bool lies_above(T value, T limit) {
   return value > limit;
-}
-constexpr bool lies_above(float value, float limit) {
-  return signed_bits(value) < signed_bits(limit);
 }
 
 template <class T>
@@ -102,11 +76,6 @@ template <class T>
 constexpr T at_least_zero(T value) {
   return larger(value, T(0));
 }
-/// The sign bit, spread over the word, takes all bits away: no comparison, no branch.
-constexpr float at_least_zero(float value) {
-  const auto bits = signed_bits(value);
-  return __builtin_bit_cast(float, bits & ~(bits >> 31));
-}
 
 template <class T>
 constexpr T limited(T value, T lowest, T highest) {
@@ -118,39 +87,49 @@ constexpr T magnitude(T value) {
   return value < T(0) ? -value : value;
 }
 
-constexpr float magnitude(float value) {
-  return __builtin_fabsf(value);
-}
-constexpr double magnitude(double value) {
-  return __builtin_fabs(value);
-}
-
 template <class T>
 constexpr T squared(T value) {
   return value * value;
 }
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wfloat-equal"
-#endif
 /// Whether a number is nothing, as what was never set; not whether arithmetic has come to nothing.
 template <class T>
 constexpr bool is_zero(T value) {
-  return value == T(0);
+  return same(value, T(0));
 }
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
 
 /// Whether an input, in SI units, was measured at all: not NaN, not infinite, not beyond what any valve has.
 template <class T>
 constexpr bool is_number(T value) {
   return value > T(-(1 << 30)) && value < T(1 << 30);
 }
-/// The same by the bits without their sign.
-constexpr bool is_number(float value) {
-  return __builtin_bit_cast(std::uint32_t, value) << 1U < __builtin_bit_cast(std::uint32_t, 0x1p30F) << 1U;
+
+#if SPOOLFLOW_CONSTANT_BITS
+/// A float's bits as a number with a sign, which orders positive floats as they are. By way of the number without a
+/// sign that `within` compares: compilers then see that it is the same word, and fetch it once.
+constexpr std::int32_t signed_bits(float value) {
+  return static_cast<std::int32_t>(bits_as<std::uint32_t>(value));
 }
+/// Positive floats are ordered as their bits are; the sign bit and NaN lie beyond: one comparison of integers.
+constexpr bool within(float value, float highest) {
+  return bits_as<std::uint32_t>(value) < bits_as<std::uint32_t>(highest);
+}
+/// By their bits: no detour over the floating-point unit's flags. A limit may also be below zero, or NaN a value.
+constexpr bool lies_below(float value, float limit) {
+  return signed_bits(value) < signed_bits(limit);
+}
+constexpr bool lies_above(float value, float limit) {
+  return signed_bits(value) < signed_bits(limit);
+}
+/// The sign bit, spread over the word, takes all bits away: no comparison, no branch.
+constexpr float at_least_zero(float value) {
+  const auto bits = signed_bits(value);
+  return bits_as<float>(bits & ~(bits >> 31));
+}
+/// By the bits without their sign.
+constexpr bool is_number(float value) {
+  return bits_as<std::uint32_t>(value) << 1U < bits_as<std::uint32_t>(0x1p30F) << 1U;
+}
+#endif
 
 }  // namespace spoolflow::sensor

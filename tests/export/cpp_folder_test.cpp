@@ -61,6 +61,45 @@ TEST(CppFolder, StandsAloneAndAnswersAsTheHostWithoutAWarning) {
   }
 }
 
+/// Prints the bits of every answer over the golden points and what lies near them.
+constexpr const char* answers_in_bits = R"(#include <cstdio>
+#include "golden_points.hpp"
+#include "valve_model.hpp"
+template <class State, class Parameters>
+void answer(const Parameters& parameters) {
+  static State state;
+  for (int round = 0; round < 7; ++round) {
+    for (const auto& point : valve_model::golden_points) {
+      auto sample = point.sample;
+      sample.position_m += 1e-7F * static_cast<float>(round);
+      const auto& now = step(parameters, state, sample);
+      for (const float value : {now.flow_m3_per_s, now.flow_lower_m3_per_s, now.flow_upper_m3_per_s})
+        std::printf("%08x ", spoolflow::sensor::bits_as<unsigned>(value));
+      std::printf("%x\n", static_cast<unsigned>(now.status));
+    }
+  }
+}
+int main() {
+  answer<valve_model::State>(valve_model::parameters);
+  answer<valve_model::CondensedState>(valve_model::condensed);
+}
+)";
+
+TEST(CppFolder, AnswersToTheBitWithoutTheCompilersExtensions) {
+  for (const model::Model& model : {example_model(), whole_example_model()}) {
+    const ExportedFolder folder(model);
+    folder.write("bits.cpp", answers_in_bits);
+    ASSERT_EQ(folder.run("g++ -std=c++17 -O2 -I. bits.cpp -o bits && ./bits >with && test -s with"), 0);
+    for (const std::string& compiler : compilers()) {
+      for (const char* standard : {" -std=c++17", " -std=c++20"}) {
+        const std::string build =
+            compiler + standard + " -O2 -Wall -Wextra -Wpedantic -Werror -DSPOOLFLOW_STANDARD_CPP -I. ";
+        EXPECT_EQ(folder.run(build + "bits.cpp -o bits && ./bits >without && cmp with without"), 0) << build;
+      }
+    }
+  }
+}
+
 TEST(CppFolder, ServesFirmwareInC) {
   const std::string c_options = " -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -I. ";
   for (const model::Model& model : {example_model(), whole_without_observer()}) {
@@ -161,7 +200,7 @@ TEST(CppFolder, SelfTestFindsASingleWrongNumberOfTheTables) {
   const std::string tables = folder.content("valve_model.hpp");
   const std::string build = std::string("g++") + strict + "self_test.cpp -o self_test && ./self_test";
   // A number in the middle of a table of the observer loses its sign or gains one.
-  for (const char* table : {"inline constexpr auto condensed", "inline constexpr auto observer"}) {
+  for (const char* table : {"SPOOLFLOW_TABLE auto condensed", "SPOOLFLOW_TABLE auto observer"}) {
     const std::size_t at = tables.find("    ", tables.find("\n", tables.find(table)) + 4000) + 4;
     ASSERT_LT(at, tables.size());
     std::string wrong = tables;

@@ -4,7 +4,7 @@
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/sensor/flow_rate.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

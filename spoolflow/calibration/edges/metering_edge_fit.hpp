@@ -5,7 +5,7 @@
 #include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

@@ -24,7 +24,7 @@
 #include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

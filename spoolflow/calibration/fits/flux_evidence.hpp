@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/fits/solenoid_samples.hpp"
-#include "spoolflow/sensor/magnetic_force.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

@@ -4,7 +4,7 @@
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/evidence.hpp"
 #include "spoolflow/recording/recording.hpp"
-#include "spoolflow/sensor/magnetic_force.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

@@ -6,7 +6,7 @@
 #include "spoolflow/model/evidence.hpp"
 #include "spoolflow/recording/recording.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

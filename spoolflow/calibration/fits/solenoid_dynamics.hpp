@@ -7,7 +7,7 @@
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/sensor/coil.hpp"
-#include "spoolflow/sensor/magnetic_force.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

@@ -3,7 +3,7 @@
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
-#include "spoolflow/sensor/spring.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::calibration {
 

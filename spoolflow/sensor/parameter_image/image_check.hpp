@@ -1,6 +1,7 @@
 #pragma once
 /// An image of parameters looked at from its first byte to its last, at once or in slices between samples: the same
 /// code checks a page before it is used and watches it afterwards.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/parameter_image/image_header.hpp"
 #include "spoolflow/sensor/parameter_image/image_refusal.hpp"
 
@@ -32,10 +33,7 @@ constexpr bool ends(const char (&text)[Room]) {
 
 /// A word of an image, whatever it means there.
 inline std::uint32_t word_at(const void* image, std::uint32_t index) {
-  std::uint32_t word = 0;
-  const void* const place = static_cast<const unsigned char*>(image) + sizeof word * index;
-  __builtin_memcpy(&word, __builtin_assume_aligned(place, sizeof word), sizeof word);  // one load
-  return word;
+  return word_from(static_cast<const unsigned char*>(image) + sizeof(std::uint32_t) * index);
 }
 
 constexpr bool begins_as_image(const ImageHeader& header) {

@@ -1,5 +1,6 @@
 #pragma once
 /// The paper's condensed sensor of a whole valve: that of the direction into which the spool stands.
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"
@@ -27,8 +28,8 @@ struct WholeCondensedState {
 
 /// A sample that cannot be used; see the same of one direction. Without a position the spool may stand on either side.
 template <class T>
-[[gnu::noinline]] constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
-                                      const WholeValveSample<T>& sample) {
+SPOOLFLOW_NOINLINE constexpr void hold(const WholeCondensedTables<T>& valve, WholeCondensedState<T>& state,
+                                       const WholeValveSample<T>& sample) {
   const auto hold_side = [&](bool opens_a) {
     CondensedState<T> direction{mirrored(opens_a, state.last)};
     hold(of_side(valve, opens_a), direction, sample_of(sample, opens_a));

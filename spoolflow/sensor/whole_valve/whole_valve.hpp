@@ -4,6 +4,7 @@
 /// both solenoids; what is believed of the other path waits, and grows uncertain, until the spool comes back.
 #include <utility>
 
+#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"
 #include "spoolflow/sensor/whole_valve/unsettled_load.hpp"
@@ -93,8 +94,8 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
 /// enough that its flux waits for a sample that is not `busy` otherwise, and then takes the mean current since; its
 /// force is read in one that is.
 template <class T>
-[[gnu::always_inline]] constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
-                                                  const Sample<T>& sample, bool begins, bool busy) {
+SPOOLFLOW_INLINE constexpr void follow_idle(const ObserverParameters<T>& valve, IdleSide<T>& idle,
+                                            const Sample<T>& sample, bool begins, bool busy) {
   const bool just_left = !begins && is_zero(idle.closed_s);
   idle.closed_s += sample.time_step_s;
   if (!just_left) {
@@ -160,10 +161,10 @@ constexpr void believe_measured(const ObserverParameters<T>& valve, PressureStat
 
 /// The observer of the open side, with measured port pressures where they are.
 template <class T>
-[[gnu::always_inline]] constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
-                                                   const WholeValveSample<T>& sample, const Sample<T>& own,
-                                                   const PositionPoint<T>& position, const Dither<T>& dither,
-                                                   bool opens_a, bool begins) {
+SPOOLFLOW_INLINE constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
+                                             const WholeValveSample<T>& sample, const Sample<T>& own,
+                                             const PositionPoint<T>& position, const Dither<T>& dither, bool opens_a,
+                                             bool begins) {
   bool ports_measured = false;
   ports_measured = measured(sample.ports);
   if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
@@ -183,10 +184,10 @@ template <class T>
 /// The chain of the side on which the spool stands; one valve calls it with either side written out: with its tables'
 /// addresses a compiler knows their numbers. `position` is in the valve's signs.
 template <class T>
-[[gnu::always_inline]] constexpr void observe_side(bool opens_a, const Sides<T>& now, WholeValveState<T>& state,
-                                                   const WholeValveSample<T>& sample,
-                                                   const PositionSensor<T>& position_sensor, PositionPoint<T> position,
-                                                   const Dither<T>& dither, bool begins) {
+SPOOLFLOW_INLINE constexpr void observe_side(bool opens_a, const Sides<T>& now, WholeValveState<T>& state,
+                                             const WholeValveSample<T>& sample,
+                                             const PositionSensor<T>& position_sensor, PositionPoint<T> position,
+                                             const Dither<T>& dither, bool begins) {
   const Sample<T> own = sample_of(sample, opens_a);
   const Sample<T> other = sample_of(sample, !opens_a);
   const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
@@ -206,7 +207,7 @@ template <class T>
 /// The sample, with the last credible current of the side that is open where its own is none that the coil can have;
 /// see the same of one direction.
 template <class T>
-[[gnu::always_inline]] constexpr const WholeValveSample<T>& credible(const WholeValveParameters<T>& valve,
+SPOOLFLOW_INLINE constexpr const WholeValveSample<T>& credible(const WholeValveParameters<T>& valve,
                                                                      WholeValveState<T>& state,
                                                                      const WholeValveSample<T>& measured,
                                                                      WholeValveSample<T>& held) {
@@ -254,8 +255,8 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
 
 /// A sample that cannot be used; see the same of one direction.
 template <class T>
-[[gnu::noinline]] constexpr void hold(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
-                                      const WholeValveSample<T>& sample) {
+SPOOLFLOW_NOINLINE constexpr void hold(const WholeValveParameters<T>& valve, WholeValveState<T>& state,
+                                       const WholeValveSample<T>& sample) {
   const bool leapt = sample.time_step_s > T(longest_step_s);  // not where it is no number
   if (state.open.started && within(sample.time_step_s, T(endless_step_s))) detail::widen_held(valve, state, sample);
   state.open.started = state.open.started && !leapt;
@@ -297,7 +298,7 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   }
   position.turn.odd = position.turn.odd || changes;  // friction and uncertainty are those of the other solenoid
 
-  const auto seen_from = [&](bool opens_a) __attribute__((always_inline)) {
+  const auto seen_from = [&](bool opens_a) SPOOLFLOW_INLINE_LAMBDA {
     detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);
   };
   if (state.opens_a) {
