@@ -38,7 +38,7 @@ constexpr T edge_effect_N(const EdgePoint<T>& edge, const EdgePoint<T>& other, T
 /// What a position error does to force and conductance belongs together: the one takes off the other.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve, const ObserverState<T>& state,
-                                            const ForceBalance<T>& balance, T position_m, T current_A) {
+                                             const ForceBalance<T>& balance, T position_m, T current_A) {
   const Environment<T>& environment = valve.environment;
   const MeteringEdge<T>& edge = valve.edge;
   const T believed_Pa = state.pressure.pressure_difference_Pa;
@@ -143,10 +143,9 @@ SPOOLFLOW_INLINE constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open
 /// open and how far friction's bounds and their uncertainty reach limit the error: each side lies below either.
 template <class T>
 SPOOLFLOW_INLINE constexpr PressureReach<T> pressure_reach(const BandParameters<T>& band,
-                                                                 const PressureState<T>& pressure,
-                                                                 const ForceBalance<T>& balance, T rest_s,
-                                                                 T velocity_m_per_s, T displaced_ratio,
-                                                                 T environment_N) {
+                                                           const PressureState<T>& pressure,
+                                                           const ForceBalance<T>& balance, T rest_s, T velocity_m_per_s,
+                                                           T displaced_ratio, T environment_N) {
   const T share = balance.sliding ? band.force_share : band.rest_share;
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
   const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unseen_factor));
@@ -192,8 +191,8 @@ SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>&
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
 /// flow's own residual, which knows nothing of it.
 template <class T>
-SPOOLFLOW_INLINE constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s,
-                                                   T most_m3_per_s, Estimate<T>& out) {
+SPOOLFLOW_INLINE constexpr void band_of_flow(const ObserverParameters<T>& valve, T least_m3_per_s, T most_m3_per_s,
+                                             Estimate<T>& out) {
   const BandParameters<T>& band = valve.band;
   out.flow_lower_m3_per_s = least_m3_per_s;
   out.flow_upper_m3_per_s = most_m3_per_s;

@@ -97,8 +97,7 @@ SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const
 /// difference may lie from the believed one is reckoned where it is its turn.
 template <class T>
 SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, const PositionPoint<T>& position,
-                                             T current_A) {
+                                       const ForceBalance<T>& balance, const PositionPoint<T>& position, T current_A) {
   if (position.turn.even) {
     if (!is_bench(valve.environment))
       state.environment_N = environment_N(valve, state, balance, position.position_m, current_A);
@@ -219,7 +218,7 @@ constexpr bool is_held(ObserverState<T>& state) {
 /// The sample, or where its current leapt with the last credible one, and no voltage.
 template <class T>
 SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                           const Sample<T>& measured, Sample<T>& held) {
+                                                     const Sample<T>& measured, Sample<T>& held) {
   const bool leaps = current_leaps(valve.current_limits, state.position.current_A, measured);
   if (likely(!leaps || !is_held(state))) {
     if (!leaps) state.held_currents = 0;
@@ -233,7 +232,7 @@ SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>
 /// The band takes in all that may flow through the other direction's edge.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
-                                           bool opens) {
+                                            bool opens) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
   Estimate<T>& out = state.last;

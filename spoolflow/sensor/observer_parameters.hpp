@@ -4,12 +4,12 @@
 
 #include "spoolflow/sensor/actuator.hpp"
 #include "spoolflow/sensor/dither.hpp"
+#include "spoolflow/sensor/force_maps.hpp"
 #include "spoolflow/sensor/friction.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
 #include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/force_maps.hpp"
 
 namespace spoolflow::sensor {
 

@@ -4,8 +4,8 @@
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/sensor/metering_edge.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
+#include "spoolflow/sensor/metering_edge.hpp"
 
 namespace spoolflow::calibration {
 

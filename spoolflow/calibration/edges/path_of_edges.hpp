@@ -23,8 +23,8 @@
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/recording/recording.hpp"
-#include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
+#include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::calibration {
 

@@ -5,8 +5,8 @@
 #include "spoolflow/calibration/numerics/fit_residual.hpp"
 #include "spoolflow/model/evidence.hpp"
 #include "spoolflow/recording/recording.hpp"
-#include "spoolflow/sensor/metering_edge.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
+#include "spoolflow/sensor/metering_edge.hpp"
 
 namespace spoolflow::calibration {
 

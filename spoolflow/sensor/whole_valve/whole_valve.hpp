@@ -208,9 +208,9 @@ SPOOLFLOW_INLINE constexpr void observe_side(bool opens_a, const Sides<T>& now, 
 /// see the same of one direction.
 template <class T>
 SPOOLFLOW_INLINE constexpr const WholeValveSample<T>& credible(const WholeValveParameters<T>& valve,
-                                                                     WholeValveState<T>& state,
-                                                                     const WholeValveSample<T>& measured,
-                                                                     WholeValveSample<T>& held) {
+                                                               WholeValveState<T>& state,
+                                                               const WholeValveSample<T>& measured,
+                                                               WholeValveSample<T>& held) {
   const ObserverParameters<T>& open = sides(valve, state.opens_a).open;
   const Sample<T> own = sample_of(measured, state.opens_a);
   const bool leaps = current_leaps(open.current_limits, state.open.position.current_A, own);
