@@ -23,7 +23,7 @@ struct Scenario {
   ValveUnderTest valve;  ///< before spread and wear
   Protocol protocol;
   bool direction_a = false;  ///< a bench test of direction a, P to A
-  Machine machine;           ///< round the valve at work
+  Machine machine{};         ///< round the valve at work
 };
 
 /// Throws SettingsError with file, line, value, range and the nearest key.
