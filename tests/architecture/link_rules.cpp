@@ -24,6 +24,7 @@ const std::map<std::string, std::string> library_of_target{
     {"Boost::headers", "Boost"},
     {"FastFloat::fast_float", "fast_float"},
     {"PkgConfig::LIBZIP", "libzip"},
+    {"PkgConfig::SECCOMP", "libseccomp"},
     {"PkgConfig::EXPAT", "expat"},
     {"ZLIB::ZLIB", "zlib"},
     {"PkgConfig::SQLITE3", "SQLite"},

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
+#include <cerrno>
 #include <fcntl.h>
 #include <fstream>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
+#include <memory>
+#include <seccomp.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -36,14 +34,6 @@ constexpr bool silent = false;  // what a sanitizer finds in the child is to be 
 constexpr bool silent = true;
 #endif
 
-#if defined(__x86_64__)
-constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
-#else
-constexpr std::uint32_t architecture = 0;
-#endif
-
 /// Never above what the process may have already. `spare`: from the signal to the end.
 template <class Resource>
 void limit(Resource resource, std::uint64_t wanted, std::uint64_t spare = 0) {
@@ -63,28 +53,21 @@ std::uint64_t address_space() {
 }
 
 /// What stays allowed: reading and writing what is open, memory, time, the end.
-constexpr std::array<std::uint32_t, 27> allowed_calls{
-    SYS_read,   SYS_pread64, SYS_readv,      SYS_write,          SYS_writev,       SYS_lseek,         SYS_close,
-    SYS_fstat,  SYS_fcntl,   SYS_newfstatat, SYS_mmap,           SYS_munmap,       SYS_mprotect,      SYS_mremap,
-    SYS_brk,    SYS_madvise, SYS_futex,      SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_clock_gettime, SYS_getrandom,
-    SYS_sendto, SYS_getpid,  SYS_gettid,     SYS_sched_yield,    SYS_exit,         SYS_exit_group};
+constexpr std::array<int, 27> allowed_calls{
+    SCMP_SYS(read),      SCMP_SYS(pread64),   SCMP_SYS(readv),          SCMP_SYS(write),        SCMP_SYS(writev),
+    SCMP_SYS(lseek),     SCMP_SYS(close),     SCMP_SYS(fstat),          SCMP_SYS(fcntl),        SCMP_SYS(newfstatat),
+    SCMP_SYS(mmap),      SCMP_SYS(munmap),    SCMP_SYS(mprotect),       SCMP_SYS(mremap),       SCMP_SYS(brk),
+    SCMP_SYS(madvise),   SCMP_SYS(futex),     SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn), SCMP_SYS(clock_gettime),
+    SCMP_SYS(getrandom), SCMP_SYS(sendto),    SCMP_SYS(getpid),         SCMP_SYS(gettid),       SCMP_SYS(sched_yield),
+    SCMP_SYS(exit),      SCMP_SYS(exit_group)};
 
-/// Fails with EPERM what is not allowed. Its jumps count the instructions to step over.
+/// Fails with EPERM what is not allowed; a call of another architecture ends the process.
 void allow_only_reading() {
-  constexpr std::size_t calls = allowed_calls.size();
-  std::array<sock_filter, calls + 6> filter{};
-  const auto at = [](std::size_t offset) { return static_cast<std::uint32_t>(offset); };
-  filter[0] = BPF_STMT(BPF_LD | BPF_W | BPF_ABS, at(offsetof(seccomp_data, arch)));
-  filter[1] = BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0);
-  filter[2] = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL);
-  filter[3] = BPF_STMT(BPF_LD | BPF_W | BPF_ABS, at(offsetof(seccomp_data, nr)));
-  for (std::size_t k = 0; k < calls; ++k) {
-    filter[4 + k] = BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, allowed_calls[k], static_cast<unsigned char>(calls - k), 0);
-  }
-  filter[4 + calls] = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | 1U);
-  filter[5 + calls] = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
-  const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
-  (void)::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+  const std::unique_ptr<void, decltype(&::seccomp_release)> filter(::seccomp_init(SCMP_ACT_ERRNO(EPERM)),
+                                                                   &::seccomp_release);
+  if (!filter) return;
+  for (const int call : allowed_calls) (void)::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 0);
+  (void)::seccomp_load(filter.get());
 }
 
 }  // namespace
@@ -121,7 +104,7 @@ void give_up_rights(const ReadingLimits& limits) {
 void give_up_opening() {
   if (sanitized) return;  // the sanitizers open pipes to look at memory
   limit(RLIMIT_NOFILE, 0);
-  if (architecture != 0) allow_only_reading();
+  allow_only_reading();
 }
 
 }  // namespace spoolflow::recording

@@ -24,8 +24,8 @@ void keep_only(std::array<int, 2> descriptors);
 void give_up_rights(const ReadingLimits& limits);
 
 /// From here on the process opens nothing any more: no descriptor beyond those it has, and of the system's calls only
-/// those that reading, reckoning and answering need (Linux on x86-64 and AArch64); every other one fails. Does nothing
-/// in a build with sanitizers.
+/// those that reading, computing and answering need; every other one fails. Where the kernel has no filter of calls,
+/// the limits alone hold. Does nothing in a build with sanitizers.
 void give_up_opening();
 
 }  // namespace spoolflow::recording
