@@ -4,7 +4,7 @@
     judging_set.py OUT [--tuning] [--quick] [--list] [--spoolflow PROGRAM]
 
 Each valve is measured by its own campaign and calibrated; then it runs programmes of other seeds, pressures and speeds than
-those of campaign, documents and tests. OUT gets VALVE/model.json, VALVE/PROGRAMME.EFFECT.csv, the true flow beside it, and
+those of campaign, documents and tests. OUT gets VALVE/campaign, VALVE/model.json, VALVE/PROGRAMME.EFFECT.csv, the true flow beside it, and
 set.json, by which judge.py finds them and knows that nothing has changed. An OUT that holds a set is left alone; a making that was
 stopped goes on.
 
@@ -128,7 +128,31 @@ EFFECTS = {
         "spikes": ({}, "[machine.spikes]\nshare = 0.0005\nheight_A = 1\n"),
     },
 }
+# What a user of that machine would declare of it (docs/environment.md), beside kind = "machine"; {bar} is the highest pressure of the
+# valve's calibration. Effects that are missing have nothing beside.
+DECLARED = {
+    "judged": {"far_above": "highest_pressure_bar = {bar} * 1.6", "friction": "friction_percent = 45", "ripple": "ripple_bar = 2.7",
+               "pwm": "pwm_ripple_percent = 5", "vibration": "vibration_g = 1.7", "oil": "viscosity_percent = 50",
+               "position": "position_gain_percent = 1.5", "leakage": "leakage_L_min = 0.4", "falling": "friction_percent = 45",
+               "silt": "friction_percent = 90"},
+    "tuning": {"far_above": "highest_pressure_bar = {bar} * 2", "friction": "friction_percent = 50", "ripple": "ripple_bar = 4",
+               "pwm": "pwm_ripple_percent = 8", "vibration": "vibration_g = 0.9", "oil": "viscosity_percent = 50",
+               "position": "position_gain_percent = 2", "leakage": "leakage_L_min = 0.4", "falling": "friction_percent = 40",
+               "silt": "friction_percent = 100"},
+    "shared": {"silt": "friction_percent = 100", "ripple": "ripple_bar = 4", "pwm": "pwm_ripple_percent = 8",
+               "vibration03": "vibration_g = 0.9", "otheroil": "viscosity_percent = 50", "lvdtgain": "position_gain_percent = 2"},
+}
 NO_RUN_KEYS = ("protocol", "levels", "level", "pressures", "dither", "supply", "scale", "temperatures")
+
+
+def declared(which, effect, preset):
+    """Text of the environment that a user of that machine would declare."""
+    line = DECLARED[which].get(effect, "")
+    if "{bar}" in line:
+        key, value = line.split(" = ")
+        bar, times = value.split(" * ")
+        line = f"{key} = {float(bar.format(bar=HIGHEST_BAR[preset])) * float(times):g}"
+    return f'[environment]\nkind = "machine"\n{line}\n'
 
 
 def toml(value):
@@ -197,7 +221,7 @@ def call(*command):
 
 
 def make_model(spoolflow, folder, which, valve):
-    """The valve's file, its campaign, its model; the campaign is not kept."""
+    """The valve's file, its campaign, its model."""
     preset, beside, _ = VALVES[which][valve]
     if (folder / "model.json").exists():
         return
@@ -207,7 +231,6 @@ def make_model(spoolflow, folder, which, valve):
     (folder / "valve.toml").write_text(f'preset = "{preset}"\n{spread}{WEAR if beside == "worn" else ""}')
     call(spoolflow, "campaign", folder / "valve.toml", "-o", folder / "campaign", "--calibration-only", "-q")
     call(spoolflow, "calibrate", folder / "campaign" / "campaign.toml", "-o", folder / "model.json", "-q")
-    shutil.rmtree(folder / "campaign")
 
 
 def make_run(spoolflow, folder, name, text):
@@ -253,7 +276,7 @@ def main(arguments):
         return
     out = pathlib.Path(places[0])
     if (out / "set.json").exists():
-        sys.exit(f"judging_set: {out} holds files already; a judging set is made once: judge by it, or choose another folder")
+        sys.exit(f"judging_set: {out} holds a set already; it is made once: judge by it, or choose another folder")
     valves = list(dict.fromkeys(valve for valve, *_ in runs))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as workers:
         list(workers.map(lambda valve: make_model(spoolflow, out / valve, which, valve), valves))
