@@ -96,7 +96,7 @@ std::vector<std::string> bench_directions(const recording::Campaign& campaign) {
   std::vector<std::string> out;
   for (const char* direction : {"b", "a"}) {
     if (std::ranges::any_of(campaign.recordings, [&](const recording::CampaignRecording& entry) {
-          return entry.protocol != Protocol::operation && entry.direction == direction;
+          return !recording::by_own_solenoid(entry.protocol) && entry.direction == direction;
         })) {
       out.emplace_back(direction);
     }

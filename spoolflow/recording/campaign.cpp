@@ -13,8 +13,8 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::array<std::string_view, 5> protocol_names{"spring", "solenoid_force_map", "solenoid_dynamic",
-                                                         "axial_force_map", "operation"};
+constexpr std::array<std::string_view, 6> protocol_names{"spring",          "solenoid_force_map",    "solenoid_dynamic",
+                                                         "axial_force_map", "unpressurised_strokes", "operation"};
 
 Protocol protocol_of(const TomlTable& entry) {
   const std::string written = entry.text("protocol");
@@ -199,6 +199,10 @@ TomlTable table_of(const TomlTable& document, std::string_view key) {
 
 std::string_view name(Protocol protocol) {
   return protocol_names[static_cast<std::size_t>(protocol)];
+}
+
+bool by_own_solenoid(Protocol protocol) {
+  return protocol == Protocol::unpressurised_strokes || protocol == Protocol::operation;
 }
 
 PathEdges edges_of(std::string_view direction) {
