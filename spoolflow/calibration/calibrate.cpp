@@ -8,6 +8,7 @@
 #include "spoolflow/calibration/edges_in_operation.hpp"
 #include "spoolflow/calibration/environment.hpp"
 #include "spoolflow/calibration/fits/bench_dither.hpp"
+#include "spoolflow/calibration/flow_bench/contradictions.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/observer.hpp"
 #include "spoolflow/plausibility/campaign_findings.hpp"
@@ -31,10 +32,11 @@ model::Direction calibrate_benches(const CampaignRecordings& recordings, const m
   for (const recording::Recording* recording : recordings.solenoid_dynamic) require_resolved_dither(*recording);
   const recording::Recording force_map = without_dither(recordings.solenoid_force_map);
   CondensedCalibration condensed =
-      calibrate_condensed({recordings.spring, force_map, recordings.axial_force_maps}, valve);
+      calibrate_condensed({recordings.spring, force_map, recordings.axial_force_maps, recordings.flow_bench}, valve);
   model::Direction out{std::move(condensed.condensed), std::nullopt, std::move(condensed.evidence)};
   ObserverCalibration full =
-      calibrate_on_bench({recordings.spring, force_map, recordings.solenoid_dynamic, recordings.axial_force_maps},
+      calibrate_on_bench({recordings.spring, force_map, recordings.solenoid_dynamic, recordings.axial_force_maps,
+                          recordings.flow_bench, recordings.actuator_is_inferred()},
                          valve, out.condensed.parameters.closed_below_m);
   out.observer = std::move(full.observer);
   out.evidence.bench = std::move(full.bench);
@@ -58,6 +60,15 @@ plausibility::Benches benches_of(const CampaignRecordings& of, const Recordings&
           .rated_flow_m3_per_s = campaign.valve.rated_flow_m3_per_s,
           .stroke_m = campaign.valve.stroke_m,
           .density_kg_per_m3 = campaign.fluid.density_15C_kg_per_m3.value_or(usual_density_kg_per_m3)};
+}
+
+/// Throws CalibrationError where `refused` names anything.
+void refuse(const recording::Campaign& campaign, const std::string& refused) {
+  if (refused.empty()) return;
+  throw CalibrationError(fmt::format(
+      "{}: {}; nothing was corrected: mend the recording, its channel map or the campaign, or calibrate all "
+      "the same with --despite-doubts",
+      campaign.file.string(), refused));
 }
 
 /// Of each direction's recordings, and of runs through the centre where the path was measured as a whole. Throws
@@ -103,11 +114,22 @@ std::vector<std::string> findings_about(const ReadCampaign& recordings, const re
       keep(plausibility::run_findings(paths, means, run->file));
     }
   }
-  if (refused.empty() || contradictions == Contradictions::noted) return out;
-  throw CalibrationError(fmt::format(
-      "{}: {}; nothing was corrected: mend the recording, its channel map or the campaign, or calibrate all "
-      "the same with --despite-doubts",
-      campaign.file.string(), refused));
+  if (contradictions == Contradictions::refused) refuse(campaign, refused);
+  return out;
+}
+
+/// Of each direction's recordings on the flow bench. Throws CalibrationError where there are any and that is refused.
+std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recordings, const recording::Campaign& campaign,
+                                                   Contradictions contradictions) {
+  std::vector<std::string> out;
+  for (const std::string& direction : recordings.directions()) {
+    const FlowBenchRecordings of = recordings.on_flow_bench(direction);
+    if (of.metering.empty()) continue;
+    for (std::string& each : contradictions_of(of, {campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m}))
+      out.push_back(std::move(each));
+  }
+  if (contradictions == Contradictions::refused) refuse(campaign, fmt::format("{}", fmt::join(out, "; also ")));
+  return out;
 }
 
 }  // namespace
@@ -180,8 +202,12 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   const bool whole = recordings.directions().size() > 1;
   const std::string direction =
       recordings.directions().empty() ? campaign.valve.direction : recordings.directions().front();
+  const std::vector<std::string> on_flow_bench = flow_bench_contradictions(recordings, campaign, contradictions);
+  progress("forces from the flow bench", reading_share);
+  for (const std::string& each : recordings.directions()) recordings.infer_benches(each);
   progress("what physics says of the recordings", reading_share);
   provenance.doubts = findings_about(recordings, campaign, contradictions);
+  provenance.doubts.insert(provenance.doubts.begin(), on_flow_bench.begin(), on_flow_bench.end());
   model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};
   if (campaign.load.area_ratio != 1) valve.load_area_ratio = campaign.load.area_ratio;
   model::Model out =

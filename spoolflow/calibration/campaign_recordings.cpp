@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/completeness.hpp"
+#include "spoolflow/calibration/fits/position_sensor.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
 #include "spoolflow/recording/reader.hpp"
@@ -73,15 +74,58 @@ AxialForceMaps ReadCampaign::axial_force_maps(const std::string& direction) cons
                                                               : out.joined;
     of_edge.push_back(&loaded.recording);
   }
+  if (const EquivalentBenches* equivalent = flow_bench(direction)) {
+    for (const recording::Recording& map : equivalent->axial_force_maps) out.joined.push_back(&map);
+  }
   const double area_ratio = campaign_.load.area_ratio;  // what B takes leaves A in this proportion
   out.outlet_flow_ratio = direction == "a" ? 1 / area_ratio : area_ratio;
   return out;
 }
 
+const EquivalentBenches* ReadCampaign::flow_bench(const std::string& direction) const {
+  const auto found = flow_benches_.find(direction);
+  return found == flow_benches_.end() ? nullptr : &found->second;
+}
+
+FlowBenchRecordings ReadCampaign::on_flow_bench(const std::string& direction) const {
+  return {of(Protocol::unpressurised_strokes, direction), of(Protocol::metering, direction),
+          of(Protocol::operation, direction)};
+}
+
+void ReadCampaign::infer_benches(const std::string& direction) {
+  const FlowBenchRecordings recorded = on_flow_bench(direction);
+  const bool spring_is_known = !of(Protocol::spring, direction).empty() || recorded.unpressurised.empty();
+  if (recorded.metering.empty() && spring_is_known) return;
+  const double stroke_m = campaign_.valve.stroke_m;
+  std::optional<ActuatorFit> actuator;
+  std::optional<SpringFit> spring;
+  for (const recording::Recording* map : of(Protocol::solenoid_force_map, direction)) {
+    const double closed_m = closed_reading_m((*map)[recording::Channel::position], stroke_m);
+    const recording::Recording force_map = shifted(*map, closed_m);
+    std::optional<recording::Recording> dynamic;
+    for (const recording::Recording* each : of(Protocol::solenoid_dynamic, direction))
+      dynamic = shifted(*each, closed_m);
+    actuator =
+        fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, fit_magnetic_force(force_map, stroke_m), stroke_m);
+  }
+  for (const recording::Recording* strokes : of(Protocol::spring, direction))
+    spring = fit_spring(without_zero_offset(*strokes, stroke_m), stroke_m);
+  const MeasuredForces measured{actuator ? &*actuator : nullptr, spring ? &*spring : nullptr};
+  flow_benches_.emplace(direction, equivalent_benches(recorded, measured, stroke_m));
+}
+
 CampaignRecordings ReadCampaign::of(const std::string& direction) const {
-  const auto only = [&](Protocol protocol) -> const recording::Recording& { return *of(protocol, direction).at(0); };
-  return {only(Protocol::spring), only(Protocol::solenoid_force_map), of(Protocol::solenoid_dynamic, direction),
-          axial_force_maps(direction), of(Protocol::operation, direction)};
+  const EquivalentBenches* equivalent = flow_bench(direction);
+  const auto only = [&](Protocol protocol, recording::Recording EquivalentBenches::*inferred) -> const auto& {
+    const Recordings recorded = of(protocol, direction);
+    return recorded.empty() && equivalent != nullptr ? equivalent->*inferred : *recorded.at(0);
+  };
+  return {only(Protocol::spring, &EquivalentBenches::spring),
+          only(Protocol::solenoid_force_map, &EquivalentBenches::solenoid_force_map),
+          of(Protocol::solenoid_dynamic, direction),
+          axial_force_maps(direction),
+          of(Protocol::operation, direction),
+          equivalent};
 }
 
 }  // namespace spoolflow::calibration

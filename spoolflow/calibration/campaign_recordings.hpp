@@ -2,10 +2,12 @@
 /// A campaign's recordings in memory, by direction of flow and by what was measured.
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "spoolflow/calibration/edges/path_of_edges.hpp"
+#include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
 #include "spoolflow/recording/campaign.hpp"
 #include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -14,13 +16,17 @@ namespace spoolflow::calibration {
 
 using Recordings = std::vector<const recording::Recording*>;
 
-/// The recordings of one direction of flow.
+/// The recordings of one direction of flow, what no force bench recorded as the flow bench tells it.
 struct CampaignRecordings {
   const recording::Recording& spring;
   const recording::Recording& solenoid_force_map;
   Recordings solenoid_dynamic;  ///< none or one
   AxialForceMaps axial_force_maps;
-  Recordings operation;  ///< may be none
+  Recordings operation;                           ///< may be none
+  const EquivalentBenches* flow_bench = nullptr;  ///< where strokes at held pressure differences are among them
+  [[nodiscard]] bool actuator_is_inferred() const {
+    return flow_bench != nullptr && &solenoid_force_map == &flow_bench->solenoid_force_map;
+  }
 };
 
 /// A campaign's recordings, read; addresses stay valid while more are read.
@@ -32,6 +38,13 @@ class ReadCampaign {
   /// Reads the next of the campaign's recordings. Throws RecordingError, or CalibrationError where a run of the whole
   /// valve comes without bench recordings of both directions.
   const recording::Recording& read_next();
+
+  /// What was recorded of the direction by the valve's own solenoid.
+  [[nodiscard]] FlowBenchRecordings on_flow_bench(const std::string& direction) const;
+
+  /// What force benches did not record of the direction, from its flow bench; nothing where it was on none. Before
+  /// of(), after all are read. Throws CalibrationError.
+  void infer_benches(const std::string& direction);
 
   /// The directions of which there are bench recordings: "b", "a" or both.
   [[nodiscard]] const std::vector<std::string>& directions() const { return directions_; }
@@ -48,12 +61,14 @@ class ReadCampaign {
     bool through_centre;
   };
   [[nodiscard]] Recordings of(recording::Protocol protocol, const std::string& direction) const;
+  [[nodiscard]] const EquivalentBenches* flow_bench(const std::string& direction) const;
   [[nodiscard]] AxialForceMaps axial_force_maps(const std::string& direction) const;
 
   const recording::Campaign& campaign_;
   std::vector<recording::ReadOptions> options_;
   std::vector<std::string> directions_;
   std::deque<Loaded> loaded_;
+  std::map<std::string, EquivalentBenches> flow_benches_;  ///< by direction
 };
 
 }  // namespace spoolflow::calibration

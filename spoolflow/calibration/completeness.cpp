@@ -26,9 +26,11 @@ using recording::Protocol;
 struct BenchTest {
   Protocol protocol;
   bool only_one;
+  Protocol instead;  ///< which does in its place on a flow bench
 };
-constexpr std::array bench_tests{BenchTest{Protocol::spring, true}, BenchTest{Protocol::solenoid_force_map, true},
-                                 BenchTest{Protocol::axial_force_map, false}};
+constexpr std::array bench_tests{BenchTest{Protocol::spring, true, Protocol::unpressurised_strokes},
+                                 BenchTest{Protocol::solenoid_force_map, true, Protocol::metering},
+                                 BenchTest{Protocol::axial_force_map, false, Protocol::metering}};
 
 /// Every test of every direction that is missing, or that stands twice.
 void add_tests(std::vector<std::string>& to, const recording::Campaign& campaign) {
@@ -36,14 +38,20 @@ void add_tests(std::vector<std::string>& to, const recording::Campaign& campaign
   if (directions.empty()) directions.push_back(campaign.valve.direction);
   for (const std::string& direction : directions) {
     const std::string of = directions.size() > 1 ? fmt::format(" and direction \"{}\"", direction) : "";
-    for (const BenchTest& test : bench_tests) {
-      const auto count = std::ranges::count_if(campaign.recordings, [&](const recording::CampaignRecording& recording) {
-        return recording.protocol == test.protocol && recording.direction == direction;
+    const auto count_of = [&](Protocol protocol) {
+      return std::ranges::count_if(campaign.recordings, [&](const recording::CampaignRecording& recording) {
+        return recording.protocol == protocol && recording.direction == direction;
       });
-      const std::string_view protocol = recording::name(test.protocol);
+    };
+    const bool on_flow_bench = count_of(Protocol::metering) > 0;
+    for (const BenchTest& test : bench_tests) {
+      const auto count = count_of(test.protocol);
+      if (count == 0 && count_of(test.instead) > 0) continue;
+      const Protocol missing = on_flow_bench ? test.instead : test.protocol;
+      const std::string_view protocol = recording::name(missing);
       if (count == 0) {
         to.push_back(fmt::format("names no recording with protocol \"{}\"{}: {}, and add its [[recording]] table",
-                                 protocol, of, how_recorded(test.protocol)));
+                                 protocol, of, how_recorded(missing)));
       } else if (count > 1 && test.only_one) {
         to.push_back(
             fmt::format("names {} recordings with protocol \"{}\"{}, calibration needs exactly one: take out "
@@ -96,7 +104,8 @@ std::vector<std::string> bench_directions(const recording::Campaign& campaign) {
   std::vector<std::string> out;
   for (const char* direction : {"b", "a"}) {
     if (std::ranges::any_of(campaign.recordings, [&](const recording::CampaignRecording& entry) {
-          return !recording::by_own_solenoid(entry.protocol) && entry.direction == direction;
+          const bool of_bench = entry.protocol == Protocol::metering || !recording::by_own_solenoid(entry.protocol);
+          return of_bench && entry.direction == direction;
         })) {
       out.emplace_back(direction);
     }

@@ -70,6 +70,12 @@ CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, 
   parameters.flow_residual_m3_per_s =
       flow_residual_with_unknown_edges(maps, axial.flow_residual.rms(), valve.rated_flow_m3_per_s);
 
+  if (recordings.flow_bench != nullptr) {
+    parameters.force_residual_N = std::max(parameters.force_residual_N, recordings.flow_bench->force_residual_N);
+    parameters.flow_residual_m3_per_s =
+        std::max(parameters.flow_residual_m3_per_s, recordings.flow_bench->flow_residual_m3_per_s);
+  }
+
   out.condensed.current_A = {0, magnetic.largest_current_A};
   out.condensed.position_m = {0, valve.stroke_m};
   out.condensed.pressure_difference_Pa = {axial.loops.front().pressure_difference_set_Pa,
@@ -83,6 +89,7 @@ CondensedCalibration calibrate_condensed(const CondensedRecordings& recordings, 
       {std::string(model::of_axial_force), "N", axial.force_residual.rms(), axial.force_residual.largest},
       {std::string(model::of_flow_rate), "m3/s", axial.flow_residual.rms(), axial.flow_residual.largest},
   };
+  if (recordings.flow_bench != nullptr) widen(out.condensed.residuals, *recordings.flow_bench);
   out.evidence.magnetic_force = magnetic.loops;
   out.evidence.axial_force = axial.loops;
   out.evidence.sensitivity = flow_sensitivity(columns, valve.rated_flow_m3_per_s);

@@ -1,6 +1,7 @@
 #pragma once
 /// Calibration of the paper's condensed sensor from the bench recordings of a campaign.
 #include "spoolflow/calibration/edges/path_of_edges.hpp"
+#include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -10,6 +11,7 @@ struct CondensedRecordings {
   const recording::Recording& spring;
   const recording::Recording& solenoid_force_map;
   AxialForceMaps axial_force_maps;
+  const EquivalentBenches* flow_bench = nullptr;  ///< where some of them are from there
 };
 
 struct CondensedCalibration {

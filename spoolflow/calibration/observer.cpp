@@ -107,7 +107,8 @@ BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
   std::vector<const recording::Recording*> bench = recordings.axial_force_maps.recordings();
   bench.insert(bench.begin(), &recordings.spring);
   BenchFits out{};
-  out.position = fit_position_sensor(bench, stroke_m);
+  out.position =
+      recordings.flow_bench != nullptr ? recordings.flow_bench->position : fit_position_sensor(bench, stroke_m);
   out.spring = fit_spring(without_zero_offset(recordings.spring, stroke_m), stroke_m);
   const double closed_m = closed_reading_m(recordings.solenoid_force_map[recording::Channel::position], stroke_m);
   const recording::Recording force_map = shifted(recordings.solenoid_force_map, closed_m);
@@ -115,7 +116,9 @@ BenchFits fit_bench(const ObserverRecordings& recordings, double stroke_m) {
   // The armature never meets its stop in `solenoid_dynamic`: the rig's zero is that of the force map.
   std::optional<recording::Recording> dynamic;
   if (!recordings.solenoid_dynamic.empty()) dynamic = shifted(*recordings.solenoid_dynamic.front(), closed_m);
-  out.actuator = fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, out.magnetic, stroke_m);
+  out.actuator = recordings.actuator_is_inferred
+                     ? recordings.flow_bench->actuator
+                     : fit_actuator({force_map, dynamic ? &*dynamic : nullptr}, out.magnetic, stroke_m);
   take_off_drift(recordings.axial_force_maps, stroke_m, out);
   out.axial = fit_path(out.maps, out.spring.spring, stroke_m);
   out.edge = fit_metering_edge(out.axial.path, out.spring.spring, out.spring.friction_half_width_N);
@@ -189,9 +192,12 @@ std::vector<model::Residual> residuals_of_fits(const BenchFits& fits) {
   return out;
 }
 
-std::vector<model::Fit> known_of_bench(const BenchFits& fits) {
-  std::vector<model::Fit> out{fits.spring.known};
-  out.insert(out.end(), fits.edge.known.begin(), fits.edge.known.end());
+std::vector<model::Fit> known_of_bench(const BenchFits& fits, bool on_force_benches) {
+  std::vector<model::Fit> out;
+  if (on_force_benches) {
+    out.push_back(fits.spring.known);
+    out.insert(out.end(), fits.edge.known.begin(), fits.edge.known.end());
+  }
   if (fits.position.known) out.push_back(*fits.position.known);
   if (const std::optional<EdgeRatio>& edges = fits.maps.edge_ratio) {
     constexpr double standard = 4;  // deviations in the range of 95 %
@@ -236,23 +242,33 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
   calibration.bench = residuals_on_bench(fits, valve.stroke_m);
   model::Observer& out = calibration.observer;
   out.parameters = parameters_from(fits, closed_below_m);
-  out.parameters.largest_voltage_V = largest_voltage_V(recordings.solenoid_force_map);
+  out.parameters.largest_voltage_V =
+      std::max(largest_voltage_V(recordings.solenoid_force_map),
+               recordings.flow_bench != nullptr ? recordings.flow_bench->largest_voltage_V : 0);
   for (const recording::Recording* dynamic : recordings.solenoid_dynamic)
     out.parameters.largest_voltage_V = std::max(out.parameters.largest_voltage_V, largest_voltage_V(*dynamic));
   double& flow_residual_m3_per_s = out.parameters.band.flow_residual_m3_per_s;
+  if (recordings.flow_bench != nullptr) {
+    double& force_residual_N = out.parameters.band.force_residual_N;
+    force_residual_N = std::max(force_residual_N, recordings.flow_bench->force_residual_N);
+    flow_residual_m3_per_s = std::max(flow_residual_m3_per_s, recordings.flow_bench->flow_residual_m3_per_s);
+  }
   flow_residual_m3_per_s =
       flow_residual_with_unknown_edges(fits.maps, flow_residual_m3_per_s, valve.rated_flow_m3_per_s);
   const auto& temperature_K = fits.edge.edge.temperature_K;
   out.oil_temperature_K = {temperature_K.at(0), temperature_K.at(sensor::edge_temperatures - 1)};
   out.residuals = residuals_of_fits(fits);
-  out.fits = known_of_bench(fits);
+  out.fits = known_of_bench(fits, recordings.flow_bench == nullptr);
+  if (recordings.flow_bench != nullptr) {
+    widen(out.residuals, *recordings.flow_bench);
+    out.fits.insert(out.fits.end(), recordings.flow_bench->known.begin(), recordings.flow_bench->known.end());
+    out.inferred = recordings.flow_bench->inferred;
+  }
   out.defaults = {"hardest_acceleration_m_per_s2", "drifts and process noise of the pressure", "band_coverage_factor",
                   "band_unseen_factor", "band_creep_per_s"};
   if (fits.maps.edges_are_assumed()) out.defaults.emplace_back(model::each_edge_alone);
-  if (!fits.actuator.dynamics) {
-    out.defaults.emplace_back("hysteresis_threshold_Wb");
-    out.defaults.emplace_back("eddy_currents");
-  }
+  if (!fits.actuator.dynamics) out.defaults.emplace_back("hysteresis_threshold_Wb");
+  if (!fits.actuator.dynamics && !recordings.actuator_is_inferred) out.defaults.emplace_back("eddy_currents");
   return calibration;
 }
 
@@ -264,7 +280,11 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
   const std::vector<std::string> of_bench = std::move(observer.defaults);
   const std::vector<OperatingRun> used = with_reference(runs);
   if (!used.empty()) {
-    const OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
+    OperationFit fit = fit_operation(observer.parameters, used, rated_flow_m3_per_s, progress);
+    if (!observer.inferred.empty() && fit.force_error_ratio < least_inferred_force_error_ratio) {
+      fit.force_error_ratio = least_inferred_force_error_ratio;
+      scale_band(observer.parameters, fit.force_error_ratio);
+    }
     require_agreement(fit, used);
     observer.fits.push_back(fit.known);
     observer.defaults = fit.not_told;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/edges/path_of_edges.hpp"
+#include "spoolflow/calibration/flow_bench/equivalent_benches.hpp"
 #include "spoolflow/calibration/operation/replay.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/recording.hpp"
@@ -15,6 +16,8 @@ struct ObserverRecordings {
   const recording::Recording& solenoid_force_map;
   std::vector<const recording::Recording*> solenoid_dynamic;  ///< none or one
   AxialForceMaps axial_force_maps;
+  const EquivalentBenches* flow_bench = nullptr;  ///< where some of them are from there
+  bool actuator_is_inferred = false;
 };
 
 struct ObserverCalibration {

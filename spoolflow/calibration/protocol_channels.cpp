@@ -54,6 +54,13 @@ ProtocolChannels channels_of(Protocol protocol) {
       return {{Channel::time, Channel::position, Channel::current},
               {Channel::voltage, Channel::oil_temperature, Channel::position_set, Channel::pressure_difference,
                Channel::flow_reference}};
+    case Protocol::metering:
+      return {{Channel::time, Channel::position, Channel::current, Channel::flow_reference},
+              {Channel::voltage, Channel::oil_temperature, Channel::position_set, Channel::pressure_difference_set,
+               Channel::pressure_difference, Channel::pressure_upstream, Channel::pressure_downstream},
+              {{{{Channel::pressure_difference}, {Channel::pressure_upstream, Channel::pressure_downstream}},
+                "has no pressure difference; give \"pressure_difference\", or both \"pressure_upstream\" and "
+                "\"pressure_downstream\", in the file or in a channel map"}}};
     case Protocol::operation:
       return {{Channel::time, Channel::position},
               {Channel::current, Channel::current_a, Channel::current_b, Channel::voltage, Channel::voltage_a,
@@ -82,6 +89,9 @@ std::string_view how_recorded(Protocol protocol) {
     case Protocol::unpressurised_strokes:
       return "stroke the valve slowly both ways by its own solenoid with the pump off, with current, voltage and "
              "position";
+    case Protocol::metering:
+      return "stroke the valve slowly both ways by its own solenoid at three held pressure differences or more, with "
+             "current, voltage, position, pressure_difference and flow_reference";
     case Protocol::operation:
       return "let the valve work beside its reference meter, with current, voltage, position and flow_reference";
   }

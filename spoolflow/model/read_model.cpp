@@ -90,6 +90,9 @@ Observer observer(const JsonNode& node) {
     for (const JsonNode& each : node.at("fits").elements()) out.fits.push_back(fit(each));
   }
   for (const JsonNode& each : node.at("defaults").elements()) out.defaults.push_back(each.text());
+  if (node.has("inferred")) {
+    for (const JsonNode& each : node.at("inferred").elements()) out.inferred.push_back(each.text());
+  }
   describe_observer(out.parameters, TableReader(node));
   return out;
 }

@@ -88,6 +88,7 @@ Json observer(const Observer& observer) {
            {"residuals", residuals(observer.residuals)},
            {"fits", fits(observer.fits)},
            {"defaults", observer.defaults}};
+  if (!observer.inferred.empty()) out["inferred"] = observer.inferred;
   describe_observer(observer.parameters, TableWriter(out));
   return out;
 }

@@ -13,8 +13,9 @@
 namespace spoolflow::recording {
 namespace {
 
-constexpr std::array<std::string_view, 6> protocol_names{"spring",          "solenoid_force_map",    "solenoid_dynamic",
-                                                         "axial_force_map", "unpressurised_strokes", "operation"};
+constexpr std::array<std::string_view, 7> protocol_names{"spring",          "solenoid_force_map",    "solenoid_dynamic",
+                                                         "axial_force_map", "unpressurised_strokes", "metering",
+                                                         "operation"};
 
 Protocol protocol_of(const TomlTable& entry) {
   const std::string written = entry.text("protocol");
@@ -202,7 +203,8 @@ std::string_view name(Protocol protocol) {
 }
 
 bool by_own_solenoid(Protocol protocol) {
-  return protocol == Protocol::unpressurised_strokes || protocol == Protocol::operation;
+  return protocol == Protocol::unpressurised_strokes || protocol == Protocol::metering ||
+         protocol == Protocol::operation;
 }
 
 PathEdges edges_of(std::string_view direction) {

@@ -19,11 +19,13 @@ enum class Protocol : std::uint8_t {
   solenoid_dynamic,
   axial_force_map,
   unpressurised_strokes,  ///< the valve strokes by its own solenoid with the pump off
+  metering,               ///< the same at held pressure differences, beside a flow meter
   operation
 };
 inline constexpr std::array all_protocols{
     Protocol::spring,          Protocol::solenoid_force_map,    Protocol::solenoid_dynamic,
-    Protocol::axial_force_map, Protocol::unpressurised_strokes, Protocol::operation};
+    Protocol::axial_force_map, Protocol::unpressurised_strokes, Protocol::metering,
+    Protocol::operation};
 [[nodiscard]] std::string_view name(Protocol protocol);
 /// Whether it is of the valve as a whole, driven by its own solenoid, rather than of a part on a force rig.
 [[nodiscard]] bool by_own_solenoid(Protocol protocol);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/calibration/completeness.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "tests/recording/temporary_file.hpp"
 
@@ -70,6 +71,33 @@ TEST(CampaignRecordings, ListEveryMissingTestAndHowItIsRecordedBeforeSamplesAreR
   const std::string text = refused_campaign("", complete, "spring axial_force_map");
   EXPECT_THAT(text, HasSubstr("no recording with protocol \"spring\": stroke the spool both ways"));
   EXPECT_THAT(text, HasSubstr("no recording with protocol \"axial_force_map\": sweep the position"));
+}
+
+TEST(CampaignRecordings, OnAFlowBenchAskForItsOwnTestsInsteadOfForceRigs) {
+  const recording::TemporaryFile file(
+      "campaign.toml", "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n" + entry("metering", ""));
+  std::ofstream(file.folder() / "all.csv")
+      << "time_s,position_mm,current_A,voltage_V,pressure_difference_bar,flow_reference_L_min\n0,0,0,0,10,0\n";
+  const recording::Campaign campaign = recording::read_campaign(file.path());
+  EXPECT_EQ(bench_directions(campaign), std::vector<std::string>{"b"});
+  try {
+    (void)complete_read_options(campaign);
+    FAIL() << "no refusal";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("no recording with protocol \"unpressurised_strokes\": stroke the valve slowly"));
+    EXPECT_THAT(error.what(), testing::Not(HasSubstr("solenoid_force_map")));
+  }
+}
+
+TEST(CampaignRecordings, AForceMapTogetherWithStrokesOfAFlowBenchIsComplete) {
+  std::string text = "[valve]\nname = \"W\"\nrated_flow_L_min = 60\nstroke_mm = 2.4\n";
+  for (const char* protocol : {"unpressurised_strokes", "solenoid_force_map", "metering"}) text += entry(protocol, "");
+  const recording::TemporaryFile file("campaign.toml", text);
+  std::ofstream(file.folder() / "all.csv") << "time_s,position_mm,current_A,voltage_V,force_N,pressure_difference_bar,"
+                                              "flow_reference_L_min\n0,0,0,0,0,10,0\n";
+  const recording::Campaign campaign = recording::read_campaign(file.path());
+  EXPECT_EQ(complete_read_options(campaign).size(), 3U);
 }
 
 TEST(CampaignRecordings, ListEveryMissingChannelOfEveryFileAtOnce) {

@@ -14,26 +14,6 @@ double largest_flux(const sensor::FluxLinkage<double>& flux_linkage) {
                                sensor::flux_map_positions - 1);
 }
 
-/// Loops of the shape that solenoid irons have in common: most of the turn after a reversal within some hundredths of
-/// full flux, the rest within a tenth.
-sensor::MagneticHysteresis<double> default_hysteresis(double coercive_current_A, double full_flux_Wb) {
-  sensor::MagneticHysteresis<double> out;
-  out.per_full_flux = 1 / full_flux_Wb;
-  for (int k = 0; k < sensor::hysteresis_elements; ++k) {
-    const auto e = static_cast<std::size_t>(k);
-    out.threshold[e] =
-        full_flux_Wb * 0.001 * std::pow(100.0, static_cast<double>(k) / (sensor::hysteresis_elements - 1));
-    out.stiffness[e] = coercive_current_A / sensor::hysteresis_elements / out.threshold[e];
-  }
-  return out;
-}
-
-/// The voltage rate at which excess eddy currents turn proportional: a thousandth of what drives the largest current.
-double smallest_rate_V(const FluxLinkageFit& flux_linkage, double largest_current_A) {
-  const double resistance_Ohm = flux_linkage.measured ? flux_linkage.coil_resistance.resistance_Ohm : 10.0;
-  return 1e-3 * resistance_Ohm * largest_current_A;
-}
-
 /// Flux and current of the held loops, both known without the coil's model, as a first guess for the fit.
 HysteresisHistory history_of(const FluxEvidence& evidence, const SolenoidSamples& samples, std::size_t begin,
                              std::size_t end, const sensor::FluxLinkage<double>& flux_linkage,
@@ -90,6 +70,23 @@ sensor::Coil<double> first_guess(const FluxEvidence& evidence, const SolenoidSam
 }
 
 }  // namespace
+
+sensor::MagneticHysteresis<double> default_hysteresis(double coercive_current_A, double full_flux_Wb) {
+  sensor::MagneticHysteresis<double> out;
+  out.per_full_flux = 1 / full_flux_Wb;
+  for (int k = 0; k < sensor::hysteresis_elements; ++k) {
+    const auto e = static_cast<std::size_t>(k);
+    out.threshold[e] =
+        full_flux_Wb * 0.001 * std::pow(100.0, static_cast<double>(k) / (sensor::hysteresis_elements - 1));
+    out.stiffness[e] = coercive_current_A / sensor::hysteresis_elements / out.threshold[e];
+  }
+  return out;
+}
+
+double smallest_rate_V(const FluxLinkageFit& flux_linkage, double largest_current_A) {
+  const double resistance_Ohm = flux_linkage.measured ? flux_linkage.coil_resistance.resistance_Ohm : 10.0;
+  return 1e-3 * resistance_Ohm * largest_current_A;
+}
 
 ActuatorFit fit_actuator(const ActuatorRecordings& recordings, const MagneticForceFit& map, double stroke_m) {
   ActuatorFit fit{};

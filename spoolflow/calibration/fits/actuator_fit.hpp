@@ -32,4 +32,11 @@ struct ActuatorRecordings {
 [[nodiscard]] ActuatorFit fit_actuator(const ActuatorRecordings& recordings, const MagneticForceFit& map,
                                        double stroke_m);
 
+/// Loops of the shape that solenoid irons have in common: most of the turn after a reversal within some hundredths of
+/// full flux, the rest within a tenth.
+[[nodiscard]] sensor::MagneticHysteresis<double> default_hysteresis(double coercive_current_A, double full_flux_Wb);
+
+/// The voltage rate at which excess eddy currents turn proportional: a thousandth of what drives the largest current.
+[[nodiscard]] double smallest_rate_V(const FluxLinkageFit& flux_linkage, double largest_current_A);
+
 }  // namespace spoolflow::calibration

@@ -18,6 +18,10 @@ inline constexpr double least_force_error_ratio = 0.4;
 /// where no recording shows such a rest.
 inline constexpr double least_dithered_force_error_ratio = 1;
 
+/// Forces that no force bench measured were fitted to runs like the one that tells: dither or a faster spool show what
+/// their hysteresis and friction are wrong by, each within the other.
+inline constexpr double least_inferred_force_error_ratio = 0.7;
+
 /// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise
 /// taken out. At rest nothing averages the forces' errors. The assumed ratio where the spool never rests open;
 /// never less than the least.

@@ -54,6 +54,10 @@ Verdict calibration_verdict(const model::Model& model) {
           : phrase("At {} positions a higher pressure difference pulls less, the first at {}: there one force "
                    "means several flow rates.",
                    uniqueness.ambiguous_at_m.size(), fixed(units::length(uniqueness.ambiguous_at_m.front()), 2)));
+  if (model.observer) {
+    for (const std::string& each : model.observer->inferred)
+      out.limits.emplace_back("Inferred from the flow bench, not measured: " + each + ".");
+  }
   if (model.observer && !model.observer->defaults.empty()) {
     std::string names;
     for (const std::string& name : model.observer->defaults) names += (names.empty() ? "" : ", ") + name;

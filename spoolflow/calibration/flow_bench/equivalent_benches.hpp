@@ -1,0 +1,35 @@
+#pragma once
+/// What force benches would have recorded of a valve that only a flow bench has seen: the fitted forces as strokes of
+/// the protocols `spring`, `solenoid_force_map` and `axial_force_map`, so that every fit downstream is the same.
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "spoolflow/calibration/fits/actuator_fit.hpp"
+#include "spoolflow/calibration/fits/position_sensor.hpp"
+#include "spoolflow/calibration/flow_bench/flow_bench_recordings.hpp"
+#include "spoolflow/recording/recording.hpp"
+
+namespace spoolflow::calibration {
+
+struct EquivalentBenches {
+  recording::Recording spring;
+  recording::Recording solenoid_force_map;
+  std::deque<recording::Recording> axial_force_maps;  ///< one a recording of `metering`, in its order
+  ActuatorFit actuator;
+  PositionSensorFit position;         ///< of the valve's own sensor
+  double force_residual_N;            ///< RMS of what the forces leave of the sliding samples
+  double flow_residual_m3_per_s;      ///< RMS of what conductances leave of the flow meter
+  double largest_voltage_V;           ///< of the coil, either way; 0 where none was recorded
+  std::vector<model::Fit> known;      ///< what the fit knows of its unknowns
+  std::vector<std::string> inferred;  ///< what was not measured, with its uncertainty, a sentence each
+};
+
+/// Forces and flow are known no better than the flow bench left of what it told instead of force benches.
+void widen(std::vector<model::Residual>& residuals, const EquivalentBenches& flow_bench);
+
+/// Throws CalibrationError as fit_flow_bench and fit_conductance do.
+[[nodiscard]] EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings,
+                                                   const MeasuredForces& measured, double stroke_m);
+
+}  // namespace spoolflow::calibration

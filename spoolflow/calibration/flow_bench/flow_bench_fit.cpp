@@ -1,0 +1,215 @@
+#include "spoolflow/calibration/flow_bench/flow_bench_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/fits/actuator_fit.hpp"
+#include "spoolflow/calibration/flow_bench/coenergy.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+/// Loops of solenoid irons are some percent of the current wide, and solid iron takes some 20 ms to let the flux in.
+constexpr CoilSizes usual_coil{0.012, 0.005, 0.004, 0.008};
+constexpr CoilSizes usual_coil_deviation{0.01, 0.01, 0.004, 0.01};
+
+double full_flux_Wb(const sensor::FluxLinkage<double>& flux_linkage) {
+  return flux_linkage.map.node(sensor::flux_map_currents - 1 - sensor::flux_map_currents_below_zero,
+                               sensor::flux_map_positions - 1);
+}
+
+sensor::Coil<double> coil_of(const CoilSizes& sizes, const FluxLinkageFit& flux_linkage, double largest_A) {
+  sensor::Coil<double> coil;
+  coil.flux_linkage = flux_linkage.flux_linkage;
+  const double full_Wb = full_flux_Wb(coil.flux_linkage);
+  coil.hysteresis = default_hysteresis(1.0, full_Wb);
+  for (std::size_t e = 0; e < sensor::hysteresis_elements; ++e) {
+    coil.hysteresis.stiffness_increase[e] = sizes[1] * coil.hysteresis.stiffness[e];
+    coil.hysteresis.stiffness[e] *= sizes[0];
+  }
+  coil.eddy_currents.classical_A_per_V = sizes[2];
+  coil.eddy_currents.excess_A_per_rootV = sizes[3];
+  coil.eddy_currents.smallest_rate_V = smallest_rate_V(flux_linkage, largest_A);
+  return coil;
+}
+
+/// The magnetising current of each sample.
+std::vector<double> magnetise(const TrackedRun& run, const sensor::Coil<double>& coil) {
+  sensor::CoilState<double> state;
+  std::vector<double> out;
+  out.reserve(run.coil.size());
+  for (std::size_t k = 0; k < run.coil.size(); ++k) {
+    const auto& sample = run.coil.samples[k];
+    const auto position =
+        sensor::locate<sensor::flux_map_positions>(coil.flux_linkage.map.column_axis, sample.position_m);
+    sensor::follow_current(coil, state, {sample.time_step_s, sample.current_A}, position, k == 0);
+    out.push_back(state.magnetising_current_A);
+  }
+  return out;
+}
+
+std::vector<double> at_sliding(const TrackedRun& run, const std::vector<double>& magnetising_A) {
+  std::vector<double> out;
+  for (const SlidingSample& sample : run.sliding) out.push_back(magnetising_A[sample.sample]);
+  return out;
+}
+
+std::vector<RunForces> forces_of(const std::vector<TrackedRun>& runs, const CoilSizes& sizes,
+                                 const FluxLinkageFit& flux_linkage, double largest_A) {
+  std::vector<RunForces> out;
+  for (const TrackedRun& run : runs) {
+    RunForces forces{&run, at_sliding(run, magnetise(run, coil_of(sizes, flux_linkage, largest_A))), {}, {}};
+    forces.per_size.resize(forces.magnetising_A.size());
+    for (std::size_t n = 0; n < coil_sizes; ++n) {
+      CoilSizes turned = sizes;
+      const double step = 0.2 * usual_coil_deviation[n];
+      turned[n] += step;
+      const std::vector<double> other = at_sliding(run, magnetise(run, coil_of(turned, flux_linkage, largest_A)));
+      for (std::size_t k = 0; k < other.size(); ++k)
+        forces.per_size[k][n] = (other[k] - forces.magnetising_A[k]) / step;
+    }
+    out.push_back(std::move(forces));
+  }
+  return out;
+}
+
+FluxLinkageFit flux_linkage_of(const std::vector<TrackedRun>& runs, const std::vector<std::vector<double>>& current_A,
+                               const sensor::MagneticForce<double>& axes) {
+  std::vector<FluxEvidence> evidence;
+  for (std::size_t r = 0; r < runs.size(); ++r) evidence.push_back({&runs[r].coil, current_A[r]});
+  FluxLinkageFit out = fit_flux_linkage(evidence, axes);
+  if (out.measured) return out;
+  throw CalibrationError(
+      fmt::format("{}: without the coil's voltage nothing on a flow bench tells the magnetic force; give \"voltage\" "
+                  "in the file or "
+                  "in a channel map, or record protocol \"solenoid_force_map\"",
+                  runs.front().coil.file));
+}
+
+std::vector<double> rising_temperatures_K(const std::vector<TrackedRun>& metering) {
+  constexpr double same_K = 3, unknown_K = 323.15;
+  std::vector<double> all, out;
+  for (const TrackedRun& run : metering) {
+    if (!std::isnan(run.oil_temperature_K)) all.push_back(run.oil_temperature_K);
+  }
+  std::sort(all.begin(), all.end());
+  for (const double each : all) {
+    if (out.empty() || each > out.back() + same_K) out.push_back(each);
+  }
+  return out.empty() ? std::vector<double>{unknown_K} : out;
+}
+
+double largest_current_A(const std::vector<TrackedRun>& runs) {
+  double out = 0;
+  for (const TrackedRun& run : runs)
+    for (const auto& sample : run.coil.samples) out = std::max(out, sample.current_A);
+  return out;
+}
+
+std::vector<TrackedRun> track_all(const FlowBenchRecordings& recordings, double stroke_m) {
+  std::vector<TrackedRun> out;
+  for (const recording::Recording* each : recordings.metering) out.push_back(track_run(*each, stroke_m, true));
+  for (const recording::Recording* each : recordings.unpressurised) out.push_back(track_run(*each, stroke_m, false));
+  for (const recording::Recording* each : recordings.operation) {
+    if (!pressure_difference_Pa(*each).empty()) out.push_back(track_run(*each, stroke_m, true));
+  }
+  return out;
+}
+
+void require_sliding(const std::vector<TrackedRun>& runs) {
+  constexpr std::size_t least_samples = 1000;
+  std::size_t samples = 0;
+  for (const TrackedRun& run : runs) samples += run.sliding.size();
+  if (samples >= least_samples) return;
+  throw CalibrationError(fmt::format(
+      "{}: on the flow bench the spool slides evenly in {} samples only, {} are needed to tell the forces; stroke the "
+      "valve over its whole stroke both ways, at 5 %/s or faster",
+      runs.empty() ? std::string("the campaign") : runs.front().coil.file, samples, least_samples));
+}
+
+/// The coil as a force bench measured it.
+void fit_with_actuator(FlowBenchFit& out, ForcePriors priors, const ActuatorFit& actuator,
+                       const std::vector<TrackedRun>& runs) {
+  constexpr double held = 1e-6;
+  priors.map_share = priors.map_bend = 1e-4;
+  priors.coil_deviation = {held, held, held, held};
+  out.flux_linkage = actuator.flux_linkage;
+  out.coil = actuator.actuator.coil;
+  out.magnetic_force = actuator.actuator.magnetic_force;
+  std::vector<RunForces> forces;
+  for (const TrackedRun& run : runs) {
+    RunForces each{&run, at_sliding(run, magnetise(run, out.coil)), {}, {}};
+    each.per_size.resize(each.magnetising_A.size());
+    for (std::size_t k = 0; k < run.sliding.size(); ++k)
+      each.armature_friction_N.push_back(
+          actuator.actuator.friction_N.at(each.magnetising_A[k], run.sliding[k].position_m).value);
+    forces.push_back(std::move(each));
+  }
+  out.forces = solve_forces(out.layout, priors, out.magnetic_force, forces, out.coil_sizes, {});
+}
+
+/// The coil from its voltage and from motion, in turn.
+void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<TrackedRun>& runs) {
+  const double largest_A = out.layout.largest_current_A;
+  priors.coil = out.coil_sizes = usual_coil;
+  priors.coil_deviation = usual_coil_deviation;
+  const sensor::MagneticForce<double> axes = empty_force_map(largest_A, out.layout.stroke_m);
+  std::vector<std::vector<double>> current_A;
+  for (const TrackedRun& run : runs) {
+    current_A.emplace_back();
+    for (const auto& sample : run.coil.samples) current_A.back().push_back(sample.current_A);
+  }
+  constexpr int flux_rounds = 3, coil_rounds = 3;
+  for (int flux_round = 0; flux_round < flux_rounds; ++flux_round) {
+    out.flux_linkage = flux_linkage_of(runs, current_A, axes);
+    const sensor::MagneticForce<double> coenergy_force = force_of_coenergy(out.flux_linkage.flux_linkage);
+    for (int round = 0; round < coil_rounds; ++round, ++out.rounds) {
+      const std::vector<RunForces> forces = forces_of(runs, out.coil_sizes, out.flux_linkage, largest_A);
+      out.forces = solve_forces(out.layout, priors, coenergy_force, forces, out.coil_sizes, out.forces.unknowns);
+      for (int n = 0; n < coil_sizes; ++n) {
+        const double least = n == 1 ? -0.8 * out.coil_sizes[0] : 0;
+        out.coil_sizes[static_cast<std::size_t>(n)] = std::max(least, out.forces.unknowns(out.layout.coil_at(n)));
+      }
+    }
+    out.coil = coil_of(out.coil_sizes, out.flux_linkage, largest_A);
+    out.magnetic_force = corrected_map(out.layout, coenergy_force, out.forces.unknowns);
+    for (std::size_t r = 0; r < runs.size(); ++r) current_A[r] = magnetise(runs[r], out.coil);
+  }
+}
+
+}  // namespace
+
+FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const MeasuredForces& measured, double stroke_m) {
+  const std::vector<TrackedRun> runs = track_all(recordings, stroke_m);
+  require_sliding(runs);
+  const auto of_metering = static_cast<std::ptrdiff_t>(recordings.metering.size());
+  const double largest_A =
+      measured.actuator != nullptr
+          ? measured.actuator->actuator.magnetic_force.map.row_axis.at(sensor::force_map_currents - 1)
+          : largest_current_A(runs);
+  FlowBenchFit out{
+      ForceLayout(largest_A, stroke_m,
+                  rising_temperatures_K({runs.begin(), runs.begin() + std::max<std::ptrdiff_t>(1, of_metering)})),
+      {},
+      {},
+      {},
+      {},
+      {},
+      0};
+  ForcePriors priors;
+  if (measured.spring != nullptr) {
+    for (int k = 0; k < out.layout.spring.count; ++k)
+      priors.spring_N.push_back(measured.spring->spring.at(stroke_m * k / (out.layout.spring.count - 1)).value);
+  }
+  if (measured.actuator != nullptr) {
+    fit_with_actuator(out, priors, *measured.actuator, runs);
+  } else {
+    fit_with_coil(out, priors, runs);
+  }
+  return out;
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,225 @@
+#include "spoolflow/calibration/flow_bench/force_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "spoolflow/numerics/median.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using Row = std::vector<std::pair<int, double>>;
+
+constexpr double usual_residual_N = 0.3;
+/// Neighbouring samples share what the model omits: so many of them count as one.
+constexpr double samples_alike = 10;
+
+struct Equation {
+  Row row;
+  double right;
+};
+
+/// Normal equations of rows of few entries.
+class Equations {
+ public:
+  explicit Equations(int unknowns)
+      : matrix_(Eigen::MatrixXd::Zero(unknowns, unknowns)), right_(Eigen::VectorXd::Zero(unknowns)) {}
+
+  void add(const Row& row, double right, double deviation) {
+    const double weight = 1 / (deviation * deviation);
+    for (const auto& [r, of_r] : row) {
+      for (const auto& [c, of_c] : row) matrix_(r, c) += weight * of_r * of_c;
+      right_(r) += weight * of_r * right;
+    }
+  }
+  [[nodiscard]] Eigen::MatrixXd inverse() const {
+    return matrix_.ldlt().solve(Eigen::MatrixXd::Identity(matrix_.rows(), matrix_.cols()));
+  }
+  [[nodiscard]] const Eigen::VectorXd& right() const { return right_; }
+
+ private:
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd right_;
+};
+
+struct Layer {
+  int lower;
+  double share;
+};
+
+Layer layer_at(const ForceLayout& layout, double temperature_K) {
+  const std::vector<double>& known = layout.temperatures_K;
+  if (known.size() == 1 || std::isnan(temperature_K)) return {0, 0};
+  std::size_t k = 0;
+  while (k + 2 < known.size() && temperature_K > known[k + 1]) ++k;
+  return {static_cast<int>(k), std::clamp((temperature_K - known[k]) / (known[k + 1] - known[k]), 0.0, 1.0)};
+}
+
+template <class At>
+void add_layers(Row& row, const ForceLayout& layout, const Layer& layer, const Knots& knots, double x, double factor,
+                const At& at) {
+  const Knots::Place place = knots.at(x);
+  for (int l = 0; l < std::min(2, layout.layers()); ++l) {
+    const double share = factor * (l == 0 ? 1 - layer.share : layer.share);
+    if (share == 0) continue;
+    row.emplace_back(at(layer.lower + l, place.lower), share * (1 - place.share));
+    row.emplace_back(at(layer.lower + l, place.lower + 1), share * place.share);
+  }
+}
+
+Equation equation_of(const ForceLayout& layout, const sensor::MagneticForce<double>& coenergy_force,
+                     const RunForces& run, std::size_t k, const CoilSizes& at, const Eigen::VectorXd& before) {
+  const SlidingSample& sample = run.run->sliding[k];
+  const double current_A = run.magnetising_A[k], x = sample.position_m, dp_Pa = sample.pressure_difference_Pa;
+  const auto force = coenergy_force.at(current_A, x);
+  Equation out{{}, -force.value};
+  out.row.reserve(24);
+  const Knots::Place i = layout.currents.at(current_A), p = layout.places.at(x);
+  double corrected = 1;
+  for (int r = 0; r < 2; ++r) {
+    for (int c = 0; c < 2; ++c) {
+      const int unknown = layout.map_at(i.lower + r, p.lower + c);
+      const double share = (r == 0 ? 1 - i.share : i.share) * (c == 0 ? 1 - p.share : p.share);
+      out.row.emplace_back(unknown, force.value * share);
+      if (before.size() > 0) corrected += share * before(unknown);
+    }
+  }
+  const Knots::Place s = layout.spring.at(x);
+  out.row.emplace_back(layout.spring_at(s.lower), -(1 - s.share));
+  out.row.emplace_back(layout.spring_at(s.lower + 1), -s.share);
+  const Layer layer = layer_at(layout, run.run->oil_temperature_K);
+  const double d = sample.direction;
+  if (!run.armature_friction_N.empty()) out.right += d * run.armature_friction_N[k];
+  const auto force_at = [&](int l, int n) { return layout.force_at(l, n); };
+  const auto dry_at = [&](int l, int n) { return layout.dry_at(l, n); };
+  const auto loaded_at = [&](int l, int n) { return layout.loaded_at(l, n); };
+  if (dp_Pa != 0) add_layers(out.row, layout, layer, layout.force, x, -1e-5 * dp_Pa, force_at);
+  add_layers(out.row, layout, layer, layout.dry, x, -d, dry_at);
+  if (dp_Pa != 0) add_layers(out.row, layout, layer, layout.loaded, x, -d * 1e-5 * dp_Pa, loaded_at);
+  out.row.emplace_back(layout.mass(), -sample.acceleration_m_per_s2);
+  for (int n = 0; n < coil_sizes; ++n) {
+    const double per_size = corrected * force.row_slope * run.per_size[k][static_cast<std::size_t>(n)];
+    out.row.emplace_back(layout.coil_at(n), per_size);
+    out.right += per_size * at[static_cast<std::size_t>(n)];
+  }
+  return out;
+}
+
+/// Second differences along a row of unknowns vanish within `bend`.
+template <class At>
+void add_smooth(Equations& to, int count, double bend, const At& at) {
+  for (int k = 1; k + 1 < count; ++k) to.add({{at(k - 1), 1.0}, {at(k), -2.0}, {at(k + 1), 1.0}}, 0, bend);
+}
+
+/// Neighbours are alike within `step`.
+template <class At>
+void add_alike(Equations& to, int count, double step, const At& at) {
+  for (int k = 0; k + 1 < count; ++k) to.add({{at(k), 1.0}, {at(k + 1), -1.0}}, 0, step);
+}
+
+void add_priors(Equations& to, const ForceLayout& l, const ForcePriors& priors) {
+  for (int i = 0; i < l.currents.count; ++i) {
+    for (int p = 0; p < l.places.count; ++p) to.add({{l.map_at(i, p), 1.0}}, 0, priors.map_share);
+    add_smooth(to, l.places.count, priors.map_bend, [&](int k) { return l.map_at(i, k); });
+  }
+  for (int p = 0; p < l.places.count; ++p)
+    add_smooth(to, l.currents.count, priors.map_bend, [&](int k) { return l.map_at(k, p); });
+  constexpr double measured_spring_N = 0.1;
+  for (int k = 0; k < l.spring.count; ++k) {
+    const bool measured = !priors.spring_N.empty();
+    to.add({{l.spring_at(k), 1.0}}, measured ? priors.spring_N[static_cast<std::size_t>(k)] : 0,
+           measured ? measured_spring_N : 1e3);
+  }
+  add_smooth(to, l.spring.count, 0.05, [&](int k) { return l.spring_at(k); });
+  for (int layer = 0; layer < l.layers(); ++layer) {
+    for (int k = 0; k < l.force.count; ++k) to.add({{l.force_at(layer, k), 1.0}}, 0, 10);
+    add_smooth(to, l.force.count, 0.01, [&](int k) { return l.force_at(layer, k); });
+    to.add({{l.force_at(layer, 0), 1.0}}, 0, 1e-3);  // closed: no flow
+    for (int k = 0; k < l.dry.count; ++k) to.add({{l.dry_at(layer, k), 1.0}}, 0, 30);
+    add_alike(to, l.dry.count, 0.3, [&](int k) { return l.dry_at(layer, k); });
+    for (int k = 0; k < l.loaded.count; ++k) to.add({{l.loaded_at(layer, k), 1.0}}, 0, 1);
+    add_smooth(to, l.loaded.count, 0.01, [&](int k) { return l.loaded_at(layer, k); });
+  }
+  for (int layer = 0; layer + 1 < l.layers(); ++layer) {  // what no stroke reached at one temperature, others did
+    for (int k = 0; k < l.force.count; ++k)
+      to.add({{l.force_at(layer, k), 1.0}, {l.force_at(layer + 1, k), -1.0}}, 0, 0.05);
+    for (int k = 0; k < l.loaded.count; ++k)
+      to.add({{l.loaded_at(layer, k), 1.0}, {l.loaded_at(layer + 1, k), -1.0}}, 0, 0.02);
+    for (int k = 0; k < l.dry.count; ++k) to.add({{l.dry_at(layer, k), 1.0}, {l.dry_at(layer + 1, k), -1.0}}, 0, 0.5);
+  }
+  to.add({{l.mass(), 1.0}}, priors.mass_kg, 0.5 * priors.mass_kg);
+  for (int k = 0; k < coil_sizes; ++k) {
+    const auto n = static_cast<std::size_t>(k);
+    to.add({{l.coil_at(k), 1.0}}, priors.coil[n], priors.coil_deviation[n]);
+  }
+}
+
+double deviation_of(const Equation& equation, const Eigen::VectorXd& unknowns) {
+  double out = -equation.right;
+  for (const auto& [k, share] : equation.row) out += share * unknowns(k);
+  return out;
+}
+
+}  // namespace
+
+Knots::Place Knots::at(double x) const {
+  const double raw = std::clamp(x / end * (count - 1), 0.0, static_cast<double>(count - 1));
+  const int lower = std::min(static_cast<int>(raw), count - 2);
+  return {lower, raw - lower};
+}
+
+ForceLayout::ForceLayout(double largest_current, double stroke, std::vector<double> temperatures)
+    : largest_current_A(largest_current), stroke_m(stroke), temperatures_K(std::move(temperatures)) {
+  currents.end = largest_current;
+  for (Knots* knots : {&places, &spring, &force, &dry, &loaded}) knots->end = stroke;
+}
+
+ForceSolution solve_forces(const ForceLayout& layout, const ForcePriors& priors,
+                           const sensor::MagneticForce<double>& coenergy_force, const std::vector<RunForces>& runs,
+                           const CoilSizes& at, const Eigen::VectorXd& before) {
+  std::vector<Equation> all;
+  for (const RunForces& run : runs)
+    for (std::size_t k = 0; k < run.run->sliding.size(); ++k)
+      all.push_back(equation_of(layout, coenergy_force, run, k, at, before));
+  ForceSolution out{before, {}, usual_residual_N, 0, all.size()};
+  constexpr int rounds = 2;  // of weights
+  for (int round = before.size() == 0 ? 0 : 1; round < rounds; ++round) {
+    Equations equations(layout.unknowns());
+    add_priors(equations, layout, priors);
+    for (const Equation& each : all) {
+      const double away = out.unknowns.size() == 0 ? 0 : deviation_of(each, out.unknowns) / (3 * out.residual_N);
+      equations.add(each.row, each.right, out.residual_N * std::sqrt(samples_alike * (1 + away * away)));
+    }
+    out.covariance = equations.inverse();
+    out.unknowns = out.covariance * equations.right();
+    std::vector<double> sizes;
+    for (const Equation& each : all) {
+      sizes.push_back(std::abs(deviation_of(each, out.unknowns)));
+      out.largest_N = std::max(out.largest_N, sizes.back());
+    }
+    constexpr double of_normal = 1.4826;
+    if (!sizes.empty()) out.residual_N = std::max(0.02, of_normal * numerics::median(std::move(sizes)));
+  }
+  return out;
+}
+
+sensor::MagneticForce<double> corrected_map(const ForceLayout& layout,
+                                            const sensor::MagneticForce<double>& coenergy_force,
+                                            const Eigen::VectorXd& unknowns) {
+  sensor::MagneticForce<double> out = coenergy_force;
+  for (int row = 0; row < sensor::force_map_currents; ++row) {
+    const Knots::Place i = layout.currents.at(out.map.row_axis.at(row));
+    for (int column = 0; column < sensor::force_map_positions; ++column) {
+      const Knots::Place p = layout.places.at(out.map.column_axis.at(column));
+      const auto at = [&](int r, int c) { return unknowns(layout.map_at(i.lower + r, p.lower + c)); };
+      const double share = (1 - i.share) * ((1 - p.share) * at(0, 0) + p.share * at(0, 1)) +
+                           i.share * ((1 - p.share) * at(1, 0) + p.share * at(1, 1));
+      out.map.node(row, column) *= 1 + share;
+    }
+  }
+  return out;
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,141 @@
+#include "spoolflow/calibration/flow_bench/flow_bench_fit.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/calibration/flow_bench/coenergy.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using recording::Channel;
+using testing::HasSubstr;
+
+/// A valve in closed form: flux linkage i (L0 + L1 x), so that its coenergy pulls with i^2 L1/2 everywhere.
+constexpr double inductance_H = 0.06, inductance_per_m = 30, resistance_Ohm = 3, driven_stroke_m = 2.4e-3;
+constexpr double force_per_A2 = 0.5 * inductance_per_m;
+
+double spring_at(double x) {
+  return 9 + 12e3 * x;
+}
+double flow_force_at(double x, double pressure_Pa) {
+  return 2.5e-3 * std::fmax(0.0, x - 0.3e-3) * pressure_Pa;
+}
+double friction_at(double x, double pressure_Pa) {
+  return 2.0 + 3e-4 * x * pressure_Pa;
+}
+
+/// Strokes both ways at each pressure difference, a rest at either end.
+recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage) {
+  constexpr double step_s = 2e-3, stroke_s = 3;
+  recording::Recording out;
+  out.file = "strokes.csv";
+  std::mt19937 generator(3);
+  std::normal_distribution<double> unit(0, 1);
+  double flux_Wb = 0, time_s = 0;
+  const auto put = [&](double x, double direction, double pressure_Pa) {
+    const double force_N = spring_at(x) + flow_force_at(x, pressure_Pa) + direction * friction_at(x, pressure_Pa);
+    const double current_A = direction == 0 ? 0 : std::sqrt(force_N / force_per_A2);
+    const double now_Wb = current_A * (inductance_H + inductance_per_m * x);
+    out.column(Channel::time).push_back(time_s += step_s);
+    out.column(Channel::position).push_back(x + 0.7e-6 * unit(generator));
+    out.column(Channel::current).push_back(current_A + 1e-3 * unit(generator));
+    if (with_voltage)
+      out.column(Channel::voltage)
+          .push_back(resistance_Ohm * current_A + (now_Wb - flux_Wb) / step_s + 0.01 * unit(generator));
+    out.column(Channel::pressure_difference).push_back(pressure_Pa);
+    out.column(Channel::oil_temperature).push_back(323.15);
+    flux_Wb = now_Wb;
+  };
+  for (const double pressure_Pa : pressures_Pa) {
+    const int samples = static_cast<int>(stroke_s / step_s);
+    for (int k = 0; k < 200; ++k) put(0, 0, pressure_Pa);
+    for (int k = 0; k <= samples; ++k) put(driven_stroke_m * k / samples, 1, pressure_Pa);
+    for (int k = samples; k >= 0; --k) put(driven_stroke_m * k / samples, -1, pressure_Pa);
+  }
+  return out;
+}
+
+TEST(Coenergy, OfALinearInductancePullsWithHalfItsSlopeTimesTheSquareOfTheCurrent) {
+  sensor::FluxLinkage<double> linkage;
+  linkage.map.row_axis = {-0.2, 0.1, 10};
+  linkage.map.column_axis = {0, driven_stroke_m / 8, 8 / driven_stroke_m};
+  for (int row = 0; row < sensor::flux_map_currents; ++row)
+    for (int column = 0; column < sensor::flux_map_positions; ++column)
+      linkage.map.node(row, column) =
+          linkage.map.row_axis.at(row) * (inductance_H + inductance_per_m * linkage.map.column_axis.at(column));
+  const sensor::MagneticForce<double> force = force_of_coenergy(linkage);
+  for (const double x : {0.0, 0.5e-3, 1.7e-3, 2.4e-3}) {
+    const double node_A = force.map.row_axis.at(20);
+    EXPECT_NEAR(force.at(node_A, x).value, force_per_A2 * node_A * node_A, 1e-6);
+  }
+}
+
+TEST(FlowBenchFit, FindsTheForcesInNewtonsFromVoltageAndMotionAlone) {
+  const recording::Recording dry = strokes({0, 0}, true);
+  const recording::Recording metering = strokes({5e5, 2e6, 4e6, 6e6}, true);
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, {}, driven_stroke_m);
+  const auto at = [&](const Knots& knots, double x, const auto& place) {
+    const Knots::Place here = knots.at(x);
+    return (1 - here.share) * fit.forces.unknowns(place(here.lower)) +
+           here.share * fit.forces.unknowns(place(here.lower + 1));
+  };
+  const ForceLayout& layout = fit.layout;
+  const auto force_at = [&](int k) { return layout.force_at(0, k); };
+  const auto dry_at = [&](int k) { return layout.dry_at(0, k); };
+  for (const double x : {0.9e-3, 1.5e-3, 2.1e-3}) {
+    EXPECT_NEAR(at(layout.force, x, force_at), 1e5 * flow_force_at(x, 1), 0.08 * 1e5 * flow_force_at(x, 1));
+    const double current_A = std::sqrt(spring_at(x) / force_per_A2);
+    // Slow strokes alone do not tell friction from hysteresis: together they are what stands between both directions.
+    const double loop_N = sensor::saturated_output(fit.coil.hysteresis, 0.5) * 2 * force_per_A2 * current_A;
+    EXPECT_NEAR(at(layout.dry, x, dry_at) + loop_N, 2.0, 0.4);
+    EXPECT_NEAR(
+        fit.magnetic_force.at(current_A, x).value - at(layout.spring, x, [&](int k) { return layout.spring_at(k); }), 0,
+        0.5);
+  }
+  EXPECT_LT(fit.forces.residual_N, 0.2);
+  EXPECT_NEAR(fit.flux_linkage.coil_resistance.resistance_Ohm, resistance_Ohm, 0.03);
+}
+
+TEST(FlowBenchFit, KeepsASpringThatAForceBenchMeasured) {
+  const recording::Recording dry = strokes({0, 0}, true);
+  const recording::Recording metering = strokes({5e5, 4e6}, true);
+  SpringFit spring{};
+  spring.spring.curve.axis = {0, driven_stroke_m / (sensor::spring_positions - 1),
+                              (sensor::spring_positions - 1) / driven_stroke_m};
+  for (int k = 0; k < sensor::spring_positions; ++k)
+    spring.spring.curve.values[static_cast<std::size_t>(k)] = spring_at(spring.spring.curve.axis.at(k));
+  const FlowBenchFit fit = fit_flow_bench({{&dry}, {&metering}, {}}, {nullptr, &spring}, driven_stroke_m);
+  for (int k = 2; k + 2 < fit.layout.spring.count; ++k)
+    EXPECT_NEAR(fit.forces.unknowns(fit.layout.spring_at(k)),
+                spring_at(driven_stroke_m * k / (fit.layout.spring.count - 1)), 0.4);
+}
+
+TEST(FlowBenchFit, WithoutTheCoilsVoltageAsksForItOrForAForceMap) {
+  const recording::Recording dry = strokes({0}, false);
+  const recording::Recording metering = strokes({1e6, 4e6}, false);
+  try {
+    (void)fit_flow_bench({{&dry}, {&metering}, {}}, {}, driven_stroke_m);
+    FAIL() << "no refusal";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("give \"voltage\""));
+  }
+}
+
+TEST(FlowBenchFit, RefusesAValveThatHardlyMoves) {
+  recording::Recording still = strokes({0}, true);
+  for (double& x : still.column(Channel::position)) x = 1e-3 * 0;
+  try {
+    (void)fit_flow_bench({{&still}, {&still}, {}}, {}, driven_stroke_m);
+    FAIL() << "no refusal";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("slides evenly in 0 samples only"));
+  }
+}
+
+}  // namespace
+}  // namespace spoolflow::calibration
