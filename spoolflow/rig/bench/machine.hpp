@@ -6,7 +6,7 @@
 #include "spoolflow/rig/hydraulics/pump_ripple.hpp"
 #include "spoolflow/rig/instruments/current_spikes.hpp"
 #include "spoolflow/rig/instruments/pwm_ripple.hpp"
-#include "spoolflow/rig/plant/vibration.hpp"
+#include "spoolflow/rig/bench/vibration.hpp"
 
 namespace spoolflow::rig {
 
