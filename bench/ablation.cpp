@@ -47,7 +47,7 @@ std::vector<Variant> variants() {
              valve.actuator.coil.eddy_currents.classical_A_per_V = 0;
              valve.actuator.coil.eddy_currents.excess_A_per_rootV = 0;
            }},
-      {.name = "dither not told", .change = [](Parameters& valve) { valve.largest_current_A = 1e3; }},
+      {.name = "dither not found", .change = [](Parameters& valve) { valve.largest_current_A = 1e3; }},
       {.name = "means over periods, not friction's envelope", .over_periods = true},
       {.name = "loads: pressure taken as all but held",
        .change =
@@ -60,7 +60,7 @@ std::vector<Variant> variants() {
       {.name = "no oil temperature", .temperature = false},
       {.name = "no drift of the position sensor",
        .change = [](Parameters& valve) { valve.position_sensor.drift_m_per_K = 0; }},
-      {.name = "no position faults told",
+      {.name = "no position faults",
        .change = [](Parameters& valve) { valve.position_sensor.hardest_acceleration_m_per_s2 = 1e5; }},
       {.name = "friction as on the bench",
        .change =

@@ -1,5 +1,5 @@
 #!/bin/sh
-# ci/cli_page.sh COMMAND [--check]: writes docs/cli.md from the built command's own help, or tells that it is out of date.
+# ci/cli_page.sh COMMAND [--check]: writes docs/cli.md from the built command's own help, or reports that it is out of date.
 set -eu
 spoolflow=$1
 page=$(dirname "$0")/../docs/cli.md
@@ -9,13 +9,14 @@ trap 'rm -f "$made"' EXIT
 help_of() {
   printf '\n## %s\n\n```\n' "$1"
   shift
-  "$spoolflow" "$@" --help
+  "$spoolflow" "$@" --help | grep -v -e '^  -h,--help ' -e '^  -q,--quiet '
   printf '```\n'
 }
 {
   echo "# The command"
   echo
-  echo "Made by \`ci/cli_page.sh\` from \`spoolflow --help\`; a test keeps it fresh."
+  echo "Made by \`ci/cli_page.sh\` from \`spoolflow --help\`; a test keeps it fresh. Every command has \`--help\`; \`-q\` leaves out its"
+  echo "progress, which is shown on a terminal only."
   help_of spoolflow
   for command in $("$spoolflow" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
     help_of "spoolflow $command" "$command"
