@@ -57,7 +57,7 @@ void ValveLine::restore(const KeptValve& kept, live::SharedModel model) {
     rows_.events.push_back({.wall_ms = position_.wall_ms,
                             .valve = valve_,
                             .kind = "program",
-                            .text = "sensor and monitor begin anew: the program is another than before"});
+                            .text = "sensor and monitor are reset: the program is another than before"});
   }
   told_condition_ = work_->view(false).condition;
   alarms_.restore(kept.alarms, waits_of(position_.alarm_waits, valve_));
@@ -129,7 +129,7 @@ live::ValveAtWork* ValveLine::begin_work(const Block& block, const live::SharedM
   }
   if (model.sha256 != position_.model_sha256 || !work_) {
     if (work_)
-      tell(fmt::format("the model {} is in force from block {} on; sensor and monitor begin anew", model.sha256,
+      tell(fmt::format("the model {} is in force from block {} on; sensor and monitor are reset", model.sha256,
                        block.number),
            block);
     begin(model);

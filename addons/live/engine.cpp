@@ -86,7 +86,7 @@ void Engine::restore() {
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,
                  .kind = "program",
-                 .text = "sensor and monitor begin anew: the model or the program is another than before, or what was "
+                 .text = "sensor and monitor are reset: the model or the program is another than before, or what was "
                          "kept is damaged"});
   }
 }

@@ -226,7 +226,7 @@ std::size_t recommended_setting(const DitherStudy& study) {
 DitherStudy dither_study(const model::Model& model, const DitherQuestion& question, unsigned workers) {
   if (!model.observer) {
     throw model::ModelError(
-        "the model has no observer, whose solenoid and friction tell of dither: calibrate it from a campaign with "
+        "the model has no observer, whose solenoid and friction it needs: calibrate it from a campaign with "
         "spring, solenoid_force_map, solenoid_dynamic and axial_force_map");
   }
   DitherStudy study{.question = question};

@@ -34,13 +34,13 @@ void print_summary(const model::Model& model) {
         line.usual ? "" : "  <- UNUSUAL");
   }
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
-  say("  flow force tells the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),
+  say("  flow force determines the flow above {:.3g} mm of opening{}\n", units::mm_from_m(uniqueness.blind_below_m),
       uniqueness.ambiguous_at_m.empty() ? ""
                                         : fmt::format(", but is ambiguous at {} positions (see the model's evidence)",
                                                       uniqueness.ambiguous_at_m.size()));
   if (model.observer && std::ranges::count(model.observer->defaults, model::each_edge_alone) > 0) {
     fmt::print(stderr,
-               "  A and B were joined, and the load passes unequal flows over both edges: they are taken as alike, and "
+               "  A and B were joined, and the load passes unequal flows over both edges: they are assumed equal, and "
                "the band is {:.2g} L/min wider to either side; measure one edge at a time to know\n",
                units::litre_per_minute_per_m3_per_s * sensor::flow_residual_factor *
                    model.observer->parameters.band.flow_residual_m3_per_s);

@@ -80,7 +80,8 @@ void tell(const std::vector<validation::EstimateSummary>& summaries, const Estim
     sound = sound && summary.doubts.empty() && summary.with_fault == 0;
   }
   if (arguments.strict && !sound)
-    throw std::runtime_error("the estimate is written, but there are faults or doubts about the recording (--strict)");
+    throw std::runtime_error(
+        "the estimate is written, but it has faults, or the recording has plausibility findings (--strict)");
 }
 
 }  // namespace
@@ -153,10 +154,9 @@ void add_estimate_command(CLI::App& program) {
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");
   add_environment_option(*command, arguments->environment);
-  command->add_option("--json", arguments->json, "summary to write: mean flow and band, share of each status, doubts")
+  command->add_option("--json", arguments->json, "summary to write: mean flow and band, share of each status, findings")
       ->type_name("SUMMARY.json");
-  command->add_flag("--strict", arguments->strict,
-                    "exit status 1 where a sample has a fault or a recording is doubted");
+  command->add_flag("--strict", arguments->strict, "exit status 1 where a sample has a fault or a recording a finding");
   add_fleet_option(*command, arguments->fleet, "on the recordings");
   add_quiet(*command, arguments->quiet);
   command->callback([arguments] { estimate(*arguments); });

@@ -121,7 +121,7 @@ void export_parameters(const ExportArguments& arguments) {
   }
   constexpr std::size_t room = sizeof sensor::ImageHeader::valve_name - 1;  // and a zero
   if (model.valve.name.size() > room) {
-    say("{}: the image has room for {} of the name's {} bytes and holds its beginning; tell valves apart by the "
+    say("{}: the image has room for {} of the name's {} bytes and holds its beginning; distinguish valves by the "
         "image's model_sha256, or shorten \"name\" in the model\n",
         model.valve.name, room, model.valve.name.size());
   }
@@ -174,9 +174,9 @@ void print_image(const std::string& file, const exports::ImageSummary& image) {
     for (const exports::ImageTableSummary& table : image.tables)
       print("{:<24} {:>9} {:>9}\n", table.name, table.offset, table.bytes);
     print("\nCRC-32 {:08X}, {}\n", header.crc32,
-          image.crc32 == header.crc32 ? "as reckoned"
-          : image.crc32 == 0          ? "not reckoned"
-                                      : fmt::format("but reckoned {:08X}", image.crc32));
+          image.crc32 == header.crc32 ? "as computed"
+          : image.crc32 == 0          ? "not computed"
+                                      : fmt::format("but computed {:08X}", image.crc32));
   }
   if (!image.problem.empty()) print("Its numbers break a limit of models: {}\n", image.problem);
   if (image.refusal == sensor::ImageRefusal::none) print("The sensor takes it.\n");

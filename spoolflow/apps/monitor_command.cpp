@@ -78,7 +78,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
   std::optional<OutputFile> corrected;
   if (!arguments.adapt.empty()) {
     if (std::ranges::count(arguments.recordings, "-") > 0)
-      throw model::ModelError("-: a corrected model tells its recordings by their checksums; --adapt needs files");
+      throw model::ModelError("-: a corrected model names its recordings by their checksums; --adapt needs files");
     inputs.emplace_back(arguments.json);
     corrected.emplace(arguments.adapt, inputs);
   }

@@ -159,7 +159,7 @@ int run_program(void (*add_commands)(CLI::App&), int argc, char** argv) {
     end_cleanly_when_interrupted("spoolflow");
     return run_and_report(add_commands, argc, argv);
   } catch (...) {
-    std::fputs("spoolflow: a failure that could not even be told\n", stderr);
+    std::fputs("spoolflow: a failure that could not be reported\n", stderr);
     return work_failed;
   }
 }

@@ -202,7 +202,7 @@ std::vector<model::Fit> known_of_bench(const BenchFits& fits, bool on_force_benc
   if (const std::optional<EdgeRatio>& edges = fits.maps.edge_ratio) {
     constexpr double standard = 4;  // deviations in the range of 95 %
     out.push_back(
-        {"edges of the path, joined on the bench, as operation tells them apart",
+        {"edges of the path, joined on the bench, as operation identifies them",
          {{"conductance_ratio_of_outlet_to_inlet", edges->value, (edges->highest - edges->lowest) / standard}},
          {1.0}});
   }
@@ -217,7 +217,7 @@ std::vector<model::Fit> known_of_bench(const BenchFits& fits, bool on_force_benc
 void require_agreement(const OperationFit& fit, const std::vector<OperatingRun>& runs) {
   if (fit.force_error_ratio <= largest_force_error_ratio) return;
   throw CalibrationError(fmt::format(
-      "{}: the flow in operation differs from what the bench recordings tell by {:.1f} times what they leave open, at "
+      "{}: the flow in operation differs from that of the bench recordings by {:.1f} times their uncertainty, at "
       "most {:.0f} is credible; give the load's area_ratio under [load] where it passes unequal flows over both edges, "
       "compare the signs and units of both, or leave the operation out",
       runs.front().recording->file.filename().string(), fit.force_error_ratio, largest_force_error_ratio));

@@ -11,7 +11,7 @@ const Residual& residual_of(const Model& model, const std::vector<Residual>& res
       std::find_if(residuals.begin(), residuals.end(), [&](const Residual& each) { return each.of == of; });
   if (found == residuals.end()) {
     throw ModelError(
-        fmt::format("the model of {} tells no residual of its {}, so its uncertainty is unknown; calibrate it again "
+        fmt::format("the model of {} has no residual of its {}, so its uncertainty is unknown; calibrate it again "
                     "with this program",
                     model.valve.name, of));
   }

@@ -94,7 +94,7 @@ Baseline parse_baseline(const std::string& text, const std::string& file) {
     out.dither_amplitude_A = number(*dither, file, "/baseline/dither", "amplitude_A", 1e3);
     out.dither_frequency_Hz = number(*dither, file, "/baseline/dither", "frequency_Hz", 1e5);
   }
-  if (!any) refuse(file, "/baseline", "the runs that it was made from told nothing");
+  if (!any) refuse(file, "/baseline", "the runs that it was made from have no indicator");
   return out;
 }
 

@@ -278,7 +278,7 @@ std::vector<Finding> run_findings(const std::vector<KnownValve>& valve, const Ru
   std::vector<Finding> out;
   if (run.gaps().count > 0) {
     out.push_back({false, fmt::format("{}: {} gap{} without samples, the longest {:.3g} s from {:.3f} s on: the answer "
-                                      "is held there and begins anew behind it",
+                                      "is held there, and the sensor is reset behind it",
                                       name, run.gaps().count, run.gaps().count == 1 ? "" : "s", run.gaps().longest_s,
                                       run.gaps().longest_from_s)});
   }

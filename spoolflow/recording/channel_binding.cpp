@@ -190,7 +190,7 @@ class Binder {
     const std::string place = fmt::format("{}, column '{}'", file_, columns_[index].name);
     if (written.empty()) {
       throw RecordingError(fmt::format(
-          "{}: tells no unit; name it {}_{} or say its unit in a channel map (allowed: "
+          "{}: has no unit; name it {}_{} or give its unit in a channel map (allowed: "
           "{})",
           place, name(channel), units::unit_named(unit_names(channel).front())->header, listed(unit_names(channel))));
     }

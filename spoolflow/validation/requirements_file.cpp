@@ -39,7 +39,7 @@ bool is_share(Figure figure) {
 void check_unit(const Limit& limit, const TomlTable& table) {
   const bool share = is_share(limit.figure);
   if (share == (limit.unit == LimitUnit::percent)) return;
-  throw RecordingError(fmt::format("{}: {} cannot be told in \"{}\"; write unit = {}", table.place("unit"),
+  throw RecordingError(fmt::format("{}: {} has no unit \"{}\"; write unit = {}", table.place("unit"),
                                    name_of(figure_names, limit.figure), name_of(limit_unit_names, limit.unit),
                                    share ? "\"%\"" : "\"% FS\" or \"L/min\""));
 }
@@ -81,7 +81,7 @@ Limit read_limit(const TomlTable& table) {
   check_bounds(limit, table);
   const bool of_all_samples = is_share(limit.figure) && limit.figure != Figure::band_coverage;
   if (of_all_samples && limit.when != When::always) {
-    throw RecordingError(fmt::format("{}: {} is told of all samples only; leave 'when' out", table.place("when"),
+    throw RecordingError(fmt::format("{}: {} is of all samples only; leave 'when' out", table.place("when"),
                                      name_of(figure_names, limit.figure)));
   }
   return limit;

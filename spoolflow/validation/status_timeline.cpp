@@ -49,9 +49,9 @@ const char* meaning(sensor::Status bit) {
     case Status::outside_temperature:
       return "The oil is colder or warmer than in the calibration's recordings.";
     case Status::current_saturated:
-      return "The current sits at the end of its range: the force may be larger than it tells.";
+      return "The current sits at the end of its range: the force may be larger than it shows.";
     case Status::dithered:
-      return "The current is dithered: friction swings between its limits, and the extremes of each period tell.";
+      return "The current is dithered: friction swings between its limits, and the extremes of each period bound it.";
     case Status::sign_undetermined:
       return "The spool stands so near the centre that the oil may flow either way.";
     case Status::ambiguous_load:

@@ -93,7 +93,7 @@ TEST_F(Export, WritesParametersThatInspectReadsBackAndTellsDamageOf) {
   Answer answer = run("inspect valve.bin");
   EXPECT_EQ(answer.status, 0) << answer.message;
   EXPECT_THAT(answer.output, AllOf(HasSubstr("direction b"), HasSubstr("observer, condensed, of one direction"),
-                                   HasSubstr("as reckoned"), HasSubstr("The sensor takes it.")));
+                                   HasSubstr("as computed"), HasSubstr("The sensor takes it.")));
   EXPECT_THAT(run("inspect valve.bin --json").output, HasSubstr("\"accepted\": true"));
   std::string bytes = content("valve.bin");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);

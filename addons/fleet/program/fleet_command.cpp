@@ -164,7 +164,7 @@ void add_fleet_command(CLI::App& program) {
   CLI::App* command = add_command(
       program,
       {"fleet",
-       "show a whole fleet on a page; make its tables and\nstreams; tell how it fares",
+       "show a whole fleet on a page; make its tables and\nstreams; report its state",
        "FLEET.toml, which names NATS and PostgreSQL servers (docs/fleet.md)",
        "a page at http://127.0.0.1:8080 with an interface for other programs, until it is ended; with --setup\n"
        "         tables, stream, roles, and both servers' configuration on standard output; with --status\n"
@@ -176,7 +176,7 @@ void add_fleet_command(CLI::App& program) {
                    "where the page is, instead of 127.0.0.1:8080 or\nwhat the file says; port 0: any that is free")
       ->type_name("ADDRESS:PORT");
   command->add_flag("--setup", arguments->setup, "make what is missing, print the servers'\nconfiguration");
-  command->add_flag("--status", arguments->status, "tell partitions, owners and lag");
+  command->add_flag("--status", arguments->status, "print partitions, owners and lag");
   command->callback([arguments] { fleet_command(*arguments); });
 }
 

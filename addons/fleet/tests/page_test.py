@@ -189,7 +189,7 @@ class Page(unittest.TestCase):
             other = subprocess.run([COMMAND, "account", "auditor", "--token"], text=True, capture_output=True, check=True)
             with open(os.path.join(self.fleet.folder, "tls.toml"), "w", encoding="utf-8") as file:
                 file.write(text + 'certificate = "server.pem"\nkey = "server.key"\n' + other.stdout)
-            while "were read anew" not in (line := page.stderr.readline()):
+            while "were read again" not in (line := page.stderr.readline()):
                 self.assertNotEqual(line, "", "the page has ended")
             self.assertEqual(status(known, bearer), 401)
             bearer = {"Authorization": "Bearer " + re.search(r"auditor\.\S+", other.stderr).group(0)}

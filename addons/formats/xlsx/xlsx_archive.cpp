@@ -9,7 +9,7 @@
 namespace spoolflow::recording {
 
 void refuse_xlsx(const std::string& what, const std::string& why) {
-  throw RecordingError(fmt::format("{}: {}; it is damaged, copy it again, or save it anew", what, why));
+  throw RecordingError(fmt::format("{}: {}; it is damaged, copy it again, or save it again", what, why));
 }
 
 struct XlsxArchive::Zip {
@@ -80,7 +80,7 @@ std::size_t XlsxArchive::Part::read(std::span<char> out) {
   if (archive_.unpacked_ > always + times * archive_.bytes_) {
     throw RecordingError(
         fmt::format("{}: unpacks to more than {} MiB and {} times its size, which no recording does: it is damaged or "
-                    "made to do harm; save it again, or as CSV",
+                    "hostile; save it again, or as CSV",
                     what_, always >> 20U, times));
   }
   return static_cast<std::size_t>(got);

@@ -92,7 +92,7 @@ void Store::close() {
 }
 
 Database& Store::open_one() {
-  if (!database_) throw StoreError(fmt::format("{}: could not be opened anew; nothing is kept", path_));
+  if (!database_) throw StoreError(fmt::format("{}: could not be opened again; nothing is kept", path_));
   return *database_;
 }
 

@@ -122,7 +122,7 @@ std::string Store::write_anew() {
   needs_states_ = true;
   open();
   return fmt::format(
-      "{}: was deleted while spoolflow live worked on it; it is written anew with all that it held. To begin with an "
+      "{}: was deleted while spoolflow live worked on it; it is written again with all that it held. To begin with an "
       "empty store end the program first",
       path_);
 }

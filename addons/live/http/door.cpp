@@ -147,7 +147,7 @@ PageAnswer Door::posted(const PageRequest& request, const Visitor& visitor) {
 
 Admission Door::admit(const PageRequest& request, Access::Time now) {
   if (!knows_host(request.host)) {
-    return {told(421, "this server is 127.0.0.1 or localhost; names of a proxy are told by names = [\"…\"] in [page]")};
+    return {told(421, "this server is 127.0.0.1 or localhost; give names of a proxy by names = [\"…\"] in [page]")};
   }
   const std::string_view path = path_of(request);
   const bool posts = request.method == "POST";

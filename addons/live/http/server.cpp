@@ -107,7 +107,7 @@ struct PageServer::Parts {
       settings = now;
       watch.follow(watched_files(origin, now));
       asio::post(desk.thread, [this, now] { desk.door.change(now); });
-      told = fmt::format("accounts and certificate were read anew: {} accounts", now.accounts.size());
+      told = fmt::format("accounts and certificate were read again: {} accounts", now.accounts.size());
     } catch (const std::exception& error) {
       told = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
     }

@@ -250,7 +250,7 @@ std::string metrics_text(const Engine& engine) {
          [&](const Row& row) { return known(row.valve, row.valve.answer.flow_lower_m3_per_s); });
   family("spoolflow_flow_upper_cubic_metres_per_second", "gauge", "Upper end of the 95 % band of the flow rate.",
          [&](const Row& row) { return known(row.valve, row.valve.answer.flow_upper_m3_per_s); });
-  family("spoolflow_pressure_difference_pascals", "gauge", "Pressure difference over the open edge, as believed.",
+  family("spoolflow_pressure_difference_pascals", "gauge", "Pressure difference over the open edge, estimated.",
          [&](const Row& row) { return known(row.valve, row.valve.answer.pressure_difference_Pa); });
   family("spoolflow_ne107", "gauge", "NAMUR NE 107: 0 good, 1 maintenance, 2 out of specification, 3 check, 4 failure.",
          [](const Row& row) { return static_cast<int>(row.valve.condition); });

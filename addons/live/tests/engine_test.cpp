@@ -114,7 +114,7 @@ TEST_F(EngineTest, AnotherModelBeginsAnewAndCountsOn) {
   const Engine second(kept, "test");
   EXPECT_EQ(second.view(0).samples, 100U);
   ASSERT_FALSE(second.events().empty());
-  EXPECT_THAT(second.events().back().text, HasSubstr("begin anew"));
+  EXPECT_THAT(second.events().back().text, HasSubstr("are reset"));
 }
 
 // A file that may not grow stands for the full disk.

@@ -190,7 +190,7 @@ TEST_F(StoreTest, ASymbolicLinkLeadsToAStoreThatIsMendedWhereItLies) {
   Store store(path("link.sqlite"));
   commit(store, 1000, {kept("a", 1000, 1e-4)});
   std::filesystem::remove(path("disk/s.sqlite"));
-  EXPECT_THAT(store.look_after(2000), HasSubstr("written anew"));
+  EXPECT_THAT(store.look_after(2000), HasSubstr("written again"));
   EXPECT_TRUE(std::filesystem::is_symlink(path("link.sqlite")));
   EXPECT_TRUE(std::filesystem::exists(path("disk/s.sqlite")));
   EXPECT_EQ(store.states().size(), 1U);

@@ -207,7 +207,7 @@ class Strangers(unittest.TestCase):
 
                 self.assertEqual(status(), 200)
                 def read_anew(times):  # not by trying: wrong tokens are held back
-                    until(lambda: live.heard().count("were read anew") == times)
+                    until(lambda: live.heard().count("were read again") == times)
 
                 write(self.anna)
                 read_anew(1)

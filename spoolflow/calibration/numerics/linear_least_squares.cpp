@@ -36,7 +36,7 @@ LinearLeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::Vec
   if (matrix.rows() >= unknowns) inverse = inverse_of_definite(normal);
   if (!inverse) {
     throw CalibrationError(
-        fmt::format("{} cannot be identified: {} values do not tell {} unknowns apart", what, matrix.rows(), unknowns));
+        fmt::format("{} cannot be identified: {} values do not determine {} unknowns", what, matrix.rows(), unknowns));
   }
   LinearLeastSquares out{inverse->lazyProduct(sums), {}, std::move(*inverse)};
   out.deviation = right - matrix.lazyProduct(out.solution);

@@ -278,9 +278,8 @@ class ConfinedTable final : public VectorTable {
 
  private:
   [[noreturn]] void refuse_end() {
-    throw RecordingError(
-        fmt::format("{}: is damaged or made to do harm: the process that read it {}; copy or record it again", file(),
-                    process_.end()));
+    throw RecordingError(fmt::format("{}: is damaged or hostile: the process that read it {}; copy or record it again",
+                                     file(), process_.end()));
   }
 
   /// The content of the child's next message, valid until the one after.

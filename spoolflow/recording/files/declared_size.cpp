@@ -14,7 +14,7 @@ void DeclaredSize::add(const std::string& name, std::uint64_t rows, std::uint64_
   if (declared_bytes_ <= always_bytes + times * static_cast<double>(file_bytes_)) return;
   throw RecordingError(
       fmt::format("{}: up to '{}' it declares {:.4g} MiB of numbers in a file of {:.3g} MiB, more than {} MiB and {} "
-                  "times its size: it is damaged, sparse, or made to do harm; record it again, or save it without "
+                  "times its size: it is damaged, sparse, or hostile; record it again, or save it without "
                   "compression",
                   file_, name, declared_bytes_ / mebibyte, static_cast<double>(file_bytes_) / mebibyte,
                   always_bytes / mebibyte, times));

@@ -88,7 +88,7 @@ class Groups {
       at = group.link(0);
     }
     if (number_bytes == 0 && records->bytes.size() > 1) {
-      refuse_mdf4(block.what, "several kinds of records, which no number tells apart");
+      refuse_mdf4(block.what, "several kinds of records, which no number distinguishes");
     }
   }
 
@@ -203,7 +203,7 @@ class Groups {
   void invalid_from(const Mdf4Group& group, const Mdf4Block& block, std::uint32_t bit, Mdf4Sample& sample) const {
     if (group.records->stream.by_columns() && group.apart_bytes == 0) return;
     if (std::uint64_t{data_bytes_} + bit / 8 >= group.record_bytes + group.apart_bytes) {
-      refuse_mdf4(block.what, fmt::format("there is no bit {} that tells what is invalid", bit));
+      refuse_mdf4(block.what, fmt::format("there is no bit {} that marks invalid samples", bit));
     }
     sample.invalid_bit = 8 * data_bytes_ + bit;
   }

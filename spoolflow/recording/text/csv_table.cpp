@@ -128,7 +128,7 @@ void CsvTable::refuse_grouping(const GroupedCell& cell) const {
   throw RecordingError(
       fmt::format("{}, column '{}': '{}' stands beside whole numbers without '{}', so '{}' seems to group thousands, "
                   "and its numbers "
-                  "cannot be told from decimals; write numbers without marks for thousands, such as 1088",
+                  "cannot be distinguished from decimals; write numbers without marks for thousands, such as 1088",
                   input_->name(), name, shortened(cell.text), point_, point_));
 }
 

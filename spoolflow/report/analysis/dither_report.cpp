@@ -82,13 +82,13 @@ CaptionedFigure setting_map(const DitherStudy& study, const HeatScale& heat, con
 
 /// Band, tremble and ripple over the amplitude at some frequencies.
 CaptionedFigure curves(const DitherStudy& study, double full_scale_m3_per_s) {
-  CaptionedFigure out{{.description = "Band, tremble and flow ripple over the amplitude of the dither",
+  CaptionedFigure out{{.description = "Band, motion and flow ripple over the amplitude of the dither",
                        .x_title = "Amplitude of the coil current",
                        .x_quantity = units::Kind::current,
                        .x_lowest = 0.0,
                        .x_highest = study.amplitude_A.back()}};
-  Panel band{.title = "Half width of the band [% FS]", .height_px = 190, .lowest = 0.0};
-  Panel tremble{.title = "Tremble [µm]", .height_px = 150, .lowest = 0.0};
+  Panel band{.title = "Half-width of the band [% FS]", .height_px = 190, .lowest = 0.0};
+  Panel tremble{.title = "Motion [µm]", .height_px = 150, .lowest = 0.0};
   Panel ripple{.title = "Flow ripple [% FS]", .height_px = 170, .lowest = 0.0};
   const double limit = 100 * study.question.ripple_limit_share;
   ripple.highest = 4 * limit;
@@ -133,7 +133,7 @@ HtmlTable points_table(const DitherStudy& study, double full_scale_m3_per_s) {
                    {"Half swing", Set::number, Kind::force},
                    {"Band without [% FS]"},
                    {"Band [% FS]"},
-                   {"Tremble [µm]"},
+                   {"Motion [µm]"},
                    {"Ripple [% FS]"},
                    {"Freed", Set::text}});
   for (std::size_t p = 0; p < study.points.size(); ++p) {
@@ -180,18 +180,18 @@ DitherVerdict dither_verdict(const model::Model& model, const DitherStudy& study
              percent(without.mean_band_m3_per_s), study.points.size()));
   std::size_t freed = 0;
   for (const auto& effects : study.effects) freed += effects[study.recommended].frees ? 1 : 0;
-  out.remarks.push_back(phrase(
-      "The spool trembles by up to {} µm, the flow by up to {} % FS ({}); the limit is {} % FS. Dither frees the "
-      "spool both ways in each period at {} of {} points.",
-      fixed(1e6 * best.largest_tremble_m, 2), percent(best.largest_ripple_m3_per_s),
-      three_digits(units::flow(best.largest_ripple_m3_per_s)), limit, freed, study.points.size()));
+  out.remarks.push_back(
+      phrase("The spool moves by up to {} µm, the flow by up to {} % FS ({}); the limit is {} % FS. Dither "
+             "overcomes stiction both ways in each period at {} of {} points.",
+             fixed(1e6 * best.largest_tremble_m, 2), percent(best.largest_ripple_m3_per_s),
+             three_digits(units::flow(best.largest_ripple_m3_per_s)), limit, freed, study.points.size()));
   out.remarks.emplace_back(
       "The amplitude is that of the measured coil current; the current control leaves out a part of what it is asked "
       "for, and the position control adds to it where the spool moves. Begin with less, and measure the ripple.");
   if (amplitude_A > 0) {
     out.remarks.push_back(
-        phrase("The limit is kept as told up to {} times that amplitude: a reserve for the position control, which "
-               "is not reckoned with and feeds a fast tremble.",
+        phrase("The prediction keeps the limit up to {} times that amplitude: a reserve for the position control, "
+               "which is not modelled and amplifies fast motion.",
                fixed(1 + analysis::amplitude_reserve(study.frequency_at_Hz(study.recommended)), 2)));
   }
   return out;
@@ -212,21 +212,21 @@ void write_dither_report(std::ostream& out, const model::Model& model, const Dit
       "The band at rest is what friction and the maps leave open of the flow force. Dither takes half the swing of the "
       "magnetic force off friction's limits: the swing is that of the model's solenoid, with eddy currents and "
       "hysteresis, driven with this current about the one that holds the spool.");
-  page.pair({setting_map(study, band_heat, "Half width of the band",
-                         "Half width of the band at rest, mean over the working points.",
+  page.pair({setting_map(study, band_heat, "Half-width of the band",
+                         "Half-width of the band at rest, mean over the working points.",
                          [&](const DitherSetting& each) { return 100 * each.mean_band_m3_per_s / full_scale; }),
              setting_map(study, ripple_heat, "Flow ripple",
-                         "Half of peak to peak of the flow that the spool's tremble makes, the largest of the points.",
+                         "Half of peak to peak of the flow that the spool's motion makes, the largest of the points.",
                          [&](const DitherSetting& each) { return 100 * each.largest_ripple_m3_per_s / full_scale; })});
   page.figure(curves(study, full_scale));
   page.section("At the recommended setting");
   page.table(points_table(study, full_scale));
   page.note(fmt::format(
       "Current holds the spool; sliding and sticking are the limits of friction of the model in operation, the half "
-      "swing is that of the magnetic force. The sticking limit is told after a rest of {} s. Up to friction the "
+      "swing is that of the magnetic force. The sticking limit is that after a rest of {} s. Up to friction the "
       "contacts give way elastically; beyond, the moving mass ({} kg) follows the force on springs and contacts, with "
       "friction that falls to {} of the bench's at speed (assumed). Left out: what the position control adds to the "
-      "current where the spool moves, and changes of the pressure difference that the tremble itself makes.",
+      "current where the spool moves, and changes of the pressure difference that the motion itself makes.",
       fixed(analysis::told_rest_s, 0), three_digits(model.observer->parameters.moving_mass_kg),
       fixed(analysis::moving_friction_share, 1)));
   show_inputs(page, model, {});

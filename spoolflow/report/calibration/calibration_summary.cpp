@@ -72,7 +72,7 @@ std::vector<SummaryLine> calibration_summary(const model::Model& model) {
       const bool flow = residual.unit == "m3/s";
       const double scale = flow ? units::litre_per_minute_per_m3_per_s : 1.0;
       const double most = usual_share * scale_of(residual, largest_force_N, model.valve.rated_flow_m3_per_s) * scale;
-      out.push_back(line(fmt::format("left of {}, RMS", residual.of), residual.rms * scale,
+      out.push_back(line(fmt::format("residual of {}, RMS", residual.of), residual.rms * scale,
                          flow ? "L/min" : residual.unit, -no_limit, most));
     }
   };

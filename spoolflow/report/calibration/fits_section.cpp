@@ -49,7 +49,7 @@ void show_correlations(HtmlPage& page, const model::Fit& fit) {
   constexpr std::size_t most = 8;
   const std::vector<Pair> pairs = close_pairs(fit);
   if (pairs.empty()) {
-    page.paragraph("No two of these parameters are correlated by half or more: the recordings tell them apart.");
+    page.paragraph("No two of these parameters are correlated by half or more: the recordings identify each of them.");
     return;
   }
   HtmlTable table({{"parameter", Set::text}, {"and", Set::text}, {"correlation"}});

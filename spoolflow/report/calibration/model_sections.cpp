@@ -190,7 +190,7 @@ void show_blindness(HtmlPage& page, const model::Model& model, const std::vector
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
   page.paragraph(phrase(
       "Force that is not flow force (friction, hysteresis, a wrong map) becomes an error of the flow rate through the "
-      "slope of the map. Below {} of opening the levels' forces cannot be told apart at all. {}",
+      "slope of the map. Below {} of opening the levels' forces do not differ by more than noise. {}",
       fixed(units::length(uniqueness.blind_below_m), 2),
       uniqueness.ambiguous_at_m.empty()
           ? "Elsewhere each force means one flow rate: nowhere does a higher pressure difference pull less."

@@ -46,7 +46,7 @@ Verdict calibration_verdict(const model::Model& model) {
       fixed(units::current(condensed.current_A.upper), 2), residual_text(model, model::of_magnetic_force),
       residual_text(model, model::of_axial_force), residual_text(model, model::of_flow_rate));
   const model::Uniqueness& uniqueness = model.evidence.uniqueness;
-  out.limits.push_back(phrase("Below {} of opening the flow force does not tell the flow.",
+  out.limits.push_back(phrase("Below {} of opening the flow force does not determine the flow.",
                               fixed(units::length(uniqueness.blind_below_m), 2)));
   out.limits.push_back(
       uniqueness.ambiguous_at_m.empty()

@@ -17,7 +17,7 @@ std::optional<CaptionedFigure> hysteresis_figure(const validation::Validation& v
   Panel panel{.title = "Mean error [% FS]", .height_px = 220};
   Text caption =
       "Mean error over position while the spool opens and closes, all runs; the gap between both is "
-      "what is left of hysteresis.";
+      "the residual of hysteresis.";
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (!pooled.direction) continue;
     const std::vector<validation::DirectionBin> bins = pooled.direction->bins();

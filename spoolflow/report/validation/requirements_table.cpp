@@ -31,11 +31,11 @@ std::string figure_text(const JudgedLimit& judged) {
     case validation::Figure::p95_of_reading:
       return fmt::format("95th percentile of the {}'s error, of reading", estimator);
     case validation::Figure::wrong_sign:
-      return fmt::format("share of the samples that flow the other way than the {} told", estimator);
+      return fmt::format("share of the samples whose flow has the other sign than the {}'s", estimator);
     case validation::Figure::fault_share:
       break;
   }
-  return fmt::format("share of the samples at which the {} told a fault", estimator);
+  return fmt::format("share of the samples with a fault of the {}", estimator);
 }
 
 const char* when_text(validation::When when) {

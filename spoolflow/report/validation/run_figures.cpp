@@ -96,7 +96,7 @@ CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m
   out.figure.panels.push_back(std::move(position));
   if (!leading.status.empty()) out.figure.panels.push_back(status_panel(leading));
   out.caption = judged ? "Measured and estimated flow rate, and their difference (the paper's Figs. 9 and 10). "
-                       : "Estimated flow rate; the recording has no reference flow, so no error can be told. ";
+                       : "Estimated flow rate; the recording has no reference flow, so its error is not known. ";
   if (!run.pressure_difference_line_Pa.time_s.empty()) {
     out.caption += "The measured pressure difference is shown for comparison; no estimator reads it. ";
   }

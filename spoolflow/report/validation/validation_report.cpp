@@ -41,7 +41,7 @@ void show_tiles(HtmlPage& page, const validation::Validation& validation, double
   for (std::size_t e = validation.pooled.size(); e-- > 0;) {
     const validation::PooledResult& pooled = validation.pooled[e];
     tile(page, fixed(pooled.metrics->all.error.p95 * percent, 1) + " % FS",
-         fmt::format("95 % of the {}'s errors below, all runs weighing alike", sensor_name(pooled.estimator)));
+         fmt::format("95 % of the {}'s errors below, mean over runs", sensor_name(pooled.estimator)));
   }
   tile(page, fixed(leading.metrics->all.error.largest * percent, 0) + " % FS",
        fmt::format("largest error of the {}", sensor_name(leading.estimator)));
@@ -67,11 +67,11 @@ std::string run_facts(const validation::RunResult& run) {
 Text reference_text(const validation::RunResult& run) {
   if (!run.reference_scale) return {};
   const validation::ReferenceScale& found = *run.reference_scale;
-  return phrase(
-      " The reference reads {} \u00b1 {} times the estimate {} {} \u00b1 {} (95 %); this is told, not applied.",
-      fixed(found.scale, 3), fixed(2 * found.scale_uncertainty, 3), found.offset_m3_per_s < 0 ? "less" : "plus",
-      bare(fixed(units::flow(std::abs(found.offset_m3_per_s)), 2)),
-      fixed(units::flow(2 * found.offset_uncertainty_m3_per_s), 2));
+  return phrase(" The reference reads {} \u00b1 {} times the estimate {} {} \u00b1 {} (95 %); reported, not applied.",
+                fixed(found.scale, 3), fixed(2 * found.scale_uncertainty, 3),
+                found.offset_m3_per_s < 0 ? "less" : "plus",
+                bare(fixed(units::flow(std::abs(found.offset_m3_per_s)), 2)),
+                fixed(units::flow(2 * found.offset_uncertainty_m3_per_s), 2));
 }
 
 void show_run(HtmlPage& page, const validation::RunResult& run, double full_scale_m3_per_s) {
@@ -113,8 +113,8 @@ void show_definitions(HtmlPage& page, const validation::Validation& validation, 
       "commanded. At rest: not moving, and more than 1 % open. Around reversal: within 2 s of a change of direction, "
       "or of a start or stop above half of the stroke.");
   page.paragraph(
-      "Of several runs together each run weighs alike, however long it is, in the verdict and in what requirements "
-      "ask of all runs; \u201call samples\u201d is the same with each sample weighing alike.");
+      "Figures of several runs, in the verdict and in the requirements of all runs, are means over runs; \u201call "
+      "samples\u201d is the mean over samples.");
   page.paragraph(fmt::format("The reference meter lags by {} ms (first order; {}; \u00b1: 95 %). The estimate was {}.",
                              fixed(1e3 * validation.reference_lag_s, 0), meters(validation),
                              validation.reference_lag_applied

@@ -82,9 +82,8 @@ const validation::RunResult* Judge::run_of_largest_error() const {
 
 Text Judge::sentence() const {
   if (!leading().metrics) {
-    return fmt::format(
-        "The {} was run over {} recording{}; none has a reference flow, so how wrong it is cannot be told.",
-        leading_name(), validation_.runs.size(), validation_.runs.size() == 1 ? "" : "s");
+    return fmt::format("The {} was run over {} recording{}; none has a reference flow, so its error is not known.",
+                       leading_name(), validation_.runs.size(), validation_.runs.size() == 1 ? "" : "s");
   }
   const validation::ErrorFigures& error = leading().metrics->all.error;
   Text out =
@@ -98,8 +97,8 @@ Text Judge::sentence() const {
   const auto counted = std::ranges::count_if(
       validation_.runs, [&](const validation::RunResult& run) { return counts(run) && run.results.back().metrics; });
   if (counted > 1 && leading().by_sample) {
-    out += fmt::format("; every run weighs alike in this, were every sample to, it would be {}",
-                       percent(leading().by_sample->all.error.p95));
+    out +=
+        fmt::format("; this is the mean over runs, {} over all samples", percent(leading().by_sample->all.error.p95));
   }
   const validation::RunResult* run = run_of_largest_error();
   out += fmt::format(". The largest error is {}{}.", percent(error.largest),
@@ -114,7 +113,7 @@ void Judge::add_phases(std::vector<Remark>& out) const {
   if (rest.samples > 0 && moving.samples > 0 && rest.p95 > 1.15 * moving.p95) {
     out.push_back({Harm::where_worst, rest.p95,
                    fmt::format("At rest 95 % of the errors lie within {}, in motion within {}: friction at rest lies "
-                               "anywhere within its limits, and the force does not tell where.",
+                               "anywhere within its limits, which the force does not show.",
                                percent(rest.p95), percent(moving.p95))});
   } else if (rest.samples > 0 && moving.samples > 0 && moving.p95 > 1.15 * rest.p95) {
     out.push_back({Harm::where_worst, moving.p95,

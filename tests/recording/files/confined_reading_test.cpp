@@ -222,7 +222,7 @@ TEST(ConfinedReading, NumbersAndWordsOfTheChildArriveWhole) {
 
 TEST(ConfinedReading, ACrashOfTheLibraryIsOneError) {
   EXPECT_THAT(course_of([] { __builtin_trap(); }).message,
-              AllOf(HasSubstr("run.h5: is damaged or made to do harm"), HasSubstr("crashed on it")));
+              AllOf(HasSubstr("run.h5: is damaged or hostile"), HasSubstr("crashed on it")));
 }
 
 #if !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)  // the build with sanitizers, which reserves terabytes

@@ -152,7 +152,7 @@ TEST(Verdict, DoesNotBlameRestWhereItIsNoWorse) {
 }
 
 TEST(Verdict, WithoutReferenceSaysThatTheErrorCannotBeTold) {
-  EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence.str(), HasSubstr("cannot be told"));
+  EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence.str(), HasSubstr("its error is not known"));
 }
 
 TEST(Verdict, OrdersItsRemarksByHarmWhateverTheOrderOfTheRuns) {
@@ -186,7 +186,7 @@ TEST(Verdict, SaysWhatItWouldBeWereEverySampleToWeighAlike) {
   validation.pooled.front().by_sample = validation.pooled.front().metrics;
   validation.pooled.front().by_sample->all.error.p95 = 0.08 * full_scale;
   EXPECT_THAT(verdict(small_model(), validation).sentence.str(),
-              HasSubstr("every run weighs alike in this, were every sample to, it would be 8.0 %"));
+              HasSubstr("this is the mean over runs, 8.0 % over all samples"));
 }
 
 TEST(ValidationReport, NeverCallsASpoolClosedOrAtRestWhereItMoves) {

@@ -47,7 +47,7 @@ def _line(name: str, source: Source) -> str:
 
 @contextlib.contextmanager
 def as_file(channels: Optional[Channels]) -> Iterator[Optional[str]]:
-    """The path of the map while it is needed; None where there is none. A dict is told as `channels` in messages."""
+    """The path of the map while it is needed; None where there is none. Messages call a dict `channels`."""
     if channels is None or not isinstance(channels, Mapping):
         yield None if channels is None else os.fsdecode(channels)
         return
