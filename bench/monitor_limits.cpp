@@ -29,7 +29,7 @@
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 #include "spoolflow/rig/bench/operation_protocols.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
@@ -128,7 +128,7 @@ struct Decided {};
 Outcome run(const Valve& valve, const rig::ValveUnderTest& faulty, const Settings& set, std::uint64_t seed,
             std::optional<monitor::Fault> cause) {
   estimation::RunningSensor sensor = estimation::running_sensor(valve.model, estimation::Estimator::observer);
-  monitor::Watch watch(valve.model, {set.at("alarms")});
+  monitor::Monitor watch(valve.model, {set.at("alarms")});
   Outcome out;
   double windows = 0;
   const auto judge = [&] {
@@ -225,7 +225,7 @@ struct Bench {
     rig::ValveUnderTest faulty = tested(static_cast<std::size_t>(&valve - valves.data()), false);
     kind.apply(faulty, level);
     estimation::RunningSensor sensor = estimation::running_sensor(valve.model, estimation::Estimator::observer);
-    monitor::Watch watch(valve.model, {set.at("alarms")});
+    monitor::Monitor watch(valve.model, {set.at("alarms")});
     monitor::Doubt doubt;
     double windows = 0;
     rig::SimulationOptions options{.with_truth = true, .keeps_recording = false};

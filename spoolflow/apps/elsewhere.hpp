@@ -26,7 +26,7 @@ struct StudyInputs {
 
 /// How far the watch over a valve has come.
 struct Watched {
-  monitor::WatchState state{};
+  monitor::MonitorState state{};
   std::vector<report::TrendPoint> trend{};
   report::DoubtFigures band{};
 };

@@ -24,19 +24,19 @@
 namespace spoolflow::apps {
 namespace {
 
-void go_on(monitor::Watch& watch, const Watched& from) {
+void go_on(monitor::Monitor& watch, const Watched& from) {
   if (!watch.set_state(from.state)) throw std::runtime_error("the state of a watch is of another version");
 }
 
 void write_corrected(std::ostream& out, const MonitorArguments& arguments, Monitored from,
-                     const monitor::Watch& watch) {
+                     const monitor::Monitor& watch) {
   from.model_sha256 = model::sha256_of_file(arguments.model);
   from.recordings.assign(arguments.recordings.begin(), arguments.recordings.end());
   from.tool_version = std::string(tool_version());
   model::write_model(out, corrected_model(from, watch));
 }
 
-void print_condition(const monitor::Watch& watch) {
+void print_condition(const monitor::Monitor& watch) {
   print("NE 107: {}\n", monitor::name(watch.condition()));
   for (const monitor::Cause& cause : watch.causes())
     print("{:<20} odds {:.3g} to 1\n", monitor::name(cause.fault), cause.odds);
@@ -66,7 +66,7 @@ void monitor_recordings(const MonitorArguments& arguments) {
     inputs.emplace_back(arguments.channels);
   }
   if (!arguments.baseline.empty()) inputs.emplace_back(arguments.baseline);
-  monitor::Watch watch(model, {arguments.false_alarms_per_year}, read_baseline(arguments.baseline));
+  monitor::Monitor watch(model, {arguments.false_alarms_per_year}, read_baseline(arguments.baseline));
   const report::ReaderUnits units(arguments.units);
   std::optional<OutputFile> page;
   if (!arguments.report.empty()) {

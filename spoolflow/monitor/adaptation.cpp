@@ -28,12 +28,12 @@ constexpr std::array<Corrected, 5> corrected{{
     {Magnitude::position_zero, Fault::position_sensor, "position zero", "m", 1, 0, most_position_zero_m},
 }};
 
-bool explains(const SideFindings& side, Fault fault) {
+bool explains(const DirectionFindings& side, Fault fault) {
   return side.raised && side.likeliest[static_cast<std::size_t>(fault)];
 }
 
 /// What of a side is corrected, each within its limit.
-std::vector<Corrected> wanted(const model::Model& model, const SideFindings& side) {
+std::vector<Corrected> wanted(const model::Model& model, const DirectionFindings& side) {
   std::vector<Corrected> out;
   for (const Corrected& each : corrected) {
     if (!explains(side, each.fault) || (model.whole() && each.fault == Fault::position_sensor)) continue;
@@ -75,7 +75,7 @@ void put(Difference& difference, Magnitude magnitude, double value) {
 /// What was raised, and cannot be corrected.
 std::string left_over(const model::Model& model, const Findings& findings) {
   bool any = false, edge = false, zero = false, none = true;
-  for (const SideFindings& side : findings.side) {
+  for (const DirectionFindings& side : findings.side) {
     any = any || side.raised;
     edge = edge || explains(side, Fault::edge_wear);
     zero = zero || (model.whole() && explains(side, Fault::position_sensor));
@@ -95,7 +95,7 @@ model::Model adapted(const model::Model& model, const Findings& findings, model:
   model::Model out = model;
   for (std::size_t s = 0; s < findings.side.size(); ++s) {
     if (s == 1 && !model.whole()) break;
-    const SideFindings& side = findings.side[s];
+    const DirectionFindings& side = findings.side[s];
     const std::string direction = model.whole() ? (s == 1 ? "a" : "b") : model.valve.direction;
     Difference difference;
     for (const Corrected& each : wanted(model, side)) {

@@ -10,14 +10,14 @@
 namespace spoolflow::monitor {
 
 /// What one side's raised charts are best explained by.
-struct SideFindings {
+struct DirectionFindings {
   bool raised = false;                            ///< a chart is
   std::array<bool, isolated_faults> likeliest{};  ///< the set of faults that explains best, in the order of Fault
   Magnitudes value{};                             ///< in usual_fault, against the model
   Magnitudes deviation{};                         ///< one standard deviation of each
 };
 struct Findings {
-  std::array<SideFindings, 2> side{};  ///< of solenoids b and a; a valve of one direction has the first
+  std::array<DirectionFindings, 2> side{};  ///< of solenoids b and a; a valve of one direction has the first
 };
 
 /// No more is corrected: beyond, the valve is to be repaired or calibrated again.

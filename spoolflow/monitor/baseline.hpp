@@ -9,7 +9,7 @@
 namespace spoolflow::monitor {
 
 /// Of one side.
-struct SideBaseline {
+struct DirectionBaseline {
   Magnitudes centre{};                 ///< in usual_fault, against the model
   Magnitudes spread = healthy_spread;  ///< one standard deviation about it
   double windows = 0;                  ///< it was learnt from
@@ -18,7 +18,7 @@ struct SideBaseline {
 
 struct Baseline {
   std::uint64_t model = 0;  ///< fingerprint of the model against which it was learnt
-  std::array<SideBaseline, 2> side{};
+  std::array<DirectionBaseline, 2> side{};
   double dither_amplitude_A = 0;   ///< of the electronics' dither; 0: none was found
   double dither_frequency_Hz = 0;  ///< likewise
 };

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, 2> side_names{"b", "a"};
 constexpr double most_centre = 50;  // usual faults
 
-Json side_json(const SideBaseline& side) {
+Json side_json(const DirectionBaseline& side) {
   return {{"windows", side.windows},
           {"resistance_Ohm", side.resistance_Ohm},
           {"centre", side.centre},

@@ -16,7 +16,7 @@ constexpr double most_doubt_share = 0.7;
 sensor::Estimate<double> widened(const model::Model& model, const Doubt& doubt, const estimation::TimedSample& sample,
                                  double oil_temperature_K, const sensor::Estimate<double>& answer) {
   const bool opens_a = model.whole() && sample.position_m < 0;
-  const SideDoubt& side = doubt.side[opens_a ? 1 : 0];
+  const DirectionDoubt& side = doubt.side[opens_a ? 1 : 0];
   sensor::Estimate<double> out = answer;
   if (!side.raised) return out;
   out.status |= sensor::Status::model_doubt;

@@ -7,12 +7,12 @@
 namespace spoolflow::monitor {
 
 /// The likeliest explanation of one side; nothing where no chart is raised.
-struct SideDoubt {
+struct DirectionDoubt {
   bool raised = false;
   Magnitudes value{};  ///< in usual_fault
 };
 struct Doubt {
-  std::array<SideDoubt, 2> side{};  ///< of solenoids b and a
+  std::array<DirectionDoubt, 2> side{};  ///< of solenoids b and a
   [[nodiscard]] bool any() const { return side[0].raised || side[1].raised; }
 };
 

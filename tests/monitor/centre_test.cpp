@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 #include "tests/monitor/example.hpp"
 
 namespace spoolflow::monitor {
@@ -25,7 +25,7 @@ struct Strokes {
   bool to_b_alone = false;
 };
 
-void take(Watch& watch, const model::Model& model, const Strokes& strokes) {
+void take(Monitor& watch, const model::Model& model, const Strokes& strokes) {
   double time_s = 0;
   const double drift_free_K = model.observer->parameters.position_sensor.drift_free_K;
   for (int stroke = 0; stroke < strokes.count; ++stroke) {
@@ -47,13 +47,13 @@ void take(Watch& watch, const model::Model& model, const Strokes& strokes) {
   watch.finish();
 }
 
-Watch watched(const model::Model& model, const Strokes& strokes) {
-  Watch watch(model);
+Monitor watched(const model::Model& model, const Strokes& strokes) {
+  Monitor watch(model);
   take(watch, model, strokes);
   return watch;
 }
 
-Indicator centre(const Watch& watch) {
+Indicator centre(const Monitor& watch) {
   for (const Indicator& each : watch.indicators()) {
     if (each.name == "centre_position") return each;
   }
@@ -63,7 +63,7 @@ Indicator centre(const Watch& watch) {
 TEST(Centre, ASensorWhoseZeroDriftedIsRaisedAsThat) {
   const model::Model model = whole();
   for (const double drift_m : {40e-6, -40e-6, 100e-6}) {
-    const Watch watch = watched(model, {.zero_m = drift_m});
+    const Monitor watch = watched(model, {.zero_m = drift_m});
     EXPECT_NEAR(centre(watch).value, drift_m, 1e-6);
     EXPECT_LT(centre(watch).uncertainty_95, 10e-6);
     EXPECT_EQ(centre(watch).state, IndicatorState::raised);
@@ -77,7 +77,7 @@ TEST(Centre, ASensorWhoseZeroDriftedIsRaisedAsThat) {
 TEST(Centre, AHealthyOneRaisesNothing) {
   const model::Model model = whole();
   for (const double drift_m : {0.0, 7e-6, -7e-6}) {
-    const Watch watch = watched(model, {.zero_m = drift_m, .count = 200});
+    const Monitor watch = watched(model, {.zero_m = drift_m, .count = 200});
     EXPECT_EQ(centre(watch).state, IndicatorState::good);
     EXPECT_EQ(watch.condition(), Ne107::good);
     EXPECT_TRUE(watch.causes().empty());
@@ -87,14 +87,14 @@ TEST(Centre, AHealthyOneRaisesNothing) {
 // It holds the spool short of the centre on either side.
 TEST(Centre, FrictionIsNoShiftedZero) {
   const model::Model model = whole();
-  const Watch watch = watched(model, {.short_m = 50e-6, .count = 200});
+  const Monitor watch = watched(model, {.short_m = 50e-6, .count = 200});
   EXPECT_NEAR(centre(watch).value, 0, 1e-6);
   EXPECT_EQ(watch.condition(), Ne107::good);
 }
 
 TEST(Centre, StrokesToOneSideAloneDoNotTellIt) {
   const model::Model model = whole();
-  const Watch watch = watched(model, {.zero_m = 40e-6, .to_b_alone = true});
+  const Monitor watch = watched(model, {.zero_m = 40e-6, .to_b_alone = true});
   EXPECT_EQ(centre(watch).state, IndicatorState::unknown);
   EXPECT_EQ(watch.condition(), Ne107::good);
 }
@@ -102,14 +102,14 @@ TEST(Centre, StrokesToOneSideAloneDoNotTellIt) {
 TEST(Centre, ABaselineTakesTheZeroThatTheValveHadThen) {
   const model::Model model = whole();
   const Baseline then = watched(model, {.zero_m = 20e-6}).learnt();
-  Watch later(model, {}, then);
+  Monitor later(model, {}, then);
   take(later, model, {.zero_m = 20e-6, .count = 200});
   EXPECT_NEAR(centre(later).baseline, 15e-6, 3e-6);  // healthy valves have none: it is pulled to that
   EXPECT_EQ(later.condition(), Ne107::good);
 }
 
 TEST(Centre, AValveOfOneDirectionHasItsClosedStopInstead) {
-  EXPECT_THROW((void)centre(Watch(example())), std::out_of_range);
+  EXPECT_THROW((void)centre(Monitor(example())), std::out_of_range);
 }
 
 }  // namespace

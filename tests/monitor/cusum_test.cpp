@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/monitor/side.hpp"
+#include "spoolflow/monitor/direction_monitor.hpp"
 
 namespace spoolflow::monitor {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/monitor/dense.hpp"
+#include "spoolflow/monitor/direction_monitor.hpp"
 #include "spoolflow/monitor/event_finder.hpp"
 #include "spoolflow/monitor/event_window.hpp"
 #include "spoolflow/monitor/isolation.hpp"
-#include "spoolflow/monitor/side.hpp"
 #include "tests/monitor/example.hpp"
 
 namespace spoolflow::monitor {
@@ -208,8 +208,8 @@ TEST(Side, AWindowOfWanderingPressureDecidesNothingAlone) {
   const auto result = fit_window(valve(), example().valve.stroke_m, window);
   ASSERT_TRUE(result);
   ASSERT_FALSE(result->shape_tells);
-  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
-  SideState state;
+  DirectionReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  DirectionState state;
   const Limits limits = limits_for(1);
   state.window = window;
   finish(reference, limits, state);
@@ -223,9 +223,9 @@ TEST(Side, AWindowOfWanderingPressureDecidesNothingAlone) {
 }
 
 TEST(Side, ThreeWindowsThatMakeAFaultTenTimesLikelierRaiseIt) {
-  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  DirectionReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
   constexpr Limits never{1e9, 1e9};  // charts of single windows decide nothing
-  SideState state;
+  DirectionState state;
   for (int window = 1; window <= 3; ++window) {
     EXPECT_FALSE(raised(state));
     state.window = triangle({0, 0, 0, 0, 1.5, 0}, 50e5);
@@ -233,7 +233,7 @@ TEST(Side, ThreeWindowsThatMakeAFaultTenTimesLikelierRaiseIt) {
   }
   ASSERT_TRUE(raised(state));
   EXPECT_TRUE(decided(state, isolation_of(reference, state)));
-  SideState healthy;
+  DirectionState healthy;
   for (int window = 1; window <= 6; ++window) {
     healthy.window = triangle({}, 50e5);
     finish(reference, never, healthy);
@@ -242,8 +242,8 @@ TEST(Side, ThreeWindowsThatMakeAFaultTenTimesLikelierRaiseIt) {
 }
 
 TEST(Side, ASilentCoilEndsTheWindowOfASpoolThatFrictionHoldsOpen) {
-  SideReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
-  SideState state;
+  DirectionReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
+  DirectionState state;
   state.window = triangle({}, 50e5);
   const double ended_s = state.window.events[state.window.count - 1].time_s;
   const double held_m = 0.9 * valve().closed_below_m;

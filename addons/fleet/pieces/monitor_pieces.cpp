@@ -68,7 +68,7 @@ fleet::Outcome do_monitor_piece(const fleet::Piece& piece) {
   recording::ChannelMap channels;
   if (has_channels) channels = recording::read_channel_map(path_of(piece, next++));
   const std::string baseline = has_baseline ? path_of(piece, next++) : std::string();
-  monitor::Watch watch(model, {false_alarms_per_year}, read_baseline(baseline));
+  monitor::Monitor watch(model, {false_alarms_per_year}, read_baseline(baseline));
   Watched watched;
   if (goes_on) {
     watched = read_watched(fleet::whole_file(path_of(piece, next)));

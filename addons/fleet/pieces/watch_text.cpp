@@ -62,7 +62,7 @@ monitor::Indicator indicator_of(const Json& from) {
 }  // namespace
 
 std::string bytes_of(const Watched& watched) {
-  std::vector<std::uint8_t> state(sizeof(monitor::WatchState));
+  std::vector<std::uint8_t> state(sizeof(monitor::MonitorState));
   std::memcpy(state.data(), &watched.state, state.size());
   Json trend = Json::array();
   for (const report::TrendPoint& point : watched.trend) {

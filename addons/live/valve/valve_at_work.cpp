@@ -60,7 +60,7 @@ ValveAtWork::ValveAtWork(std::string id, SharedModel model, std::string_view pro
   if (model_.model->has_observer()) watch_.emplace(*model_.model);
   layout_ = fmt::format("{}, model {}, sensor {} bytes, doubt {} bytes, monitor {} bytes of version {}", program,
                         model_.sha256, sizeof(estimation::RunningState), sizeof(monitor::Doubt),
-                        watch_ ? sizeof(monitor::WatchState) : 0, monitor::watch_state_version);
+                        watch_ ? sizeof(monitor::MonitorState) : 0, monitor::watch_state_version);
 }
 
 bool ValveAtWork::restore(const KeptState& kept) {
@@ -83,7 +83,7 @@ bool ValveAtWork::restore(const KeptState& kept) {
   if (!take_bytes(bytes, state) || !estimation::may_be_running_state(state_bytes)) return false;
   if (!take_bytes(bytes, doubt) || !take_bytes(bytes, doubt_second) || !numerics::holds_numbers(doubt)) return false;
   if (watch_) {
-    const auto watched = std::make_unique<monitor::WatchState>();
+    const auto watched = std::make_unique<monitor::MonitorState>();
     if (!take_bytes(bytes, *watched) || !watch_->set_state(*watched)) return false;
   }
   sensor_.set_state(state);
@@ -222,7 +222,7 @@ ValveCommit ValveAtWork::take_commit(bool with_indicators) {
   out.state.counts = sum(counted_before_, counted_);
   std::vector<std::byte>& bytes = out.state.bytes;
   bytes.reserve(sizeof(estimation::RunningState) + sizeof(monitor::Doubt) + sizeof(double) +
-                (watch_ ? sizeof(monitor::WatchState) : 0) + sizeof(std::uint32_t));
+                (watch_ ? sizeof(monitor::MonitorState) : 0) + sizeof(std::uint32_t));
   put_bytes(bytes, sensor_.state());
   put_bytes(bytes, doubt_);
   put_bytes(bytes, doubt_second_);

@@ -14,7 +14,7 @@
 #include "addons/live/valve/raw_trace.hpp"
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 
 namespace spoolflow::live {
 
@@ -94,7 +94,7 @@ class ValveAtWork {
   std::string layout_;  ///< of what is kept: other bytes are not taken
   mutable std::mutex mutex_;
   estimation::RunningSensor sensor_;
-  std::optional<monitor::Watch> watch_;  ///< of models that have an observer
+  std::optional<monitor::Monitor> watch_;  ///< of models that have an observer
   monitor::Doubt doubt_;
   SourcePosition after_;
   SourceCounts counted_before_{};  ///< in the store when the program started

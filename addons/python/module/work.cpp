@@ -122,7 +122,7 @@ py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& r
   return at_work([&](SignalCheck& check) {
            const model::Model& model = kept->model;
            const recording::ChannelMap map = channel_map(channels);
-           monitor::Watch watch(model, {false_alarms_per_year}, apps::read_baseline(baseline));
+           monitor::Monitor watch(model, {false_alarms_per_year}, apps::read_baseline(baseline));
            apps::MonitoredRuns done;
            apps::Monitored from{model, model::sha256_of_text(kept->text), recordings, {}, SPOOLFLOW_VERSION};
            std::uint64_t before_it = 0;

@@ -6,7 +6,7 @@
 
 namespace spoolflow::apps {
 
-model::Model corrected_model(const Monitored& from, const monitor::Watch& watch) {
+model::Model corrected_model(const Monitored& from, const monitor::Monitor& watch) {
   model::Adaptation how{from.tool_version, model::creation_time(), from.model_sha256, {}, {}};
   model::Model before = from.model;
   for (std::size_t k = 0; k < from.recordings.size(); ++k) {

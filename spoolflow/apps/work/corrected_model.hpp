@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "spoolflow/model/model.hpp"
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 
 namespace spoolflow::apps {
 
@@ -20,6 +20,6 @@ struct Monitored {
 
 /// The model with what was found put right, and from which recordings (monitor::adapted). Throws ModelError where there
 /// is nothing to correct, or too much.
-[[nodiscard]] model::Model corrected_model(const Monitored& from, const monitor::Watch& watch);
+[[nodiscard]] model::Model corrected_model(const Monitored& from, const monitor::Monitor& watch);
 
 }  // namespace spoolflow::apps

@@ -11,7 +11,7 @@ namespace spoolflow::apps {
 namespace {
 
 /// Keeps what is told whenever a window was judged, and no more than a page can show.
-void follow_trend(const monitor::Watch& watch, std::vector<report::TrendPoint>& trend) {
+void follow_trend(const monitor::Monitor& watch, std::vector<report::TrendPoint>& trend) {
   constexpr std::size_t most_points = 2000;
   const double windows = watch.judged_windows();
   if (windows == 0 || (!trend.empty() && trend.back().windows == windows)) return;
@@ -31,7 +31,7 @@ std::optional<monitor::Baseline> read_baseline(const std::string& file) {
   return monitor::parse_baseline(model::read_json_text(in), file);
 }
 
-void BandWatch::take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
+void BandWatch::take(const model::Model& model, const monitor::Monitor& watch, const estimation::TimedSample& sample,
                      const sensor::Estimate<double>& answer) {
   const double windows = watch.judged_windows();
   if (windows != windows_) {
@@ -48,7 +48,7 @@ void BandWatch::take(const model::Model& model, const monitor::Watch& watch, con
 }
 
 void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                       monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
+                       monitor::Monitor& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
                        const std::function<void(std::optional<double>)>& progress) {
   recording::ReadOptions options = estimation::sensor_channels(model, channels);
   options.optional.push_back(recording::Channel::position_set);

@@ -7,7 +7,7 @@
 
 #include "spoolflow/estimation/running_sensor.hpp"
 #include "spoolflow/monitor/baseline.hpp"
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 #include "spoolflow/recording/channel_map.hpp"
 #include "spoolflow/report/monitor/monitored_run.hpp"
 
@@ -21,7 +21,7 @@ class BandWatch {
  public:
   /// Goes on from there.
   explicit BandWatch(const report::DoubtFigures& figures = {}) : figures_(figures) {}
-  void take(const model::Model& model, const monitor::Watch& watch, const estimation::TimedSample& sample,
+  void take(const model::Model& model, const monitor::Monitor& watch, const estimation::TimedSample& sample,
             const sensor::Estimate<double>& answer);
   [[nodiscard]] const report::DoubtFigures& figures() const { return figures_; }
 
@@ -40,7 +40,7 @@ struct MonitoredRuns {
 
 /// One recording through sensor and watch. `progress` is told the share read, where it is known.
 void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
-                       monitor::Watch& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
+                       monitor::Monitor& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
                        const std::function<void(std::optional<double>)>& progress);
 
 }  // namespace spoolflow::apps

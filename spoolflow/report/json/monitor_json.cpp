@@ -49,7 +49,7 @@ Json indicators_json(const std::vector<monitor::Indicator>& indicators) {
 
 }  // namespace
 
-void write_monitor_json(std::ostream& out, const model::Model& model, const monitor::Watch& watch,
+void write_monitor_json(std::ostream& out, const model::Model& model, const monitor::Monitor& watch,
                         const std::vector<MonitoredRun>& runs, const DoubtFigures& doubt) {
   Json causes = Json::array();
   for (const monitor::Cause& cause : watch.causes())

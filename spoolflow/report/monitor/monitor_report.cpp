@@ -112,7 +112,7 @@ CaptionedFigure trend_figure(const std::vector<TrendPoint>& trend) {
 
 }  // namespace
 
-void write_monitor_report(std::ostream& out, const model::Model& model, const monitor::Watch& watch,
+void write_monitor_report(std::ostream& out, const model::Model& model, const monitor::Monitor& watch,
                           const std::vector<MonitoredRun>& runs, const std::vector<TrendPoint>& trend,
                           const ReaderUnits& units) {
   HtmlPage page("spoolflow monitor report", "Condition of " + model.valve.name, origin_of(model), units);

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 
 namespace spoolflow::report {
 

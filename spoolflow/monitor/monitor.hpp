@@ -3,10 +3,10 @@
 /// indicators, causes and the sign of NE 107 come out. Causal, of fixed size, without input or output; the state is
 /// plain memory.
 ///
-///     monitor::Watch watch(model);                           // or with a baseline learnt from the valve itself
+///     monitor::Monitor watch(model);                           // or with a baseline learnt from the valve itself
 ///     watch.take(samples, answers);                          // as many at a time as there are
 ///     watch.condition(); watch.causes(); watch.indicators();
-///     const monitor::WatchState kept = watch.state();        // trivially copyable: keep its bytes
+///     const monitor::MonitorState kept = watch.state();        // trivially copyable: keep its bytes
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,15 +17,15 @@
 #include "spoolflow/monitor/baseline.hpp"
 #include "spoolflow/monitor/command_response.hpp"
 #include "spoolflow/monitor/condition.hpp"
+#include "spoolflow/monitor/direction_monitor.hpp"
 #include "spoolflow/monitor/dither_health.hpp"
 #include "spoolflow/monitor/doubt.hpp"
-#include "spoolflow/monitor/side.hpp"
 #include "spoolflow/monitor/status_share.hpp"
 #include "spoolflow/monitor/usage.hpp"
 
 namespace spoolflow::monitor {
 
-/// Grows with the layout of WatchState; kept state of another version is not taken.
+/// Grows with the layout of MonitorState; kept state of another version is not taken.
 inline constexpr std::uint32_t watch_state_version = 4;
 
 struct Options {
@@ -33,7 +33,7 @@ struct Options {
 };
 
 /// All that a watch remembers.
-struct WatchState {
+struct MonitorState {
   std::uint32_t version = watch_state_version;
   bool started = false;
   double last_time_s = 0;
@@ -42,15 +42,16 @@ struct WatchState {
   StatusShares status;
   CommandResponse response;
   DitherHealth dither;
-  std::array<SideState, 2> side;  ///< of solenoids b and a; a valve of one direction has the first
-  CentreRest centre;              ///< of a whole valve
+  std::array<DirectionState, 2> side;  ///< of solenoids b and a; a valve of one direction has the first
+  CentreRest centre;                   ///< of a whole valve
 };
-static_assert(std::is_trivially_copyable_v<WatchState>);
+static_assert(std::is_trivially_copyable_v<MonitorState>);
 
-class Watch {
+class Monitor {
  public:
   /// Keeps a reference to the model. Throws ModelError where it has no observer, or where the baseline is of another.
-  explicit Watch(const model::Model& model, const Options& options = {}, const std::optional<Baseline>& baseline = {});
+  explicit Monitor(const model::Model& model, const Options& options = {},
+                   const std::optional<Baseline>& baseline = {});
 
   /// The next samples and the observer's answers to them, equally many. Samples that the sensor held are counted by
   /// their status and tell nothing else. Throws std::invalid_argument where their numbers differ.
@@ -75,9 +76,9 @@ class Watch {
   /// What was learnt, to compare later runs of the same valve and model with.
   [[nodiscard]] Baseline learnt() const;
   [[nodiscard]] const Usage& usage() const { return state_.usage; }
-  [[nodiscard]] const WatchState& state() const { return state_; }
+  [[nodiscard]] const MonitorState& state() const { return state_; }
   /// Goes on from there. Returns false, and takes nothing, where it is of another version or holds what is no number.
-  [[nodiscard]] bool set_state(const WatchState& state);
+  [[nodiscard]] bool set_state(const MonitorState& state);
 
  private:
   [[nodiscard]] std::size_t sides() const { return model_->whole() ? 2 : 1; }
@@ -85,10 +86,10 @@ class Watch {
   void take_centre(const estimation::TimedSample& sample, double time_step_s);
   void take_command(double position_set_m, double position_m, double time_step_s);
   const model::Model* model_;
-  std::array<SideReference, 2> reference_;
+  std::array<DirectionReference, 2> reference_;
   Limits limits_;
   double dither_amplitude_A_ = 0, dither_frequency_Hz_ = 0;  ///< of the baseline; 0: not known
-  WatchState state_;
+  MonitorState state_;
 };
 
 }  // namespace spoolflow::monitor

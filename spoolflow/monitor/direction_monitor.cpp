@@ -1,4 +1,4 @@
-#include "spoolflow/monitor/side.hpp"
+#include "spoolflow/monitor/direction_monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ constexpr double hottest_over_baseline_K = 60;
 constexpr double falls_share = 0.9;
 constexpr double least_winding_windows = 3;
 
-void follow_resistance(const SideReference& reference, SideState& state) {
+void follow_resistance(const DirectionReference& reference, DirectionState& state) {
   const double learnt_Ohm = reference.baseline.resistance_Ohm;
   const double base_Ohm = learnt_Ohm > 0 ? learnt_Ohm : reference.valve->actuator.coil_resistance.resistance_Ohm;
   if (!(base_Ohm > 0) || state.winding.windows < least_winding_windows) return;
@@ -51,9 +51,9 @@ double beyond(double value, double spread, double deviation) {
 }
 
 /// One score for each chart a window, or a reading, tells of.
-void follow_charts(const SideReference& reference, const Limits& limits, SideState& state, const Evidence& evidence,
-                   bool shape_tells) {
-  const SideBaseline& base = reference.baseline;
+void follow_charts(const DirectionReference& reference, const Limits& limits, DirectionState& state,
+                   const Evidence& evidence, bool shape_tells) {
+  const DirectionBaseline& base = reference.baseline;
   double against = 0;
   bool judged = false;
   for (std::size_t f = 0; f < isolated_faults; ++f) {
@@ -78,7 +78,8 @@ void follow_charts(const SideReference& reference, const Limits& limits, SideSta
 
 /// A chart that has risen falls only once the evidence of all windows, too, speaks against its fault: operation that
 /// tells little of it, as faster strokes, is no repair.
-void keep_explained(const SideReference& reference, const std::array<Cusum, charts>& before, SideState& state) {
+void keep_explained(const DirectionReference& reference, const std::array<Cusum, charts>& before,
+                    DirectionState& state) {
   for (std::size_t k = 0; k < against_faults; ++k) {
     if (!before[k].raised || state.chart[k].raised) continue;
     const std::size_t fault = std::min(k, isolated_faults - 1);
@@ -87,7 +88,7 @@ void keep_explained(const SideReference& reference, const std::array<Cusum, char
 }
 
 /// A chart rises, too, where all windows of steady pressure, three and more, make its fault that likely.
-void raise_explained(const SideReference& reference, const Limits& limits, SideState& state) {
+void raise_explained(const DirectionReference& reference, const Limits& limits, DirectionState& state) {
   if (state.learnt.shape.weight < three_windows) return;
   const Isolation found = isolation_of(reference, state);
   for (std::size_t f = 0; f < isolated_faults; ++f) {
@@ -101,7 +102,7 @@ void raise_explained(const SideReference& reference, const Limits& limits, SideS
   }
 }
 
-void close(const SideReference& reference, const Limits& limits, SideState& state,
+void close(const DirectionReference& reference, const Limits& limits, DirectionState& state,
            const std::optional<WindowResult>& result) {
   if (!result) return;
   ++state.windows;
@@ -116,7 +117,7 @@ void close(const SideReference& reference, const Limits& limits, SideState& stat
 }
 
 /// The position sensor's two charts, by a reading of where the spool rests [m].
-void judge_rest(const SideReference& reference, const Limits& limits, SideState& state, double position_m,
+void judge_rest(const DirectionReference& reference, const Limits& limits, DirectionState& state, double position_m,
                 double deviation_m) {
   const std::size_t k = index(Magnitude::position_zero);
   const double unit_m = usual_fault[k];
@@ -129,7 +130,8 @@ void judge_rest(const SideReference& reference, const Limits& limits, SideState&
 }
 
 /// The closed stop, once for each time that the coil falls silent.
-void follow_rest(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
+void follow_rest(const DirectionReference& reference, const Limits& limits, DirectionState& state,
+                 const DirectionSample& sample) {
   RestReading& rest = state.learnt.rest;
   const double from_stop_m = sample.motion.position_m - closed_stop_m(*reference.valve);
   const bool silent = sample.motion.current_A < silent_current_share * reference.valve->largest_current_A &&
@@ -154,7 +156,8 @@ void follow_rest(const SideReference& reference, const Limits& limits, SideState
   judge_rest(reference, limits, state, rest.lowest_m, rest_deviation_m);
 }
 
-void follow_closing(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
+void follow_closing(const DirectionReference& reference, const Limits& limits, DirectionState& state,
+                    const DirectionSample& sample) {
   constexpr double closed_share = 0.6;
   const double stop_m = closed_stop_m(*reference.valve);
   // Friction holds a worn spool open: then the silent coil says that it is meant to be closed.
@@ -180,7 +183,8 @@ Limits limits_for(double false_alarms_per_year) {
   return false_alarms_per_year == usual ? usual_limits : reckoned_limits(false_alarms_per_year);
 }
 
-void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample) {
+void take(const DirectionReference& reference, const Limits& limits, DirectionState& state,
+          const DirectionSample& sample) {
   if (!sample.follows) {
     leave(state);
     return;
@@ -206,8 +210,8 @@ void take(const SideReference& reference, const Limits& limits, SideState& state
 namespace {
 
 /// Both sides told anew: the middle is judged, and tells both directions, to a's springs mirrored.
-void judge_centre(const std::array<SideReference, 2>& reference, const Limits& limits, std::array<SideState, 2>& sides,
-                  CentreRest& rest) {
+void judge_centre(const std::array<DirectionReference, 2>& reference, const Limits& limits,
+                  std::array<DirectionState, 2>& sides, CentreRest& rest) {
   rest.back[0].paired = rest.back[1].paired = true;
   rest.pairs = rest.pairs * (1 - 1 / memory_windows) + 1;
   const double middle_m = 0.5 * (rest.back[0].newest_m + rest.back[1].newest_m);
@@ -224,8 +228,8 @@ void judge_centre(const std::array<SideReference, 2>& reference, const Limits& l
 
 }  // namespace
 
-void take_centre(const std::array<SideReference, 2>& reference, const Limits& limits, std::array<SideState, 2>& sides,
-                 CentreRest& rest, const CentreSample& sample) {
+void take_centre(const std::array<DirectionReference, 2>& reference, const Limits& limits,
+                 std::array<DirectionState, 2>& sides, CentreRest& rest, const CentreSample& sample) {
   const bool open = std::abs(sample.position_m) > farthest_centre_m;
   if (open) rest.from = sample.position_m > 0 ? 0 : 1;
   if (open || !sample.silent) {
@@ -251,19 +255,19 @@ void leave(CentreRest& rest) {
   rest.silent_s = rest.sum_m = rest.sum_s = 0;
 }
 
-void leave(SideState& state) {
+void leave(DirectionState& state) {
   interrupt(state.finder);
   begin_winding_window(state.winding);
   state.learnt.rest.silent_s = state.learnt.rest.sum_m = state.learnt.rest.sum_s = 0;
 }
 
-void finish(const SideReference& reference, const Limits& limits, SideState& state) {
+void finish(const DirectionReference& reference, const Limits& limits, DirectionState& state) {
   if (state.window.count > 0)
     close(reference, limits, state, end_window(*reference.valve, reference.stroke_m, state.window));
   leave(state);
 }
 
-Evidence evidence_of(const SideReference& reference, const SideState& state) {
+Evidence evidence_of(const DirectionReference& reference, const DirectionState& state) {
   Evidence out = evidence_of(state.learnt);
   const double learnt_Ohm = reference.baseline.resistance_Ohm;
   const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
@@ -278,22 +282,22 @@ Evidence evidence_of(const SideReference& reference, const SideState& state) {
   return out;
 }
 
-Isolation isolation_of(const SideReference& reference, const SideState& state) {
+Isolation isolation_of(const DirectionReference& reference, const DirectionState& state) {
   return isolate(evidence_of(reference, state), reference.baseline.centre, reference.baseline.spread);
 }
 
-bool raised(const SideState& state) {
+bool raised(const DirectionState& state) {
   return std::any_of(state.chart.begin(), state.chart.end(), [](const Cusum& chart) { return chart.raised; });
 }
 
-bool decided(const SideState& state, const Isolation& found) {
+bool decided(const DirectionState& state, const Isolation& found) {
   const double likeliest = *std::max_element(found.odds.begin(), found.odds.end());
   return raised(state) && (likeliest > least_told_odds || found.unexplained_odds >= 1);
 }
 
-SideBaseline baseline_of(const SideReference& /*reference*/, const SideState& state) {
+DirectionBaseline baseline_of(const DirectionReference& /*reference*/, const DirectionState& state) {
   constexpr double share_left = 0.3;  // of the healthy spread: the same maps and signatures are wrong the same way
-  SideBaseline out;
+  DirectionBaseline out;
   const Evidence evidence = evidence_of(state.learnt);
   MagnitudeMatrix factor = evidence.information;
   for (std::size_t k = 0; k < magnitudes; ++k)

@@ -30,7 +30,7 @@ struct Limits {
 };
 [[nodiscard]] Limits limits_for(double false_alarms_per_year);
 
-struct SideState {
+struct DirectionState {
   FinderState finder;
   WindowState window;
   WindingState winding;
@@ -43,26 +43,27 @@ struct SideState {
   double windows = 0;                            ///< that told
   double pressure_Pa = 0;                        ///< of the last window
 };
-static_assert(std::is_trivially_copyable_v<SideState>);
+static_assert(std::is_trivially_copyable_v<DirectionState>);
 
 /// What a side is judged against.
-struct SideReference {
+struct DirectionReference {
   const sensor::ObserverParameters<double>* valve = nullptr;
   double stroke_m = 0;
   bool whole = false;  ///< springs of both ends centre the spool: it rests in the centre, at no stop
-  SideBaseline baseline;
+  DirectionBaseline baseline;
 };
 
 /// One sample in the side's own signs.
-struct SideSample {
+struct DirectionSample {
   FinderSample motion;
   double voltage_V;  ///< NaN: not measured
   double raw_position_m;
   bool follows;  ///< the sample before it was good, too, and near in time
 };
-void take(const SideReference& reference, const Limits& limits, SideState& state, const SideSample& sample);
+void take(const DirectionReference& reference, const Limits& limits, DirectionState& state,
+          const DirectionSample& sample);
 /// Nothing is carried over to what comes next.
-void leave(SideState& state);
+void leave(DirectionState& state);
 
 /// One sample of a whole valve that follows the one before, in the valve's signs, free of calibrated drift.
 struct CentreSample {
@@ -71,11 +72,11 @@ struct CentreSample {
   bool silent;  ///< both coils
 };
 /// Where the spool rests in the centre tells the position sensor's zero; `sides` of solenoids b and a.
-void take_centre(const std::array<SideReference, 2>& reference, const Limits& limits, std::array<SideState, 2>& sides,
-                 CentreRest& rest, const CentreSample& sample);
+void take_centre(const std::array<DirectionReference, 2>& reference, const Limits& limits,
+                 std::array<DirectionState, 2>& sides, CentreRest& rest, const CentreSample& sample);
 void leave(CentreRest& rest);
 /// The window that was begun is judged.
-void finish(const SideReference& reference, const Limits& limits, SideState& state);
+void finish(const DirectionReference& reference, const Limits& limits, DirectionState& state);
 
 /// The first magnitude of each fault, in the order of Fault.
 inline constexpr std::array<Magnitude, isolated_faults> first_magnitude{
@@ -83,15 +84,15 @@ inline constexpr std::array<Magnitude, isolated_faults> first_magnitude{
     Magnitude::position_zero};
 
 /// What the side has shown, and which faults explain it.
-[[nodiscard]] Evidence evidence_of(const SideReference& reference, const SideState& state);
-[[nodiscard]] Isolation isolation_of(const SideReference& reference, const SideState& state);
-[[nodiscard]] bool raised(const SideState& state);
+[[nodiscard]] Evidence evidence_of(const DirectionReference& reference, const DirectionState& state);
+[[nodiscard]] Isolation isolation_of(const DirectionReference& reference, const DirectionState& state);
+[[nodiscard]] bool raised(const DirectionState& state);
 /// Something is wrong: a chart is raised, and by what was seen in all a fault, or that the model is wrong, is likely
 /// enough. Charts weigh each window by its own noise; what windows share, as how fast the spool moves, does not average
 /// out and is weighed here.
-[[nodiscard]] bool decided(const SideState& state, const Isolation& found);
+[[nodiscard]] bool decided(const DirectionState& state, const Isolation& found);
 /// Odds from which a raised chart is told with a fault that is not likelier than not.
 inline constexpr double least_told_odds = 0.5;
-[[nodiscard]] SideBaseline baseline_of(const SideReference& reference, const SideState& state);
+[[nodiscard]] DirectionBaseline baseline_of(const DirectionReference& reference, const DirectionState& state);
 
 }  // namespace spoolflow::monitor

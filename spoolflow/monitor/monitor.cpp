@@ -1,10 +1,10 @@
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "spoolflow/monitor/tell.hpp"
+#include "spoolflow/monitor/indicators.hpp"
 #include "spoolflow/numerics/number_check.hpp"
 
 namespace spoolflow::monitor {
@@ -33,7 +33,7 @@ bool status_raised(const StatusShares& shares, sensor::Status status) {
 
 }  // namespace
 
-Watch::Watch(const model::Model& model, const Options& options, const std::optional<Baseline>& baseline)
+Monitor::Monitor(const model::Model& model, const Options& options, const std::optional<Baseline>& baseline)
     : model_(&model), limits_(limits_for(options.false_alarms_per_year)) {
   if (!model.has_observer()) {
     throw model::ModelError(
@@ -57,18 +57,20 @@ Watch::Watch(const model::Model& model, const Options& options, const std::optio
   }
 }
 
-bool Watch::set_state(const WatchState& state) {
+bool Monitor::set_state(const MonitorState& state) {
   if (state.version != watch_state_version || !numerics::holds_numbers(state)) return false;
   state_ = state;
   return true;
 }
 
-void Watch::take(std::span<const estimation::TimedSample> samples, std::span<const sensor::Estimate<double>> answers) {
+void Monitor::take(std::span<const estimation::TimedSample> samples,
+                   std::span<const sensor::Estimate<double>> answers) {
   if (samples.size() != answers.size()) throw std::invalid_argument("as many answers as samples are needed");
   for (std::size_t k = 0; k < samples.size(); ++k) take(samples[k], answers[k]);
 }
 
-void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer, double position_set_m) {
+void Monitor::take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
+                   double position_set_m) {
   const double since_s = sample.time_s - state_.last_time_s;
   const bool timed = std::isfinite(sample.time_s);
   const bool follows = state_.started && timed && since_s > 0 && since_s <= longest_step_s;
@@ -98,7 +100,7 @@ void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<d
   const bool judged =
       follows && usable && (static_cast<std::uint32_t>(answer.status) & static_cast<std::uint32_t>(held)) == 0;
   if (!judged) {
-    for (SideState& side : state_.side) leave(side);
+    for (DirectionState& side : state_.side) leave(side);
     leave(state_.centre);
     interrupt(state_.dither);
     interrupt(state_.response);
@@ -110,7 +112,7 @@ void Watch::take(const estimation::TimedSample& sample, const sensor::Estimate<d
 }
 
 /// Of a recording with one current, that of the active coil, the other is silent.
-void Watch::take_centre(const estimation::TimedSample& sample, double time_step_s) {
+void Monitor::take_centre(const estimation::TimedSample& sample, double time_step_s) {
   const auto silent = [&](double current_A, std::size_t side) {
     return !(std::abs(current_A) > silent_current_share * reference_[side].valve->largest_current_A);
   };
@@ -122,17 +124,17 @@ void Watch::take_centre(const estimation::TimedSample& sample, double time_step_
        std::isfinite(sample.current_A) && silent(sample.current_A, 0) && silent(sample.current_a_A, 1)});
 }
 
-void Watch::take_command(double position_set_m, double position_m, double time_step_s) {
+void Monitor::take_command(double position_set_m, double position_m, double time_step_s) {
   if (!std::isfinite(position_set_m) || !std::isfinite(position_m)) return;
   follow(state_.response, model_->valve.stroke_m, {time_step_s, position_set_m, position_m});
 }
 
-void Watch::take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
-                        double time_step_s) {
+void Monitor::take_motion(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,
+                          double time_step_s) {
   const bool opens_a = model_->whole() && sample.position_m < 0;
   const std::size_t own = opens_a ? 1 : 0;
   if (model_->whole()) leave(state_.side[1 - own]);
-  const SideReference& reference = reference_[own];
+  const DirectionReference& reference = reference_[own];
   const sensor::ObserverParameters<double>& valve = *reference.valve;
   const double sign = opens_a ? -1 : 1;
   const bool of_a = opens_a && std::isfinite(sample.current_a_A);
@@ -157,24 +159,24 @@ void Watch::take_motion(const estimation::TimedSample& sample, const sensor::Est
                 {motion, voltage_V, raw_m, std::isfinite(motion.current_A) && std::isfinite(net_force_N)});
 }
 
-void Watch::finish() {
+void Monitor::finish() {
   for (std::size_t k = 0; k < sides(); ++k) monitor::finish(reference_[k], limits_, state_.side[k]);
 }
 
-std::vector<Indicator> Watch::indicators() const {
+std::vector<Indicator> Monitor::indicators() const {
   std::vector<Indicator> out;
-  for (std::size_t k = 0; k < sides(); ++k) tell_side(reference_[k], state_.side[k], k == 1, out);
-  if (model_->whole()) tell_centre(reference_, state_.side, state_.centre, out);
-  tell_command(state_.response, out);
-  tell_dither(state_.dither, dither_amplitude_A_, dither_frequency_Hz_, out);
-  tell_usage(state_.usage, judged_windows(), out);
+  for (std::size_t k = 0; k < sides(); ++k) add_direction(reference_[k], state_.side[k], k == 1, out);
+  if (model_->whole()) add_centre(reference_, state_.side, state_.centre, out);
+  add_command_response(state_.response, out);
+  add_dither_health(state_.dither, dither_amplitude_A_, dither_frequency_Hz_, out);
+  add_usage(state_.usage, judged_windows(), out);
   return out;
 }
 
-std::vector<Cause> Watch::causes() const {
+std::vector<Cause> Monitor::causes() const {
   std::array<double, faults> odds{};
   for (std::size_t k = 0; k < sides(); ++k) {
-    const SideState& side = state_.side[k];
+    const DirectionState& side = state_.side[k];
     if (!raised(side) && side.learnt.shape.weight == 0) continue;
     const Isolation found = isolation_of(reference_[k], side);
     const bool decided = monitor::decided(side, found);
@@ -193,7 +195,7 @@ std::vector<Cause> Watch::causes() const {
     odds[told] = std::max(odds[told], likely ? found.odds[best] : found.unexplained_odds);
   }
   const bool resistive =
-      std::any_of(state_.side.begin(), state_.side.end(), [](const SideState& side) { return side.resistive; });
+      std::any_of(state_.side.begin(), state_.side.end(), [](const DirectionState& side) { return side.resistive; });
   if (resistive || status_raised(state_.status, sensor::Status::coil_fault))
     odds[static_cast<std::size_t>(Fault::coil)] = most_odds;
   if (status_raised(state_.status, sensor::Status::temperature_fault))
@@ -208,11 +210,11 @@ std::vector<Cause> Watch::causes() const {
   return out;
 }
 
-Ne107 Watch::condition() const {
+Ne107 Monitor::condition() const {
   Ne107 worst = monitor::sign_of(state_.status);
   bool any = false;
   for (std::size_t k = 0; k < sides(); ++k) {
-    const SideState& side = state_.side[k];
+    const DirectionState& side = state_.side[k];
     any = any || side.resistive || (raised(side) && decided(side, isolation_of(reference_[k], side)));
   }
   if (!any) return worst;
@@ -220,7 +222,7 @@ Ne107 Watch::condition() const {
   return worst;
 }
 
-Findings Watch::findings() const {
+Findings Monitor::findings() const {
   Findings out;
   for (std::size_t k = 0; k < sides(); ++k) {
     if (!raised(state_.side[k])) continue;
@@ -231,20 +233,20 @@ Findings Watch::findings() const {
   return out;
 }
 
-Doubt Watch::doubt() const {
+Doubt Monitor::doubt() const {
   Doubt out;
   const Findings found = findings();
   for (std::size_t k = 0; k < sides(); ++k) out.side[k] = {found.side[k].raised, found.side[k].value};
   return out;
 }
 
-double Watch::judged_windows() const {
+double Monitor::judged_windows() const {
   double sum = 0;
   for (std::size_t k = 0; k < sides(); ++k) sum += state_.side[k].windows;
   return sum;
 }
 
-Baseline Watch::learnt() const {
+Baseline Monitor::learnt() const {
   Baseline out{fingerprint(*model_), {}};
   if (state_.dither.dithered_s >= least_dithered_s) {
     out.dither_amplitude_A = state_.dither.amplitude_A;

@@ -1,4 +1,4 @@
-#include "spoolflow/monitor/tell.hpp"
+#include "spoolflow/monitor/indicators.hpp"
 
 #include <cmath>
 
@@ -34,7 +34,7 @@ constexpr std::array<Told, magnitudes> told{{
     {{"position_zero", "position_zero_a"}, Magnitude::position_zero, Fault::position_sensor, 1, 0, "m"},
 }};
 
-Trend trend_of(const SideReference& reference, const SideState& side, const Told& each) {
+Trend trend_of(const DirectionReference& reference, const DirectionState& side, const Told& each) {
   const auto fault = static_cast<std::size_t>(each.fault);
   if (first_magnitude[fault] != each.magnitude) return {};
   const std::size_t k = index(each.magnitude);
@@ -52,7 +52,8 @@ Trend trend_of(const SideReference& reference, const SideState& side, const Told
           time.latest_h};
 }
 
-void tell_magnitudes(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out) {
+void add_magnitudes(const DirectionReference& reference, const DirectionState& side, bool a,
+                    std::vector<Indicator>& out) {
   constexpr double least_windows = 2;
   const Isolation found = isolation_of(reference, side);
   const Evidence evidence = evidence_of(reference, side);
@@ -71,7 +72,7 @@ void tell_magnitudes(const SideReference& reference, const SideState& side, bool
   }
 }
 
-void tell_contacts(const SideState& side, bool a, std::vector<Indicator>& out) {
+void add_contacts(const DirectionState& side, bool a, std::vector<Indicator>& out) {
   const auto put = [&](const Names& names, const Weighted& mean, std::string_view unit, double baseline) {
     const bool known = mean.weight > 0;
     out.push_back({names.of(a), known ? mean.value : unknown, unit, known ? 2 * deviation(mean) : unknown,
@@ -87,7 +88,7 @@ void tell_contacts(const SideState& side, bool a, std::vector<Indicator>& out) {
   put({"hysteresis_width", "hysteresis_width_a"}, mean.width_A, "A", mean.width_expected_A);
 }
 
-void tell_winding(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out) {
+void add_winding(const DirectionReference& reference, const DirectionState& side, bool a, std::vector<Indicator>& out) {
   const WindingState& winding = side.winding;
   const bool warm = winding.windows > 0;
   const double calibrated_Ohm = reference.valve->actuator.coil_resistance.resistance_Ohm;
@@ -106,12 +107,12 @@ void tell_winding(const SideReference& reference, const SideState& side, bool a,
 }
 
 /// Of a baseline [m].
-double usual_zero_m(const SideReference& reference) {
+double usual_zero_m(const DirectionReference& reference) {
   constexpr std::size_t zero = index(Magnitude::position_zero);
   return reference.baseline.centre[zero] * usual_fault[zero];
 }
 
-void tell_closed(const SideReference& reference, const SideState& side, std::vector<Indicator>& out) {
+void add_closed(const DirectionReference& reference, const DirectionState& side, std::vector<Indicator>& out) {
   const bool rested = side.learnt.rest.weight > 0;
   out.push_back({"closed_position", rested ? side.learnt.rest.mean_m : unknown, "m",
                  rested ? 2 * rest_deviation_m : unknown, usual_zero_m(reference),
@@ -120,8 +121,8 @@ void tell_closed(const SideReference& reference, const SideState& side, std::vec
 
 }  // namespace
 
-void tell_centre(const std::array<SideReference, 2>& reference, const std::array<SideState, 2>& sides,
-                 const CentreRest& rest, std::vector<Indicator>& out) {
+void add_centre(const std::array<DirectionReference, 2>& reference, const std::array<DirectionState, 2>& sides,
+                const CentreRest& rest, std::vector<Indicator>& out) {
   const bool known = rest.pairs > 0;
   bool is_raised = false;
   for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -139,14 +140,15 @@ void tell_centre(const std::array<SideReference, 2>& reference, const std::array
                  state});
 }
 
-void tell_side(const SideReference& reference, const SideState& side, bool a, std::vector<Indicator>& out) {
-  tell_magnitudes(reference, side, a, out);
-  tell_winding(reference, side, a, out);
-  if (!reference.whole) tell_closed(reference, side, out);
-  tell_contacts(side, a, out);
+void add_direction(const DirectionReference& reference, const DirectionState& side, bool a,
+                   std::vector<Indicator>& out) {
+  add_magnitudes(reference, side, a, out);
+  add_winding(reference, side, a, out);
+  if (!reference.whole) add_closed(reference, side, out);
+  add_contacts(side, a, out);
 }
 
-void tell_command(const CommandResponse& response, std::vector<Indicator>& out) {
+void add_command_response(const CommandResponse& response, std::vector<Indicator>& out) {
   const bool known = response.steps > 0;
   const IndicatorState state = known ? IndicatorState::good : IndicatorState::unknown;
   const auto put = [&](std::string_view name, double mean, double square, std::string_view unit) {
@@ -157,7 +159,8 @@ void tell_command(const CommandResponse& response, std::vector<Indicator>& out) 
   put("overshoot", response.overshoot, response.overshoot2, "1");
 }
 
-void tell_dither(const DitherHealth& dither, double amplitude_A, double frequency_Hz, std::vector<Indicator>& out) {
+void add_dither_health(const DitherHealth& dither, double amplitude_A, double frequency_Hz,
+                       std::vector<Indicator>& out) {
   const bool known = dither.dithered_s >= least_dithered_s;
   const IndicatorState state = known ? IndicatorState::good : IndicatorState::unknown;
   // Samples seldom meet the peaks, and the period is told by whole samples.
@@ -171,7 +174,7 @@ void tell_dither(const DitherHealth& dither, double amplitude_A, double frequenc
   put("dither_frees", dither.free_share, "1", 0, 0);
 }
 
-void tell_usage(const Usage& usage, double windows, std::vector<Indicator>& out) {
+void add_usage(const Usage& usage, double windows, std::vector<Indicator>& out) {
   const auto counted = [&](std::string_view name, double value, std::string_view unit) {
     out.push_back({name, value, unit, 0, unknown, IndicatorState::counts});
   };

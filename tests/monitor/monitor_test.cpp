@@ -1,4 +1,4 @@
-#include "spoolflow/monitor/watch.hpp"
+#include "spoolflow/monitor/monitor.hpp"
 
 #include <cstring>
 #include <random>
@@ -47,10 +47,10 @@ const Indicator& named(const std::vector<Indicator>& indicators, std::string_vie
   throw std::out_of_range("no such indicator");
 }
 
-TEST(Watch, AHealthyValveRaisesNothing) {
+TEST(Monitor, AHealthyValveRaisesNothing) {
   for (const char* name : {"ramp_60bar.h5", "duty_cycle_1.h5"}) {
     const Answered run = run_of(name);
-    Watch watch(example());
+    Monitor watch(example());
     watch.take(run.samples, run.answers);
     watch.finish();
     EXPECT_EQ(watch.condition(), Ne107::good) << name;
@@ -58,8 +58,8 @@ TEST(Watch, AHealthyValveRaisesNothing) {
   }
 }
 
-TEST(Watch, TellsWhatTheValveDid) {
-  Watch watch(example());
+TEST(Monitor, TellsWhatTheValveDid) {
+  Monitor watch(example());
   watch.take(ramp().samples, ramp().answers);
   watch.finish();
   const auto indicators = watch.indicators();
@@ -71,13 +71,13 @@ TEST(Watch, TellsWhatTheValveDid) {
 }
 
 // The same forces, 1.6 times as much friction: what the net force differs from the flow force by grows.
-TEST(Watch, MoreFrictionIsRaisedAsFriction) {
+TEST(Monitor, MoreFrictionIsRaisedAsFriction) {
   Answered run = ramp();
   for (sensor::Estimate<double>& answer : run.answers) {
     const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
     answer.magnetic_force_N += 0.6 * apparent_N;
   }
-  Watch watch(example());
+  Monitor watch(example());
   for (int k = 0; k < 4; ++k) {
     watch.take(run.samples, run.answers);
     watch.finish();
@@ -88,14 +88,14 @@ TEST(Watch, MoreFrictionIsRaisedAsFriction) {
   EXPECT_EQ(named(watch.indicators(), "friction_ratio").state, IndicatorState::raised);
 }
 
-TEST(Watch, WhatItFoundIsPutRightInTheModelAndNoLongerThere) {
+TEST(Monitor, WhatItFoundIsPutRightInTheModelAndNoLongerThere) {
   Answered run = ramp();
   for (sensor::Estimate<double>& answer : run.answers) {
     const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
     answer.magnetic_force_N += 0.6 * apparent_N;
   }
   const auto watched = [&](const model::Model& model) {
-    Watch watch(model);
+    Monitor watch(model);
     for (int k = 0; k < 4; ++k) {
       watch.take(run.samples, run.answers);
       watch.finish();
@@ -109,8 +109,8 @@ TEST(Watch, WhatItFoundIsPutRightInTheModelAndNoLongerThere) {
   EXPECT_FALSE(watched(corrected).side[0].raised);
 }
 
-TEST(Watch, TellsHowTheSpoolFollowsItsCommand) {
-  Watch watch(example());
+TEST(Monitor, TellsHowTheSpoolFollowsItsCommand) {
+  Monitor watch(example());
   for (std::size_t k = 0; k < 3000; ++k) {
     estimation::TimedSample sample = ramp().samples[k];
     sample.position_m = k > 1010 ? 0.4e-3 : 0;
@@ -139,17 +139,17 @@ TEST(Doubt, WidensTheBandByWhatTheFaultMakesOfTheFlow) {
   }
 }
 
-TEST(Watch, GoesOnFromItsBytes) {
-  Watch whole(example());
+TEST(Monitor, GoesOnFromItsBytes) {
+  Monitor whole(example());
   whole.take(ramp().samples, ramp().answers);
-  Watch first(example());
+  Monitor first(example());
   const std::size_t half = ramp().samples.size() / 2;
   first.take(std::span(ramp().samples).first(half), std::span(ramp().answers).first(half));
-  std::vector<std::byte> bytes(sizeof(WatchState));
+  std::vector<std::byte> bytes(sizeof(MonitorState));
   std::memcpy(bytes.data(), &first.state(), bytes.size());
-  WatchState kept;
+  MonitorState kept;
   std::memcpy(&kept, bytes.data(), bytes.size());
-  Watch second(example());
+  Monitor second(example());
   ASSERT_TRUE(second.set_state(kept));
   second.take(std::span(ramp().samples).subspan(half), std::span(ramp().answers).subspan(half));
   const auto expected = whole.indicators();
@@ -162,8 +162,8 @@ TEST(Watch, GoesOnFromItsBytes) {
   EXPECT_FALSE(second.set_state(kept));
 }
 
-TEST(Watch, RubbishChangesStatusAndNothingElse) {
-  Watch watch(example());
+TEST(Monitor, RubbishChangesStatusAndNothingElse) {
+  Monitor watch(example());
   estimation::RunningSensor sensor = estimation::running_sensor(example(), estimation::Estimator::observer);
   std::mt19937_64 generator(5);
   const double rubbish[] = {estimation::not_measured, std::numeric_limits<double>::infinity(), -1e300, 1e300, 0, 1e-3};
@@ -177,14 +177,14 @@ TEST(Watch, RubbishChangesStatusAndNothingElse) {
   for (const Cause& cause : watch.causes()) EXPECT_NE(cause.fault, Fault::friction);
 }
 
-TEST(Watch, AsManyAnswersAsSamples) {
-  Watch watch(example());
+TEST(Monitor, AsManyAnswersAsSamples) {
+  Monitor watch(example());
   EXPECT_THROW(watch.take(std::span(ramp().samples).first(3), std::span(ramp().answers).first(2)),
                std::invalid_argument);
 }
 
 TEST(Baseline, ReadsBackAsItWasWritten) {
-  Watch watch(example());
+  Monitor watch(example());
   watch.take(ramp().samples, ramp().answers);
   watch.finish();
   const Baseline written = watch.learnt();
@@ -192,7 +192,7 @@ TEST(Baseline, ReadsBackAsItWasWritten) {
   EXPECT_EQ(read.model, written.model);
   EXPECT_EQ(read.side[0].centre, written.side[0].centre);
   EXPECT_EQ(read.side[0].spread, written.side[0].spread);
-  Watch later(example(), {}, read);
+  Monitor later(example(), {}, read);
   later.take(ramp().samples, ramp().answers);
   later.finish();
   EXPECT_EQ(later.condition(), Ne107::good);
@@ -200,7 +200,7 @@ TEST(Baseline, ReadsBackAsItWasWritten) {
 
 TEST(Baseline, OfAnotherModelIsRefused) {
   Baseline other{fingerprint(example()) + 1, {}};
-  EXPECT_THROW(Watch(example(), {}, other), model::ModelError);
+  EXPECT_THROW(Monitor(example(), {}, other), model::ModelError);
 }
 
 TEST(Baseline, DamagedOnesNameThePlace) {
