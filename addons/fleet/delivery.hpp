@@ -1,6 +1,6 @@
 #pragma once
 /// How far the blocks of one valve have come on their way from a site to the fleet, and which are to be sent now.
-/// Pure: the times are those that the caller tells.
+/// Pure: the times are those that the caller gives.
 #include <chrono>
 #include <cstdint>
 

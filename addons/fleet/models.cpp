@@ -20,7 +20,7 @@ std::vector<std::uint8_t> pack_model(const std::string& text) {
 
 std::optional<std::string> unpack_model(std::span<const std::uint8_t> packed) {
   const unsigned long long length = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (length > largest_model) return std::nullopt;  // also where it is not told
+  if (length > largest_model) return std::nullopt;  // also where its length is unknown
   std::string out(length, '\0');
   if (ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size()) != length) return std::nullopt;
   return out;

@@ -96,7 +96,7 @@ void PartitionWork::take_models() {
   }
 }
 
-/// The stream is made anew where it is gone, and read from the beginning where it is not the one of before.
+/// The stream is made again where it is gone, and read from the beginning where it is not the one of before.
 void PartitionWork::open_stream() {
   StreamPlace there;
   try {

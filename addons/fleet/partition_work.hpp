@@ -1,6 +1,6 @@
 #pragma once
-/// One partition at work: blocks from the stream, in their order through their valves, committed together, told to the
-/// sites as covered. Begins from what is kept, and ends by an exception where that is not its own any more.
+/// One partition at work: blocks from the stream, in their order through their valves, committed together, reported to
+/// the sites as covered. Begins from what is kept, and ends by an exception where that is not its own any more.
 #include <chrono>
 #include <functional>
 #include <map>

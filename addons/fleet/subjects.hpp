@@ -1,6 +1,6 @@
 #pragma once
 /// The subjects of NATS by which sites and workers speak. A site may publish blocks and models of its own name, and
-/// read what is told and asked of it, and nothing else.
+/// read what is addressed to it, and nothing else.
 #include <cstdint>
 #include <string>
 

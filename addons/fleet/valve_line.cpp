@@ -53,7 +53,7 @@ void ValveLine::restore(const KeptValve& kept, live::SharedModel model) {
   }
   work_ = std::make_unique<live::ValveAtWork>(valve_, std::move(model), program_);
   if (!work_->restore(position_.state)) {
-    // A program of another version: told with the next block.
+    // A program of another version: reported with the next block.
     rows_.events.push_back({.wall_ms = position_.wall_ms,
                             .valve = valve_,
                             .kind = "program",

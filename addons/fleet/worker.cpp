@@ -29,7 +29,7 @@ constexpr std::chrono::seconds stands_after{2 * worker_patience};
 
 }  // namespace
 
-/// One partition's thread. What ends it is told once; the keeper then begins anew, with another epoch.
+/// One partition's thread. What ends it is reported once; the keeper then starts again, with another epoch.
 struct Worker::Task {
   Claim claim;
   std::atomic<bool> ended = false;

@@ -43,7 +43,7 @@ class Worker {
   std::unique_ptr<Connection> nats_;
   SharedSettings shared_;  ///< no partitions: not known yet
   Models models_;
-  std::string told_;  ///< what was told last of a server that is away; of the keeper, once it is at work
+  std::string told_;  ///< what was reported last of a server that is away; of the keeper, once it is at work
   int away_ = 0;      ///< times that NATS was found away, one after another
   std::map<std::int64_t, std::unique_ptr<Task>> tasks_;  ///< by partition
   /// Asked to end; to be waited for by nobody who renews leases.

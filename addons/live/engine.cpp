@@ -81,7 +81,7 @@ void Engine::restore() {
                        kept.counts.unreadable,
                        kept.counts.connections};
     const bool goes_on = (*same)->valve->restore(kept);
-    (*same)->told_condition = (*same)->valve->view(false).condition;  // it was told before
+    (*same)->told_condition = (*same)->valve->view(false).condition;  // it was reported before
     if (goes_on) continue;
     events_.add({.wall_ms = wall_ms(),
                  .valve = kept.valve,

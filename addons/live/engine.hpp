@@ -65,12 +65,12 @@ class Engine {
     std::string trouble{};       ///< why nothing is kept at present; empty where it is, or where it need not be
     std::string mended{};        ///< what was done last about a file that was deleted or damaged; empty: nothing
     std::int64_t mended_ms = 0;  ///< when, since 1970-01-01 UTC
-    std::uint64_t mendings = 0;  ///< since the start: whoever reads the file opens it anew after each
+    std::uint64_t mendings = 0;  ///< since the start: whoever reads the file opens it again after each
   };
   [[nodiscard]] StoreView store_view() const;
-  /// Something of the program itself that people should know: an event, and told as tell_by() says.
+  /// Something of the program itself that people should know: an event, and reported as tell_by() sets.
   void note(const std::string& text);
-  /// Before the start: who tells of the program's own events beside the page, such as at standard error.
+  /// Before the start: who reports the program's own events beside the page, such as at standard error.
   void tell_by(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
   /// Before the start: which clocks it goes by; without it the machine's.
   void go_by(std::function<Instant()> clock) { clock_ = std::move(clock); }
@@ -131,7 +131,7 @@ class Engine {
   std::uint64_t blocks_given_up_ = 0;             ///< since the store keeps nothing
   mutable std::mutex trouble_mutex_;
   StoreView store_view_;
-  std::string mended_;  ///< told once the store has all again that was known
+  std::string mended_;  ///< reported once the store has all again that was known
   std::function<void(const std::string&)> tell_;
   std::function<Instant()> clock_ = instant;
   std::int64_t kept_before_ms_ = 0;  ///< by the system's clock, the newest row before the start; 0: there is none

@@ -1,4 +1,4 @@
-/// What the engine of a site keeps each second, and how it tells of store and clock.
+/// What the engine of a site keeps each second, and how it reports store and clock.
 #include <algorithm>
 #include <utility>
 
@@ -10,7 +10,7 @@
 
 namespace spoolflow::live {
 
-/// What was known is put into a store that began anew; what was deleted or damaged meanwhile is told.
+/// What was known is put into a store that started again; what was deleted or damaged meanwhile is reported.
 void Engine::look_after_store(std::int64_t now_ms) {
   if (const std::string done = store_->look_after(now_ms); !done.empty()) mended_ = done;
   if (mended_.empty()) return;
@@ -51,7 +51,7 @@ void Engine::keep_raw_samples(Place& place, const ValveView& valve, bool nothing
                  .time_s = valve.time_s,
                  .kind = "recording",
                  .text = fmt::format("raw samples around {} are kept as recording {}", raw.why, id)});
-  } catch (const StoreError&) {  // the next commit meets the same and tells
+  } catch (const StoreError&) {  // the next commit meets the same and reports it
   }
 }
 
@@ -96,7 +96,7 @@ void Engine::keep(bool with_indicators) {
     trouble = error.what();
     alarms_.give_back(alarms);
     for (std::size_t k = 0; k < commits.size(); ++k) {
-      if (valves_[k]->reported) commits[k].blocks.clear();  // it is made anew, with what comes until then
+      if (valves_[k]->reported) commits[k].blocks.clear();  // it is made again, with what comes until then
       given_up += valves_[k]->valve->give_back(commits[k]);
     }
   }
@@ -131,7 +131,7 @@ void Engine::keep_each_second(const std::stop_token& stop) {
              .text = fmt::format("{} blocks that the fleet had not got were given up: they were more than {} MB", lost,
                                  site_.fleet.largest_MB)});
       }
-    } catch (const StoreError&) {  // the next commit meets the same and tells
+    } catch (const StoreError&) {  // the next commit meets the same and reports it
     }
   }
 }

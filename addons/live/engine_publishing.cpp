@@ -72,7 +72,7 @@ void Engine::covered(const std::string& valve, std::uint64_t number) {
   so_far = std::max(so_far, number);
 }
 
-/// A site whose disk is full for hours tells of it once, and of all that it cost when the store keeps again.
+/// A site whose disk is full for hours reports it once, and all that it cost when the store keeps again.
 void Engine::tell_given_up(std::uint64_t blocks, bool keeps) {
   if (blocks > 0 && blocks_given_up_ == 0) {
     note(fmt::format(

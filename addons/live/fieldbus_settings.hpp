@@ -15,11 +15,11 @@ struct TomlTable;
 
 namespace spoolflow::live {
 
-/// Where frames go, any of them at once, and which valves tell what.
+/// Where frames go, any of them at once, and which valves send what.
 struct CanSettings {
   std::string interface {};                               ///< of SocketCAN, such as "can0"; empty: none
   std::filesystem::path log{};                            ///< candump's (.log) or Vector's (.asc); empty: none
-  double log_largest_MB = 100;                            ///< then it is renamed to FILE.1 and begun anew
+  double log_largest_MB = 100;                            ///< then it is renamed to FILE.1 and begun again
   std::optional<Address> udp{};                           ///< multicast group of python-can's udp_multicast
   std::string udp_through = "127.0.0.1";                  ///< address of the network interface that its datagrams take
   std::uint8_t source_address = 0x80;                     ///< of J1939, 0 to 253

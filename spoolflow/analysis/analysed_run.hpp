@@ -1,5 +1,5 @@
 #pragma once
-/// What the budget and its trials tell of one estimator along a recording.
+/// What the budget and its trials show of one estimator along a recording.
 #include <cstddef>
 #include <optional>
 #include <vector>

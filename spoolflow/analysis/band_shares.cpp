@@ -21,7 +21,7 @@ class BandJudge {
 
  private:
   [[nodiscard]] std::size_t trials() const { return judged_.answers.size(); }
-  /// Errors [m3/s] with a shape of their own, all combinations: two-point ones and the pressure belief's.
+  /// Errors [m3/s] with a shape of their own, all combinations: two-point ones and the pressure estimate's.
   [[nodiscard]] std::vector<double> large_errors(std::size_t instant) const;
   /// Share of the errors at an instant between `lower` and `upper`: these, and with each all others together normal;
   /// `u`: standard uncertainty of all [m3/s].

@@ -17,7 +17,7 @@ using Observer = sensor::ObserverParameters<double>;
 constexpr int samples_a_period = 64;  // 62 us at 250 Hz: the actuator is good for 50 us and more
 constexpr int periods_until_settled = 10;
 constexpr int periods_until_still = 20;  // a spool that friction stops from the free mass' speed stands by then
-constexpr int periods_told = 2;
+constexpr int periods_evaluated = 2;
 constexpr double mass_step_s = 1e-5;           // contacts and mass swing at 1 to 3 kHz
 constexpr double sliding_drag_N_s_per_m = 22;  // of spool and armature; no bench shows it
 
@@ -47,7 +47,7 @@ std::vector<double> forces_over_period(const Observer& valve, const DitherPoint&
   static_cast<void>(held(valve, point.current_A, point.point.position_m, state));
   const double step_s = 1 / (frequency_Hz * samples_a_period);
   std::vector<double> out;
-  for (int k = 1; k <= samples_a_period * (periods_until_settled + periods_told); ++k) {
+  for (int k = 1; k <= samples_a_period * (periods_until_settled + periods_evaluated); ++k) {
     const double turns = static_cast<double>(k % samples_a_period) / samples_a_period;
     const double current_A = std::max(point.current_A + amplitude_A * wave(shape, turns, frequency_Hz), 0.0);
     const double force_N =
@@ -66,8 +66,8 @@ double moving_friction_N(const DitherPoint& point, double velocity_m_per_s) {
 
 /// Half of peak to peak of the mass' way under those forces. It begins in motion: where force and friction allow both,
 /// rest and motion, the spool moves, since any step of pressure or set position sets it going.
-double tremble_m(const Observer& valve, const DitherPoint& point, const std::vector<double>& forces_N,
-                 double half_swing_N, double frequency_Hz) {
+double motion_m(const Observer& valve, const DitherPoint& point, const std::vector<double>& forces_N,
+                double half_swing_N, double frequency_Hz) {
   const double contact_N_per_m = valve.friction.contact_stiffness_N_per_m;
   if (half_swing_N <= moving_friction_share * point.sliding_N) return half_swing_N / contact_N_per_m;
   // What the position control holds in the mean.
@@ -79,7 +79,7 @@ double tremble_m(const Observer& valve, const DitherPoint& point, const std::vec
   const double step_s = sample_s / steps;
   double v_m_per_s = half_swing_N / (mass_kg * 2 * std::numbers::pi * frequency_Hz);  // that of the free mass
   double x_m = 0, contact_m = 0, least_m = 0, most_m = 0;
-  for (int k = 0; k < samples_a_period * (periods_until_still + periods_told); ++k) {
+  for (int k = 0; k < samples_a_period * (periods_until_still + periods_evaluated); ++k) {
     const double before_N = forces_N[static_cast<std::size_t>(k) % forces_N.size()];
     const double after_N = forces_N[static_cast<std::size_t>(k + 1) % forces_N.size()];
     if (k == samples_a_period * periods_until_still) least_m = most_m = x_m;
@@ -119,7 +119,7 @@ DitherSetting over_all_points(const DitherStudy& study, std::size_t place, doubl
   for (const auto& effects : study.effects) {
     const DitherEffect& effect = effects[place];
     out.mean_band_m3_per_s += effect.band_m3_per_s / static_cast<double>(study.points.size());
-    out.largest_tremble_m = std::max(out.largest_tremble_m, effect.tremble_m);
+    out.largest_motion_m = std::max(out.largest_motion_m, effect.motion_m);
     out.largest_ripple_m3_per_s = std::max(out.largest_ripple_m3_per_s, effect.flow_ripple_m3_per_s);
   }
   out.within_limit = out.largest_ripple_m3_per_s <= study.question.ripple_limit_share * full_scale_m3_per_s;
@@ -159,7 +159,7 @@ std::optional<DitherPoint> dither_point(const model::Model& model, const uncerta
   out.current_A = numerics::crossing({0, valve.largest_current_A}, needed_N, force_N);
   const auto actuator = held(valve, out.current_A, x_m, state);
   const double ratio = valve.friction.operation_ratio;
-  const sensor::FrictionState<double> rested{.rest_s = told_rest_s};
+  const sensor::FrictionState<double> rested{.rest_s = stated_rest_s};
   const auto bounds =
       sensor::friction_bounds(valve.friction, rested, ratio * edge.friction_N, ratio * actuator.friction_half_width_N);
   out.sliding_N = bounds.sliding_N;
@@ -189,15 +189,15 @@ DitherEffect dither_effect(const model::Model& model, const DitherPoint& point, 
   const auto [lowest, highest] = std::minmax_element(forces_N.begin(), forces_N.end());
   DitherEffect out{};
   out.half_swing_N = 0.5 * (*highest - *lowest);
-  const bool told = 2 * amplitude_A > sensor::least_dither_swing_share * valve.largest_current_A;
-  out.frees = told && out.half_swing_N > point.sliding_N;
+  const bool found = 2 * amplitude_A > sensor::least_dither_swing_share * valve.largest_current_A;
+  out.frees = found && out.half_swing_N > point.sliding_N;
   // Where dither frees the spool altogether, no contact grows old, and half the swing exceeds what is left.
   const sensor::FrictionBounds<double> aged{point.sliding_N, out.frees ? point.sliding_N : point.sticking_N};
-  const auto left = sensor::within_swing(aged, told ? out.half_swing_N : 0.0, 0.0);
+  const auto left = sensor::within_swing(aged, found ? out.half_swing_N : 0.0, 0.0);
   out.band_N = left.sticking_N + point.maps_N;
   out.band_m3_per_s = flow_band_m3_per_s(valve, point.point, out.band_N);
-  out.tremble_m = tremble_m(valve, point, forces_N, out.half_swing_N, frequency_Hz);
-  out.flow_ripple_m3_per_s = std::abs(point.flow_per_position_m2_per_s) * out.tremble_m;
+  out.motion_m = motion_m(valve, point, forces_N, out.half_swing_N, frequency_Hz);
+  out.flow_ripple_m3_per_s = std::abs(point.flow_per_position_m2_per_s) * out.motion_m;
   return out;
 }
 

@@ -14,17 +14,17 @@ namespace spoolflow::analysis {
 enum class DitherShape { sine, square };
 
 inline constexpr double square_edge_s = 1e-3;
-/// How long the spool has rested where the band without dither is told [s]: contacts grow stronger meanwhile.
-inline constexpr double told_rest_s = 10;
+/// How long the spool has rested where the band without dither is stated [s]: contacts grow stronger meanwhile.
+inline constexpr double stated_rest_s = 10;
 /// Damping of the contacts in pre-sliding, as a share of the critical: that of dry metal joints, assumed.
 inline constexpr double contact_damping_share = 0.3;
 /// What is left of slow sliding friction at speed, as a share of it: mixed friction goes over into fluid friction. No
-/// bench of the campaign tells it; assumed from the range of Armstrong-Helouvry 1994, on the side of more tremble.
+/// bench of the campaign measures it; assumed from the range of Armstrong-Helouvry 1994, on the side of more motion.
 inline constexpr double moving_friction_share = 0.6;
 /// Half of that fall is reached at this speed [m/s], assumed likewise.
 inline constexpr double mixed_friction_m_per_s = 4e-3;
 /// As a share of an amplitude, so much more must keep the limit, too. Where friction gives way the spool's motion leaps
-/// up, and the position control answers the tremble: the faster that is, the later its answer comes, and from some
+/// up, and the position control answers the motion: the faster that is, the later its answer comes, and from some
 /// hundred hertz on it feeds the motion instead of damping it. Measured on the rig's presets, both shapes, 80 to 240 Hz
 /// (bench/dither_limit_on_rig.py, docs/rig.md): the least below the first frequency, the most above the second, evenly
 /// between.
@@ -58,8 +58,8 @@ struct DitherEffect {
   double half_swing_N;          ///< half of peak to peak of the magnetic force
   double band_N;                ///< half the width of what rest leaves open of the flow force
   double band_m3_per_s;         ///< the same in flow
-  double tremble_m;             ///< half of peak to peak of the spool's motion
-  double flow_ripple_m3_per_s;  ///< half of peak to peak of the flow that the tremble makes
+  double motion_m;              ///< half of peak to peak of the spool's motion
+  double flow_ripple_m3_per_s;  ///< half of peak to peak of the flow that the motion makes
   bool frees;                   ///< the spool, both ways in each period
 };
 
@@ -69,7 +69,7 @@ struct DitherPoint {
   double current_A = 0;  ///< that holds the spool there
   double flow_m3_per_s = 0;
   double sliding_N = 0;          ///< friction of spool and armature while they slide
-  double sticking_N = 0;         ///< the most that they hold after `told_rest_s`
+  double sticking_N = 0;         ///< the most that they hold after `stated_rest_s`
   double maps_N = 0;             ///< half the 95 % width that magnetic force, springs and flow force leave open
   double stiffness_N_per_m = 0;  ///< of springs and flow force less the solenoid's; may be < 0
   double flow_per_position_m2_per_s = 0;  ///< slope of the flow at a held pressure difference
@@ -81,17 +81,17 @@ struct DitherPoint {
 
 /// The extremes of the magnetic force come from the model's actuator (force map, hysteresis, eddy currents) driven with
 /// some periods of that current about the holding current; band by the sensor's own bounds of friction under dither.
-/// The tremble is that of the moving mass on springs and contacts, which give way elastically up to friction that falls
+/// The motion is that of the moving mass on springs and contacts, which give way elastically up to friction that falls
 /// with speed, and with the drag that the sensor's band counts, under that force. Leaves out the position control,
 /// which adds its own current to that of dither where the spool moves, and the change of the magnetic force with the
-/// tremble beyond its slope at a held current.
+/// motion beyond its slope at a held current.
 [[nodiscard]] DitherEffect dither_effect(const model::Model& model, const DitherPoint& point, double amplitude_A,
                                          double frequency_Hz, DitherShape shape);
 
 /// One setting over all points.
 struct DitherSetting {
   double mean_band_m3_per_s;
-  double largest_tremble_m;
+  double largest_motion_m;
   double largest_ripple_m3_per_s;
   bool within_limit;  ///< of the ripple
 };

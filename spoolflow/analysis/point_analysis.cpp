@@ -16,7 +16,7 @@ using estimation::Estimator;
 using uncertainty::PointFunction;
 using uncertainty::WorkingPoint;
 
-/// Counts finished pieces of work and tells the share, one thread at a time.
+/// Counts finished pieces of work and reports the share, one thread at a time.
 class Counted {
  public:
   Counted(std::size_t total, const std::function<void(double)>& progress) : total_(total), progress_(progress) {}

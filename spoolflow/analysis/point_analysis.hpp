@@ -24,7 +24,7 @@ struct PointResult {
 [[nodiscard]] std::vector<uncertainty::WorkingPoint> working_points(const model::Model& model,
                                                                     const PointSettings& settings);
 
-/// Every estimator at every point. `progress` is told the share done.
+/// Every estimator at every point. `progress` receives the share done.
 [[nodiscard]] std::vector<PointResult> analyse_points(const model::Model& model, const Scenario& scenario,
                                                       unsigned workers, const std::function<void(double)>& progress);
 

@@ -24,7 +24,7 @@ class RunFunction {
   RunFunction(const model::Model& model, estimation::Estimator estimator, const RunSamples& run);
 
   /// At the instants. The noises' entries are standard deviations, every sample has its own error; the pressure
-  /// belief's is a standard normal number.
+  /// estimate's is a standard normal number.
   [[nodiscard]] BandedFlow operator()(const uncertainty::InputErrors<double>& error,
                                       uncertainty::SeededNumbers& noise) const;
   /// Derivatives at the instants, condensed sensor only.
@@ -34,7 +34,7 @@ class RunFunction {
   [[nodiscard]] const BandedFlow& undisturbed() const { return undisturbed_; }
   /// The flow as a meter with that lag would show it.
   [[nodiscard]] std::vector<double> lagged_m3_per_s(double lag_s) const;
-  /// What the observer leaves open of the flow rate by its belief of the pressure difference.
+  /// What the observer leaves open of the flow rate by its estimate of the pressure difference.
   [[nodiscard]] std::vector<double> belief_m3_per_s() const;
   /// Observer only, at the instants.
   [[nodiscard]] const std::vector<uncertainty::PressureBelief>& beliefs() const { return beliefs_; }

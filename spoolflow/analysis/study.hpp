@@ -56,8 +56,8 @@ class StudyRuns {
   std::uint64_t fingerprint_;
 };
 
-/// Does the runs of these numbers and tells each result, once and from any thread. `model`: the virtual valve's as the
-/// text of a model file; empty: the given one.
+/// Does the runs of these numbers and reports each result, once and from any thread. `model`: the virtual valve's as
+/// the text of a model file; empty: the given one.
 using RunsWork =
     std::function<void(const StudyRuns& runs, const std::string& model, const std::vector<std::size_t>& numbers,
                        const std::function<void(std::size_t, const RunErrors&)>& finished)>;

@@ -17,8 +17,8 @@ namespace spoolflow::apps {
 template <class Item>
 class Ahead {
  public:
-  /// `produce(item)` fills an item, whose capacities are those of an earlier one, and tells whether there was one more.
-  /// `beside` false, or no thread to be had: each item is produced when it is asked for.
+  /// `produce(item)` fills an item, whose capacities are those of an earlier one, and returns whether there was one
+  /// more. `beside` false, or no thread to be had: each item is produced when it is asked for.
   Ahead(std::function<bool(Item&)> produce, bool beside) : produce_(std::move(produce)), beside_(beside) {
     const InterruptionPause inherited;  // interruptions are the main thread's, which holds them back where it must
     if (!beside_) return;

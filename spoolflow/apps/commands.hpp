@@ -12,15 +12,15 @@ class App;
 
 namespace spoolflow::apps {
 
-/// Failures of one command that goes on after each, every one told as if it had come alone.
+/// Failures of one command that goes on after each, every one reported as if it had come alone.
 struct SeveralFailures : std::exception {
   std::vector<std::string> messages;
   bool of_the_work = false;  ///< one at least is no unusable input: exit status 1 instead of 2
   [[nodiscard]] const char* what() const noexcept override { return "several failures"; }
 };
 
-/// Throws all failures, one at least, as one, each told as if it had come alone. A failure of the work weighs more than
-/// an unusable input.
+/// Throws all failures, one at least, as one, each reported as if it had come alone. A failure of the work weighs more
+/// than an unusable input.
 [[noreturn]] void throw_together(const std::vector<std::exception_ptr>& failures);
 
 /// For `inspect`: prints what an image of parameters is, as JSON or for people. False where the file is none; standard

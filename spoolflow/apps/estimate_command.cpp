@@ -112,7 +112,7 @@ void estimate(const EstimateArguments& arguments) {
   } else {
     const auto targets = targets_in(arguments.output, arguments.recordings, task.format);
     make_output_folder(arguments.output);
-    task.quiet = true;  // one line cannot tell of many
+    task.quiet = true;  // one line cannot report on many
     summaries = estimate_all(task, arguments.recordings, targets);
   }
   if (summary_file) {

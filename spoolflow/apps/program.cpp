@@ -111,7 +111,7 @@ int run(CLI::App& program, int argc, char** argv) {
   }
 }
 
-/// Ends as a program does that was told of the closed pipe by its signal: silently.
+/// Ends as a program does on the signal of a closed pipe: silently.
 [[noreturn]] void end_by_sigpipe() {
   std::signal(SIGPIPE, SIG_DFL);
   std::raise(SIGPIPE);

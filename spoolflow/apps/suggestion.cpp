@@ -47,7 +47,7 @@ void refuse_other_kinds(std::string_view command, const std::vector<Input>& inpu
   for (const Input& input : inputs) {
     const std::optional<FileKind> kind = kind_of(input.file);
     ordered.push_back({input.file, kind.value_or(input.wanted), {}});
-    // A model that is no JSON has its own message, which tells where it is damaged.
+    // A model that is no JSON has its own message, which reports where it is damaged.
     const bool plain = kind && *kind != input.wanted && input.wanted != FileKind::model;
     if (plain && wrong == nullptr) wrong = &input, found = *kind;
   }

@@ -9,7 +9,7 @@ namespace spoolflow::apps {
 /// "; did you mean 'calibrate'?" for a misspelt word, or nothing where no candidate is near (a third of its letters).
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
-/// What a file on the command line is, told by its first bytes and, of settings, by its ending.
+/// What a file on the command line is, recognised by its first bytes and, of settings, by its ending.
 enum class FileKind { model, settings, recording };
 
 /// An input as typed, and what it should be.

@@ -27,7 +27,7 @@ void add_runs(std::vector<OperatingRun>& to, const Recordings& recordings, RunOf
     to.push_back({.recording = recording, .of = of, .other = other});
 }
 
-/// Condensed sensor and what the benches tell of the observer.
+/// Condensed sensor, and the observer as the benches determine it.
 model::Direction calibrate_benches(const CampaignRecordings& recordings, const model::Valve& valve) {
   for (const recording::Recording* recording : recordings.solenoid_dynamic) require_resolved_dither(*recording);
   const recording::Recording force_map = without_dither(recordings.solenoid_force_map);
@@ -43,7 +43,7 @@ model::Direction calibrate_benches(const CampaignRecordings& recordings, const m
   return out;
 }
 
-/// What the runs tell of edges that were measured together.
+/// The ratio of edges that were measured together, from runs.
 void tell_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& operation, const model::Valve& valve) {
   AxialForceMaps& maps = benches.axial_force_maps;
   if (maps.edges_are_unknown()) maps.edge_ratio = edge_ratio_in_operation(benches, operation, valve);

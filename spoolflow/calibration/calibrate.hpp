@@ -9,7 +9,7 @@
 
 namespace spoolflow::calibration {
 
-/// Told before each step: what begins, and the share of the whole work done so far, 0 to 1.
+/// Receives before each step what begins, and the share of the whole work done so far, 0 to 1.
 using CalibrationProgress = std::function<void(const std::string& step, double share)>;
 
 /// All fits in their order: condensed sensor, observer and evidence of the valve's model. Throws CalibrationError.

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run at work tells of two edges that the bench measured together: where flow and pressure difference of the
+/// What a run at work shows of two edges that the bench measured together: where flow and pressure difference of the
 /// path were recorded, q/(C_joined sqrt(dp)) is C/C_joined of path_of_edges.hpp, and e follows from it.
 #include <optional>
 

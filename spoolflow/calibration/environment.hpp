@@ -13,9 +13,9 @@ inline constexpr double usual_highest_pressure_ratio = 1.2;
 /// below the calibrated pressure difference leaves that.
 void apply(const recording::Environment& environment, model::Model& model);
 
-/// Tells every observer of the model how the coil current changes at most between two samples, by the coil's equation:
-/// voltage, and the current's own, over the least incremental inductance, and at once the eddy currents of that
-/// voltage. Nothing where the recordings held no voltage.
+/// Reports every observer of the model how the coil current changes at most between two samples, by the coil's
+/// equation: voltage, and the current's own, over the least incremental inductance, and at once the eddy currents of
+/// that voltage. Nothing where the recordings held no voltage.
 void limit_currents(model::Model& model);
 
 }  // namespace spoolflow::calibration

@@ -31,7 +31,7 @@ struct ObserverCalibration {
                                                      double closed_below_m);
 
 /// What only operation shows, from runs of which those without a reference flow are left out; what no run shows is
-/// assumed, and said so in `defaults`. `progress` is told the share done. Throws CalibrationError.
+/// assumed, and said so in `defaults`. `progress` receives the share done. Throws CalibrationError.
 void calibrate_in_operation(model::Observer& observer, const std::vector<OperatingRun>& runs,
                             double rated_flow_m3_per_s, const std::function<void(double)>& progress);
 

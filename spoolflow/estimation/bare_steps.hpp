@@ -1,6 +1,6 @@
 #pragma once
 /// The sensor's step alone over samples that carry their time steps, as a valve's firmware calls it: in the scalar of
-/// its state, without what a running sensor tells of times and before its first complete sample.
+/// its state, without what a running sensor adds about times and before its first complete sample.
 #include <vector>
 
 #include "spoolflow/sensor/sample.hpp"

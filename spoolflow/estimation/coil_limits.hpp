@@ -16,7 +16,7 @@ inline constexpr double implausible_voltage_ratio = 2.5;
 /// Where calibration saw no voltage, or the model is older: so many times the voltage that holds the largest current.
 inline constexpr double implausible_holding_voltage_ratio = 12;
 
-/// The largest current [A] and voltage [V] that are believed, either way.
+/// The largest current [A] and voltage [V] that are accepted, either way.
 struct CoilLimits {
   double current_A = std::numeric_limits<double>::infinity();
   double voltage_V = std::numeric_limits<double>::infinity();

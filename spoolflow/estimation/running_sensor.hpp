@@ -31,7 +31,7 @@ struct TimedSample {
 };
 
 /// Takes out of a sample what none of the valve's coils carries: that current or voltage is then missing. Returns the
-/// fault to tell.
+/// fault to report.
 inline sensor::Status take_out_implausible(const SolenoidLimits& limits, TimedSample& sample) {
   const auto& [b, a] = limits;
   const bool both_coils = !std::isnan(sample.current_a_A);  // else the current is the active coil's, whichever that is
@@ -44,7 +44,7 @@ inline sensor::Status take_out_implausible(const SolenoidLimits& limits, TimedSa
   return sensor::when(out, sensor::Status::coil_fault);
 }
 
-/// Takes a position out of a sample that hangs: it is then missing. Returns the fault to tell.
+/// Takes a position out of a sample that hangs: it is then missing. Returns the fault to report.
 inline sensor::Status take_out_hanging(const SolenoidLimits& limits, StillPosition& position, TimedSample& sample) {
   const bool both_coils = std::isfinite(sample.current_a_A);
   const double current_A = both_coils ? sample.current_A - sample.current_a_A : sample.current_A;
@@ -77,7 +77,7 @@ struct SampleTimes {
     }
     return {{step_s, sample.current_A, sample.voltage_V, sample.position_m, sample.oil_temperature_K}, repeated};
   }
-  /// Makes the sensor's answer to it what is told.
+  /// Completes the sensor's answer with the status of its inputs.
   void finish(sensor::Estimate<double>& answer, const SteppedSample& given, double rated_flow_m3_per_s) {
     if (!answered) {
       answered = sensor::unusable(given.sample) == sensor::Status::none;
@@ -174,7 +174,7 @@ class RunningSensor {
   void step(TimedSample sample, sensor::Estimate<double>& out) {
     const SteppedSample given = take(sample);
     out = answer(given.sample, sample);
-    tell(out, given);
+    complete(out, given);
   }
 
   /// Numbers, the flow inside its band.
@@ -210,8 +210,8 @@ class RunningSensor {
     if (runs_whole() && std::isinf(sample.current_a_A)) given.sample.current_A = not_measured;
     return given;
   }
-  /// What is told of the answer to it.
-  void tell(sensor::Estimate<double>& answer, const SteppedSample& given) {
+  /// Completes the answer to it.
+  void complete(sensor::Estimate<double>& answer, const SteppedSample& given) {
     if (!is_ordered(answer)) answer = began_anew();
     state_.times.finish(answer, given, rated_flow_m3_per_s_);
     if (runs_whole() && !state_.times.answered) answer.flow_lower_m3_per_s = -rated_flow_m3_per_s_;

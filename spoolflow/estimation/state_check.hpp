@@ -34,7 +34,7 @@ inline bool may_be_observer(sensor::ObserverState<double> state) {
 }
 
 /// `bytes`: sizeof(RunningState) of them. What it lets through leads to finite answers inside ordered bands
-/// (RunningSensor::tell begins anew where not).
+/// (RunningSensor::complete starts again where not).
 [[nodiscard]] inline bool may_be_running_state(const void* bytes) {
   RunningState state;
   std::memcpy(&state, bytes, sizeof state);

@@ -1,5 +1,5 @@
 #pragma once
-/// Sum over bytes that tells damage and mix-ups, not forgery: FNV-1a.
+/// Sum over bytes that detects damage and mix-ups, not forgery: FNV-1a.
 #include <cstddef>
 #include <cstdint>
 

@@ -26,7 +26,7 @@ struct AxialForceLoop {
 /// One part of `solenoid_dynamic`, of its held positions the middle one, thinned for drawing: what the load cell showed
 /// and what the calibrated actuator makes of the same current.
 struct SolenoidTrace {
-  int test;  ///< the protocol's number of the part; 0 where the recording does not tell
+  int test;  ///< the protocol's number of the part; 0 where the recording does not state it
   double position_m;
   std::vector<double> current_A;
   std::vector<double> measured_N;  ///< magnetic force

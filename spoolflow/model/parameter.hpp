@@ -3,7 +3,7 @@
 /// need to know of it. To add one, give it a member in a structure of spoolflow/sensor and one call in
 /// describe_observer.hpp or describe_condensed.hpp; `otherwise` lets files without it be read. A constant of the code
 /// gets one call in describe_constants.hpp. What runs show of a number stands in tuning_evidence.csv, which
-/// `bench/tuning_evidence.py --update` writes. Then `ci/parameters_page.sh` writes docs/formats/parameters.md anew.
+/// `bench/tuning_evidence.py --update` writes. Then `ci/parameters_page.sh` writes docs/formats/parameters.md again.
 #include <limits>
 #include <optional>
 #include <string>

@@ -13,7 +13,7 @@ struct InputFile {
   std::string file;         ///< as written in the campaign
   std::string sha256;       ///< 64 hexadecimal digits
   std::uint64_t samples;    ///< rows read; 0 for the campaign file
-  std::string resampled{};  ///< what of it was brought onto the time of its current; told, not written to the model
+  std::string resampled{};  ///< what of it was brought onto the time of its current; reported, not written to the model
 };
 
 /// One number that was put right after calibration.
@@ -25,7 +25,7 @@ struct Correction {
   double uncertainty_95;  ///< half width about `value`, >= 0
 };
 
-/// What the valve's operation has told against its model, put right in it (monitor/adaptation.hpp). The recordings it
+/// Corrections of the model from the valve's operation (monitor/adaptation.hpp). The recordings it
 /// is from stand among the provenance's inputs, as of protocol `adaptation_protocol`.
 struct Adaptation {
   std::string tool_version;

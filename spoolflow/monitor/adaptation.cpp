@@ -16,8 +16,8 @@ struct Corrected {
   Fault fault;
   const char* of;
   const char* unit;
-  double factor;   ///< from usual_fault to what is told
-  double at_zero;  ///< what is told of a healthy valve
+  double factor;   ///< from usual_fault to the indicator's unit
+  double at_zero;  ///< the indicator of a healthy valve
   double most;     ///< of the magnitude itself, in SI
 };
 constexpr std::array<Corrected, 5> corrected{{

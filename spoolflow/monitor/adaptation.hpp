@@ -1,6 +1,6 @@
 #pragma once
-/// What the indicators have identified, put right in the model: on request only, within limits, and told in the model's
-/// provenance. The model that it was corrected from stays as it is: going back is to use that.
+/// Corrects the model by what the indicators have identified: on request only, within limits, and recorded in the
+/// model's provenance. The model that it was corrected from stays as it is: going back is to use that.
 ///
 ///     model::Model corrected = monitor::adapted(model, watch.findings(), {.tool_version = …, .created = …, …});
 #include "spoolflow/model/model.hpp"
@@ -35,7 +35,7 @@ inline constexpr double identified_friction_share = 0.08;
 /// corrections filled in, at the end of its provenance. Edge wear is not corrected: it changes the flow that a force
 /// means. Nor is the zero of a whole valve, which its sensor finds at rest by itself. Throws ModelError where nothing
 /// was raised, where what was raised is none of what can be corrected, or where a correction passes its limit; the
-/// model's own name, the figure, the limit and the remedy are told.
+/// model's own name, the figure, the limit and the remedy are named.
 [[nodiscard]] model::Model adapted(const model::Model& model, const Findings& findings, model::Adaptation how);
 
 }  // namespace spoolflow::monitor

@@ -1,5 +1,5 @@
 #pragma once
-/// What is told of a valve's condition: indicators, what explains them, and the sign of NAMUR NE 107.
+/// A valve's condition: indicators, what explains them, and the sign of NAMUR NE 107.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class Ne107 : std::uint8_t {
 /// "good", "M", "S", "C" or "F".
 [[nodiscard]] std::string_view name(Ne107 sign);
 
-/// Faults that are told apart. `wrong_model`: no single one explains what is seen.
+/// Faults that are distinguished. `wrong_model`: no single one explains what is seen.
 enum class Fault : std::uint8_t { friction, edge_wear, spring, coil, position_sensor, temperature_sensor, wrong_model };
 inline constexpr std::size_t faults = 7;
 /// "friction", "edge_wear", "spring", "coil", "position_sensor", "temperature_sensor", "wrong_model".
@@ -43,7 +43,7 @@ enum class IndicatorState : std::uint8_t {
 /// "unknown", "learning", "good", "raised", "counts".
 [[nodiscard]] std::string_view name(IndicatorState state);
 
-/// Where an indicator goes, told only where its slope is beyond chance (trend.hpp).
+/// Trend of an indicator, given only where its slope is beyond chance (trend.hpp).
 struct Trend {
   bool there = false;
   double per_hour = 0;        ///< of watched time, in the indicator's unit

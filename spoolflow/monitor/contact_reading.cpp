@@ -23,7 +23,7 @@ struct OneWay {
 /// Both directions of one region.
 struct Region {
   OneWay opening, closing;
-  [[nodiscard]] bool tells() const {
+  [[nodiscard]] bool identified() const {
     return opening.count >= least_region_events && closing.count >= least_region_events;
   }
 };
@@ -58,12 +58,12 @@ constexpr double calibrated_speed_1_s = 0.07;
 constexpr double friction_a_doubling = 0.1;
 constexpr double unknown_a_doubling = 0.12;
 constexpr double most_doublings = 3;
-/// Events tell a speed where they lie in one stroke: no further apart in time, no nearer in position.
+/// Events give a speed where they lie in one stroke: no further apart in time, no nearer in position.
 constexpr double longest_between_s = 4;
 constexpr double shortest_between_share = 0.01;
 constexpr std::size_t least_speeds = 3;
 
-/// Median speed of the travel between neighbouring events [share of the stroke a second]; 0 where too few tell.
+/// Median speed of the travel between neighbouring events [share of the stroke a second]; 0 where there are too few.
 double stroke_speed_1_s(const WindowState& window, double stroke_m) {
   std::array<double, window_events> speed_1_s{};
   std::size_t count = 0;
@@ -86,7 +86,7 @@ ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, do
                              const WindowState& window, double pressure_difference_Pa) {
   std::array<Region, friction_regions> friction{}, width{};
   ContactReading out;
-  double breaks = 0, all = 0, breakaway_N = 0, expected_N = 0, variance_N2 = 0, told = 0;
+  double breaks = 0, all = 0, breakaway_N = 0, expected_N = 0, variance_N2 = 0, events = 0;
   for (std::size_t k = 0; k < window.count; ++k) {
     const ForceEvent& event = window.events[k];
     const Explained explained = explain(valve, stroke_m, event, pressure_difference_Pa);
@@ -104,13 +104,13 @@ ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, do
     breakaway_N += event.direction * explained.residual_N + believed_N;
     expected_N += believed_N;
     variance_N2 += explained.noise_N * explained.noise_N;
-    ++told;
+    ++events;
   }
   double ratios_A = 0;
   for (std::size_t k = 0; k < friction_regions; ++k) {
-    if (friction[k].tells()) out.friction_ratio[k] = ratio_of(friction[k]);
+    if (friction[k].identified()) out.friction_ratio[k] = ratio_of(friction[k]);
     const OneWay &o = width[k].opening, &c = width[k].closing;
-    if (!width[k].tells()) continue;
+    if (!width[k].identified()) continue;
     out.width_A.value += o.off_A / o.count - c.off_A / c.count;
     out.width_expected_A += o.half_width_A / o.count + c.half_width_A / c.count;
     ++ratios_A;
@@ -126,9 +126,9 @@ ContactReading read_contacts(const sensor::ObserverParameters<double>& valve, do
     const double share = breaks / all;
     out.stick_share = {share, all / std::max(share * (1 - share), 0.5 / all)};
   }
-  if (told > 0) {
-    out.breakaway_N = {breakaway_N / told, told * told / variance_N2};
-    out.breakaway_expected_N = expected_N / told;
+  if (events > 0) {
+    out.breakaway_N = {breakaway_N / events, events * events / variance_N2};
+    out.breakaway_expected_N = expected_N / events;
   }
   return out;
 }

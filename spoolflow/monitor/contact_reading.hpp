@@ -1,6 +1,6 @@
 #pragma once
-/// What one window tells of the contacts beside the magnitudes: friction in each region of the stroke, the force at
-/// which the spool breaks away, how often it sticks, and the width of its loop over the current. Both directions
+/// What one window identifies of the contacts beside the magnitudes: friction in each region of the stroke, the force
+/// at which the spool breaks away, how often it sticks, and the width of its loop over the current. Both directions
 /// together: what flow force and pressure difference are wrong by cancels in their difference.
 #include <array>
 #include <cmath>
@@ -22,10 +22,10 @@ static_assert(std::is_trivially_copyable_v<WindowState>);
 
 /// Thirds of the part of the stroke in which events are used.
 inline constexpr std::size_t friction_regions = 3;
-/// A region tells from so many events each way on.
+/// A region is identified from so many events each way on.
 inline constexpr double least_region_events = 2;
 
-/// A mean with its weight, 1/variance; weight 0: nothing told.
+/// A mean with its weight, 1/variance; weight 0: nothing identified.
 struct Weighted {
   double value = 0;
   double weight = 0;

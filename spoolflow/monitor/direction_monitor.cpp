@@ -10,7 +10,7 @@ namespace spoolflow::monitor {
 namespace {
 
 /// Resistance at work over the calibrated one, and its standard deviation: the winding warms by its own losses, and the
-/// bench does not tell how warm it was there. With a baseline the same, about that.
+/// bench does not state how warm it was there. With a baseline the same, about that.
 constexpr double usual_resistance_ratio = 1.04;
 constexpr double resistance_spread = 0.035;
 constexpr double learnt_resistance_spread = 0.025;
@@ -18,7 +18,7 @@ constexpr double learnt_resistance_spread = 0.025;
 /// So many spreads of healthy valves are no change.
 constexpr double tolerated_spreads = 1.5;
 
-/// A window that tells a magnitude worse than this [usual faults] is no point of its course.
+/// A window that identifies a magnitude worse than this [usual faults] is no point of its course.
 constexpr double usual_deviation = 1;
 
 /// A winding is no warmer than this over calibration, or over what the valve itself showed [K]; with copper's 0.39 %
@@ -50,7 +50,7 @@ double beyond(double value, double spread, double deviation) {
   return (value - tolerated_spreads * spread) / deviation;
 }
 
-/// One score for each chart a window, or a reading, tells of.
+/// One score for each chart that a window, or a reading, concerns.
 void follow_charts(const DirectionReference& reference, const Limits& limits, DirectionState& state,
                    const Evidence& evidence, bool shape_tells) {
   const DirectionBaseline& base = reference.baseline;
@@ -77,7 +77,7 @@ void follow_charts(const DirectionReference& reference, const Limits& limits, Di
 }
 
 /// A chart that has risen falls only once the evidence of all windows, too, speaks against its fault: operation that
-/// tells little of it, as faster strokes, is no repair.
+/// identifies little of it, as faster strokes, is no repair.
 void keep_explained(const DirectionReference& reference, const std::array<Cusum, charts>& before,
                     DirectionState& state) {
   for (std::size_t k = 0; k < against_faults; ++k) {
@@ -209,7 +209,7 @@ void take(const DirectionReference& reference, const Limits& limits, DirectionSt
 
 namespace {
 
-/// Both sides told anew: the middle is judged, and tells both directions, to a's springs mirrored.
+/// Both sides have new readings: the middle is judged, for both directions, to a's springs mirrored.
 void judge_centre(const std::array<DirectionReference, 2>& reference, const Limits& limits,
                   std::array<DirectionState, 2>& sides, CentreRest& rest) {
   rest.back[0].paired = rest.back[1].paired = true;
@@ -218,10 +218,10 @@ void judge_centre(const std::array<DirectionReference, 2>& reference, const Limi
   const double deviation_m = centre_deviation_m(rest);
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const double sign = k == 0 ? 1 : -1;
-    RestReading& told = sides[k].learnt.rest;
-    told.mean_m = told.lowest_m = sign * centre_zero_m(rest);
-    told.deviation_m = deviation_m;
-    told.weight = rest.pairs;
+    RestReading& reading = sides[k].learnt.rest;
+    reading.mean_m = reading.lowest_m = sign * centre_zero_m(rest);
+    reading.deviation_m = deviation_m;
+    reading.weight = rest.pairs;
     if (rest.pairs > 1) judge_rest(reference[k], limits, sides[k], sign * middle_m, deviation_m);
   }
 }
@@ -292,7 +292,7 @@ bool raised(const DirectionState& state) {
 
 bool decided(const DirectionState& state, const Isolation& found) {
   const double likeliest = *std::max_element(found.odds.begin(), found.odds.end());
-  return raised(state) && (likeliest > least_told_odds || found.unexplained_odds >= 1);
+  return raised(state) && (likeliest > least_reported_odds || found.unexplained_odds >= 1);
 }
 
 DirectionBaseline baseline_of(const DirectionReference& /*reference*/, const DirectionState& state) {

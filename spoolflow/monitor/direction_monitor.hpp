@@ -40,7 +40,7 @@ struct DirectionState {
   std::array<Course, isolated_faults> course{};  ///< of each fault's first magnitude
   double watched_s = 0;                          ///< time of its samples
   bool resistive = false;                        ///< latched: the coil's resistance is more than warm copper has
-  double windows = 0;                            ///< that told
+  double windows = 0;                            ///< that identified something
   double pressure_Pa = 0;                        ///< of the last window
 };
 static_assert(std::is_trivially_copyable_v<DirectionState>);
@@ -71,7 +71,7 @@ struct CentreSample {
   double position_m;
   bool silent;  ///< both coils
 };
-/// Where the spool rests in the centre tells the position sensor's zero; `sides` of solenoids b and a.
+/// The spool's rest in the centre gives the position sensor's zero; `sides` of solenoids b and a.
 void take_centre(const std::array<DirectionReference, 2>& reference, const Limits& limits,
                  std::array<DirectionState, 2>& sides, CentreRest& rest, const CentreSample& sample);
 void leave(CentreRest& rest);
@@ -91,8 +91,8 @@ inline constexpr std::array<Magnitude, isolated_faults> first_magnitude{
 /// enough. Charts weigh each window by its own noise; what windows share, as how fast the spool moves, does not average
 /// out and is weighed here.
 [[nodiscard]] bool decided(const DirectionState& state, const Isolation& found);
-/// Odds from which a raised chart is told with a fault that is not likelier than not.
-inline constexpr double least_told_odds = 0.5;
+/// Odds from which a raised chart is reported together with a fault that is not likelier than not.
+inline constexpr double least_reported_odds = 0.5;
 [[nodiscard]] DirectionBaseline baseline_of(const DirectionReference& reference, const DirectionState& state);
 
 }  // namespace spoolflow::monitor

@@ -10,7 +10,7 @@ namespace spoolflow::monitor {
 
 /// Mean over this time [s] with dither.
 inline constexpr double dither_memory_s = 10;
-/// Told from so much time with dither on [s].
+/// Known from so much time with dither on [s].
 inline constexpr double least_dithered_s = 2;
 
 struct DitherHealth {

@@ -33,7 +33,7 @@ ForceEvent event(const FinderMean& of, double time_s, double direction, EventKin
 /// A stretch that travels less is noise [m].
 constexpr double least_travel_m = 3e-6;
 
-bool tells(double position_m, double stroke_m) {
+bool counts(double position_m, double stroke_m) {
   return position_m > lowest_event_share * stroke_m && position_m < highest_event_share * stroke_m;
 }
 
@@ -54,9 +54,9 @@ std::optional<ForceEvent> close_slide(FinderState& state, double stroke_m) {
   state.slide_dithered = 0;
   const double travel_m = state.last[0].position_m - state.slide_begin_m;
   const double time_s = state.still_s - state.slide_begin_s;
-  if (slide.weight < sliding_blocks || !tells(slide.position_m, stroke_m) || slide.friction_N == 0) return {};
+  if (slide.weight < sliding_blocks || !counts(slide.position_m, stroke_m) || slide.friction_N == 0) return {};
   if (std::abs(travel_m) > fastest_sliding_m_per_s * std::max(time_s, event_block_s)) return {};
-  const double direction = slide.friction_N > 0 ? 1 : -1;  // the sensor tells it from more than this stretch
+  const double direction = slide.friction_N > 0 ? 1 : -1;  // the sensor knows it from more than this stretch
   if (direction * travel_m < least_travel_m) return {};
   if (dithered > 0 && dithered < slide.weight) return {};
   return event(slide, state.still_s, direction, dithered > 0 ? EventKind::dithered : EventKind::sliding);
@@ -119,7 +119,7 @@ FoundEvents find_events(const sensor::ObserverParameters<double>& valve, double 
   if (breaks) {
     const double rested_s = state.still_s - state.rest_since_s;
     if (!dithered && !slides && jumps && state.blocks > 3 && rested_s > shortest_event_rest_s &&
-        rested_s < longest_event_rest_s && tells(state.rest_m, stroke_m)) {
+        rested_s < longest_event_rest_s && counts(state.rest_m, stroke_m)) {
       const double direction = from_m > 0 ? 1 : -1;
       ForceEvent found = event(state.last[2], sample.time_s, direction, EventKind::breakaway);
       found.position_m = state.rest_m;
@@ -130,7 +130,7 @@ FoundEvents find_events(const sensor::ObserverParameters<double>& valve, double 
   }
   if (breaks || !state.resting) {
     if (breaks || state.blocks >= state.force_N.size()) {
-      // Where nothing was known before, neither is how long it has rested: longer than what tells.
+      // Where nothing was known before, neither is how long it has rested: longer than what counts.
       state.rest_since_s = breaks ? sample.time_s : sample.time_s - 2 * longest_event_rest_s;
       state.resting = true;
       state.rest_m = block.position_m;

@@ -22,7 +22,7 @@ inline constexpr double shortest_event_rest_s = 0.03;
 inline constexpr double longest_event_rest_s = 1.5;
 /// The break-away force is the largest of so many blocks before it.
 inline constexpr std::size_t force_blocks = 10;
-/// Stretches of sliding end after this share of the stroke, and tell from so many blocks on.
+/// Stretches of sliding end after this share of the stroke, and count from so many blocks on.
 inline constexpr double sliding_travel_share = 0.02;
 inline constexpr double sliding_blocks = 6;
 /// Faster sliding [m/s] has drag and transient flow forces that no map knows.

@@ -18,7 +18,7 @@ struct Restlessness {
   double before;  ///< ln of how likely it is before anything is seen, to the first
 };
 constexpr std::array<Restlessness, 4> restless{{{0.004, 0.03, 0}, {0.004, 0.3, 0}, {0.04, 0.3, -3}, {0.17, 0.5, -5}}};
-/// Beyond the first only friction is told: what a load takes has the shape of faults.
+/// Beyond the first only friction is identified: what a load takes has the shape of faults.
 constexpr std::size_t steady_kinds = 1;
 /// What is known of the pressure difference at first, as a share of the highest.
 constexpr double pressure_deviation_share = 0.35;
@@ -31,12 +31,12 @@ constexpr double unsettled_share = 0.06;  ///< beyond it is not
 /// Events further off than so many standard deviations count less, by the square of how much further.
 constexpr double unusual_deviations = 2;
 constexpr double largest_misfit = 2.5;
-/// A shape is told where the model holds better than this, ...
+/// A shape is identified where the model holds better than this, ...
 constexpr double largest_shape_misfit = 0.6;
 /// ... and where the pressure difference is no less than this share of the highest: oil that loads hold back has no
 /// shape of its own.
 constexpr double least_shape_pressure_share = 0.1;
-/// A misfit below this is not believed.
+/// A misfit below this is not accepted.
 constexpr double least_misfit = 0.3;
 
 /// The window's equations about one pressure difference.

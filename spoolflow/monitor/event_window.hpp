@@ -1,7 +1,7 @@
 #pragma once
-/// Events of one cycle of the spool, gathered until they tell together: the pressure difference, which nobody measures,
-/// is one for all of them but for a slow walk and a load behind the valve, so that the shape over position is left to
-/// tell the faults apart.
+/// Events of one cycle of the spool, gathered until they can be evaluated together: the pressure difference, which
+/// nobody measures, is one for all of them but for a slow walk and a load behind the valve, so that the shape over
+/// position is left to distinguish the faults.
 #include <array>
 #include <optional>
 
@@ -15,12 +15,13 @@ inline constexpr double longest_event_gap_s = 20;  ///< a longer pause ends the 
 /// Events in one direction within this share of the stroke and this time [s] count as one.
 inline constexpr double alike_position_share = 0.025;
 inline constexpr double alike_time_s = 1.0;
-/// A window whose events go one way but for this share tells nothing: friction and pressure difference are one there.
+/// A window whose events go one way but for this share identifies nothing: friction and pressure difference are one
+/// there.
 inline constexpr double least_return_share = 0.1;
 /// A valve that stays closed so long [s] ends the window: behind it the pressure may do as it likes.
 inline constexpr double closing_pause_s = 0.3;
 
-/// What a window tells.
+/// Result of a window.
 struct WindowResult {
   Evidence evidence;
   double pressure_difference_Pa;

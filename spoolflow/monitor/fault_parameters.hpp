@@ -7,7 +7,7 @@
 
 namespace spoolflow::monitor {
 
-/// What a force tells of. Each is 0 where the valve is as its model.
+/// The magnitudes that act on a force. Each is 0 where the valve is as its model.
 enum class Magnitude : std::size_t { friction, edge_rounding, preload_loss, rate_loss, shorted_turns, position_zero };
 inline constexpr std::size_t magnitudes = 6;
 using Magnitudes = std::array<double, magnitudes>;
@@ -25,7 +25,7 @@ inline constexpr Magnitudes healthy_spread{0.2, 0.12, 0.15, 0.2, 0.15, 0.2};
   return static_cast<std::size_t>(magnitude);
 }
 
-/// What windows of force events tell of the magnitudes, pressure differences already taken out: the information
+/// What windows of force events identify of the magnitudes, pressure differences already taken out: the information
 /// J^T S^-1 J and the weighted residuals J^T S^-1 y.
 struct Evidence {
   MagnitudeMatrix information{};

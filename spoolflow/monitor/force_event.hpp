@@ -10,7 +10,7 @@ namespace spoolflow::monitor {
 enum class EventKind : std::uint8_t {
   breakaway,  ///< friction at the limit of sticking after that rest
   sliding,    ///< friction of sliding
-  dithered,   ///< sliding under dither: friction lessened by its swing, `friction_N` as the sensor believes
+  dithered,   ///< sliding under dither: friction lessened by its swing, `friction_N` as the sensor estimates
 };
 
 struct ForceEvent {
@@ -18,10 +18,10 @@ struct ForceEvent {
   double position_m;   ///< free of drift, opening > 0
   double net_force_N;  ///< magnetic force less spring force
   double rested_s;     ///< before a break-away; else 0
-  double friction_N;   ///< believed by the sensor, sign of the motion
+  double friction_N;   ///< estimated by the sensor, sign of the motion
   double current_A;
   double oil_temperature_K;
-  double pressure_difference_Pa;  ///< believed by the sensor
+  double pressure_difference_Pa;  ///< estimated by the sensor
   double direction;               ///< 1 opening, -1 closing
   double count;                   ///< events of which this is the mean
   EventKind kind;

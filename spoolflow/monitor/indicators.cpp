@@ -17,15 +17,15 @@ struct Names {
   [[nodiscard]] std::string_view of(bool side_a) const { return side_a ? a : b; }
 };
 
-struct Told {
+struct InItsUnit {
   Names names;
   Magnitude magnitude;
   Fault fault;
-  double factor;  ///< from usual_fault to what is told
+  double factor;  ///< from usual_fault to the indicator's unit
   double at_zero;
   std::string_view unit;
 };
-constexpr std::array<Told, magnitudes> told{{
+constexpr std::array<InItsUnit, magnitudes> in_its_unit{{
     {{"friction_ratio", "friction_ratio_a"}, Magnitude::friction, Fault::friction, 1, 1, "1"},
     {{"edge_rounding", "edge_rounding_a"}, Magnitude::edge_rounding, Fault::edge_wear, 1, 0, "m"},
     {{"spring_preload_ratio", "spring_preload_ratio_a"}, Magnitude::preload_loss, Fault::spring, -1, 1, "1"},
@@ -34,7 +34,7 @@ constexpr std::array<Told, magnitudes> told{{
     {{"position_zero", "position_zero_a"}, Magnitude::position_zero, Fault::position_sensor, 1, 0, "m"},
 }};
 
-Trend trend_of(const DirectionReference& reference, const DirectionState& side, const Told& each) {
+Trend trend_of(const DirectionReference& reference, const DirectionState& side, const InItsUnit& each) {
   const auto fault = static_cast<std::size_t>(each.fault);
   if (first_magnitude[fault] != each.magnitude) return {};
   const std::size_t k = index(each.magnitude);
@@ -57,7 +57,7 @@ void add_magnitudes(const DirectionReference& reference, const DirectionState& s
   constexpr double least_windows = 2;
   const Isolation found = isolation_of(reference, side);
   const Evidence evidence = evidence_of(reference, side);
-  for (const Told& each : told) {
+  for (const InItsUnit& each : in_its_unit) {
     const std::size_t k = index(each.magnitude);
     const bool known = evidence.information[k * magnitudes + k] > 0;
     const double unit = each.factor * usual_fault[k];
@@ -163,7 +163,7 @@ void add_dither_health(const DitherHealth& dither, double amplitude_A, double fr
                        std::vector<Indicator>& out) {
   const bool known = dither.dithered_s >= least_dithered_s;
   const IndicatorState state = known ? IndicatorState::good : IndicatorState::unknown;
-  // Samples seldom meet the peaks, and the period is told by whole samples.
+  // Samples seldom meet the peaks, and the period is known in whole samples.
   constexpr double peak_share = 0.2, period_share = 0.1;
   const auto put = [&](std::string_view name, double value, std::string_view unit, double share, double baseline) {
     out.push_back({name, known ? value : unknown, unit, known ? share * value : unknown,

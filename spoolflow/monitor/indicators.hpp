@@ -1,5 +1,5 @@
 #pragma once
-/// What is told of the states: indicators with their names, units and uncertainties.
+/// Indicators from the states, with their names, units and uncertainties.
 #include <vector>
 
 #include "spoolflow/monitor/command_response.hpp"

@@ -17,7 +17,7 @@ inline constexpr double prior_odds = 0.05;
 inline constexpr double most_odds = 1e6;
 /// The same that the model is wrong in some other way.
 inline constexpr double wrong_model_prior_odds = 0.0025;
-/// Faults whose magnitudes the forces tell: friction, edge wear, spring, coil, position sensor.
+/// Faults whose magnitudes the forces identify: friction, edge wear, spring, coil, position sensor.
 inline constexpr std::size_t isolated_faults = 5;
 
 struct Isolation {
@@ -36,7 +36,7 @@ struct Isolation {
 /// One magnitude by itself, all others of a healthy valve.
 struct Score {
   double value;      ///< in usual_fault, about the centre
-  double deviation;  ///< one standard deviation by the noise of the events; infinite where nothing was told
+  double deviation;  ///< one standard deviation by the noise of the events; infinite where nothing was identified
 };
 /// Of a fault: a spring's preload and rate as their usual loss together.
 [[nodiscard]] Score score(const Evidence& evidence, const Magnitudes& centre, const Magnitudes& spread, Fault fault);

@@ -12,7 +12,8 @@ namespace spoolflow::monitor {
 
 /// Windows are forgotten by and by: this many count.
 inline constexpr double memory_windows = 20;
-/// What windows share (errors of maps and signatures) does not average out: together they tell no more than so many.
+/// What windows share (errors of maps and signatures) does not average out: together they count as no more than so
+/// many.
 inline constexpr double independent_windows = 2;
 
 /// A mean that forgets, with how much it rests on.
@@ -66,7 +67,8 @@ inline constexpr double farthest_centre_m = 150e-6;
 /// deviation: the springs' ends and the contacts are not quite alike.
 inline constexpr double centre_unlike_share = 0.25;
 
-/// The position sensor's zero [m], in the valve's signs, by the readings of both sides. To be asked where both told.
+/// The position sensor's zero [m], in the valve's signs, by the readings of both sides. To be asked where both are
+/// known.
 [[nodiscard]] inline double centre_zero_m(const CentreRest& rest) {
   return 0.5 * (rest.back[0].mean_m + rest.back[1].mean_m);
 }
@@ -77,8 +79,8 @@ inline constexpr double centre_unlike_share = 0.25;
 }
 
 struct Learnt {
-  MeanEvidence shape;     ///< of windows that tell all magnitudes
-  MeanEvidence friction;  ///< of those that tell friction alone
+  MeanEvidence shape;     ///< of windows that identify all magnitudes
+  MeanEvidence friction;  ///< of those that identify friction alone
   RestReading rest;
 };
 static_assert(std::is_trivially_copyable_v<Learnt>);
@@ -112,7 +114,7 @@ inline void add(Evidence& to, const MeanEvidence& mean) {
   for (std::size_t k = 0; k < to.pull.size(); ++k) to.pull[k] += share * mean.sum.pull[k];
 }
 
-/// What one reading of one magnitude tells; `value` and `deviation` in usual_fault.
+/// One reading of one magnitude; `value` and `deviation` in usual_fault.
 inline Evidence reading(Magnitude magnitude, double value, double deviation) {
   Evidence out;
   const std::size_t k = index(magnitude);

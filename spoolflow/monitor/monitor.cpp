@@ -19,7 +19,7 @@ const sensor::ObserverParameters<double>& parameters(const model::Model& model, 
   return opens_a ? model.p_to_a->observer->parameters : model.observer->parameters;
 }
 
-/// Odds from which a cause is told before its charts have decided: it is suspected, and raises no sign.
+/// Odds from which a cause is reported before its charts have decided: it is suspected, and raises no sign.
 constexpr double suspicion_odds = 10;
 
 using sensor::has;
@@ -190,9 +190,9 @@ std::vector<Cause> Monitor::causes() const {
     }
     if (explained || !decided) continue;
     // Something is wrong: the likeliest explanation, or that there is none.
-    const bool likely = found.odds[best] > least_told_odds;
-    const std::size_t told = likely ? best : static_cast<std::size_t>(Fault::wrong_model);
-    odds[told] = std::max(odds[told], likely ? found.odds[best] : found.unexplained_odds);
+    const bool likely = found.odds[best] > least_reported_odds;
+    const std::size_t reported = likely ? best : static_cast<std::size_t>(Fault::wrong_model);
+    odds[reported] = std::max(odds[reported], likely ? found.odds[best] : found.unexplained_odds);
   }
   const bool resistive =
       std::any_of(state_.side.begin(), state_.side.end(), [](const DirectionState& side) { return side.resistive; });

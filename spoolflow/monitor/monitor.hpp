@@ -54,7 +54,7 @@ class Monitor {
                    const std::optional<Baseline>& baseline = {});
 
   /// The next samples and the observer's answers to them, equally many. Samples that the sensor held are counted by
-  /// their status and tell nothing else. Throws std::invalid_argument where their numbers differ.
+  /// their status and identify nothing else. Throws std::invalid_argument where their numbers differ.
   void take(std::span<const estimation::TimedSample> samples, std::span<const sensor::Estimate<double>> answers);
   /// `position_set_m`: the command of that instant, in the position's signs; NaN: not known.
   void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer,

@@ -12,7 +12,7 @@ namespace {
 constexpr double pressure_step_share = 0.03;
 constexpr double position_step_m = 5e-6;
 constexpr double current_step_A = 0.01;
-/// A flatter force map tells no current.
+/// A flatter force map determines no current.
 constexpr double least_force_slope_N_A = 1;
 /// The flow force's rise over the opening is read at this share of the stroke behind the edge.
 constexpr double rise_share = 0.15;
@@ -24,7 +24,7 @@ constexpr double rounding_begins_m = 20e-6;
 constexpr double limit_scatter_share = 0.06;
 constexpr double force_scatter_N = 0.25;
 constexpr double ageing_scatter_share = 0.15;
-/// Under dither friction is told by its swing alone: as a share of its limit.
+/// Under dither friction is identified by its swing alone: as a share of its limit.
 constexpr double dithered_scatter_share = 0.25;
 
 struct Limit {

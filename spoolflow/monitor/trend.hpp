@@ -12,7 +12,7 @@
 namespace spoolflow::monitor {
 
 inline constexpr std::size_t course_points = 24;
-/// A trend is told from so many points on, ...
+/// A trend is given from so many points on, ...
 inline constexpr std::size_t least_trend_points = 6;
 /// ... where the slope is so many of its standard deviations; the part of the course with the most is taken, so that
 /// the limit lies higher than for a single line, ...
@@ -37,8 +37,8 @@ static_assert(std::is_trivially_copyable_v<Course>);
 /// One window's value.
 void follow(Course& course, double time_h, double value);
 
-/// The line through the part of the course that tells most. `now` and `slope_per_h` in the course's own unit, each with
-/// one standard deviation.
+/// The line through the most significant part of the course. `now` and `slope_per_h` in the course's own unit, each
+/// with one standard deviation.
 struct Line {
   bool there = false;
   double now = 0, now_deviation = 0;
@@ -48,7 +48,7 @@ struct Line {
 [[nodiscard]] Line line_through(const Course& course, double spread);
 
 /// When the line reaches `limit`, in hours from its end, with the interval in which it does so in 95 % of cases as far
-/// as slope and level tell; infinite where it may never. 0 where it is beyond already.
+/// by slope and level; infinite where it may never. 0 where it is beyond already.
 struct TimeToLimit {
   double earliest_h, expected_h, latest_h;
 };

@@ -7,7 +7,7 @@
 
 namespace spoolflow::monitor {
 
-/// Motion within this share of the stroke is tremble, no reversal; it is also the least stroke that counts.
+/// Motion within this share of the stroke is dither motion, no reversal; it is also the least stroke that counts.
 inline constexpr double least_stroke_share = 0.02;
 /// Motion within this [m] is noise or dither and adds no distance.
 inline constexpr double distance_play_m = 5e-6;

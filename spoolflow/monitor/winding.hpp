@@ -10,7 +10,7 @@ namespace spoolflow::monitor {
 
 /// Length of a window [s].
 inline constexpr double winding_window_s = 1.0;
-/// A window tells where the current is nowhere below this share of the largest.
+/// A window counts where the current is nowhere below this share of the largest.
 inline constexpr double winding_current_share = 0.08;
 /// The static map's flux linkage is taken to be wrong by this share of its change, one standard deviation, and by ...
 inline constexpr double flux_change_error_share = 0.1;
@@ -32,9 +32,9 @@ struct WindingState {
   double temperature_Ks = 0;
   double resistance_Ohm = 0;  ///< weighted mean of the last windows
   double weight_1_Ohm2 = 0;   ///< sum of their weights, forgotten by and by
-  double scatter = 0;         ///< mean squared deviation in units of what a window's weight tells
+  double scatter = 0;         ///< mean squared deviation in units of a window's weight
   double oil_temperature_K = 0;
-  double windows = 0;  ///< that told
+  double windows = 0;  ///< that identified something
 };
 static_assert(std::is_trivially_copyable_v<WindingState>);
 

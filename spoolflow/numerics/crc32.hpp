@@ -31,8 +31,8 @@ constexpr std::uint32_t little_endian_number(std::span<const std::uint8_t> bytes
 
 }  // namespace detail
 
-/// CRC-32 of IEEE 802.3, as zlib's and most microcontrollers' peripherals reckon it: polynomial 0x04C11DB7, reflected,
-/// begun and ended with all ones. It tells damage and mix-ups, not forgery.
+/// CRC-32 of IEEE 802.3, as zlib's and most microcontrollers' peripherals compute it: polynomial 0x04C11DB7, reflected,
+/// begun and ended with all ones. It detects damage and mix-ups, not forgery.
 constexpr std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   std::uint32_t rest = 0xFFFFFFFFU;
   const auto part = [](std::size_t zeros, std::uint32_t byte) { return detail::crc32_rests[zeros][byte & 0xFFU]; };

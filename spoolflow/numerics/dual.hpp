@@ -1,5 +1,5 @@
 #pragma once
-/// A number with its derivatives, so that the sensor's own templates tell how their answer depends on each input
+/// A number with its derivatives, so that the sensor's own templates compute how their answer depends on each input
 /// (forward automatic differentiation).
 #include <array>
 #include <cmath>

@@ -18,8 +18,8 @@ constexpr double dead_resolution_s = 2.5e-4;  // of the search
 constexpr double lag_resolution = 0.0125;     // likewise, as a share of the lag
 
 /// What the errors' scatter does not show, from 22 runs of four valves of the rig, whose meter lags by 30 ms without
-/// dead time: the flow is told a little early or late, and a lag that smooths the flow's own errors looks better than
-/// it is, the more so the larger the share of the reference's changes that stays unexplained.
+/// dead time: the flow is estimated a little early or late, and a lag that smooths the flow's own errors looks better
+/// than it is, the more so the larger the share of the reference's changes that stays unexplained.
 constexpr double flow_timing_s = 0.002;  // standard uncertainty
 constexpr double smoothing = 0.6;        // standard uncertainty over lag and unexplained share
 

@@ -18,10 +18,10 @@ void add_magnetic_deviations(std::vector<Deviation>& to, const MagneticCurves& c
 /// Largest recorded flow against the rated one.
 void add_rated_flow_deviation(std::vector<Deviation>& to, const HydraulicCurves& curves, double rated_flow_m3_per_s);
 
-/// Voltage over current while the current holds [Ohm]; NaN where the recording does not tell.
+/// Voltage over current while the current holds [Ohm]; NaN where the recording does not determine it.
 [[nodiscard]] double coil_resistance(const recording::Recording& means);
 
-/// Of the coil's resistance in all recordings that tell it, and beside `known_Ohm` where that is > 0.
+/// Of the coil's resistance in all recordings that determine it, and beside `known_Ohm` where that is > 0.
 void add_resistance_deviation(std::vector<Deviation>& to, const std::vector<const recording::Recording*>& recordings,
                               double known_Ohm = 0);
 

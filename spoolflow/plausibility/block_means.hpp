@@ -12,8 +12,8 @@ namespace spoolflow::plausibility {
 /// Channels with samples missing in a stretch are NaN there. Channels as name_alike() has them.
 [[nodiscard]] recording::Recording block_means(const recording::Recording& recording, std::size_t most);
 
-/// Blocks no shorter than this tell of forces and of the coil [s]: within two periods of dither neither a current that
-/// happens to stand still nor a sample's noise tells of the valve.
+/// Blocks no shorter than this are compared with forces and the coil [s]: within two periods of dither neither a
+/// current that happens to stand still nor a sample's noise counts as the valve's.
 inline constexpr double shortest_block_s = 0.025;
 
 /// Rows that lie within a stretch of shortest_block_s made one: the means of those that are numbers, NaN where most are

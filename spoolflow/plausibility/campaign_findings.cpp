@@ -45,7 +45,7 @@ class Trial {
     for (const Recording* recording : benches.operation) add(Role::operation, recording, 2500);
   }
 
-  /// Fits what `changed` reaches of the curves anew; all of them where nothing is named.
+  /// Fits what `changed` reaches of the curves again; all of them where nothing is named.
   void fit_curves(std::optional<Role> changed) {
     const Recording* map = first(Role::force_map);
     const std::vector<const Recording*> maps = all(Role::axial_map);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t stretch_samples = 4096;
 constexpr double slowest_step_s = 0.005;
 constexpr std::size_t fewest_samples = 500;
-constexpr std::size_t most_stretches = 10'000;  // so many tell enough of the longest run
+constexpr std::size_t most_stretches = 10'000;  // enough for the longest run
 constexpr double no_change_m = 1e-10;           // rounding of numbers
 
 /// White noise leaves differences of fourth order alike by chance only from the fifth sample on; dither and a position
@@ -80,7 +80,7 @@ double PositionResolution::lower_quartile() {
 }
 
 /// By the lower quartile of the differences' sizes: slips of the spool fill the upper ones where samples are slow. A
-/// stretch in which dither shakes the spool tells nothing of noise; asked only where there is more of it than before.
+/// stretch in which dither moves the spool is no measure of noise; asked only where there is more of it than before.
 void PositionResolution::judge_stretch() {
   if (stretch_.size() >= fewest_samples && noise_m_.size() < most_stretches) {
     differences_.clear();

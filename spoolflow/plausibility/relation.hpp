@@ -11,7 +11,7 @@ namespace spoolflow::plausibility {
 
 struct Deviation {
   std::string of;      ///< "balance of forces in operation"
-  std::string shown;   ///< its value with unit, as a message tells it
+  std::string shown;   ///< its value with unit, as in a message
   double over_limit;   ///< 0: none; above 1: beyond what any sound recording here has, with a margin
   std::string file{};  ///< that it is of, where it is of one alone
   double ratio = 1;    ///< of a reference to what it should be

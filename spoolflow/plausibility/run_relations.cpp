@@ -160,7 +160,7 @@ FlowFit compared_late(const Recording& run, std::span<const double> expected, Fl
 }
 
 /// The reference against what edge and pressure difference make, shown as late as the meter is where that matters. A
-/// valve that hardly lets oil through tells no ratio, and a meter's noise then nothing.
+/// valve that hardly lets oil through shows no ratio, and a meter's noise then nothing.
 void add_flow_deviations(std::vector<Deviation>& to, const HydraulicCurves& hydraulics, const Recording& run) {
   const auto [earliest, latest] = std::ranges::minmax(run.column(Channel::time));
   if (!(latest - earliest >= shortest_metered_s)) return;

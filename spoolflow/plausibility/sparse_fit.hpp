@@ -37,7 +37,7 @@ class SparseFit {
     }
   }
 
-  /// An unknown of which no sample tells becomes nearly zero.
+  /// An unknown that no sample determines becomes nearly zero.
   [[nodiscard]] std::vector<double> solve() const {
     constexpr double ridge = 1e-7;
     const double least = ridge * std::max(matrix_.trace() / static_cast<double>(matrix_.rows()), 1e-300);

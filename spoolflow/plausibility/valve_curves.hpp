@@ -1,6 +1,6 @@
 #pragma once
 /// One direction of a valve in few numbers, straight from its bench recordings: spring, flow force, flow and magnetic
-/// force over few knots. Too coarse for a sensor, true enough to tell a recording error from a measurement.
+/// force over few knots. Too coarse for a sensor, true enough to show a recording error from a measurement.
 #include <vector>
 
 #include "spoolflow/recording/recording.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Which channels tell of the coils.
+/// Which channels belong to the coils.
 #include "spoolflow/recording/channels/channel.hpp"
 
 namespace spoolflow::recording {

@@ -109,7 +109,7 @@ FileFormat format_of(std::string_view beginning, const std::filesystem::path& fi
   if (beginning.starts_with("TDSm")) return FileFormat::tdms;
   if (beginning.starts_with("MDF     ") || beginning.starts_with("UnFinMF ")) return FileFormat::mdf4;
   if (begins_npz(beginning)) refuse_format("arrays of NumPy (.npz)", of_numpy, file);
-  if (beginning.starts_with("PK\x03\x04")) return FileFormat::xlsx;  // or another zip archive: its reader tells
+  if (beginning.starts_with("PK\x03\x04")) return FileFormat::xlsx;  // or another zip archive: its reader decides
   for (const UnreadFormat& format : unread_formats) {
     const bool certain = !could_begin_text(format.mark) || beginning.find('\0') != std::string_view::npos;
     if (certain && beginning.starts_with(format.mark)) refuse_format(format.what, format.remedy, file);

@@ -1,5 +1,5 @@
 #pragma once
-/// File formats, told by how a file begins.
+/// File formats, recognised by how a file begins.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@ namespace spoolflow::recording {
 enum class FileFormat : std::uint8_t { csv, mat, hdf5, tdms, mdf4, xlsx };
 [[nodiscard]] std::string_view name(FileFormat format);
 
-/// Bytes that are needed to tell.
+/// Bytes that are needed to recognise it.
 inline constexpr std::size_t format_bytes = 4096;
 
 /// `file` is for messages, and its ending for the one format without a mark of its own (MATLAB version 4). Throws

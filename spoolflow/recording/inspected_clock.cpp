@@ -66,7 +66,7 @@ bool propose_leading_time(ChannelMap& proposal, const SampleTable& table, const 
   try {
     clock = clock_of(table, *leading, named, other_columns(table, proposal), file);
   } catch (const RecordingError&) {
-    return false;  // reading tells
+    return false;  // reading reports it
   }
   if (!clock) return false;
   if (!clock->time) {

@@ -120,7 +120,7 @@ OwnNames own_names(const FileContents& contents, const Proposal& proposal, bool 
   return out;
 }
 
-/// A channel map can be read where it tells all units and no raw signal.
+/// A channel map can be read where it states all units and no raw signal.
 ChannelMap known_units(ChannelMap map) {
   std::erase_if(map.sources, [](const auto& entry) {
     const auto unit = units::unit_named(entry.second.unit);
@@ -176,7 +176,7 @@ std::vector<bool> numberless(const std::vector<SurveyedColumn>& columns) {
   return out;
 }
 
-/// Guesses by data what names do not tell, and says of every column what it is taken for.
+/// Guesses by data what names do not state, and says of every column what it is taken for.
 void look_at_columns(Inspection& out, std::vector<SurveyedColumn> columns) {
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k].unit = out.contents.units[k];
   std::map<Channel, std::size_t> known;

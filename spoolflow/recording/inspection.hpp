@@ -54,9 +54,9 @@ struct Inspection {
 };
 
 /// "-" is standard input, of which a copy is kept on disk while it is read more than once. Reads the channels that
-/// `options` or the headers name; memory does not grow with the recording. Where no channel can be told, only contents
-/// and proposal are filled. An infinite number is a missing sample here, and said. Throws RecordingError as reading
-/// does.
+/// `options` or the headers name; memory does not grow with the recording. Where no channel is recognised, only
+/// contents and proposal are filled. An infinite number is a missing sample here, and said. Throws RecordingError as
+/// reading does.
 [[nodiscard]] Inspection inspect(const std::filesystem::path& file, const ReadOptions& options,
                                  const std::function<void(std::optional<double>, std::uint64_t)>& progress);
 

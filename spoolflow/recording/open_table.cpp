@@ -23,7 +23,7 @@ std::unique_ptr<VectorTable> refuse_workbook(const std::filesystem::path& file) 
                   file.string()));
 }
 
-/// Of formats that a process of few rights reads.
+/// Of formats that a sandboxed process reads.
 OpenVectors opener(FileFormat format) {
   switch (format) {
     case FileFormat::mat:

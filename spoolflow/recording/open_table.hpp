@@ -1,5 +1,5 @@
 #pragma once
-/// Tells a file's format by its content and opens it.
+/// Recognises a file's format by its content and opens it.
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -29,7 +29,8 @@ struct OpenTable {
 [[nodiscard]] OpenTable open_sample_table(std::unique_ptr<InputBytes> input,
                                           CsvTable::Text text = CsvTable::Text::refused);
 
-/// Whether the file is read by a process of its own (all but CSV). False of what cannot be read: opening it tells why.
+/// Whether the file is read by a process of its own (all but CSV). False of what cannot be read: opening it reports
+/// why.
 [[nodiscard]] bool takes_a_process(const std::filesystem::path& file);
 
 /// For whoever opens these files while this process has several threads: to be held from before the second thread until

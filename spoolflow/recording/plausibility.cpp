@@ -21,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_step_s = 0.5;
 constexpr double shortest_step_s = 8e-6;
 
-constexpr double much_larger = 99.0;  // mA to A, mm to m, Pa to bar; not bar to MPa, which no value tells apart
+constexpr double much_larger = 99.0;  // mA to A, mm to m, Pa to bar; not bar to MPa, which no value distinguishes
 
 bool in_range(double value, double lowest, double highest) {
   return value >= lowest && value <= highest;

@@ -18,7 +18,7 @@ class Plausibility {
  public:
   Plausibility(std::string file, const std::vector<BoundColumn>& columns, std::optional<double> stroke_m);
 
-  /// `values` in SI, `place` tells where row k of them stands. Throws RecordingError.
+  /// `values` in SI, `place` returns where row k of them stands. Throws RecordingError.
   void take(std::size_t column, std::span<const double> values, const std::function<std::string(std::size_t)>& place);
   /// At the end of the recording. Throws RecordingError.
   void finish() const;

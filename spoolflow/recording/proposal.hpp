@@ -15,7 +15,7 @@ struct Proposal {
   std::map<Channel, std::vector<std::string>> as_well{};
 };
 
-/// At most one column a channel; columns whose meaning or unit cannot be told are left out. Where a column names no
+/// At most one column a channel; columns whose meaning or unit is unknown are left out. Where a column names no
 /// unit, `unit` stays empty: it must be filled in by hand.
 /// Own names come before known words, words with a unit before words without; "T" is a temperature, "t" a time.
 /// Columns of `numberless`, one a column of the file or none at all, are no channel.

@@ -37,7 +37,7 @@ struct InfiniteSamples {
   }
 };
 
-/// What was met while reading and is told rather than swallowed.
+/// What was met while reading and is reported rather than swallowed.
 struct ReadNotes {
   std::uint64_t rows = 0;
   std::uint64_t duplicate_times = 0;              ///< equal to the time stamp before
@@ -65,7 +65,7 @@ class Reader {
   [[nodiscard]] virtual std::optional<double> progress() const = 0;
 };
 
-/// `file` "-" is standard input (CSV). The format is told by content (file_format.hpp). Columns with
+/// `file` "-" is standard input (CSV). The format is recognised by content (file_format.hpp). Columns with
 /// times of their own are brought onto those of the current (resampled_table.hpp).
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options);
 

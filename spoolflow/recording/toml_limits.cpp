@@ -17,7 +17,7 @@ std::size_t behind_quotes(std::string_view text, std::size_t at) {
   const std::string end(many_lines ? 3 : 1, quote);
   for (at += end.size(); at < text.size(); ++at) {
     if (text.substr(at).starts_with(end)) return at + end.size();
-    if (text[at] == '\n' && !many_lines) return at;  // never closed: the parser tells
+    if (text[at] == '\n' && !many_lines) return at;  // never closed: the parser reports it
     if (text[at] == '\\' && quote == '"') ++at;
   }
   return text.size();

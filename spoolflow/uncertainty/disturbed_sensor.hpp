@@ -80,7 +80,7 @@ sensor::Sample<T> disturbed(const sensor::Sample<double>& sample, const InputErr
           T(sample.oil_temperature_K) + error[InputQuantity::oil_temperature]};
 }
 
-/// How much warmer than believed the oil acts, in temperature and viscosity together.
+/// How much warmer than assumed the oil acts, in temperature and viscosity together.
 template <class T>
 T warmth_K(const Surroundings& surroundings, const InputErrors<T>& error) {
   return error[InputQuantity::oil_temperature] +

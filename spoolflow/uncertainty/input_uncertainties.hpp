@@ -16,7 +16,7 @@ struct InstrumentFigure {
   std::string source;
 };
 
-/// Instruments and oil. Absent: the model tells.
+/// Instruments and oil. Absent: the model's.
 struct InstrumentFigures {
   std::optional<InstrumentFigure> position_zero_m;  ///< half width
   InstrumentFigure position_gain{1e-3, "default: linearity of an LVDT, 0.1 % of the reading"};

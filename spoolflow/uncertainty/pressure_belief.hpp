@@ -1,19 +1,19 @@
 #pragma once
 /// What the observer's own state leaves open of the pressure difference, beyond the errors of its forces: changes of
-/// the supply that no force has told of yet.
+/// the supply that no force has shown yet.
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::uncertainty {
 
 /// A normal error of the pressure difference, cut off where friction at rest would lie outside its bounds, and what it
-/// makes of the flow rate. Errors are belief less truth.
+/// makes of the flow rate. Errors are estimate less truth.
 class PressureBelief {
  public:
   struct Parts {
     double deviation_Pa = 0;
     double below_Pa = 0, above_Pa = 0;  ///< errors lie from -below to +above; infinite while the spool slides
     double bounds_Pa = 0;               ///< one standard deviation of these bounds
-    double pressure_difference_Pa = 0;  ///< as believed
+    double pressure_difference_Pa = 0;  ///< as estimated
     double highest_Pa = 0;              ///< that the maps know
     double conductance = 0;             ///< flow over the root of the pressure difference
   };

@@ -20,7 +20,7 @@ struct Phases {
 /// measured position. A turn is where the rate changes sign, or where the motion starts or stops above half of the
 /// stroke. No velocity.
 [[nodiscard]] Phases phases_of_command(std::span<const double> time_s, std::span<const double> position_set);
-/// From the measured position, whatever was commanded. Fast motion is told from means over 20 ms before and after each
+/// From the measured position, whatever was commanded. Fast motion is found from means over 20 ms before and after each
 /// sample (longer than a period of dither, > 10 % of the stroke a second and five standard deviations of the noise),
 /// slow motion from what fast motion leaves, over half a second (not causal; a judge may look ahead). A turn is where
 /// the rate changes sign, with at most half a second of rest in between, or where the motion starts or stops above half

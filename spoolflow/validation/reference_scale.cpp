@@ -56,7 +56,7 @@ std::optional<ReferenceScale> reference_scale(std::span<const float> estimate_m3
   for (const Sums& part : parts) {
     if (part.n == 0) continue;
     const std::optional<ScaleLine> without = line_of(all.with(part, -1));
-    if (!without) return std::nullopt;  // one stretch tells all
+    if (!without) return std::nullopt;  // one stretch holds all
     scale_squares += std::pow(without->scale - whole->scale, 2);
     offset_squares += std::pow(without->offset - whole->offset, 2);
     ++count;

@@ -1,5 +1,5 @@
 #pragma once
-/// How the reference meter's scale and zero stand to the estimate: told, never applied.
+/// How the reference meter's scale and zero stand to the estimate: reported, not applied.
 #include <optional>
 #include <span>
 

@@ -64,7 +64,7 @@ struct Requirements {
   std::vector<Limit> limits;
 };
 
-/// A limit against a run. `value` is absent where the run cannot tell (no reference flow, no such samples); then the
+/// A limit against a run. `value` is absent where it is unknown (no reference flow, no such samples); then the
 /// limit counts as not met.
 struct JudgedLimit {
   Limit limit;

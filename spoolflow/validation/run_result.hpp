@@ -40,7 +40,7 @@ struct WorstMoment {
   std::vector<Line> flow_m3_per_s;  ///< of every estimator, in the run's order
 };
 
-/// Whether a whole valve's flow was told to go the right way, where the meter shows more than a fiftieth of full scale.
+/// Whether a whole valve's estimated flow has the right sign, where the meter shows more than a fiftieth of full scale.
 struct SignFigures {
   std::size_t samples = 0;                   ///< with reference flow
   std::size_t wrong = 0;                     ///< of them: against the measured flow, and the status did not say so
@@ -88,7 +88,7 @@ struct SolenoidPoint {
 
 struct RunResult {
   KnownMeter reference_meter;
-  std::optional<ReferenceScale> reference_scale;  ///< beside the leading estimator; told, never applied
+  std::optional<ReferenceScale> reference_scale;  ///< beside the leading estimator; reported, not applied
   std::string name;                               ///< file name without its ending
   std::string file;
   std::string sha256;            ///< empty for standard input

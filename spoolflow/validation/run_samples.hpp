@@ -34,7 +34,7 @@ struct RunSamples {
 };
 
 /// Runs the estimators over a recording. The reference is the channel flow_reference, else flow; the pressure
-/// difference is its own channel, else upstream less downstream. `progress` is told the share read.
+/// difference is its own channel, else upstream less downstream. `progress` receives the share read.
 [[nodiscard]] RunSamples estimate_run(const model::Model& model, const std::filesystem::path& recording,
                                       const recording::ChannelMap& channels,
                                       const std::vector<estimation::Estimator>& estimators,

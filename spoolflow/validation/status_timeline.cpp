@@ -6,7 +6,7 @@
 namespace spoolflow::validation {
 namespace {
 
-/// Shares are told in quarters, upwards: the rarest status still shows.
+/// Shares are shown in quarters, rounded up: the rarest status still shows.
 double in_quarters(std::size_t having, std::size_t samples) {
   return std::ceil(4.0 * static_cast<double>(having) / static_cast<double>(samples)) / 4;
 }

@@ -77,7 +77,7 @@ TEST(Dither, WithoutAmplitudeTheBandIsThatOfFrictionAndMaps) {
     const DitherEffect effect = dither_effect(dithered_model(), point, 0, frequency_Hz, DitherShape::square);
     EXPECT_NEAR(effect.half_swing_N, 0, 1e-3);
     EXPECT_DOUBLE_EQ(effect.band_N, point.sticking_N + point.maps_N);
-    EXPECT_NEAR(effect.tremble_m, 0, 1e-9);
+    EXPECT_NEAR(effect.motion_m, 0, 1e-9);
   }
 }
 
@@ -90,11 +90,11 @@ TEST(Dither, TheSpoolGivesWayElasticallyUpToFrictionAndMovesBeyond) {
     const double elastic_m = effect.half_swing_N / stiffness;
     if (effect.half_swing_N < moving_friction_share * point.sliding_N) {
       held = true;
-      EXPECT_NEAR(effect.tremble_m, elastic_m, 1e-12);
+      EXPECT_NEAR(effect.motion_m, elastic_m, 1e-12);
     } else if (effect.half_swing_N > 1.3 * point.sliding_N) {
       freed = true;
       EXPECT_TRUE(effect.frees);
-      EXPECT_GT(effect.tremble_m, 1.5 * elastic_m);
+      EXPECT_GT(effect.motion_m, 1.5 * elastic_m);
       EXPECT_NEAR(effect.band_N, point.maps_N, 1e-9) << "no friction is left to hide in";
     }
   }
@@ -107,7 +107,7 @@ TEST(Dither, AFreedSpoolObeysNewtonsLaw) {
   point.stiffness_N_per_m = 0;
   const DitherEffect effect = dither_effect(dithered_model(), point, 0.1, 200, DitherShape::sine);
   const double mass_kg = dithered_model().observer->parameters.moving_mass_kg;
-  EXPECT_NEAR(effect.tremble_m, effect.half_swing_N / (mass_kg * std::pow(2 * M_PI * 200, 2)), 0.1 * effect.tremble_m);
+  EXPECT_NEAR(effect.motion_m, effect.half_swing_N / (mass_kg * std::pow(2 * M_PI * 200, 2)), 0.1 * effect.motion_m);
 }
 
 TEST(Dither, TheRecommendationKeepsTheRipplesLimitAndPrefersTheSmallerAmplitude) {

@@ -28,7 +28,7 @@ class Batch {
   [[nodiscard]] PieceFile keep(const std::string& name, const std::string& content);
   /// Its number, which counts from 0.
   std::size_t ask(const Piece& piece);
-  /// Until all that were asked for are finished; each is told once, in the order in which they are found.
+  /// Until all that were asked for are finished; each is reported once, in the order in which they are found.
   void wait(const std::function<void(std::size_t, const Outcome&)>& finished);
   /// Throws PieceError.
   [[nodiscard]] std::string content(const PieceFile& file);

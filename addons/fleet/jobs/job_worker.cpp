@@ -54,7 +54,7 @@ void JobWorker::work(const std::stop_token& stop, bool cleans_up) {
       tell_at_work(*session, parts_.owner, parts_.program);
       if (!take_one(session, stop)) parallel::wait_for(asks_every, stop);
       told.clear();
-    } catch (const ServerAway&) {  // the worker tells it as a whole
+    } catch (const ServerAway&) {  // the worker reports it as a whole
       session.reset();
       parallel::wait_for(takes_up_again_after, stop);
     } catch (const std::exception& error) {

@@ -27,7 +27,7 @@ struct Piece {
 struct Outcome {
   int status = 0;  ///< as the command's exit status: 2 for an input that cannot be used, 1 where the work failed
   std::vector<std::string> messages{};  ///< where status is not 0
-  std::string text{};                   ///< what the kind tells beside its files, up to some thousand letters
+  std::string text{};                   ///< what the kind states beside its files, up to some thousand letters
   std::vector<PieceFile> files{};
 };
 

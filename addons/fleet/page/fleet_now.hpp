@@ -1,6 +1,6 @@
 #pragma once
 /// The whole fleet as it stands: valves with what is wrong with them, sites, and each indicator over the valves of a
-/// series. Made of what the database tells; knows no database itself.
+/// series. Made of what the database holds; knows no database itself.
 #include <array>
 #include <map>
 #include <string>

@@ -76,7 +76,7 @@ PageAnswer FleetPage::answer(std::string_view method, std::string_view target) {
   } catch (const ContentRefused&) {
     return no_such_text();
   } catch (const ServerAway& error) {
-    session_.reset();  // the next one asks anew
+    session_.reset();  // the next one asks again
     return {503, plain, std::string(error.what()) + "\n"};
   }
 }

@@ -22,7 +22,7 @@ struct SeriesSpread {
 /// Distance from the median in scales, signed; 0 where the scale is 0, NaN where the value is not known.
 [[nodiscard]] double score(const SeriesSpread& spread, const ValveFigure& one);
 
-/// Fewer sisters tell nothing of each other.
+/// Fewer valves of a series are not compared.
 inline constexpr std::size_t fewest_sisters = 5;
 /// Iglewicz and Hoaglin, How to Detect and Handle Outliers, 1993: beyond it a value is labelled as an outlier.
 inline constexpr double outlier_score = 3.5;

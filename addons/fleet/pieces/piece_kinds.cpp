@@ -22,7 +22,7 @@ fleet::Outcome failure(int status, const std::string& message) {
   return {.status = status, .messages = {message}};
 }
 
-/// As the command's main() tells failures from unusable inputs.
+/// As the command's main() reports failures from unusable inputs.
 fleet::Outcome outcome_of_piece() {
   try {
     const fleet::Piece piece = fleet::read_piece(fleet::whole_file(fleet::piece_name));

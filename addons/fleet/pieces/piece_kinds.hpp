@@ -8,7 +8,7 @@
 
 namespace spoolflow::apps {
 
-/// Does a piece whose files stand under their names below the present folder, writes its results there, and tells them
+/// Does a piece whose files stand under their names below the present folder, writes its results there, and names them
 /// in the outcome. Throws as commands do.
 using PieceWork = std::function<fleet::Outcome(const fleet::Piece&)>;
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double simulated_s_per_piece = 64;  // some seconds of work
 
-/// The study as a piece's arguments and files tell it.
+/// The study as a piece's arguments and files hold it.
 struct PieceOfStudy {
   model::Model given, with;
   analysis::Scenario scenario;

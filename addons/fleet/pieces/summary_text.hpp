@@ -1,5 +1,5 @@
 #pragma once
-/// The summary of an estimate as a piece's outcome tells it, to the last digit.
+/// The summary of an estimate as a piece's outcome, to the last digit.
 #include <string>
 
 #include "spoolflow/validation/estimate_summary.hpp"

@@ -74,7 +74,7 @@ std::string bytes_of(const Watched& watched) {
   const std::vector<std::uint8_t> out = Json::to_cbor(
       {{"state", Json::binary(std::move(state))},
        {"trend", std::move(trend)},
-       {"band", {bits(band.samples), bits(band.doubted), bits(band.told_m3_per_s), bits(band.widened_m3_per_s)}}});
+       {"band", {bits(band.samples), bits(band.doubted), bits(band.sensor_m3_per_s), bits(band.widened_m3_per_s)}}});
   return {out.begin(), out.end()};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a monitored valve's watch has come, as one piece tells it to the next, bit for bit.
+/// The state of a monitored valve, as one piece hands it to the next, bit for bit.
 #include <string>
 
 #include "spoolflow/apps/elsewhere.hpp"

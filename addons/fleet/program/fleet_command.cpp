@@ -1,5 +1,5 @@
 /// `spoolflow worker`: takes its share of the fleet's valves; `spoolflow fleet`: shows the whole fleet on a page,
-/// makes its tables and streams, and tells how it fares.
+/// makes its tables and streams, and reports its state.
 #include <chrono>
 #include <memory>
 #include <stdexcept>

@@ -29,7 +29,7 @@ struct AskedJob {
   std::string manifest;                    ///< what is to be done
   std::vector<std::string> contents = {};  ///< that it reads, which are kept before
 };
-/// One that was asked before stays as it is, but one that failed or was given up is tried anew.
+/// One that was asked before stays as it is, but one that failed or was given up is tried again.
 void ask_job(Session& session, const AskedJob& job);
 /// They are still waited for, and not removed.
 void want_jobs(Session& session, const std::vector<std::string>& keys);

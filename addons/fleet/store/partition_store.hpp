@@ -31,9 +31,9 @@ class PartitionStore {
 
   [[nodiscard]] std::vector<KeptValve> read();
   [[nodiscard]] StreamPosition stream_position();
-  /// One transaction: all of it, or nothing. Throws Fenced, ServerAway, ServerRefuses or ValveRefused; begin anew, with
-  /// read(), behind any of them, as it is not known what is kept. Returns which of the kept ones set aside are there
-  /// for the first time.
+  /// One transaction: all of it, or nothing. Throws Fenced, ServerAway, ServerRefuses or ValveRefused; start again,
+  /// with read(), behind any of them, as it is not known what is kept. Returns which of the kept ones set aside are
+  /// there for the first time.
   std::vector<std::size_t> commit(const std::vector<ValveRows>& valves, const std::vector<Acknowledgement>& taken,
                                   const SetAsideBlocks& aside, const StreamPosition& stream);
   /// Those of the partition's alarms that no commit has taken.
@@ -44,7 +44,7 @@ class PartitionStore {
   void keep_model(const std::string& sha256, std::span<const std::uint8_t> content);
 
  private:
-  /// What the store has of a valve's state, so that changes can be told from it.
+  /// What the store has of a valve's state, against which changes are written.
   struct OlderState {
     std::int64_t number = 0;  ///< of the valve
     std::string layout{};

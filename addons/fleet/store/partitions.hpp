@@ -14,7 +14,7 @@ struct Claim {
   std::int64_t epoch = 0;  ///< what it was raised to; whoever holds an older one has lost the partition
 };
 
-/// The partition is another's by now: what was reckoned since the last transaction is worthless.
+/// The partition is another's by now: what was computed since the last transaction is worthless.
 struct Fenced : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -34,7 +34,7 @@ inline constexpr std::chrono::seconds worker_patience{20};
                            const std::vector<Claim>& standing = {});
 /// Up to so many that nobody holds.
 [[nodiscard]] std::vector<Claim> claim(Session& session, const std::string& owner, double lease_s, std::int64_t most);
-/// One of this worker's own, with another epoch: for who begins anew with it. Nothing where another has it by now.
+/// One of this worker's own, with another epoch: to start again with it. Nothing where another has it by now.
 [[nodiscard]] std::optional<Claim> claim_again(Session& session, const std::string& owner, std::int64_t partition);
 /// For others to take at once; without effect where another has it already.
 void release(Session& session, const Claim& claim);

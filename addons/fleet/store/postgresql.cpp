@@ -31,7 +31,7 @@ bool is_own_refusal(std::string_view why) {
   return false;
 }
 
-/// Whether a server refuses login or database, told by the codes that libpq writes into its message where it was asked
+/// Whether a server refuses login or database, by the codes that libpq writes into its message where it was asked
 /// to before it connects: 28… who one is, 3D000 no such database, 42501 no right to connect.
 bool servers_refuse(const std::string& connection) {
   struct Finish {
@@ -179,7 +179,7 @@ Rows Session::answer(int was_sent, const char* sql) {
     int unsent = PQflush(handle_.get());
     while (unsent == 1 || PQisBusy(handle_.get()) != 0) {
       wait_for_server(unsent == 1, since);
-      if (PQconsumeInput(handle_.get()) == 0) break;  // the connection is over, as the result will tell
+      if (PQconsumeInput(handle_.get()) == 0) break;  // the connection is over, as the result reports
       if (unsent == 1) unsent = PQflush(handle_.get());
     }
     pg_result* const next = PQgetResult(handle_.get());

@@ -99,7 +99,7 @@ CREATE INDEX set_aside_newest ON set_aside(partition, number);
 )";
 
 /// Workers read and write rows and change no table; readers read; the page acknowledges as well; who asks for batch
-/// work adds pieces and files, and tells no result.
+/// work adds pieces and files, and reads no result.
 constexpr const char* roles = R"(
 DO $$ BEGIN
   IF NOT EXISTS (SELECT FROM pg_roles WHERE rolname = 'spoolflow_worker') THEN CREATE ROLE spoolflow_worker NOLOGIN; END IF;

@@ -1,6 +1,6 @@
 #pragma once
 /// The fleet's tables in PostgreSQL. second, state, indicator, event, alarm and alarm_indicator are those of one
-/// machine's store (live/store) with a block's place beside; docs/fleet.md tells all of them.
+/// machine's store (live/store) with a block's place beside; docs/fleet.md lists all of them.
 #include "addons/fleet/store/postgresql.hpp"
 
 namespace spoolflow::fleet {

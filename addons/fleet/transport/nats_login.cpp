@@ -54,7 +54,7 @@ Handle<natsOptions> options_of(const NatsAccess& access, const std::string& name
   check(natsOptions_SetRetryOnFailedConnect(
             made, true, [](natsConnection*, void*) {}, nullptr),
         "reconnects");
-  // Only the servers that were named: others that those tell of may be out of reach from here.
+  // Only the servers that were named: others that those name may be out of reach from here.
   check(natsOptions_SetIgnoreDiscoveredServers(made, true), "servers");
   check(natsOptions_SetPingInterval(made, ping_interval_ms), "pings");
   check(natsOptions_SetMaxPingsOut(made, pings_out), "pings");

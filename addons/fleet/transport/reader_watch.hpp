@@ -1,5 +1,5 @@
 #pragma once
-/// What to do about a reader of a stream that says nothing. Pure: the times are those that the caller tells.
+/// What to do about a reader of a stream that says nothing. Pure: the times are those that the caller gives.
 #include <chrono>
 
 namespace spoolflow::fleet {

@@ -30,7 +30,7 @@ constexpr std::int32_t plain = 0, runs = 3, by_dictionary = 8;
 constexpr std::int32_t data_page = 0, dictionary_page = 2;
 constexpr std::int32_t zstd = 6;
 
-/// Where a column's part of a row group lies, and what of it the footer tells.
+/// Where a column's part of a row group lies, and what the footer states of it.
 struct ColumnPart {
   std::int64_t dictionary_at = -1;
   std::int64_t data_at = 0;
@@ -117,7 +117,7 @@ class ParquetWriter final : public TableWriter {
       part.smallest = std::min(part.smallest.value_or(value), value);
       part.largest = std::max(part.largest.value_or(value), value);
     }
-    // Zeros compare alike and are told apart by readers: the range is to hold both.
+    // Zeros compare alike and differ to readers: the range is to hold both.
     if (part.smallest == 0.0) part.smallest = -0.0;
     if (part.largest == 0.0) part.largest = 0.0;
     put_page(part, data_page, values.size(), plain, content);

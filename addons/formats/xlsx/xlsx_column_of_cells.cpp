@@ -69,7 +69,7 @@ double XlsxColumnOfCells::since_first(const XlsxCell& cell, std::uint64_t row, c
   if (!origin_) origin_ = clock;
   is_used_ = true;
   const double since_s = clock.since(*origin_);
-  constexpr double per_s = 1e5;  // of a date of today 15 to 17 digits tell 9 to 0.6 us
+  constexpr double per_s = 1e5;  // of a date of today 15 to 17 digits resolve 9 to 0.6 us
   return cell.kind == XlsxCell::Kind::time ? std::round(since_s * per_s) / per_s : since_s;
 }
 

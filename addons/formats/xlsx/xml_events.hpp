@@ -21,7 +21,7 @@ class XmlAttributes {
   const char** pairs_;
 };
 
-/// Told of each element by its name without a prefix; text may come in pieces.
+/// Called for each element, by its name without a prefix; text may come in pieces.
 class XmlListener {
  public:
   XmlListener() = default;
@@ -36,7 +36,7 @@ class XmlListener {
 };
 
 /// Reads the part to its end. Throws RecordingError where it is no XML, and of a document type, which no workbook has
-/// and whose entities can be made to do harm; what the listener throws passes.
+/// and whose entities can be hostile; what the listener throws passes.
 void read_xml(XlsxArchive::Part part, XmlListener& listener);
 
 }  // namespace spoolflow::recording

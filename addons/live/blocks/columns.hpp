@@ -1,6 +1,6 @@
 #pragma once
-/// The body of a block: times and channels of its samples as columns of whole numbers, each told by its difference to
-/// the one before.
+/// The body of a block: times and channels of its samples as columns of whole numbers, each written as its difference
+/// to the one before.
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// What a site that estimates by itself tells of a valve and of a second, instead of samples: its summary, indicators,
+/// What a site that estimates by itself sends of a valve and a second, instead of samples: its summary, indicators,
 /// events and alarms as its own store keeps them. The body of a block of version 2 (docs/formats/block.md).
 #include <cstdint>
 #include <span>

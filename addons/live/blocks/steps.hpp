@@ -1,6 +1,6 @@
 #pragma once
-/// The steps in which a block's channels are told. Each is a power of two: a value on its grid is the whole number
-/// times the step exactly, so that who writes a block and who reads it reckon with the same values, bit for bit.
+/// The steps in which a block's channels are written. Each is a power of two: a value on its grid is the whole number
+/// times the step exactly, so that writer and reader of a block compute with the same values, bit for bit.
 #include <array>
 #include <cstdint>
 
@@ -42,7 +42,7 @@ inline const double& member(const estimation::TimedSample& sample, const BlockCh
   return channel.member != nullptr ? sample.*channel.member : sample.ports.*channel.port;
 }
 
-/// The sample as a block tells it: each value the nearest on its grid, or the last of the grid where it lies beyond.
+/// The sample as a block holds it: each value the nearest on its grid, or the last of the grid where it lies beyond.
 /// NaN stays; infinite is only the current of a solenoid a that has no value now (estimation::of_both_coils), elsewhere
 /// it becomes NaN. What is on the grids already stays as it is.
 [[nodiscard]] estimation::TimedSample on_grid(estimation::TimedSample sample);

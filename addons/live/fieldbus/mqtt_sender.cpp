@@ -164,7 +164,7 @@ struct MqttSender::Parts {
     return publish(topic(kind, device), bytes);
   }
 
-  /// With a new bdSeq, its death as the will. What failed is told as trouble.
+  /// With a new bdSeq, its death as the will. What failed is reported as trouble.
   bool connect() {
     bd_seq = (bd_seq + 1) % 256;
     const std::int64_t now = wall_ms();

@@ -1,5 +1,5 @@
 #pragma once
-/// What the valves of a site tell fieldbus and plant at this instant.
+/// What the valves of a site give to fieldbus and plant at this instant.
 #include "addons/live/engine.hpp"
 #include "addons/live/protocols/plant_answer.hpp"
 

@@ -9,7 +9,7 @@
 
 namespace spoolflow::live {
 
-/// What a monitor said of one of its figures, in the unit that it told.
+/// What a monitor said of one of its figures, in the unit that it reported.
 struct KeptIndicator {
   std::string name;
   double value, uncertainty_95, baseline;

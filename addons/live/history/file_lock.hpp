@@ -19,8 +19,8 @@ class FileLock {
   int descriptor_;
 };
 
-/// Behind all symbolic links: there SQLite has its log, and there a store that was deleted is written anew. The name as
-/// it is where there is no such file.
+/// Behind all symbolic links: there SQLite has its log, and there a store that was deleted is written again. The name
+/// as it is where there is no such file.
 [[nodiscard]] std::string real_name(const std::string& path);
 
 }  // namespace spoolflow::live

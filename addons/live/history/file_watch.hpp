@@ -1,6 +1,6 @@
 #pragma once
 /// Whether the file on which a database works is still the one that it opened: others may delete, replace, cut off or
-/// overwrite it meanwhile, of which SQLite itself tells nothing, or only once it reads there.
+/// overwrite it meanwhile, which SQLite itself does not report, or only once it reads there.
 #include <cstdint>
 #include <optional>
 #include <string>

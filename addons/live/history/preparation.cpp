@@ -119,7 +119,7 @@ void prepare(Database& database) {
   make_outbox_tables(database);
   make_source_count_table(database);
   if (version_of(database) < store_version) bring_up_to_date(database);
-  // The whole of a large one would take minutes; damage is then told where it is met.
+  // The whole of a large one would take minutes; damage is then reported where it is met.
   constexpr std::int64_t most_pages = 50'000;
   if (database.number("PRAGMA page_count") > most_pages) return;
   Statement check(database, "PRAGMA quick_check(1)");

@@ -59,7 +59,7 @@ class Statement {
   Statement& put(double value);  ///< NaN is null
   Statement& put(std::string_view text);
   Statement& put(std::span<const std::byte> bytes);
-  /// To the next row; false behind the last, and then the statement may be filled anew.
+  /// To the next row; false behind the last, and then the statement may be filled again.
   bool next();
   /// Where no rows are expected.
   void run() {

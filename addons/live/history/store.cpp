@@ -28,7 +28,7 @@ StateChanges changes_in(Database& database) {
 }  // namespace
 
 struct Store::Statements {
-  /// What the store has of a valve's state, so that changes can be told from it.
+  /// What the store has of a valve's state, against which changes are written.
   struct OlderState {
     std::string layout;
     std::vector<std::byte> bytes;
@@ -120,7 +120,7 @@ std::vector<KeptState> Store::states() {
       kept.bytes.resize(static_cast<std::size_t>(length));
       whole = apply_change(each.bytes(7), kept.bytes) && apply_change(change->second, kept.bytes);
     }
-    if (!whole) kept.layout = "damaged";  // sensor and monitor begin anew, counts go on
+    if (!whole) kept.layout = "damaged";  // sensor and monitor start again, counts go on
     out.push_back(std::move(kept));
   }
   return out;
@@ -141,7 +141,7 @@ void Store::put_row(std::int64_t valve, const RowTime& at, const Summary& row) {
   to.put(at.run_ms).run();
 }
 
-/// The change against the older state; that one anew once all that was written beyond the smallest change is more than
+/// The change against the older state; that one again once all that was written beyond the smallest change is more than
 /// it takes itself.
 void Store::put_state(std::int64_t valve, const KeptState& state) {
   Statements::OlderState& older = statements_->states[valve];

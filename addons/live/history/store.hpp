@@ -5,7 +5,7 @@
 ///
 /// SQLite writes whole pages: the rows of one second lie side by side in a table of the newest, and move to that in
 /// which each valve's are together once a minute (the view `second` has both). Of a state what differs from an older
-/// one is written, and that one anew where the differences have grown.
+/// one is written, and that one again where the differences have grown.
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -87,12 +87,11 @@ class Store {
   /// To be asked before each commit: whether the file is still there and sound. Returns what was done about it, in
   /// words; empty: all is well.
   ///
-  /// Deleted, it is written anew with all that it held, as the open file still has that. Where another has its name, or
-  /// its log is gone, what it held is saved likewise. A damaged one is set aside as it is, and a store begins
-  /// anew. Throws StoreError where none of this can be done now: nothing is kept meanwhile, and the next call tries
-  /// again.
+  /// Deleted, it is written again with all that it held, as the open file still has that. Where another has its name,
+  /// or its log is gone, what it held is saved likewise. A damaged one is set aside as it is, and a store begins again.
+  /// Throws StoreError where none of this can be done now: nothing is kept meanwhile, and the next call tries again.
   [[nodiscard]] std::string look_after(std::int64_t wall_ms);
-  /// After a store began anew, or goes on in another file: events and alarms that are known, with their numbers; and
+  /// After a store started again, or goes on in another file: events and alarms that are known, with their numbers; and
   /// the next commit has the states of all valves.
   void keep_again(const std::vector<Event>& events, const std::vector<Alarm>& alarms);
 
@@ -139,7 +138,7 @@ class Store {
   std::string path_;
   bool on_disk_ = false;
   std::optional<FileLock> lock_;        ///< longer than the database
-  std::unique_ptr<Database> database_;  ///< nothing: it could not be opened anew
+  std::unique_ptr<Database> database_;  ///< nothing: it could not be opened again
   std::unique_ptr<Statements> statements_;
   std::optional<RunTime> run_time_;
   std::optional<FileWatch> watch_;

@@ -18,7 +18,7 @@ std::string_view without_port(std::string_view host) {
   return has_port ? host.substr(0, colon) : host;
 }
 
-/// Its name tells browsers that only this server, by TLS, can have set it.
+/// Its name assures browsers that only this server, by TLS, can have set it.
 std::string cookie_name(bool encrypted) {
   return encrypted ? "__Host-spoolflow" : "spoolflow";
 }

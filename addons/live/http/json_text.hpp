@@ -13,7 +13,7 @@ namespace spoolflow::live {
 
 using Json = nlohmann::ordered_json;  // writes null for what is no number
 
-/// With so many decimals: further digits tell no more than is known.
+/// With so many decimals: further digits have no meaning.
 inline Json rounded(double value, int decimals) {
   const double power = std::pow(10.0, decimals);
   return std::round(value * power) / power;

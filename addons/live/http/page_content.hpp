@@ -1,5 +1,5 @@
 #pragma once
-/// What stands behind the door of a page: a site's, or a fleet's.
+/// What stands behind the access of a page: a site's, or a fleet's.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -18,9 +18,9 @@ using NextFrame = std::function<std::vector<std::uint8_t>()>;
 /// Each is called by one thread at a time; `long_answer` by another one than the rest.
 struct PageContent {
   std::string name;  ///< of the program, for browsers: "spoolflow live"
-  /// What those who may read are told; `target` as the request has it.
+  /// The answer to those who may read; `target` as the request has it.
   std::function<PageAnswer(std::string_view method, std::string_view target)> answer;
-  /// Whether it is one of the files that the page is made of, which tell nothing of what is behind it.
+  /// Whether it is one of the files that the page is made of, which contain nothing of the site.
   std::function<bool(std::string_view path)> is_file;
   /// Acknowledges an alarm; `alarm` is what stands between /api/v1/alarms/ and /acknowledge. Nothing where that is no
   /// alarm's name.

@@ -7,7 +7,7 @@
 
 namespace spoolflow::live {
 
-/// An address as sockets tell it, an IPv4 one in IPv6's form as that; nothing where the text is none.
+/// An address as sockets give it, an IPv4 one in IPv6's form as that; nothing where the text is none.
 [[nodiscard]] std::optional<std::string> host_of(std::string_view text);
 
 /// An IPv4 address itself; of an IPv6 one its network of 64 bits, all of which one machine may have. `host`: of

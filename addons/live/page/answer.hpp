@@ -1,5 +1,5 @@
 #pragma once
-/// What is told to those who may read.
+/// What is reported to those who may read.
 #include <stop_token>
 #include <string_view>
 
@@ -13,7 +13,7 @@ namespace spoolflow::live {
 [[nodiscard]] PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_view target,
                                    const std::stop_token& stop = {});
 
-/// The page of a site, for its door. The engine must have started, and outlive it.
+/// The page of a site, for its access. The engine must have started, and outlive it.
 [[nodiscard]] PageContent site_page(Engine& engine);
 
 }  // namespace spoolflow::live

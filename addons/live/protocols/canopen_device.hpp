@@ -1,5 +1,5 @@
 #pragma once
-/// A CANopen device after CiA 301 and CiA 408 that tells a valve's flow: object dictionary, SDO reads, heartbeat, NMT.
+/// A CANopen device after CiA 301 and CiA 408 that sends a valve's flow: object dictionary, SDO reads, heartbeat, NMT.
 /// Objects: docs/fieldbus.md; for masters docs/fieldbus/spoolflow.eds, which eds_text() writes.
 #include <optional>
 #include <string>
@@ -34,7 +34,7 @@ inline constexpr std::uint16_t heartbeat_ms = 1000;
 /// The electronic data sheet (CiA 306).
 [[nodiscard]] std::string eds_text();
 
-/// NMT states, as the heartbeat tells them.
+/// NMT states, as the heartbeat sends them.
 enum class NmtState : std::uint8_t { boot_up = 0, stopped = 4, operational = 5, pre_operational = 127 };
 
 /// The device's side of a conversation. It starts by itself: no master is needed.

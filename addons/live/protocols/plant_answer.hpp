@@ -1,5 +1,5 @@
 #pragma once
-/// What plant and fieldbus are told of one valve, whatever the protocol. SI units.
+/// What plant and fieldbus receive of one valve, whatever the protocol. SI units.
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -17,7 +17,7 @@ using SparkplugValue = std::variant<std::int64_t, std::uint32_t, std::uint64_t, 
 struct SparkplugMetric {
   std::string name{};
   std::int64_t time_ms = 0;  ///< since 1970
-  SparkplugValue value{};    ///< NaN is told as null
+  SparkplugValue value{};    ///< NaN is written as null
   bool is_historical = false;
   friend bool operator==(const SparkplugMetric&, const SparkplugMetric&) = default;
 };

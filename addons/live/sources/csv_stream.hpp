@@ -16,7 +16,8 @@ namespace spoolflow::live {
 [[nodiscard]] std::vector<estimation::TimedSample> samples_of(const recording::SampleBlock& block);
 
 /// Hands every row to the intake as soon as it is there, until the input ends. A header that cannot be used ends it at
-/// once, with what is wrong told to the intake. `next`: sequence number of the first row; returns that after the last.
+/// once, with what is wrong reported to the intake. `next`: sequence number of the first row; returns that after the
+/// last.
 std::uint64_t read_csv(std::unique_ptr<recording::InputBytes> input, const recording::ReadOptions& options,
                        std::uint64_t next, Intake& intake);
 

@@ -6,7 +6,7 @@
 ///        4      1  version, 1
 ///        5      1  nothing, 0
 ///        6      2  channels of each sample, at least one: one bit each (datagram_channels), in the order of their bits
-///        8      4  session: any number that the sender chooses anew when its sequence numbers begin at 0 again
+///        8      4  session: any number that the sender changes when its sequence numbers begin at 0 again
 ///       12      2  samples, at least 1
 ///       14      2  nothing, 0
 ///       16      8  sequence number of the first sample: samples sent before it in this session

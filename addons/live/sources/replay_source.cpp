@@ -18,7 +18,7 @@ ReplaySource::ReplaySource(ReplaySettings settings, recording::ReadOptions optio
                            Intake& intake)
     : settings_(std::move(settings)), options_(std::move(options)), skip_(after.next), intake_(intake) {
   options_.runs_on = true;
-  (void)estimation::open_sensor_channels(settings_.recording, options_);  // tells at once what is wrong with it
+  (void)estimation::open_sensor_channels(settings_.recording, options_);  // reports at once what is wrong with it
   intake_.count_connection();
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }

@@ -23,7 +23,7 @@ struct Address {
 /// Throws SiteError where the text is no numeric address with a port; `place` is what the message begins with.
 [[nodiscard]] Address read_address(const std::string& text, const std::string& place);
 
-/// A machine's address as sockets tell it: "192.168.0.7", "fd00::7". Throws SiteError where the text is none: names and
+/// A machine's address as sockets give it: "192.168.0.7", "fd00::7". Throws SiteError where the text is none: names and
 /// networks would match nobody.
 [[nodiscard]] std::string read_host(const std::string& text, const std::string& place);
 

@@ -13,7 +13,7 @@ namespace spoolflow::live {
 
 /// Puts the datagrams of one valve in order by their sequence numbers: says what was lost, leaves out what came before.
 /// A sender that begins again within its session (power-up with the session of the day before), or whose numbers leap
-/// far ahead, is believed after `confirming_datagrams` that follow each other with none in the order before between
+/// far ahead, is accepted after `confirming_datagrams` that follow each other with none in the order before between
 /// them: one datagram of wrong numbers mutes no valve.
 class DatagramOrder {
  public:

@@ -71,7 +71,7 @@ std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
                   [](const monitor::Cause& one) { return one.fault == Fault::wrong_model; });
   Ne107 explained = Ne107::good;
   for (const monitor::Cause& cause : valve.causes) {
-    // What the status tells by itself is certain.
+    // What the status alone states is certain.
     const bool failed = valve.condition == Ne107::failure && cause.odds >= monitor::most_odds;
     if (!decided && !failed) continue;
     const Ne107 sign = failed ? Ne107::failure : monitor::sign_of(cause.fault);
@@ -79,7 +79,7 @@ std::vector<Trouble> troubles_of(const ValveView& valve, bool stalled) {
     out.push_back({std::string(monitor::name(cause.fault)), sign, cause.odds});
   }
   if (explained >= valve.condition) return out;
-  // No cause is told: the share of time of a status made the sign, or the charts did, and nothing explains them.
+  // No cause is reported: the share of time of a status made the sign, or the charts did, and nothing explains them.
   switch (valve.condition) {
     case Ne107::maintenance_required:
       out.push_back({"maintenance_required", valve.condition});

@@ -16,7 +16,7 @@ class RawTrace {
   /// never more than a million; 0: none. Their times are rounded to a tenth of a microsecond.
   RawTrace(bool whole, double length_s) : width_(whole ? 10 : 4), length_s_(length_s) {}
 
-  /// A sample without a time is left out, and a time that runs back begins anew: the recording's time never does.
+  /// A sample without a time is left out, and a time that runs back starts again: the recording's time never does.
   void add(const estimation::TimedSample& sample);
 
   /// Those with from_s <= time <= to_s as CSV with the header of a recording; columns that nobody measured are left

@@ -1,5 +1,6 @@
 #pragma once
-/// One valve of a site: its sensor, its monitor, and what is told and kept of them. Safe to be asked from any thread.
+/// One valve of a site: its sensor, its monitor, and what is reported and kept of them. Safe to be asked from any
+/// thread.
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -18,7 +19,7 @@
 
 namespace spoolflow::live {
 
-/// A model that valves share, and what tells it from others.
+/// A model that valves share, and what distinguishes it from others.
 struct SharedModel {
   std::shared_ptr<const model::Model> model;
   std::string sha256;            ///< of its file
@@ -46,8 +47,8 @@ class ValveAtWork {
   ValveAtWork(std::string id, SharedModel model, std::string_view program, double raw_s = 0);
 
   [[nodiscard]] const std::string& id() const { return id_; }
-  /// Goes on from what was kept. Returns false where sensor and monitor begin anew, as model or program were others, or
-  /// bytes are damaged.
+  /// Goes on from what was kept. Returns false where sensor and monitor start again, as model or program were others,
+  /// or bytes are damaged.
   bool restore(const KeptState& kept);
 
   /// From now on samples are worked on as the fleet gets them (fleet::on_grid), and blocks of them are kept for it.
@@ -77,13 +78,13 @@ class ValveAtWork {
   [[nodiscard]] ValveCommit take_commit(bool with_indicators);
   /// What came since the last commit or summary alone.
   [[nodiscard]] Summary take_summary();
-  /// It could not be kept: what came since then is told together next time, its blocks come again. Returns how many
+  /// It could not be kept: what came since then is returned together next time, its blocks come again. Returns how many
   /// blocks are given up, as BlockCutter does.
   std::size_t give_back(const ValveCommit& commit);
 
  private:
   /// What is made of a sample, in the grid of the fleet where it gets them, and of its sensor's answer, which depends
-  /// on nothing here; and what is told behind a block.
+  /// on nothing here; and what is reported after a block.
   void take(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);
   void end(const SampleBlock& block);
   void add_to_summary(const estimation::TimedSample& sample, const sensor::Estimate<double>& answer);

@@ -100,7 +100,7 @@ void check_units(const py::dict& arrays) {
   std::vector<double> seen;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     seen.clear();
-    const std::size_t each = bound[k].channel == Channel::time ? 1 : step;  // its steps tell
+    const std::size_t each = bound[k].channel == Channel::time ? 1 : step;  // by its steps
     for (std::size_t at = 0; at < columns[k].size() && seen.size() < most; at += each) seen.push_back(columns[k][at]);
     plausibility.take(k, seen, [each](std::size_t row) { return fmt::format("the run, sample {}", row * each + 1); });
   }

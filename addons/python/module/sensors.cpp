@@ -88,7 +88,7 @@ SharedModel read_model(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text =
       std::filesystem::is_directory(file, unreadable) || !in ? std::string() : model::read_json_text(in);
-  if (text.empty()) (void)model::read_model(file);  // which tells why there is none
+  if (text.empty()) (void)model::read_model(file);  // which reports why there is none
   return std::make_shared<KeptModel>(text, file.string());
 }
 

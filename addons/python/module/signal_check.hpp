@@ -24,7 +24,7 @@ class SignalCheck {
     raise_where(PyErr_CheckSignals() != 0);
   }
 
-  /// The same, and calls `tell`, a function of Python or None, with what is told.
+  /// The same, and calls `tell`, a function of Python or None, with these values.
   template <class... Told>
   void operator()(const pybind11::object& tell, const Told&... told) {
     (*this)();

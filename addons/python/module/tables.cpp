@@ -102,8 +102,8 @@ constexpr std::array answers{
     &sensor::Estimate<double>::magnetic_force_N,    &sensor::Estimate<double>::flow_force_N,
     &sensor::Estimate<double>::friction_force_N};
 
-/// `columns`: the times, then those of `answers`. `name`: of the file to be, which tells the format; `file`, `beside`:
-/// descriptors of empty files.
+/// `columns`: the times, then those of `answers`. `name`: of the file to be, which decides the format; `file`,
+/// `beside`: descriptors of empty files.
 void write_estimate(const std::filesystem::path& name, int file, int beside, const std::vector<Numbers>& columns,
                     const py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>& status,
                     const std::vector<std::pair<std::string, std::string>>& notes) {

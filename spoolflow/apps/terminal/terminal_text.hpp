@@ -10,7 +10,7 @@ namespace spoolflow::apps {
 
 /// To standard output. Throws OutputError or ReaderGone where it is refused.
 void print_text(std::string_view text);
-/// To standard error; where that is refused there is nobody left to tell.
+/// To standard error; where that is refused there is nobody left to report to.
 void say_text(std::string_view text);
 
 /// Every text among the values is made harmless; line ends are those of the format alone.

@@ -15,7 +15,7 @@ AnalysedRun read_analysed_run(const model::Model& model, const std::string& file
   recording::ReadOptions options = estimation::sensor_channels(model, std::move(channels));
   for (const Channel channel : {Channel::flow_reference, Channel::flow, Channel::current_a, Channel::current_b})
     options.optional.push_back(channel);
-  options.stands_in = {{Channel::current, Channel::current_b}};  // so that a whole valve's run is told as such
+  options.stands_in = {{Channel::current, Channel::current_b}};  // so that a whole valve's run is recognised
   const recording::Recording run = recording::read_recording(file, options);
   if (run.column(Channel::current_a).empty() && run.column(Channel::current_b).empty())
     return {analysis::run_samples(run), run.resampled};

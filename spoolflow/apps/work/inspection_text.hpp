@@ -7,7 +7,7 @@
 namespace spoolflow::apps {
 
 struct InspectedFile {
-  std::string file;                  ///< as it is told
+  std::string file;                  ///< as it is reported
   std::string map_file;              ///< of the map that it was read with; empty: none
   const recording::ChannelMap& map;  ///< that map
   const recording::Inspection& found;

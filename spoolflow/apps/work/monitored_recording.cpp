@@ -10,7 +10,7 @@
 namespace spoolflow::apps {
 namespace {
 
-/// Keeps what is told whenever a window was judged, and no more than a page can show.
+/// Keeps the indicators whenever a window was judged, no more than a page can show.
 void follow_trend(const monitor::Monitor& watch, std::vector<report::TrendPoint>& trend) {
   constexpr std::size_t most_points = 2000;
   const double windows = watch.judged_windows();
@@ -43,7 +43,7 @@ void BandWatch::take(const model::Model& model, const monitor::Monitor& watch, c
   const sensor::Estimate<double> wider =
       monitor::widened(model, doubt_, sample, watch.state().oil_temperature_K, answer);
   ++figures_.doubted;
-  figures_.told_m3_per_s += answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
+  figures_.sensor_m3_per_s += answer.flow_upper_m3_per_s - answer.flow_lower_m3_per_s;
   figures_.widened_m3_per_s += wider.flow_upper_m3_per_s - wider.flow_lower_m3_per_s;
 }
 

@@ -16,7 +16,7 @@ namespace spoolflow::apps {
 /// What `monitor --json` wrote of healthy runs; nothing where no file is named. Throws ModelError.
 [[nodiscard]] std::optional<monitor::Baseline> read_baseline(const std::string& file);
 
-/// The band as told and as the raised indicators widen it.
+/// The band as reported and as the raised indicators widen it.
 class BandWatch {
  public:
   /// Goes on from there.
@@ -38,7 +38,7 @@ struct MonitoredRuns {
   BandWatch band{};
 };
 
-/// One recording through sensor and watch. `progress` is told the share read, where it is known.
+/// One recording through sensor and watch. `progress` receives the share read, where it is known.
 void monitor_recording(const model::Model& model, const std::string& recording, const recording::ChannelMap& channels,
                        monitor::Monitor& watch, std::vector<report::TrendPoint>& trend, BandWatch& band,
                        const std::function<void(std::optional<double>)>& progress);

@@ -189,7 +189,8 @@ LoadFactors load_factors(double outlet_flow_ratio, double edge_ratio) {
   return {std::sqrt(share), (e + k2) / (e + 1) * share};
 }
 
-/// The flow that belongs to one force, over that of the joined bench: a force tells dp, and the flow is C sqrt(dp).
+/// The flow that belongs to one force, over that of the joined bench: a force determines dp, and the flow is C
+/// sqrt(dp).
 double flow_of_force(double outlet_flow_ratio, double edge_ratio) {
   const LoadFactors factors = load_factors(outlet_flow_ratio, edge_ratio);
   return factors.conductance / std::sqrt(factors.force);
@@ -214,7 +215,7 @@ sensor::InletShare<double> measured_inlet_share(const std::vector<double>& share
   return {middle, range};
 }
 
-/// Of edges measured joined. Where nothing tells their ratio it is left as of edges cut for the load's flows.
+/// Of edges measured joined. Where their ratio is unknown it is left as of edges cut for the load's flows.
 sensor::InletShare<double> inlet_share_of_joined(const AxialForceMaps& maps) {
   if (!maps.edge_ratio) return {};
   const double k2 = maps.outlet_flow_ratio * maps.outlet_flow_ratio;

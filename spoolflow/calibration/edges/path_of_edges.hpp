@@ -15,7 +15,7 @@
 ///
 ///     dp1/dp = e^2/(e^2 + k^2)
 ///
-/// Nothing on such a bench tells e; a run at work whose flow and pressure difference were recorded does
+/// No such bench measures e; a run at work whose flow and pressure difference were recorded does
 /// (edges_in_operation.hpp). Else it is taken as 1, both edges alike: C/C_joined = sqrt(2/(1 + k^2)), F as it was.
 /// Edges cut for their cylinder have e = k; what lies between both is what the flow may be wrong by.
 #include <optional>
@@ -39,7 +39,7 @@ struct AxialForceMaps {
   std::vector<const recording::Recording*> inlet;   ///< of P to B or P to A alone,
   std::vector<const recording::Recording*> outlet;  ///< and of A to T or B to T
   double outlet_flow_ratio = 1;                     ///< flow over the outlet through that through the inlet, > 0
-  std::optional<EdgeRatio> edge_ratio;              ///< of joined edges, where operation told it
+  std::optional<EdgeRatio> edge_ratio;              ///< of joined edges, where operation identified it
 
   /// All of them.
   [[nodiscard]] std::vector<const recording::Recording*> recordings() const;
@@ -54,12 +54,12 @@ struct AxialForceMaps {
 [[nodiscard]] AxialForceFit path_of_edges(const AxialForceFit& inlet, const AxialForceFit& outlet,
                                           const sensor::Spring<double>& spring, double outlet_flow_ratio);
 
-/// What a direction's recordings tell of its path, one fit an oil temperature.
+/// What a direction's recordings determine of its path, one fit an oil temperature.
 struct PathFit {
   std::vector<std::vector<AxialForceFit>> measured;  ///< of both edges joined, or of inlet and outlet
   std::vector<AxialForceFit> path;                   ///< as the load uses it
   bool equal_flows = true;                           ///< the load passes the same flow over both edges
-  sensor::InletShare<double> inlet;                  ///< dp1/dp; a half, with a wide range, where nothing tells e
+  sensor::InletShare<double> inlet;                  ///< dp1/dp; a half, with a wide range, where e is unknown
 };
 
 /// Each inlet is taken together with the outlet at the nearest oil temperature. Throws CalibrationError where an edge
@@ -78,7 +78,7 @@ struct PathFit {
 
 /// What the band's flow residual becomes where each edge by itself is not known [m3/s]: the band then holds what the
 /// flow that belongs to one force would be at rated flow with edges in another proportion: up to e = k where they were
-/// assumed alike, within the range of e where operation told it.
+/// assumed alike, within the range of e where operation identified it.
 [[nodiscard]] double flow_residual_with_unknown_edges(const AxialForceMaps& maps, double flow_residual_m3_per_s,
                                                       double rated_flow_m3_per_s);
 

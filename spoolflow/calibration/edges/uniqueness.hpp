@@ -7,7 +7,7 @@
 
 namespace spoolflow::calibration {
 
-/// Compares neighbouring levels at each position; differences below `force_noise_N` (of an averaged force) tell
+/// Compares neighbouring levels at each position; differences below `force_noise_N` (of an averaged force) show
 /// nothing.
 [[nodiscard]] model::Uniqueness check_uniqueness(const std::vector<FlowForceColumn>& columns, double force_noise_N);
 

@@ -27,7 +27,7 @@ struct ActuatorRecordings {
   const recording::Recording* dynamic = nullptr;  ///< protocol `solenoid_dynamic`, if there is one
 };
 
-/// Without `solenoid_dynamic` the widths of the force map's loops tell the size of hysteresis, its shape is a stated
+/// Without `solenoid_dynamic` the widths of the force map's loops give the size of hysteresis, its shape is a stated
 /// default, eddy currents are left out, and the uncertainty is wider.
 [[nodiscard]] ActuatorFit fit_actuator(const ActuatorRecordings& recordings, const MagneticForceFit& map,
                                        double stroke_m);

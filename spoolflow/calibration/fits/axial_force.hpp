@@ -25,7 +25,7 @@ struct HeldPressures {
 [[nodiscard]] HeldPressures find_held_pressures(const recording::Recording& recording, double stroke_m);
 
 /// Needs `position`, `axial_force`, `flow` (or `flow_reference`), and a pressure difference: `pressure_difference`, or
-/// `pressure_upstream` and `pressure_downstream`; `pressure_difference_set` helps to tell the levels apart. At least
+/// `pressure_upstream` and `pressure_downstream`; `pressure_difference_set` helps to distinguish the levels. At least
 /// three levels, each opening and closing over the whole stroke. Throws CalibrationError.
 [[nodiscard]] AxialForceFit fit_axial_force(const recording::Recording& recording, double stroke_m);
 

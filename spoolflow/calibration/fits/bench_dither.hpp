@@ -1,6 +1,6 @@
 #pragma once
 /// Solenoid bench recordings with dither on the current: what a slow recorder keeps of it is no more than its alias, so
-/// that only means over its periods tell.
+/// that only means over its periods resolve.
 #include "spoolflow/recording/recording.hpp"
 
 namespace spoolflow::calibration {

@@ -36,7 +36,7 @@ struct LevelSamples {
 
 /// Of a force in which friction is what differs between both directions. A stroke begins from rest, and what its
 /// friction has grown by there wears off over some ten micrometres of sliding. As far as `wearing_m` from where each
-/// direction begins, the other direction, which comes sliding, tells the force, and friction follows the straight line
+/// direction begins, the other direction, which comes sliding, gives the force, and friction follows the straight line
 /// through the next positions. Positions as `average_both_directions` has them.
 [[nodiscard]] BothDirections without_breakaway(BothDirections force, double wearing_m);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What a solenoid's bench recordings tell of the magnetising current before hysteresis and eddy currents are known.
+/// What a solenoid's bench recordings determine of the magnetising current before hysteresis and eddy currents are
+/// known.
 #include <vector>
 
 #include "spoolflow/calibration/fits/solenoid_samples.hpp"
@@ -13,8 +14,8 @@ struct FluxEvidence {
   std::vector<double> magnetising_current_A;
 };
 
-/// While the armature is held, the load cell tells the magnetising current at any speed: the averaged force map
-/// inverted at that position. Not known where the force is too small to tell.
+/// While the armature is held, the load cell gives the magnetising current at any speed: the averaged force map
+/// inverted at that position. Not known where the force is too small.
 [[nodiscard]] FluxEvidence evidence_from_force(const SolenoidSamples& samples,
                                                const sensor::MagneticForce<double>& magnetic_force);
 

@@ -17,7 +17,7 @@ struct MagneticForceFit {
   FitResidual residual;  ///< of the samples about map plus or minus half width [N]
 };
 
-/// Needs `current`, `position` and `force`; `current_set` helps to tell the levels apart. At least four held currents,
+/// Needs `current`, `position` and `force`; `current_set` helps to distinguish the levels. At least four held currents,
 /// each to and fro over the valve's stroke. Without current the force is taken as zero. Throws CalibrationError.
 [[nodiscard]] MagneticForceFit fit_magnetic_force(const recording::Recording& recording, double stroke_m);
 

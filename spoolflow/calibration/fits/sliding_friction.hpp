@@ -15,7 +15,8 @@ struct FrictionLaw {
   double viscous_closing_N_s_per_m = 0;
   double coulomb_opening_N = 0;
   double coulomb_closing_N = 0;
-  double offset_N = 0;  ///< what drives one way at rest; told apart from friction only if both directions have one law
+  double offset_N =
+      0;  ///< what drives one way at rest; distinguished from friction only if both directions have one law
 };
 
 /// Whether both directions share one friction, with an offset; or each has its own, the offset within.

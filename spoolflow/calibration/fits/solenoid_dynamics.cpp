@@ -48,7 +48,7 @@ CoilUnknowns unknowns_of(const sensor::Coil<double>& coil) {
   return values;
 }
 
-/// Weakly equal outputs without and at full flux, where the recording does not tell them apart.
+/// Weakly equal outputs without and at full flux, where the recording does not distinguish them.
 void add_even_outputs(CoilDeviation& deviation, const CoilUnknowns& unknowns, double coercive_A) {
   const double weight = 1 / (coercive_A * coercive_A);
   for (int k = 0; k < sensor::hysteresis_elements; ++k) {
@@ -128,7 +128,7 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-/// Calls `each(k, magnetising current [A])` at every sample of a held armature, the coil begun anew.
+/// Calls `each(k, magnetising current [A])` at every sample of a held armature, the coil begun again.
 template <class Each>
 void along(const HeldArmature& held, const SolenoidSamples& samples, const sensor::Coil<double>& coil, Each&& each) {
   sensor::CoilState<double> state;

@@ -17,8 +17,8 @@ struct SolenoidSamples {
   std::vector<sensor::Sample<double>> samples;  ///< current and voltage as means over the step; NaN voltage: absent
   std::vector<double> time_s;
   std::vector<double> force_N;
-  std::vector<int> test;       ///< number of the protocol's part; 0 where the recording does not tell
-  std::vector<char> restarts;  ///< 1 where the armature was moved and the coil begins anew
+  std::vector<int> test;       ///< number of the protocol's part; 0 where the recording does not state it
+  std::vector<char> restarts;  ///< 1 where the armature was moved and the coil starts again
   Sampling sampling = Sampling::mean;
 
   [[nodiscard]] std::size_t size() const { return samples.size(); }
@@ -26,8 +26,8 @@ struct SolenoidSamples {
   bool voltage_measured = false;
 };
 
-/// Needs `current`, `position` and `force`; samples in which one of them is missing are left out. `stroke_m` tells a
-/// moved armature from noise.
+/// Needs `current`, `position` and `force`; samples in which one of them is missing are left out. `stroke_m`
+/// distinguishes a moved armature from noise.
 [[nodiscard]] SolenoidSamples solenoid_samples(const recording::Recording& recording, double stroke_m,
                                                Sampling sampling);
 

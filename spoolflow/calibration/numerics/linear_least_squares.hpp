@@ -1,5 +1,5 @@
 #pragma once
-/// Linear least squares with what it tells of its own unknowns.
+/// Linear least squares with the uncertainty of its unknowns.
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct LinearLeastSquares {
   Eigen::MatrixXd inverse;    ///< of the normal equations' matrix
 
   /// Of the solution, if so many of the deviations are independent. JCGM 100, H.3. Zero where there are no more rows
-  /// than unknowns, so that nothing is left over to tell it.
+  /// than unknowns, so that no residual determines it.
   [[nodiscard]] Eigen::MatrixXd covariance(double independent) const;
   /// The same of rows that were measured apart from each other.
   [[nodiscard]] Eigen::MatrixXd covariance() const { return covariance(static_cast<double>(deviation.size())); }
@@ -30,7 +30,8 @@ struct LinearLeastSquares {
 /// n (1 - r) / (1 + r) count as independent, r their correlation from one to the next (Bayley and Hammersley 1946).
 [[nodiscard]] double independent_in_a_row(const Eigen::VectorXd& deviation);
 
-/// Minimises |matrix * x - right|. Throws CalibrationError naming `what` where the rows do not tell the unknowns apart.
+/// Minimises |matrix * x - right|. Throws CalibrationError naming `what` where the rows do not distinguish the
+/// unknowns.
 [[nodiscard]] LinearLeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
                                                const char* what);
 

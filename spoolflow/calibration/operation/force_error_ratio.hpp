@@ -1,5 +1,5 @@
 #pragma once
-/// How much of the force errors that the parts tell the observer's band must count: what they do to the flow while the
+/// How much of the stated force errors the observer's band must count: what they do to the flow while the
 /// valve works shows, beside a reference flow, whether they are as large as the benches' residuals make them.
 #include <vector>
 
@@ -8,13 +8,13 @@
 
 namespace spoolflow::calibration {
 
-/// Where no operating recording tells: wider than any of the valves that were tried needs (docs/accuracy.md).
+/// Without an operating recording: wider than any of the valves that were tried needs (docs/accuracy.md).
 inline constexpr double assumed_force_error_ratio = 2;
 
 /// One run may agree better with the benches than others will.
 inline constexpr double least_force_error_ratio = 0.4;
 
-/// Nor may dither, which holds friction, tell of the force errors that rest without it leaves open: no less than this
+/// Dither, which bounds friction, does not show the force errors at rest without it: no less than this
 /// where no recording shows such a rest.
 inline constexpr double least_dithered_force_error_ratio = 1;
 

@@ -12,7 +12,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-/// Pattern search: one dial after the other, by a factor that grows where it helps and shrinks where it does not.
+/// Pattern search: one parameter after the other, by a factor that grows where it helps and shrinks where it does not.
 void search(const std::vector<Dial>& dials, const std::function<double()>& cost,
             const std::function<void(double)>& progress) {
   double best = cost();
@@ -39,7 +39,7 @@ void search(const std::vector<Dial>& dials, const std::function<double()>& cost,
   }
 }
 
-/// Names of those of all dials that are not among the told.
+/// Names of those of all parameters that are not identifiable.
 std::vector<std::string> not_told(sensor::ObserverParameters<double>& parameters, const std::vector<Dial>& told) {
   std::vector<std::string> out;
   for (const Dial& dial : operation_dials(parameters)) {
@@ -64,7 +64,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   constexpr double restless = 0.3;
   parameters.pressure.first_process_noise = restless;
   parameters.pressure.least_process_noise = restless * restless;
-  // Dither that hardly frees the spool tells of friction, and the search must not pass it by.
+  // Dither that hardly frees the spool shows of friction, and the search must not pass it by.
   const double given_freeing_share = parameters.friction.freeing_share;
   parameters.friction.freeing_share = 1;
   const std::vector<Dial> all = told_dials(parameters, runs, full_scale_m3_per_s);

@@ -22,7 +22,7 @@ struct OperationFit {
   double score;
   std::vector<numerics::MeterLag> meters;  ///< of the recordings, as they show it
   model::Fit known;                        ///< of the parameters that were searched, see operation_uncertainty.hpp
-  std::vector<std::string> not_told;       ///< parameters of which these recordings tell nothing, see told_dials.hpp
+  std::vector<std::string> not_told;       ///< parameters that these recordings do not identify, see told_dials.hpp
   FitResidual flow_m3_per_s;               ///< estimate less reference, with the fitted parameters
   double force_error_ratio;                ///< see force_error_ratio.hpp; the band is scaled by it
   double band_coverage;                    ///< share of the samples with the reference inside the band
@@ -31,7 +31,7 @@ struct OperationFit {
 
 /// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak
 /// pull towards the values that `parameters` holds. Recordings need time, current, position and flow_reference; their
-/// meters are found. `progress` is told the share done.
+/// meters are found. `progress` receives the share done.
 OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& recorded,
                            double full_scale_m3_per_s, const std::function<void(double)>& progress);
 

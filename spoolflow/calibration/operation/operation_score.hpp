@@ -40,7 +40,7 @@ struct OperationOutcome {
 /// Weight of the RMS error beside the interval score.
 inline constexpr double weight_of_error = 4;
 
-/// In stretches of `stretch_s`, each recording's beginning anew.
+/// In stretches of `stretch_s`, each recording starts a new one.
 [[nodiscard]] std::vector<OperationOutcome> replay_stretches(const sensor::ObserverParameters<double>& parameters,
                                                              const std::vector<OperatingRun>& runs, double stretch_s);
 [[nodiscard]] OperationOutcome together(const std::vector<OperationOutcome>& stretches);

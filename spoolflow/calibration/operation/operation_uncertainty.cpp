@@ -38,13 +38,13 @@ Eigen::MatrixXd inverse_of(Eigen::MatrixXd curvature, double pull) {
   }
 }
 
-/// What a score tells of the dials' logarithms about where it is smallest.
+/// Curvature of a score over the parameters' logarithms about its minimum.
 struct Curvature {
   Eigen::MatrixXd slopes;     ///< of each stretch
   Eigen::MatrixXd curvature;  ///< of their sum
 };
 
-/// By differences; `at(a, log_a, b, log_b)` are the scores of the stretches with the dials a and b turned so far.
+/// By differences; `at(a, log_a, b, log_b)` are the scores of the stretches with the parameters a and b turned so far.
 template <class Scores>
 Curvature curvature_about(const Eigen::VectorXd& middle, const std::vector<Eigen::Index>& free, double pull,
                           const Scores& at) {

@@ -19,7 +19,7 @@ estimation::Columns operating_columns(const recording::Recording& recording) {
 
 estimation::RunningSensor operating_sensor(const sensor::ObserverParameters<double>& parameters,
                                            const OperatingRun& run) {
-  constexpr double rated_flow_m3_per_s = 0;  // told before the first complete sample only, which nobody looks at
+  constexpr double rated_flow_m3_per_s = 0;  // used before the first complete sample only, which nobody reads
   switch (run.of) {
     case RunOf::one:
       break;

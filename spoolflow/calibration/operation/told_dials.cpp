@@ -6,7 +6,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-/// Largest relative change of the score where the dial is turned to half or twice its value.
+/// Largest relative change of the score where the parameter is turned to half or twice its value.
 double telling(const Dial& dial, const sensor::ObserverParameters<double>& parameters,
                const std::vector<OperatingRun>& runs, double full_scale_m3_per_s) {
   const double here = *dial.value;

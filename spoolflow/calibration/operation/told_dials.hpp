@@ -1,15 +1,15 @@
 #pragma once
-/// What of the valve the operating recordings at hand tell: under dither no rest shows how friction grows or where the
-/// contacts lie, and without dither or fast strokes nothing shows the mass.
+/// What of the valve the operating recordings at hand identify: under dither no rest shows how friction grows or where
+/// the contacts lie, and without dither or fast strokes nothing shows the mass.
 #include <vector>
 
 #include "spoolflow/calibration/operation/operation_score.hpp"
 
 namespace spoolflow::calibration {
 
-/// Rest without dither, the valve open, that tells of friction at rest [s], all recordings together.
+/// Rest without dither, the valve open, that identifies friction at rest [s], all recordings together.
 inline constexpr double least_undithered_rest_s = 2;
-/// A parameter is told where half or twice its value makes the score worse or better by this share of it.
+/// A parameter is identifiable where half or twice its value makes the score worse or better by this share of it.
 inline constexpr double telling_score_share = 0.01;
 
 /// How long the spool rests open without dither [s].
@@ -20,7 +20,7 @@ inline constexpr double telling_score_share = 0.01;
 /// for pressure.
 void assume_rest(sensor::ObserverParameters<double>& parameters);
 
-/// Those of all dials that these recordings tell.
+/// Those of all parameters that these recordings identify.
 [[nodiscard]] std::vector<Dial> told_dials(sensor::ObserverParameters<double>& parameters,
                                            const std::vector<OperatingRun>& runs, double full_scale_m3_per_s);
 

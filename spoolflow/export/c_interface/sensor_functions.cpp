@@ -32,7 +32,7 @@ struct SharedModel {
   std::uint64_t checksum;  ///< of the file's text
 };
 
-void tell(std::string_view text, char* message, std::size_t size) {
+void write_message(std::string_view text, char* message, std::size_t size) {
   if (message == nullptr || size == 0) return;
   const std::size_t length = std::min(text.size(), size - 1);
   std::memcpy(message, text.data(), length);
@@ -51,29 +51,29 @@ struct BadFile : std::invalid_argument {
 /// Calls `work` and turns what it throws into a result with its message.
 template <class Work>
 spoolflow_result guarded(char* message, std::size_t size, Work&& work) noexcept {
-  tell("", message, size);
+  write_message("", message, size);
   try {
     work();
     return SPOOLFLOW_OK;
   } catch (const NotCalibrated& error) {
-    return tell(error.what(), message, size), SPOOLFLOW_NOT_CALIBRATED;
+    return write_message(error.what(), message, size), SPOOLFLOW_NOT_CALIBRATED;
   } catch (const BadFile& error) {
-    return tell(error.what(), message, size), SPOOLFLOW_BAD_FILE;
+    return write_message(error.what(), message, size), SPOOLFLOW_BAD_FILE;
   } catch (const spoolflow::model::ModelError& error) {
-    return tell(error.what(), message, size), SPOOLFLOW_BAD_MODEL;
+    return write_message(error.what(), message, size), SPOOLFLOW_BAD_MODEL;
   } catch (const exports::StateError& error) {
-    return tell(error.what(), message, size), SPOOLFLOW_BAD_STATE;
+    return write_message(error.what(), message, size), SPOOLFLOW_BAD_STATE;
   } catch (const std::bad_alloc&) {
-    return tell("out of memory", message, size), SPOOLFLOW_OUT_OF_MEMORY;
+    return write_message("out of memory", message, size), SPOOLFLOW_OUT_OF_MEMORY;
   } catch (const std::exception& error) {
-    return tell(error.what(), message, size), SPOOLFLOW_FAILED;
+    return write_message(error.what(), message, size), SPOOLFLOW_FAILED;
   } catch (...) {
-    return tell("a failure without a name", message, size), SPOOLFLOW_FAILED;
+    return write_message("a failure without a name", message, size), SPOOLFLOW_FAILED;
   }
 }
 
 spoolflow_result refuse(const char* text, char* message, std::size_t size) noexcept {
-  tell(text, message, size);
+  write_message(text, message, size);
   return SPOOLFLOW_BAD_ARGUMENT;
 }
 
@@ -105,7 +105,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text;
 }
 
-spoolflow_estimate told(const sensor::Estimate<double>& estimate) {
+spoolflow_estimate answer_in_c(const sensor::Estimate<double>& estimate) {
   return {estimate.flow_m3_per_s,          estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s,
           estimate.pressure_difference_Pa, estimate.magnetic_force_N,    estimate.spring_force_N,
           estimate.flow_force_N,           estimate.friction_force_N,    static_cast<std::uint32_t>(estimate.status)};
@@ -187,7 +187,7 @@ int spoolflow_is_whole(const spoolflow_sensor* sensor) {
 spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample* sample,
                                 spoolflow_estimate* estimate) {
   if (sensor == nullptr || sample == nullptr || estimate == nullptr) return SPOOLFLOW_BAD_ARGUMENT;
-  *estimate = told(sensor->running.step(
+  *estimate = answer_in_c(sensor->running.step(
       {sample->time_s, sample->current_A, sample->voltage_V, sample->position_m, sample->oil_temperature_K}));
   return SPOOLFLOW_OK;
 }
@@ -203,7 +203,7 @@ spoolflow_result spoolflow_step_whole_ports(spoolflow_sensor* sensor, const spoo
   if (!sensor->shared->model.whole()) return SPOOLFLOW_BAD_ARGUMENT;
   sensor::PortPressures<double> measured;
   if (ports != nullptr) measured = {ports->p_Pa, ports->a_Pa, ports->b_Pa, ports->t_Pa};
-  *estimate = told(sensor->running.step(spoolflow::estimation::of_both_coils(
+  *estimate = answer_in_c(sensor->running.step(spoolflow::estimation::of_both_coils(
       {sample->time_s, sample->current_a_A, sample->current_b_A, sample->voltage_a_V, sample->voltage_b_V,
        sample->position_m, sample->oil_temperature_K, measured})));
   return SPOOLFLOW_OK;
@@ -222,7 +222,7 @@ void step_columns(RunningSensor& running, const Samples& samples, const spoolflo
     if (column != nullptr) column[k] = value;
   };
   run(running, samples, [&](std::size_t k, const sensor::Estimate<double>& answer) {
-    const spoolflow_estimate estimate = told(answer);
+    const spoolflow_estimate estimate = answer_in_c(answer);
     put(outputs.flow_m3_per_s, k, estimate.flow_m3_per_s);
     put(outputs.flow_lower_m3_per_s, k, estimate.flow_lower_m3_per_s);
     put(outputs.flow_upper_m3_per_s, k, estimate.flow_upper_m3_per_s);

@@ -67,9 +67,9 @@ typedef enum spoolflow_result {
   SPOOLFLOW_BAD_MODEL = 3,      /* the text is no model, is damaged, or is of another version */
   SPOOLFLOW_NOT_CALIBRATED = 4, /* the observer was asked for, and the model has none */
   SPOOLFLOW_BAD_STATE = 5,      /* the bytes are no state, are damaged, or belong to another model, estimator, version */
-  SPOOLFLOW_TOO_SMALL = 6,      /* the caller's buffer is too small; the needed size is told by the function's partner */
+  SPOOLFLOW_TOO_SMALL = 6,      /* the caller's buffer is too small; the function's partner returns the needed size */
   SPOOLFLOW_OUT_OF_MEMORY = 7,
-  SPOOLFLOW_FAILED = 8          /* anything else; the message tells */
+  SPOOLFLOW_FAILED = 8          /* anything else; see the message */
 } spoolflow_result;
 
 /* Which sensor runs. The condensed sensor averages: two maps and the springs. The observer adds magnetic hysteresis, eddy
@@ -133,7 +133,7 @@ SPOOLFLOW_API const char* spoolflow_version(void);
 /* Makes a sensor from a model file.
  * path:      of the file, in the encoding of the system's file functions.
  * estimator: which sensor to run. With SPOOLFLOW_BEST a model without observer gives the condensed sensor and no error;
- *            spoolflow_runs tells which one it became.
+ *            spoolflow_runs returns which one it became.
  * sensor:    gets the sensor, or NULL where the call fails.
  * Returns SPOOLFLOW_OK, BAD_ARGUMENT, BAD_FILE, BAD_MODEL, NOT_CALIBRATED, OUT_OF_MEMORY, FAILED. */
 SPOOLFLOW_API spoolflow_result spoolflow_create(const char* path, spoolflow_estimator estimator,
@@ -173,7 +173,7 @@ SPOOLFLOW_API int spoolflow_is_whole(const spoolflow_sensor* sensor);
  *   current or position NaN:  the last flow is held with SAMPLE_MISSING and a band that opens for as long as that lasts;
  *                             the sensor recovers with the next complete sample. Before the first complete sample the flow is 0 with a band up to the rated flow.
  *   a current or voltage far beyond what calibration saw counts as missing, with COIL_FAULT.
- * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a pointer is NULL; faults of the inputs are told by the status alone. */
+ * Returns SPOOLFLOW_OK, or BAD_ARGUMENT where a pointer is NULL; faults of the inputs are in the status alone. */
 SPOOLFLOW_API spoolflow_result spoolflow_step(spoolflow_sensor* sensor, const spoolflow_sample* sample,
                                               spoolflow_estimate* estimate);
 
@@ -194,7 +194,7 @@ typedef struct spoolflow_whole_sample {
 SPOOLFLOW_API spoolflow_result spoolflow_step_whole(spoolflow_sensor* sensor, const spoolflow_whole_sample* sample,
                                                     spoolflow_estimate* estimate);
 
-/* Pressures [Pa] at a whole valve's ports; only all four together tell, NaN: not measured. */
+/* Pressures [Pa] at a whole valve's ports; used only if all four are given; NaN: not measured. */
 typedef struct spoolflow_port_pressures {
   double p_Pa;
   double a_Pa;

@@ -1,7 +1,7 @@
 #pragma once
 /// What a sensor's tables answer in the middle of every cell, summed up along each row: a proof that no number of them
-/// is wrong and that all are read as they were on the host. The exporter reckons the sums in double precision; an
-/// exported folder holds this file as it is, and its self-test reckons them again on the target.
+/// is wrong and that all are read as they were on the host. The exporter computes the sums in double precision; an
+/// exported folder holds this file as it is, and its self-test computes them again on the target.
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 

@@ -85,10 +85,10 @@ class SensorComponent : public Component {
   void start(std::span<double> values) override {
     running_.reset();
     RunningSensor ahead = running_;
-    tell(ahead.step(sample_of(values, 0)), values);
+    write_outputs(ahead.step(sample_of(values, 0)), values);
   }
   void sample(std::span<double> values, std::int64_t number) override {
-    tell(running_.step(sample_of(values, number)), values);
+    write_outputs(running_.step(sample_of(values, number)), values);
   }
   [[nodiscard]] std::span<char> memory() override {
     return {reinterpret_cast<char*>(&running_.state()), sizeof(estimation::RunningState)};
@@ -128,7 +128,7 @@ class SensorComponent : public Component {
             .position_m = values[sensor_position],
             .oil_temperature_K = oil_temperature_K};
   }
-  static void tell(const sensor::Estimate<double>& estimate, std::span<double> values) {
+  static void write_outputs(const sensor::Estimate<double>& estimate, std::span<double> values) {
     values[sensor_flow] = estimate.flow_m3_per_s;
     values[sensor_flow_lower] = estimate.flow_lower_m3_per_s;
     values[sensor_flow_upper] = estimate.flow_upper_m3_per_s;

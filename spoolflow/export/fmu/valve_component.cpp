@@ -81,7 +81,7 @@ class ValveComponent : public Component {
   void start(std::span<double> values) override {
     check_inputs(values);
     begin(values);
-    tell(values, surroundings(values), 0);
+    write_outputs(values, surroundings(values), 0);
   }
 
   void sample(std::span<double> values, std::int64_t number) override {
@@ -113,7 +113,7 @@ class ValveComponent : public Component {
     const auto ticks = std::max<std::int64_t>(1, std::llround(values[valve_sample_step] / electronics_period_s));
     if ((number + 1) % ticks == 0) {
       memory.thermometer.follow(input.oil_temperature_C, static_cast<double>(ticks) * electronics_period_s);
-      tell(values, input, static_cast<double>(number + 1) * electronics_period_s);
+      write_outputs(values, input, static_cast<double>(number + 1) * electronics_period_s);
     }
   }
 
@@ -151,7 +151,7 @@ class ValveComponent : public Component {
   }
 
   /// One reading of every instrument, and the truth; starts new means of current and voltage.
-  void tell(std::span<double> values, const rig::PlantInput& input, double time_s) {
+  void write_outputs(std::span<double> values, const rig::PlantInput& input, double time_s) {
     ValveMemory& memory = *memory_;
     const auto conversions = static_cast<double>(std::max<std::int64_t>(1, memory.conversions));
     const auto tell_coil = [&](rig::CoilPanel& coil, std::uint32_t current, std::uint32_t voltage) {

@@ -29,7 +29,7 @@ struct ImageSummary {
   bool erased;                 ///< all bytes
   sensor::ImageHeader header;  ///< zeros where the bytes hold none of this version
   bool header_read;
-  std::uint32_t crc32;                    ///< as reckoned here; 0 where the image is not all there
+  std::uint32_t crc32;                    ///< as computed here; 0 where the image is not all there
   std::vector<ImageTableSummary> tables;  ///< as the header has them
   std::string problem;  ///< what a model file would be refused for in an image that the sensor takes; empty: nothing
 };

@@ -33,7 +33,7 @@ void pad(std::string& bytes) {
                sensor::image_table_alignment);
 }
 
-/// The tables behind the header, each told in it.
+/// The tables behind the header, each listed in it.
 class Image {
  public:
   explicit Image(const sensor::ImageHeader& header) : header_(header), bytes_(sizeof header, '\0') {}

@@ -8,7 +8,7 @@
 
 namespace spoolflow::exports {
 
-/// What the bytes tell beside the model, and which of its sensors they hold.
+/// What the bytes hold beside the model, and which of its sensors they hold.
 struct ImageContents {
   std::string_view tool_version;
   std::uint64_t created_s;  ///< since 1970 in UTC

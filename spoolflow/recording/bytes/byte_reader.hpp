@@ -9,7 +9,7 @@ namespace spoolflow::recording {
 
 enum class ByteOrder : std::uint8_t { lowest_first, highest_first };
 
-/// Numbers and texts one after the other out of bytes, of which nothing is believed: each call throws RecordingError
+/// Numbers and texts one after the other out of bytes, none of which is trusted: each call throws RecordingError
 /// where fewer bytes are left than it needs.
 class ByteReader {
  public:

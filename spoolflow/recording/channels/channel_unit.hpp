@@ -11,7 +11,7 @@ namespace spoolflow::recording {
 
 /// The unit `written` for this channel, with factor and offset to the channel's own SI unit: with the stroke known,
 /// `position` may be in percent and `position_set` in mm. Throws RecordingError, which starts with `place`, names the
-/// allowed units, and tells a unit that is unknown from one of another quantity.
+/// allowed units, and distinguishes an unknown unit from one of another quantity.
 [[nodiscard]] units::Unit channel_unit(Channel channel, std::string_view written, std::optional<double> stroke_m,
                                        const std::string& place);
 

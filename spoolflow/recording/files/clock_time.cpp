@@ -95,7 +95,7 @@ std::optional<int> short_number(Pieces& pieces) {
 }
 
 /// 3/4/2025 11:59:59.700 AM: month, day, year, as programs with American settings write them. Without AM or PM nothing
-/// tells which comes first.
+/// returns which comes first.
 std::optional<ClockTime> american(std::string_view text) {
   const bool after_noon = text.ends_with("PM") || text.ends_with("pm");
   if (!after_noon && !text.ends_with("AM") && !text.ends_with("am")) return std::nullopt;

@@ -49,7 +49,7 @@ class MessageText {
   std::string content_;
 };
 
-/// Throws RecordingError where the content ends too soon: what comes from the child is not believed either.
+/// Throws RecordingError where the content ends too soon: what comes from the child is not accepted either.
 class ReceivedText {
  public:
   explicit ReceivedText(std::string_view content) : rest_(content) {}

@@ -7,7 +7,7 @@
 
 namespace spoolflow::recording {
 
-/// Opens a file in a process of few rights, which `open` needs no more of than to open the file itself.
+/// Opens a file in a sandboxed process, which `open` needs no more of than to open the file itself.
 /// VectorTable::look() is called behind it.
 using OpenVectors = std::unique_ptr<VectorTable> (*)(const std::filesystem::path&);
 

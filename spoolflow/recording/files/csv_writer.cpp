@@ -137,7 +137,7 @@ inline char* put_decimals(char* out, std::uint64_t number, unsigned decimals) {
 inline char* put_number(char* at, double value, unsigned decimals) {
   const double scaled = std::abs(value) * power[decimals];
   if (scaled < 9e15 && decimals < 8) [[likely]] {
-    // NOLINTNEXTLINE(bugprone-incorrect-roundings): lround is a call; ties that a double cannot tell do not matter here
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): lround is a call; ties that a double cannot hold do not matter here
     const auto digits = static_cast<std::int64_t>(scaled + 0.5);
     *at = '-';
     at += static_cast<int>(value < 0) &

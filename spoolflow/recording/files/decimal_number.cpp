@@ -28,7 +28,7 @@ std::string_view bare(std::string_view text) {
 bool says_missing(std::string_view text) {
   constexpr std::array<std::string_view, 19> words{
       "nan", "null", "-", "na", "n/a", "#n/a", "--", "---", "none", "-nan",
-      // Of C libraries: glibc and Microsoft's, which tells the kind of NaN.
+      // Of C libraries: glibc and Microsoft's, which writes the kind of NaN.
       "+nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "nan(snan)", "1.#snan"};
   constexpr std::size_t longest_word = 9;
   if (text.size() > longest_word) return false;

@@ -22,7 +22,7 @@ herr_t look_at_object(hid_t file, const char* name, const H5O_info_t* info, void
   try {
     const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
     const Hdf5Handle made(dataset.valid() ? H5Dget_create_plist(dataset.id()) : -1, H5Pclose);
-    if (!made.valid()) return 0;  // damaged: whoever lists it tells
+    if (!made.valid()) return 0;  // damaged: reported where it is listed
     if (H5Pget_layout(made.id()) == H5D_VIRTUAL) out.how = "is a virtual dataset";
     if (H5Pget_external_count(made.id()) > 0) out.how = "has external storage";
     if (out.how != nullptr) out.name = name;
@@ -48,7 +48,7 @@ herr_t look_at_link(hid_t, const char* name, const H5L_info_t* info, void* found
 
 void refuse_other_files(hid_t file, const std::string& name) {
   Found found;
-  // What cannot be walked is told by whoever lists the datasets.
+  // What cannot be walked is reported where the datasets are listed.
   if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, look_at_link, &found) == 0) {
     (void)H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, look_at_object, &found, H5O_INFO_BASIC);
   }

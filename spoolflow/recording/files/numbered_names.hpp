@@ -1,5 +1,5 @@
 #pragma once
-/// Columns of one name told apart, so that a channel map can name each.
+/// Columns of one name distinguished, so that a channel map can name each.
 #include <map>
 #include <set>
 #include <string>

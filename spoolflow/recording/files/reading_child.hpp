@@ -1,5 +1,5 @@
 #pragma once
-/// What a process of few rights does that reads a file for this one.
+/// What a sandboxed process does that reads a file for this one.
 #include <csignal>
 #include <cstdint>
 #include <string>
@@ -25,7 +25,7 @@ class Connection {
 };
 
 /// What a child is to do: bytes, a descriptor and the address of a function, which a process that was forked from this
-/// one can be told by a message.
+/// one can be reported by a message.
 struct ReadingOrder {
   using Work = void (*)(const ReadingOrder& order, Connection& parent);
   Work work;  ///< done with the limits, after all rights were given up

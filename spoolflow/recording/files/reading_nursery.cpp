@@ -114,7 +114,7 @@ int receive_order(int socket, ReadingOrder& order) {
   }
 }
 
-/// Zero where the system does not tell.
+/// Zero where the system does not state it.
 int threads() {
   std::ifstream status("/proc/self/status");
   int count = 0;

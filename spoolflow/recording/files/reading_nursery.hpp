@@ -8,7 +8,7 @@
 namespace spoolflow::recording {
 
 /// Whether fork() is safe here: a child has one thread, and what another one had locked at that instant (memory, a
-/// library's own state) stays locked in it for ever. True where the system does not tell how many there are. Waits up
+/// library's own state) stays locked in it for ever. True where the system does not state how many there are. Waits up
 /// to a second for threads that were joined and are about to leave.
 [[nodiscard]] bool may_fork();
 
@@ -17,8 +17,8 @@ namespace spoolflow::recording {
 /// or with this process however that ends.
 class ReadingNursery {
  public:
-  /// Where the system has no further process, start() tells so. Throws std::logic_error where this process has threads
-  /// already, or a nursery.
+  /// Where the system has no further process, start() reports it. Throws std::logic_error where this process has
+  /// threads already, or a nursery.
   ReadingNursery();
   /// No thread asks it any more. Children that were started live on.
   ~ReadingNursery();

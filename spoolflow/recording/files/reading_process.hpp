@@ -1,5 +1,5 @@
 #pragma once
-/// A process of few rights beside this one, which reads a file and answers in messages.
+/// A sandboxed process beside this one, which reads a file and answers in messages.
 #include <string>
 #include <sys/types.h>
 

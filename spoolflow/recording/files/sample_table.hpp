@@ -28,7 +28,7 @@ struct TextCells {
   std::string first{};  ///< with its place
 };
 
-/// One open file. A new format implements this, and open_sample_table() tells it by its content.
+/// One open file. A new format implements this, and open_sample_table() recognises it by its content.
 class SampleTable {
  public:
   SampleTable() = default;

@@ -1,5 +1,5 @@
 #pragma once
-/// What of a file is not read, told to whoever looks for it there.
+/// What of a file is not read, reported where it is looked for.
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +11,7 @@ struct UnreadPart {
   std::string what;    ///< why, with its remedy: "channel 'rig/note' holds text, which is not read; write it as ..."
 };
 
-/// The first ones of a file, in its order: enough to be told, and no more than a message holds.
+/// The first ones of a file, in its order: as many as a message holds.
 inline void keep(std::vector<UnreadPart>& all, UnreadPart part) {
   constexpr std::size_t most = 256;
   if (all.size() < most) all.push_back(std::move(part));

@@ -25,7 +25,7 @@ class VectorTable : public SampleTable {
   [[nodiscard]] std::optional<std::uint64_t> samples_of(std::size_t column) const final { return lengths_[column]; }
   /// Samples of the column.
   [[nodiscard]] std::uint64_t length(std::size_t column) const { return lengths_[column]; }
-  /// Reads what tells its columns, where the constructor only opens the file: a process of few rights opens nothing any
+  /// Reads the names of its columns, where the constructor only opens the file: a sandboxed process opens nothing any
   /// more then. Once, before all else. Throws RecordingError.
   virtual void look() {}
   /// Text in the place of a number is a missing sample from here on (to inspect), where else it is refused.
@@ -36,7 +36,7 @@ class VectorTable : public SampleTable {
  protected:
   explicit VectorTable(std::string file) : file_(std::move(file)) {}
   void add(Vector vector);
-  /// Told once, before the first copy().
+  /// Set once, before the first copy().
   virtual void chosen(const std::vector<std::size_t>&) {}
   /// How many samples from `first` on copy() may be asked for at once.
   virtual std::size_t at_once(std::uint64_t, std::size_t wanted) { return wanted; }

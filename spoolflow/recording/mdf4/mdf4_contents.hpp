@@ -20,7 +20,7 @@ struct Mdf4Channel {
   Mdf4Conversion conversion;
 };
 
-/// The records of a data group: of one kind, or of several, told by the number with which each begins.
+/// The records of a data group: of one kind, or of several, distinguished by the number with which each begins.
 struct Mdf4Records {
   Mdf4Stream stream;
   Mdf4Stream invalid;                            ///< what is invalid of each record, where that is kept apart

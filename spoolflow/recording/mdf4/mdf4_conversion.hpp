@@ -18,7 +18,7 @@ class Mdf4Conversion {
   /// available" is. Throws RecordingError where a block is damaged.
   Mdf4Conversion(const FileBytes& file, std::uint64_t at);
 
-  /// Its unit, or that of the first conversion within it that tells one.
+  /// Its unit, or that of the first conversion within it that states one.
   [[nodiscard]] const std::string& unit() const { return unit_; }
   /// Why the numbers cannot be used: "texts in the place of numbers", "a formula"; empty where they can.
   [[nodiscard]] const std::string& unread() const { return unread_; }

@@ -29,7 +29,7 @@ class Mdf4Walk {
   explicit Mdf4Walk(const Mdf4Group& group);
 
   /// Shows each of `count` records from `first` on, without its number but with what of it is kept apart, with its
-  /// index. Forward it goes on from where it is; back it begins anew. Throws RecordingError where the records end too
+  /// index. Forward it goes on from where it is; back it starts again. Throws RecordingError where the records end too
   /// soon.
   void show(std::uint64_t first, std::size_t count,
             const std::function<void(const std::uint8_t*, std::uint64_t)>& record);

@@ -27,7 +27,7 @@ struct TdmsRawIndex {
   bool operator==(const TdmsRawIndex&) const = default;
 };
 
-/// `head`: the four bytes before, neither "none" nor "as before". `file_bytes` bounds what is believed. `what`: whose
+/// `head`: the four bytes before, neither "none" nor "as before". `file_bytes` bounds what is accepted. `what`: whose
 /// it is, for messages. Throws RecordingError.
 [[nodiscard]] TdmsRawIndex read_raw_index(ByteReader& bytes, std::uint32_t head, std::uint64_t file_bytes,
                                           const std::string& what);

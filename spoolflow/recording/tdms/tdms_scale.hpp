@@ -23,7 +23,7 @@ struct TdmsCurve {
 class TdmsScale {
  public:
   /// Those of the first of channel, group and file that has some. What they are but cannot be used (thermocouples,
-  /// strain gauges and other bridges, sums of two scales, or what makes no sense) is told in `unread`.
+  /// strain gauges and other bridges, sums of two scales, or what makes no sense) is reported in `unread`.
   TdmsScale(const TdmsProperties& channel, const TdmsProperties& group, const TdmsProperties& file);
 
   [[nodiscard]] const std::string& unread() const { return unread_; }

@@ -9,7 +9,7 @@ namespace spoolflow::recording {
 [[nodiscard]] std::string_view without_blanks(std::string_view text);
 
 /// Takes the next cell off a line (quotes removed from cells that begin and end with one); `line` is empty after the
-/// last cell, and `last` tells it from an empty cell that follows.
+/// last cell, and `last` distinguishes it from an empty cell that follows.
 struct CsvCell {
   std::string_view text;
   bool last;

@@ -1,5 +1,5 @@
 #pragma once
-/// How a CSV file is written: told from its first lines.
+/// How a CSV file is written: found from its first lines.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,8 +27,8 @@ struct CsvDialect {
 /// `runs_on`: of a source whose first rows may be damaged.
 [[nodiscard]] CsvDialect read_csv_dialect(std::string_view beginning, const std::string& file, bool runs_on = false);
 
-/// Whether the header is there as a whole, and one more line that tells units from samples: all that read_csv_dialect()
-/// needs of a stream whose rows are still to come.
+/// Whether the header is there as a whole, and one more line that distinguishes units from samples: all that
+/// read_csv_dialect() needs of a stream whose rows are still to come.
 [[nodiscard]] bool header_is_whole(std::string_view beginning);
 
 }  // namespace spoolflow::recording

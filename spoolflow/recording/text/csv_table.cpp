@@ -106,7 +106,7 @@ void CsvTable::end_last_line() {
   buffer_[filled_++] = '\n';
 }
 
-/// Whole lines now end at lines_end_; tells what they need.
+/// Whole lines now end at lines_end_; returns what they need.
 void CsvTable::look_at_new_bytes() {
   end_last_line();
   const std::string_view fresh(buffer_.data() + cursor_, filled_ - cursor_);

@@ -28,7 +28,7 @@ struct TableHead {
   std::vector<NumberColumn> numbers;  ///< the first is the time [s]
   std::string flags;                  ///< the name of the last column
   std::vector<FlagName> flag_names;
-  std::function<std::string_view(std::uint32_t)> flag_text;  ///< the names of the set bits; must stay until asked anew
+  std::function<std::string_view(std::uint32_t)> flag_text;  ///< the names of the set bits; must stay until asked again
   std::vector<std::pair<std::string, std::string>> notes{};  ///< of the whole table: what made it and from what
 };
 

@@ -80,7 +80,7 @@ CaptionedFigure setting_map(const DitherStudy& study, const HeatScale& heat, con
   return out;
 }
 
-/// Band, tremble and ripple over the amplitude at some frequencies.
+/// Band, motion and ripple over the amplitude at some frequencies.
 CaptionedFigure curves(const DitherStudy& study, double full_scale_m3_per_s) {
   CaptionedFigure out{{.description = "Band, motion and flow ripple over the amplitude of the dither",
                        .x_title = "Amplitude of the coil current",
@@ -88,34 +88,34 @@ CaptionedFigure curves(const DitherStudy& study, double full_scale_m3_per_s) {
                        .x_lowest = 0.0,
                        .x_highest = study.amplitude_A.back()}};
   Panel band{.title = "Half-width of the band [% FS]", .height_px = 190, .lowest = 0.0};
-  Panel tremble{.title = "Motion [µm]", .height_px = 150, .lowest = 0.0};
+  Panel motion{.title = "Motion [µm]", .height_px = 150, .lowest = 0.0};
   Panel ripple{.title = "Flow ripple [% FS]", .height_px = 170, .lowest = 0.0};
   const double limit = 100 * study.question.ripple_limit_share;
   ripple.highest = 4 * limit;
   const std::vector<std::size_t> shown = shown_frequencies(study);
-  double tremble_at_limit_um = 0;
+  double motion_at_limit_um = 0;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     Mark mark{.ramp = ramp(k, shown.size()), .x = study.amplitude_A};
-    Mark of_tremble = mark, of_ripple = mark;
+    Mark of_motion = mark, of_ripple = mark;
     mark.name = frequency_text(study.frequency_Hz[shown[k]]);
     for (std::size_t a = 0; a < study.amplitude_A.size(); ++a) {
       const DitherSetting& each = study.settings[study.place(a, shown[k])];
       mark.y.push_back(100 * each.mean_band_m3_per_s / full_scale_m3_per_s);
-      of_tremble.y.push_back(1e6 * each.largest_tremble_m);
+      of_motion.y.push_back(1e6 * each.largest_motion_m);
       of_ripple.y.push_back(100 * each.largest_ripple_m3_per_s / full_scale_m3_per_s);
-      if (of_ripple.y.back() < 4 * limit) tremble_at_limit_um = std::max(tremble_at_limit_um, of_tremble.y.back());
+      if (of_ripple.y.back() < 4 * limit) motion_at_limit_um = std::max(motion_at_limit_um, of_motion.y.back());
     }
     band.marks.push_back(std::move(mark));
-    tremble.marks.push_back(std::move(of_tremble));
+    motion.marks.push_back(std::move(of_motion));
     ripple.marks.push_back(std::move(of_ripple));
   }
-  if (tremble_at_limit_um > 0) tremble.highest = 1.05 * tremble_at_limit_um;
+  if (motion_at_limit_um > 0) motion.highest = 1.05 * motion_at_limit_um;
   ripple.marks.push_back({.shape = Shape::dashed,
                           .tone = "soft",
                           .name = "limit",
                           .x = {0, study.amplitude_A.back()},
                           .y = {limit, limit}});
-  out.figure.panels = {std::move(band), std::move(tremble), std::move(ripple)};
+  out.figure.panels = {std::move(band), std::move(motion), std::move(ripple)};
   out.caption =
       "Band: mean over the working points. Tremble and ripple: the largest of the points, half of peak to peak; cut "
       "off at four times the ripple's limit.";
@@ -145,7 +145,7 @@ HtmlTable points_table(const DitherStudy& study, double full_scale_m3_per_s) {
                fixed(units::flow(point.flow_m3_per_s), 1), fixed(units::current(point.current_A), 2),
                fixed(units::force(point.sliding_N), 2), fixed(units::force(point.sticking_N), 2),
                fixed(units::force(effect.half_swing_N), 2), percent(study.effects[p].front().band_m3_per_s),
-               percent(effect.band_m3_per_s), fixed(1e6 * effect.tremble_m, 2), percent(effect.flow_ripple_m3_per_s),
+               percent(effect.band_m3_per_s), fixed(1e6 * effect.motion_m, 2), percent(effect.flow_ripple_m3_per_s),
                effect.frees ? "yes" : "no"});
   }
   return table;
@@ -183,7 +183,7 @@ DitherVerdict dither_verdict(const model::Model& model, const DitherStudy& study
   out.remarks.push_back(
       phrase("The spool moves by up to {} µm, the flow by up to {} % FS ({}); the limit is {} % FS. Dither "
              "overcomes stiction both ways in each period at {} of {} points.",
-             fixed(1e6 * best.largest_tremble_m, 2), percent(best.largest_ripple_m3_per_s),
+             fixed(1e6 * best.largest_motion_m, 2), percent(best.largest_ripple_m3_per_s),
              three_digits(units::flow(best.largest_ripple_m3_per_s)), limit, freed, study.points.size()));
   out.remarks.emplace_back(
       "The amplitude is that of the measured coil current; the current control leaves out a part of what it is asked "
@@ -227,7 +227,7 @@ void write_dither_report(std::ostream& out, const model::Model& model, const Dit
       "contacts give way elastically; beyond, the moving mass ({} kg) follows the force on springs and contacts, with "
       "friction that falls to {} of the bench's at speed (assumed). Left out: what the position control adds to the "
       "current where the spool moves, and changes of the pressure difference that the motion itself makes.",
-      fixed(analysis::told_rest_s, 0), three_digits(model.observer->parameters.moving_mass_kg),
+      fixed(analysis::stated_rest_s, 0), three_digits(model.observer->parameters.moving_mass_kg),
       fixed(analysis::moving_friction_share, 1)));
   show_inputs(page, model, {});
   out << page.str();

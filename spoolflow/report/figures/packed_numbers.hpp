@@ -7,8 +7,8 @@
 
 namespace spoolflow::report {
 
-/// value = offset + scale * code. The range of the column is told in 65000 steps; code -32768 is a value that is not
-/// known.
+/// value = offset + scale * code. The range of the column is divided into 65000 steps; code -32768 is a value that is
+/// not known.
 struct PackedNumbers {
   double offset = 0;
   double scale = 1;

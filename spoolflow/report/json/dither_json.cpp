@@ -16,7 +16,7 @@ Ordered setting_of(const analysis::DitherStudy& study, std::size_t place, double
           {"frequency_Hz", study.frequency_at_Hz(place)},
           {"band_L_min", units::L_per_min_from_m3_per_s(each.mean_band_m3_per_s)},
           {"band_percent_FS", 100 * each.mean_band_m3_per_s / full_scale_m3_per_s},
-          {"tremble_um", 1e6 * each.largest_tremble_m},
+          {"motion_um", 1e6 * each.largest_motion_m},
           {"flow_ripple_L_min", units::L_per_min_from_m3_per_s(each.largest_ripple_m3_per_s)},
           {"flow_ripple_percent_FS", 100 * each.largest_ripple_m3_per_s / full_scale_m3_per_s},
           {"within_limit", each.within_limit}};
@@ -28,7 +28,7 @@ Ordered point_of(const analysis::DitherStudy& study, std::size_t p) {
   for (std::size_t place = 0; place < study.settings.size(); ++place) {
     const analysis::DitherEffect& effect = study.effects[p][place];
     effects.push_back({study.amplitude_at_A(place), study.frequency_at_Hz(place), effect.half_swing_N,
-                       units::L_per_min_from_m3_per_s(effect.band_m3_per_s), 1e6 * effect.tremble_m,
+                       units::L_per_min_from_m3_per_s(effect.band_m3_per_s), 1e6 * effect.motion_m,
                        units::L_per_min_from_m3_per_s(effect.flow_ripple_m3_per_s), effect.frees});
   }
   return {{"position_mm", units::mm_from_m(point.point.position_m)},
@@ -67,7 +67,7 @@ void write_dither_json(std::ostream& out, const model::Model& model, const analy
   }
   file["settings"] = std::move(settings);
   file["effect_columns"] = {"amplitude_A", "frequency_Hz",      "half_swing_N", "band_L_min",
-                            "tremble_um",  "flow_ripple_L_min", "frees"};
+                            "motion_um",   "flow_ripple_L_min", "frees"};
   Ordered points = Ordered::array();
   for (std::size_t p = 0; p < study.points.size(); ++p) points.push_back(point_of(study, p));
   file["points"] = std::move(points);

@@ -66,7 +66,7 @@ void write_monitor_json(std::ostream& out, const model::Model& model, const moni
             {"model_doubt",
              {{"raised", watch.doubt().any()},
               {"share_of_time", doubt.samples > 0 ? doubt.doubted / doubt.samples : 0.0},
-              {"band_factor", doubt.told_m3_per_s > 0 ? doubt.widened_m3_per_s / doubt.told_m3_per_s : 1.0}}},
+              {"band_factor", doubt.sensor_m3_per_s > 0 ? doubt.widened_m3_per_s / doubt.sensor_m3_per_s : 1.0}}},
             {"runs", each},
             {"baseline", Json::parse(monitor::baseline_text(watch.learnt()))}};
   out << json.dump(1) << '\n';

@@ -19,8 +19,8 @@ std::string figure_text(double value) {
   return value < 0 ? "\u2212" + magnitude : magnitude;
 }
 
-/// Lengths of a few micrometres are told in them.
-double told(const monitor::Indicator& indicator, double value) {
+/// Lengths of a few micrometres are written in them.
+double in_its_unit(const monitor::Indicator& indicator, double value) {
   return indicator.unit == "m" && indicator.state != monitor::IndicatorState::counts ? 1e6 * value : value;
 }
 
@@ -66,8 +66,8 @@ HtmlTable indicator_table(const std::vector<monitor::Indicator>& indicators) {
   HtmlTable table(
       {{"Indicator", Set::text}, {"Value"}, {"± 95 %"}, {"Baseline"}, {"Unit", Set::text}, {"State", Set::text}});
   for (const monitor::Indicator& each : indicators) {
-    table.row({html_text(readable(each.name)), figure_text(told(each, each.value)),
-               figure_text(told(each, each.uncertainty_95)), figure_text(told(each, each.baseline)),
+    table.row({html_text(readable(each.name)), figure_text(in_its_unit(each, each.value)),
+               figure_text(in_its_unit(each, each.uncertainty_95)), figure_text(in_its_unit(each, each.baseline)),
                html_text(unit_of(each)), html_text(std::string(monitor::name(each.state)))});
   }
   return table;
@@ -90,12 +90,12 @@ CaptionedFigure trend_figure(const std::vector<TrendPoint>& trend) {
       const monitor::Indicator& at = point.indicators[k];
       known = known || std::isfinite(at.value);
       band.x.push_back(point.windows);
-      band.y.push_back(told(at, at.value - at.uncertainty_95));
-      band.y_upper.push_back(told(at, at.value + at.uncertainty_95));
+      band.y.push_back(in_its_unit(at, at.value - at.uncertainty_95));
+      band.y_upper.push_back(in_its_unit(at, at.value + at.uncertainty_95));
       line.x.push_back(point.windows);
-      line.y.push_back(told(at, at.value));
+      line.y.push_back(in_its_unit(at, at.value));
       base.x.push_back(point.windows);
-      base.y.push_back(told(at, at.baseline));
+      base.y.push_back(in_its_unit(at, at.baseline));
     }
     if (!known) continue;
     const std::string unit = unit_of(first);

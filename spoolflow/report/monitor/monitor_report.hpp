@@ -7,7 +7,7 @@
 namespace spoolflow::report {
 
 /// The condition of a valve as one page: sign of NE 107, causes, indicators, their course from window to window and
-/// what was told after each recording.
+/// the indicators after each recording.
 void write_monitor_report(std::ostream& out, const model::Model& model, const monitor::Monitor& watch,
                           const std::vector<MonitoredRun>& runs, const std::vector<TrendPoint>& trend,
                           const ReaderUnits& units);

@@ -6,7 +6,7 @@
 
 namespace spoolflow::report {
 
-/// What a watch tells after one recording.
+/// The monitor's result after one recording.
 struct MonitoredRun {
   std::string name;  ///< of the recording
   monitor::Ne107 condition;
@@ -18,11 +18,11 @@ struct MonitoredRun {
 struct DoubtFigures {
   double samples = 0;  ///< all
   double doubted = 0;
-  double told_m3_per_s = 0;     ///< widths of the band as the sensor told it
+  double sensor_m3_per_s = 0;   ///< widths of the sensor's own band
   double widened_m3_per_s = 0;  ///< widened
 };
 
-/// What it told after one window of events.
+/// The same after one window of events.
 struct TrendPoint {
   double windows;  ///< judged so far
   std::vector<monitor::Indicator> indicators;

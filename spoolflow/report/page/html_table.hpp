@@ -20,7 +20,7 @@ class HtmlTable {
     std::optional<units::Kind> quantity = {};  ///< its unit stands below the heading, so not in the cells
     std::string beside = {};                   ///< a second unit, behind the first: "% FS"
   };
-  /// A text, or a quantity, which is written without its unit where the column tells it.
+  /// A text, or a quantity, which is written without its unit where the column states it.
   class Cell {
    public:
     // Whatever can be read can stand in a cell.

@@ -15,7 +15,7 @@ namespace {
 using validation::Quantity;
 
 /// What is said of the figures, the most harmful first.
-enum class Harm {
+enum class Severity {
   doubt,  ///< the data contradict physics
   lasting_fault,
   wrong_sign,
@@ -29,10 +29,10 @@ enum class Harm {
   none,
 };
 
-/// A sentence of the verdict; of the same harm the larger share comes first, then the text decides: the order of the
-/// arguments does not.
+/// A sentence of the verdict; of the same severity the larger share comes first, then the text decides: the order of
+/// the arguments does not.
 struct Remark {
-  Harm harm;
+  Severity severity;
   double share;
   Text text;
 };
@@ -111,18 +111,18 @@ void Judge::add_phases(std::vector<Remark>& out) const {
   const validation::ErrorFigures& rest = metrics.rest.error;
   const validation::ErrorFigures& moving = metrics.moving.error;
   if (rest.samples > 0 && moving.samples > 0 && rest.p95 > 1.15 * moving.p95) {
-    out.push_back({Harm::where_worst, rest.p95,
+    out.push_back({Severity::where_worst, rest.p95,
                    fmt::format("At rest 95 % of the errors lie within {}, in motion within {}: friction at rest lies "
                                "anywhere within its limits, which the force does not show.",
                                percent(rest.p95), percent(moving.p95))});
   } else if (rest.samples > 0 && moving.samples > 0 && moving.p95 > 1.15 * rest.p95) {
-    out.push_back({Harm::where_worst, moving.p95,
+    out.push_back({Severity::where_worst, moving.p95,
                    fmt::format("In motion 95 % of the errors lie within {}, at rest within {}.", percent(moving.p95),
                                percent(rest.p95))});
   }
   const validation::ErrorFigures& reversal = metrics.reversal.error;
   if (reversal.samples > 0 && reversal.p95 > 1.15 * metrics.all.error.p95) {
-    out.push_back({Harm::where_worst, reversal.p95,
+    out.push_back({Severity::where_worst, reversal.p95,
                    fmt::format("Around reversals and stops, where friction changes its sign, 95 % lie within {}.",
                                percent(reversal.p95))});
   }
@@ -159,7 +159,7 @@ void Judge::add_worst_bins(std::vector<Remark>& out) const {
                     place(validation::quantities[q], bin, leading().sign.has_value()), percent(bin.p95_m3_per_s));
     }
   }
-  if (!text.empty()) out.push_back({Harm::where_worst, worst, text});
+  if (!text.empty()) out.push_back({Severity::where_worst, worst, text});
 }
 
 void Judge::add_sign(std::vector<Remark>& out) const {
@@ -175,20 +175,20 @@ void Judge::add_sign(std::vector<Remark>& out) const {
           : Text(fmt::format("; it is called undetermined in {} %, with flow rates of up to {} of full scale.",
                              fixed(100 * static_cast<double>(sign.undetermined) / static_cast<double>(sign.samples), 2),
                              percent(sign.undetermined_largest_m3_per_s)));
-  out.push_back({sign.wrong == 0 ? Harm::none : Harm::wrong_sign, 0, text});
+  out.push_back({sign.wrong == 0 ? Severity::none : Severity::wrong_sign, 0, text});
 }
 
 void Judge::add_status(std::vector<Remark>& out) const {
   for (const validation::RunResult& run : validation_.runs) {
     for (const validation::StatusRow& status : run.results.back().status) {
       if (!status.fault && !(status.name.starts_with("outside") && status.share > 0.05)) continue;
-      constexpr double lasting_share = 0.05, least_share = 5e-5;  // the latter: of what two decimals tell
+      constexpr double lasting_share = 0.05, least_share = 5e-5;  // the latter: the resolution of two decimals
       const std::string percent =
           status.share < least_share ? "less than 0.01" : fixed(100 * status.share, status.share < 0.01 ? 2 : 0);
-      const Harm harm = !status.fault                  ? Harm::outside
-                        : status.share > lasting_share ? Harm::lasting_fault
-                                                       : Harm::brief_fault;
-      out.push_back({harm, status.share,
+      const Severity severity = !status.fault                  ? Severity::outside
+                                : status.share > lasting_share ? Severity::lasting_fault
+                                                               : Severity::brief_fault;
+      out.push_back({severity, status.share,
                      fmt::format("{}: {} for {} % of the time. {}", run.name, status.name, percent, status.meaning)});
     }
   }
@@ -206,7 +206,7 @@ void Judge::add_references(std::vector<Remark>& out) const {
         std::abs(found.offset_m3_per_s) > surely * found.offset_uncertainty_m3_per_s && std::abs(offset) > least_offset;
     if (!scaled && !shifted) continue;
     out.push_back(
-        {Harm::off_reference, std::max(off, std::abs(offset)),
+        {Severity::off_reference, std::max(off, std::abs(offset)),
          fmt::format("{}: the reference reads {} \u00b1 {} times the estimate {} {} \u00b1 {} FS (95 %). Look "
                      "at the meter's factor and zero; nothing of it was applied.",
                      run.name, fixed(found.scale, 3), fixed(2 * found.scale_uncertainty, 3),
@@ -221,7 +221,7 @@ void Judge::add_band(std::vector<Remark>& out) const {
                           : all.band_coverage > 0.99 ? "wider than it need be"
                                                      : "about as wide as it should be";
   out.push_back(
-      {all.band_coverage < 0.93 ? Harm::narrow_band : Harm::wide_band, 1,
+      {all.band_coverage < 0.93 ? Severity::narrow_band : Severity::wide_band, 1,
        fmt::format("The 95 % band holds {} % of the samples, {} % FS wide on average: {}.",
                    fixed(100 * all.band_coverage, 1), fixed(all.band_mean_width_m3_per_s * percent_, 1), judgement)});
   add_bands_of_runs(out);
@@ -239,13 +239,13 @@ void Judge::add_bands_of_runs(std::vector<Remark>& out) const {
     if (all.band_coverage > most_coverage && all.band_mean_width_m3_per_s > most_widths * all.error.rms)
       wide[run.name] = share;
   }
-  const auto tell = [&](const std::map<std::string, std::string>& runs, const char* how, Harm harm) {
+  const auto add = [&](const std::map<std::string, std::string>& runs, const char* how, Severity severity) {
     std::string names;
     for (const auto& [name, share] : runs) names += (names.empty() ? "" : ", ") + share;
-    if (!names.empty()) out.push_back({harm, 0, fmt::format("The band is too {} on {}.", how, names)});
+    if (!names.empty()) out.push_back({severity, 0, fmt::format("The band is too {} on {}.", how, names)});
   };
-  tell(narrow, "narrow", Harm::narrow_band);
-  tell(wide, "wide", Harm::wide_band);
+  add(narrow, "narrow", Severity::narrow_band);
+  add(wide, "wide", Severity::wide_band);
 }
 
 void Judge::add_known_runs(std::vector<Remark>& out) const {
@@ -257,7 +257,7 @@ void Judge::add_known_runs(std::vector<Remark>& out) const {
   std::ranges::sort(known);
   std::string names;
   for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-  out.push_back({Harm::no_test, 0,
+  out.push_back({Severity::no_test, 0,
                  "Also an input of the calibration, so no independent test" +
                      std::string(validation_.held_out ? " and not counted: " : ": ") + names + "."});
 }
@@ -266,7 +266,7 @@ std::vector<Text> Judge::limits() const {
   std::vector<Remark> remarks;
   for (const validation::RunResult& run : validation_.runs) {
     for (const std::string& doubt : run.doubts)
-      remarks.push_back({Harm::doubt, 0, Text("Doubt: " + doubt + (doubt.ends_with('?') ? "" : "."))});
+      remarks.push_back({Severity::doubt, 0, Text("Doubt: " + doubt + (doubt.ends_with('?') ? "" : "."))});
   }
   add_status(remarks);
   if (leading().metrics) {
@@ -277,12 +277,12 @@ std::vector<Text> Judge::limits() const {
     add_band(remarks);
     add_known_runs(remarks);
   }
-  const auto rank = [](const Remark& remark) { return std::tuple(remark.harm, -remark.share, remark.text.str()); };
+  const auto rank = [](const Remark& remark) { return std::tuple(remark.severity, -remark.share, remark.text.str()); };
   std::ranges::sort(remarks, {}, rank);
   constexpr std::size_t most = 8;
   std::vector<Text> out;
-  for (Remark& remark : remarks) {  // what promises too much is always told, and runs that are no test
-    if (remark.harm > Harm::narrow_band && remark.harm != Harm::no_test && out.size() >= most) continue;
+  for (Remark& remark : remarks) {  // what promises too much is always reported, and runs that are no test
+    if (remark.severity > Severity::narrow_band && remark.severity != Severity::no_test && out.size() >= most) continue;
     out.push_back(std::move(remark.text));
   }
   return out;
