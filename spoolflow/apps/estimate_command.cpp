@@ -56,7 +56,7 @@ std::vector<validation::EstimateSummary> estimate_all(const EstimateTask& task,
                                                       const std::vector<std::filesystem::path>& targets) {
   std::vector<std::exception_ptr> failures(recordings.size());
   std::vector<validation::EstimateSummary> out(recordings.size());
-  const auto nursery = recording::nursery_for({recordings.begin(), recordings.end()});
+  const auto fork_server = recording::fork_server_for({recordings.begin(), recordings.end()});
   parallel::for_each(recordings.size(), parallel::cores(), [&](std::size_t k) {
     try {
       out[k] = estimate_recording(task, recordings[k], targets[k], false);

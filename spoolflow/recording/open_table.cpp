@@ -58,9 +58,9 @@ bool takes_a_process(const std::filesystem::path& file) {
   }
 }
 
-std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files) {
+std::unique_ptr<ForkServer> fork_server_for(const std::vector<std::filesystem::path>& files) {
   if (std::none_of(files.begin(), files.end(), takes_a_process)) return nullptr;
-  return std::make_unique<ReadingNursery>();
+  return std::make_unique<ForkServer>();
 }
 
 OpenTable open_sample_table(const std::filesystem::path& file, CsvTable::Text text) {

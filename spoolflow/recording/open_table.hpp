@@ -6,8 +6,8 @@
 
 #include "spoolflow/recording/file_format.hpp"
 #include "spoolflow/recording/files/confined_table.hpp"
+#include "spoolflow/recording/files/fork_server.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
-#include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/sample_table.hpp"
 #include "spoolflow/recording/text/csv_table.hpp"
 
@@ -35,6 +35,6 @@ struct OpenTable {
 
 /// For whoever opens these files while this process has several threads: to be held from before the second thread until
 /// the last is gone. Null where none of the files is read by a process of its own (all but CSV).
-[[nodiscard]] std::unique_ptr<ReadingNursery> nursery_for(const std::vector<std::filesystem::path>& files);
+[[nodiscard]] std::unique_ptr<ForkServer> fork_server_for(const std::vector<std::filesystem::path>& files);
 
 }  // namespace spoolflow::recording

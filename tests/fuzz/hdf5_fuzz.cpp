@@ -2,7 +2,7 @@
 #include "tests/fuzz/sample_file.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  static const spoolflow::recording::ReadingNursery nursery;  // before libFuzzer's thread that watches the memory
+  static const spoolflow::recording::ForkServer fork_server;  // before libFuzzer's thread that watches the memory
   return 0;
 }
 

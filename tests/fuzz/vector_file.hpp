@@ -1,6 +1,6 @@
 #pragma once
 /// What must hold for every file of vectors whose reader is our own, whatever its bytes: each column is read to its
-/// end, or refused by a RecordingError. Without a process of few rights, so that the coverage is seen.
+/// end, or refused by a RecordingError. Without a process in a sandbox, so that the coverage is seen.
 #include <algorithm>
 #include <cmath>
 #include <new>

@@ -83,7 +83,7 @@ void live_command(const LiveArguments& arguments) {
   live::PageSettings page = site.page;
   live::check_reach(page);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
-  const auto nursery = recording::nursery_for(replayed_recordings(site));
+  const auto fork_server = recording::fork_server_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
   engine.tell_by([](const std::string& text) { say("{}\n", text); });
   engine.start();

@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/files/fork_server.hpp"
 #include "spoolflow/recording/files/numbered_names.hpp"
-#include "spoolflow/recording/files/reading_nursery.hpp"
 #include "spoolflow/recording/files/reading_process.hpp"
 
 namespace spoolflow::recording {
@@ -84,11 +84,11 @@ double* map_numbers(int descriptor) {
   return static_cast<double*>(memory);
 }
 
-/// The parent's. A child of the nursery, which does not have this process's memory, is given its descriptor.
+/// The parent's. A child of the fork server, which does not have this process's memory, is given its descriptor.
 class SharedNumbers {
  public:
   SharedNumbers() {
-    if (ReadingNursery::present() != nullptr) make_descriptor();
+    if (ForkServer::present() != nullptr) make_descriptor();
     try {
       numbers_ = map_numbers(descriptor_);
     } catch (...) {

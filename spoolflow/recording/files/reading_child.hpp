@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "spoolflow/recording/files/few_rights.hpp"
+#include "spoolflow/recording/files/sandbox.hpp"
 
 namespace spoolflow::recording {
 

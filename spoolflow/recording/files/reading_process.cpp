@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/recording/files/reading_nursery.hpp"
+#include "spoolflow/recording/files/fork_server.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -39,15 +39,15 @@ namespace {
 }  // namespace
 
 ReadingProcess::ReadingProcess(const ReadingOrder& order) : limits_(order.limits) {
-  ReadingNursery* const nursery = ReadingNursery::present();
-  if (nursery == nullptr && !may_fork()) {
+  ForkServer* const fork_server = ForkServer::present();
+  if (fork_server == nullptr && !may_fork()) {
     refuse("this one has several threads and started none before them; was the file exchanged meanwhile?");
   }
   std::array<int, 2> ends{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     refuse(fmt::format("no connection: {}", std::strerror(errno)));
   }
-  child_ = nursery != nullptr ? nursery->start(order, ends[1]) : fork_reader(order, ends[1]);
+  child_ = fork_server != nullptr ? fork_server->start(order, ends[1]) : fork_reader(order, ends[1]);
   const int failure = errno;
   ::close(ends[1]);
   descriptor_ = ends[0];

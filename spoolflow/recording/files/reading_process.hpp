@@ -9,9 +9,9 @@ namespace spoolflow::recording {
 
 class ReadingProcess {
  public:
-  /// Starts a child of this process that works on the order, connected to this one: from the nursery, or where there is
-  /// none by fork() of this process, which then must have one thread. Nothing that the child changes is seen here but
-  /// what it sends and the memory of the order. Throws std::runtime_error where no process can be started.
+  /// Starts a child of this process that works on the order, connected to this one: from the fork server, or where
+  /// there is none by fork() of this process, which then must have one thread. Nothing that the child changes is seen
+  /// here but what it sends and the memory of the order. Throws std::runtime_error where no process can be started.
   explicit ReadingProcess(const ReadingOrder& order);
   /// Ends the child wherever it is.
   ~ReadingProcess();

@@ -1,4 +1,4 @@
-/// HDF5 and MATLAB files are read in a process of few rights: what such a file can do to it, and what of that is seen.
+/// HDF5 and MATLAB files are read in a process in a sandbox: what such a file can do to it, and what of that is seen.
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>

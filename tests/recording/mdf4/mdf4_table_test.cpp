@@ -1,4 +1,4 @@
-/// MDF 4 files made by hand, read as any recording is: by the child of few rights.
+/// MDF 4 files made by hand, read as any recording is: by the child in a sandbox.
 #include "spoolflow/recording/mdf4/mdf4_table.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// TDMS files made by hand, read as any recording is: by the child of few rights.
+/// TDMS files made by hand, read as any recording is: by the child in a sandbox.
 #include "spoolflow/recording/tdms/tdms_table.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Excel workbooks made by hand, read as any recording is: by the child of few rights.
+/// Excel workbooks made by hand, read as any recording is: by the child in a sandbox.
 #include "addons/formats/xlsx/xlsx_table.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 """Work in a process of its own, where this one must not start the processes that read HDF5 and MATLAB files.
 
-Such files are read by a child process of few rights, which is forked. A process with several threads (a notebook, NumPy
+Such files are read by a child process in a sandbox, which is forked. A process with several threads (a notebook, NumPy
 with its own threads) must not fork: what another thread has locked stays locked in the child for ever. A fresh
 interpreter, which has but one thread, does the work then: it sends its progress and its result, and an interruption here
 ends it.

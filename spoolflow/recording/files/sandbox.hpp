@@ -1,5 +1,5 @@
 #pragma once
-/// What a process gives up before it reads a file that nobody vouches for.
+/// The sandbox of a process that reads an untrusted file.
 #include <array>
 #include <cstdint>
 

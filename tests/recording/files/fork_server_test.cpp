@@ -1,5 +1,5 @@
 /// HDF5 files read from many threads: where the processes come from that read them.
-#include "spoolflow/recording/files/reading_nursery.hpp"
+#include "spoolflow/recording/files/fork_server.hpp"
 
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ void wait_for_the_parent(const ReadingOrder&, Connection& parent) {
 }
 
 /// How a child ends that does `work`.
-std::string end_from_nursery(ReadingOrder::Work work) {
+std::string end_from_fork_server(ReadingOrder::Work work) {
   ReadingProcess process(order(work));
   std::uint32_t kind = 0;
   std::string content;
@@ -83,14 +83,14 @@ double sum_of_a_column() {
   return sum;
 }
 
-TEST(ReadingNursery, ManyThreadsReadWhileOthersAllocate) {
+TEST(ForkServer, ManyThreadsReadWhileOthersAllocate) {
   constexpr int readers = 4, times = 75;
   const EndsWithin limit(240);
   const double expected = sum_of_a_column();
   ASSERT_NE(expected, 0.0);
   std::atomic<int> read{0};
   {
-    const ReadingNursery nursery;
+    const ForkServer fork_server;
     const auto allocate = [](const std::stop_token& stop) {
       std::vector<std::string> texts(64);
       for (std::size_t k = 0; !stop.stop_requested(); ++k)
@@ -107,16 +107,16 @@ TEST(ReadingNursery, ManyThreadsReadWhileOthersAllocate) {
   EXPECT_EQ(read, readers * times);
 }
 
-TEST(ReadingNursery, ItsChildrenAreOursAndSayHowTheyEnded) {
-  const ReadingNursery nursery;
-  EXPECT_THAT(end_from_nursery([](const ReadingOrder&, Connection&) { (void)std::raise(SIGSEGV); }),
+TEST(ForkServer, ItsChildrenAreOursAndSayHowTheyEnded) {
+  const ForkServer fork_server;
+  EXPECT_THAT(end_from_fork_server([](const ReadingOrder&, Connection&) { (void)std::raise(SIGSEGV); }),
               HasSubstr("crashed on it"));
-  EXPECT_THAT(end_from_nursery([](const ReadingOrder&, Connection&) { std::abort(); }), HasSubstr("crashed on it"));
-  EXPECT_THAT(end_from_nursery([](const ReadingOrder&, Connection&) { ::_exit(3); }), HasSubstr("ended before"));
-  EXPECT_EQ(::getpgid(nursery.id()), ::getpgrp());  // it lives on
+  EXPECT_THAT(end_from_fork_server([](const ReadingOrder&, Connection&) { std::abort(); }), HasSubstr("crashed on it"));
+  EXPECT_THAT(end_from_fork_server([](const ReadingOrder&, Connection&) { ::_exit(3); }), HasSubstr("ended before"));
+  EXPECT_EQ(::getpgid(fork_server.id()), ::getpgrp());  // it lives on
 }
 
-TEST(ReadingNursery, ForkBesideThreadsIsRefused) {
+TEST(ForkServer, ForkBesideThreadsIsRefused) {
   const EndsWithin limit(60);
   {
     const std::jthread other([](const std::stop_token& stop) {
@@ -125,47 +125,47 @@ TEST(ReadingNursery, ForkBesideThreadsIsRefused) {
     EXPECT_FALSE(may_fork());
     EXPECT_THAT(failure_of([] { const ReadingProcess process(order(wait_for_the_parent)); }),
                 AllOf(HasSubstr("no process can be started"), HasSubstr("several threads")));
-    EXPECT_THROW(const ReadingNursery nursery, std::logic_error);
+    EXPECT_THROW(const ForkServer fork_server, std::logic_error);
   }
   EXPECT_EQ(failure_of([] { const ReadingProcess process(order(wait_for_the_parent)); }), "nothing failed");
 }
 
-TEST(ReadingNursery, OneThatWasEndedIsOneError) {
+TEST(ForkServer, OneThatWasEndedIsOneError) {
   const EndsWithin limit(60);
-  const ReadingNursery nursery;
-  ::kill(nursery.id(), SIGKILL);
+  const ForkServer fork_server;
+  ::kill(fork_server.id(), SIGKILL);
   EXPECT_THAT(failure_of([] { const ReadingProcess process(order(wait_for_the_parent)); }),
               HasSubstr("no process can be started to read the recording"));
   EXPECT_THAT(failure_of([] { (void)open_sample_table(SPOOLFLOW_EXAMPLES "/valve_a/spring.h5"); }),
               AllOf(HasSubstr("valve_a/spring.h5: "), HasSubstr("no process can be started")));
 }
 
-TEST(ReadingNursery, HasNothingOpenThatIsOurs) {
+TEST(ForkServer, HasNothingOpenThatIsOurs) {
   const TemporaryFile file("output.csv", "time_s\n");
   const std::ifstream open_here(file.path());
-  const ReadingNursery nursery;
+  const ForkServer fork_server;
   (void)sum_of_a_column();  // it has begun to work
   std::vector<std::string> open_there;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(nursery.id()) + "/fd")) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(fork_server.id()) + "/fd")) {
     open_there.push_back(std::filesystem::read_symlink(entry).string());
   }
   EXPECT_EQ(open_there.size(), 4U) << ::testing::PrintToString(open_there);  // 0 to 2, and its socket
   EXPECT_EQ(std::count(open_there.begin(), open_there.end(), file.path().string()), 0);
 }
 
-TEST(ReadingNursery, EndsWithAParentThatIsKilled) {
+TEST(ForkServer, EndsWithAParentThatIsKilled) {
   const EndsWithin limit(60);
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // orphans become children of this process
   std::array<int, 2> pipe{};
   ASSERT_EQ(::pipe(pipe.data()), 0);
   const ::pid_t parent = ::fork();
   if (parent == 0) {
-    const ReadingNursery nursery;
+    const ForkServer fork_server;
     ReadingProcess reader(order(wait_for_the_parent));
     std::uint32_t kind = 0;
     std::string content;
     (void)reader.connection().receive(kind, content);
-    const std::array<::pid_t, 2> orphans{nursery.id(), reader.id()};
+    const std::array<::pid_t, 2> orphans{fork_server.id(), reader.id()};
     (void)!::write(pipe[1], orphans.data(), sizeof orphans);
     for (;;) ::pause();
   }
@@ -182,15 +182,15 @@ TEST(ReadingNursery, EndsWithAParentThatIsKilled) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
-TEST(ReadingNursery, IsStartedOnlyWhereAFileNeedsIt) {
+TEST(ForkServer, IsStartedOnlyWhereAFileNeedsIt) {
   const TemporaryFile csv("run.csv", "time_s,current_A\n0,1\n");
   const TemporaryFile pipe("run.pipe");
   ASSERT_EQ(::mkfifo(pipe.path().c_str(), 0600), 0);
-  EXPECT_EQ(nursery_for({csv.path(), pipe.path(), "-", "missing.h5", csv.folder()}), nullptr);
-  EXPECT_EQ(ReadingNursery::present(), nullptr);
-  const auto nursery = nursery_for({csv.path(), SPOOLFLOW_EXAMPLES "/valve_a/spring.h5"});
-  EXPECT_NE(nursery, nullptr);
-  EXPECT_EQ(ReadingNursery::present(), nursery.get());
+  EXPECT_EQ(fork_server_for({csv.path(), pipe.path(), "-", "missing.h5", csv.folder()}), nullptr);
+  EXPECT_EQ(ForkServer::present(), nullptr);
+  const auto fork_server = fork_server_for({csv.path(), SPOOLFLOW_EXAMPLES "/valve_a/spring.h5"});
+  EXPECT_NE(fork_server, nullptr);
+  EXPECT_EQ(ForkServer::present(), fork_server.get());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/files/reading_nursery.hpp"
+#include "spoolflow/recording/files/fork_server.hpp"
 
 #include <array>
 #include <atomic>
@@ -17,7 +17,7 @@
 namespace spoolflow::recording {
 namespace {
 
-std::atomic<ReadingNursery*> the_nursery{nullptr};
+std::atomic<ForkServer*> the_fork_server{nullptr};
 
 // An order is one message of a socket that keeps messages apart: this, the bytes, and the descriptors beside them.
 struct OrderHead {
@@ -96,7 +96,7 @@ int receive_order(int socket, ReadingOrder& order) {
   return static_cast<::pid_t>(::syscall(SYS_clone, CLONE_PARENT | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
 }
 
-/// The nursery's whole life.
+/// The fork server's whole life.
 [[noreturn]] void tend(int socket) {
   keep_only({socket, -1});
   for (;;) {
@@ -134,12 +134,12 @@ bool may_fork() {
   return true;
 }
 
-ReadingNursery::ReadingNursery() {
-  if (present() != nullptr) throw std::logic_error("there is a nursery of reading processes already");
-  if (!may_fork()) throw std::logic_error("a nursery of reading processes is started before any further thread");
+ForkServer::ForkServer() {
+  if (present() != nullptr) throw std::logic_error("there is a fork server of reading processes already");
+  if (!may_fork()) throw std::logic_error("a fork server of reading processes is started before any further thread");
   std::array<int, 2> ends{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0) {
-    sigset_t all, before;  // no handler of this process may run in the nursery
+    sigset_t all, before;  // no handler of this process may run in the fork server
     sigfillset(&all);
     (void)::pthread_sigmask(SIG_SETMASK, &all, &before);
     process_ = ::fork();
@@ -154,11 +154,11 @@ ReadingNursery::ReadingNursery() {
   } else {
     failure_ = errno;
   }
-  the_nursery = this;
+  the_fork_server = this;
 }
 
-ReadingNursery::~ReadingNursery() {
-  the_nursery = nullptr;
+ForkServer::~ForkServer() {
+  the_fork_server = nullptr;
   if (socket_ >= 0) ::close(socket_);
   if (process_ <= 0) return;
   (void)::kill(process_, SIGKILL);  // where it could not end by itself: stopped from outside
@@ -166,11 +166,11 @@ ReadingNursery::~ReadingNursery() {
   }
 }
 
-ReadingNursery* ReadingNursery::present() {
-  return the_nursery;
+ForkServer* ForkServer::present() {
+  return the_fork_server;
 }
 
-::pid_t ReadingNursery::start(const ReadingOrder& order, int connection) {
+::pid_t ForkServer::start(const ReadingOrder& order, int connection) {
   const std::lock_guard lock(mutex_);
   errno = process_ > 0 ? ENAMETOOLONG : failure_;
   if (process_ <= 0 || order.bytes.size() > most_bytes || !send_order(socket_, order, connection)) return -1;

@@ -1,4 +1,4 @@
-#include "spoolflow/recording/files/few_rights.hpp"
+#include "spoolflow/recording/files/sandbox.hpp"
 
 #include <algorithm>
 #include <array>

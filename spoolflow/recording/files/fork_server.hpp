@@ -15,18 +15,18 @@ namespace spoolflow::recording {
 /// A process with one thread and nothing open, forked before this one had a second thread. It forks the children that
 /// read, as children of this process. While there is one, every ReadingProcess comes from it. It ends with its object,
 /// or with this process however that ends.
-class ReadingNursery {
+class ForkServer {
  public:
   /// Where the system has no further process, start() reports it. Throws std::logic_error where this process has
-  /// threads already, or a nursery.
-  ReadingNursery();
+  /// threads already, or a fork server.
+  ForkServer();
   /// No thread asks it any more. Children that were started live on.
-  ~ReadingNursery();
-  ReadingNursery(const ReadingNursery&) = delete;
-  ReadingNursery& operator=(const ReadingNursery&) = delete;
+  ~ForkServer();
+  ForkServer(const ForkServer&) = delete;
+  ForkServer& operator=(const ForkServer&) = delete;
 
   /// The one there is, or null.
-  [[nodiscard]] static ReadingNursery* present();
+  [[nodiscard]] static ForkServer* present();
   [[nodiscard]] ::pid_t id() const { return process_; }
 
   /// A child that works on the order, its end of the connection being that descriptor; -1 and errno where there is
