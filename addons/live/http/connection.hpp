@@ -21,7 +21,7 @@
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 
-#include "addons/live/http/door.hpp"
+#include "addons/live/http/http_access.hpp"
 #include "addons/live/http/long_queue.hpp"
 #include "addons/live/http/peer_address.hpp"
 #include "addons/live/http/seats.hpp"
@@ -53,12 +53,12 @@ inline constexpr const char* security_policy =
 /// hash of a password hold those up. Those that read much have a thread of their own, so that they hold up each other
 /// alone, and a queue with an end.
 struct Desk {
-  Door door;
+  HttpAccess http_access;
   LongQueue queue{};
   std::stop_source ends{};  ///< for what reads much
   asio::thread_pool thread{1}, long_thread{1};
 
-  Desk(PageContent&& content, const PageSettings& settings) : door(std::move(content), settings) {}
+  Desk(PageContent&& content, const PageSettings& settings) : http_access(std::move(content), settings) {}
   ~Desk() { end(); }
   void end() {
     ends.request_stop();
@@ -71,11 +71,11 @@ struct Desk {
   template <class Then>
   void ask(PageRequest&& request, Then&& then) {
     asio::post(thread, [this, request = std::move(request), then = std::forward<Then>(then)]() mutable {
-      Admission admission = guarded([&] { return door.admit(request, std::chrono::steady_clock::now()); });
+      Admission admission = guarded([&] { return http_access.admit(request, std::chrono::steady_clock::now()); });
       if (!admission.is_long) return then(std::move(admission));
       if (!queue.enter(request.peer)) return then({busy()});
       asio::post(long_thread, [this, request = std::move(request), then = std::move(then)]() mutable {
-        Admission answered = guarded([&] { return Admission{door.long_answer(request, ends.get_token())}; });
+        Admission answered = guarded([&] { return Admission{http_access.long_answer(request, ends.get_token())}; });
         queue.leave(request.peer);
         then(std::move(answered));
       });

@@ -93,7 +93,7 @@ struct PageServer::Parts {
   }
   /// All of it or nothing.
   void read_anew() {
-    std::string told;
+    std::string message;
     try {
       PageSettings now = origin.file.empty() ? settings : read_page_of(origin.file);
       now.listen = settings.listen;  // another address needs a new start
@@ -106,12 +106,12 @@ struct PageServer::Parts {
       tls = tls_context(now);
       settings = now;
       watch.follow(watched_files(origin, now));
-      asio::post(desk.thread, [this, now] { desk.door.change(now); });
-      told = fmt::format("accounts and certificate were read again: {} accounts", now.accounts.size());
+      asio::post(desk.thread, [this, now] { desk.http_access.change(now); });
+      message = fmt::format("accounts and certificate were read again: {} accounts", now.accounts.size());
     } catch (const std::exception& error) {
-      told = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
+      message = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
     }
-    if (origin.tell) origin.tell(told);
+    if (origin.tell) origin.tell(message);
   }
 
   /// Whoever waits is taken; without a descriptor one that is idle gives way, and the listener rests.

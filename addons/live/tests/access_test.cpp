@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "addons/live/demo_model.hpp"
-#include "addons/live/http/door.hpp"
+#include "addons/live/http/http_access.hpp"
 #include "addons/live/page/answer.hpp"
 #include "addons/live/tests/temporary_folder.hpp"
 
@@ -178,78 +178,80 @@ TEST_F(DoorTest, WithoutAccountsOnlyTheNamesOfThisMachineComeIn) {
   }
   PageSettings page;
   page.names = {"valves.example"};
-  Door door(site_page(engine), page);
+  HttpAccess http_access(site_page(engine), page);
   PageRequest request = get("/api/v1/valves");
-  EXPECT_EQ(door.admit(request, now).answer.status, 200U);
+  EXPECT_EQ(http_access.admit(request, now).answer.status, 200U);
   request.host = "evil.example";
-  EXPECT_EQ(door.admit(request, now).answer.status, 421U);
+  EXPECT_EQ(http_access.admit(request, now).answer.status, 421U);
   request.host = "valves.example";
-  EXPECT_EQ(door.admit(request, now).answer.status, 200U);
+  EXPECT_EQ(http_access.admit(request, now).answer.status, 200U);
 }
 
 TEST_F(DoorTest, StrangersGetThePageAndNothingElse) {
-  Door door(site_page(engine), with_accounts());
-  for (const char* open : {"/", "/live.js", "/live.css"}) EXPECT_EQ(door.admit(get(open), now).answer.status, 200U);
+  HttpAccess http_access(site_page(engine), with_accounts());
+  for (const char* open : {"/", "/live.js", "/live.css"})
+    EXPECT_EQ(http_access.admit(get(open), now).answer.status, 200U);
   for (const char* closed : {"/api/v1/valves", "/api/v1/alarms", "/api/v1/events", "/api/v1/site", "/metrics",
                              "/api/v1/recordings/1.csv", "/api/v1/openapi.json", "/nothing"}) {
-    EXPECT_EQ(door.admit(get(closed), now).answer.status, 401U) << closed;
+    EXPECT_EQ(http_access.admit(get(closed), now).answer.status, 401U) << closed;
   }
-  EXPECT_EQ(door.admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 401U);
+  EXPECT_EQ(http_access.admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 401U);
   PageRequest stream = get("/api/v1/valves/a/stream");
   stream.upgrade = true;
-  EXPECT_FALSE(door.admit(stream, now).stream);
-  EXPECT_THAT(door.admit(get("/api/v1/session"), now).answer.body, HasSubstr("\"role\":\"none\",\"accounts\":true"));
+  EXPECT_FALSE(http_access.admit(stream, now).stream);
+  EXPECT_THAT(http_access.admit(get("/api/v1/session"), now).answer.body,
+              HasSubstr("\"role\":\"none\",\"accounts\":true"));
   PageRequest token = get("/metrics");
   token.authorization = "Bearer eve.correct horse";
-  EXPECT_EQ(door.admit(token, now).answer.status, 200U);
+  EXPECT_EQ(http_access.admit(token, now).answer.status, 200U);
 }
 
 TEST_F(DoorTest, ASessionIsOnlyWorthOnItsOwnPage) {
-  Door door(site_page(engine), with_accounts());
+  HttpAccess http_access(site_page(engine), with_accounts());
   PageRequest login = post("/api/v1/login", "http://127.0.0.1:8080");
   login.body = R"({"name": "anna", "password": "correct horse"})";
-  const PageAnswer in = door.admit(login, now).answer;
+  const PageAnswer in = http_access.admit(login, now).answer;
   ASSERT_EQ(in.status, 200U);
   ASSERT_EQ(in.headers.size(), 2U);
   for (const auto& [header, value] : in.headers) EXPECT_THAT(value, HasSubstr("HttpOnly; SameSite=Strict"));
   EXPECT_THAT(in.headers[0].second, testing::StartsWith("spoolflow-known="));
   login.encrypted = true;
   login.origin = "https://127.0.0.1:8080";
-  EXPECT_THAT(door.admit(login, now).answer.headers[1].second,
+  EXPECT_THAT(http_access.admit(login, now).answer.headers[1].second,
               testing::AllOf(testing::StartsWith("__Host-spoolflow="), HasSubstr("Secure")));
   login.origin = "https://evil.example";
-  EXPECT_EQ(door.admit(login, now).answer.status, 403U);
+  EXPECT_EQ(http_access.admit(login, now).answer.status, 403U);
 
   const std::string cookie = "x=1; " + in.headers[1].second.substr(0, in.headers[1].second.find(';'));
   PageRequest read = get("/api/v1/valves");
   read.cookie = cookie;
-  EXPECT_EQ(door.admit(read, now).answer.status, 200U);
+  EXPECT_EQ(http_access.admit(read, now).answer.status, 200U);
   for (const char* origin : {"", "null", "http://evil.example", "https://127.0.0.1:8080", "http://127.0.0.1:8081"}) {
     PageRequest other = post("/api/v1/alarms/1/acknowledge", origin);
     other.cookie = cookie;
-    EXPECT_EQ(door.admit(other, now).answer.status, 403U) << origin;
+    EXPECT_EQ(http_access.admit(other, now).answer.status, 403U) << origin;
     PageRequest stream = get("/api/v1/valves/a/stream");
     stream.upgrade = true;
     stream.cookie = cookie;
     stream.origin = origin;
-    EXPECT_FALSE(door.admit(stream, now).stream) << origin;
+    EXPECT_FALSE(http_access.admit(stream, now).stream) << origin;
   }
   PageRequest own = post("/api/v1/alarms/1/acknowledge", "http://127.0.0.1:8080");
   own.cookie = cookie;
-  EXPECT_EQ(door.admit(own, now).answer.status, 404U);  // let in; there is no alarm yet
+  EXPECT_EQ(http_access.admit(own, now).answer.status, 404U);  // let in; there is no alarm yet
 }
 
 TEST_F(DoorTest, AcknowledgingNeedsItsRole) {
   engine.start();
   for (int k = 0; k < 600 && engine.alarms().empty(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ASSERT_FALSE(engine.alarms().empty());  // no samples come
-  Door door(site_page(engine), with_accounts());
+  HttpAccess http_access(site_page(engine), with_accounts());
   PageRequest by = post("/api/v1/alarms/1/acknowledge", "");
   by.authorization = "Bearer eve.correct horse";
-  EXPECT_EQ(door.admit(by, now).answer.status, 403U);
+  EXPECT_EQ(http_access.admit(by, now).answer.status, 403U);
   EXPECT_EQ(engine.alarms()[0].acknowledged_ms, 0);
   by.authorization = "Bearer anna.correct horse";
-  const PageAnswer done = door.admit(by, now).answer;
+  const PageAnswer done = http_access.admit(by, now).answer;
   EXPECT_EQ(done.status, 200U);
   EXPECT_THAT(done.body, HasSubstr("\"state\":\"raised_acknowledged\""));
   EXPECT_EQ(engine.alarms()[0].acknowledged_by, "anna");
@@ -257,14 +259,16 @@ TEST_F(DoorTest, AcknowledgingNeedsItsRole) {
 
   PageSettings readers;
   readers.without_account = Role::read;
-  EXPECT_EQ(Door(site_page(engine), readers).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 403U);
-  EXPECT_EQ(Door(site_page(engine), {}).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 200U);
-  EXPECT_EQ(
-      Door(site_page(engine), {}).admit(post("/api/v1/alarms/1/acknowledge", "http://evil.example"), now).answer.status,
-      403U);
+  EXPECT_EQ(HttpAccess(site_page(engine), readers).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status,
+            403U);
+  EXPECT_EQ(HttpAccess(site_page(engine), {}).admit(post("/api/v1/alarms/1/acknowledge", ""), now).answer.status, 200U);
+  EXPECT_EQ(HttpAccess(site_page(engine), {})
+                .admit(post("/api/v1/alarms/1/acknowledge", "http://evil.example"), now)
+                .answer.status,
+            403U);
   for (const char* none : {"/api/v1/alarms/x/acknowledge", "/api/v1/alarms//acknowledge", "/api/v1/valves",
                            "/api/v1/alarms/1/acknowledge/"}) {
-    EXPECT_EQ(Door(site_page(engine), {}).admit(post(none, ""), now).answer.status, 405U) << none;
+    EXPECT_EQ(HttpAccess(site_page(engine), {}).admit(post(none, ""), now).answer.status, 405U) << none;
   }
 }
 

@@ -17,10 +17,10 @@ struct Admission {
 };
 
 /// To be used by one thread; long_answer() by another one.
-class Door {
+class HttpAccess {
  public:
   /// Throws SiteError where an account cannot be used.
-  Door(PageContent content, const PageSettings& settings)
+  HttpAccess(PageContent content, const PageSettings& settings)
       : content_(std::move(content)), settings_(settings), access_(settings) {}
 
   /// Accounts, names and the like from now on; see Access::change().

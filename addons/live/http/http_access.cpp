@@ -1,4 +1,4 @@
-#include "addons/live/http/door.hpp"
+#include "addons/live/http/http_access.hpp"
 
 #include <algorithm>
 
@@ -65,18 +65,18 @@ std::optional<std::string_view> alarm_asked(std::string_view path) {
   return path.substr(before.size(), path.size() - before.size() - behind.size());
 }
 
-PageAnswer told(unsigned status, std::string text) {
+PageAnswer text_answer(unsigned status, std::string text) {
   return {status, media::plain, std::move(text) + "\n"};
 }
 
 PageAnswer too_many() {
-  PageAnswer out = told(429, "too many wrong passwords or tokens; wait a minute");
+  PageAnswer out = text_answer(429, "too many wrong passwords or tokens; wait a minute");
   out.headers.emplace_back("Retry-After", "60");
   return out;
 }
 
 PageAnswer only_get() {
-  PageAnswer out = told(405, "only GET is answered here");
+  PageAnswer out = text_answer(405, "only GET is answered here");
   out.headers.emplace_back("Allow", "GET, HEAD");
   return out;
 }
@@ -91,14 +91,14 @@ bool is_own_host(std::string_view host) {
 }
 
 /// Accounts keep strangers out by themselves; without them the name must be one that only this machine has.
-bool Door::knows_host(std::string_view host) const {
+bool HttpAccess::knows_host(std::string_view host) const {
   if (access_.has_accounts()) return !host.empty();
   const std::string_view name = without_port(host);
   return is_own_host(host) || std::find(settings_.names.begin(), settings_.names.end(), name) != settings_.names.end();
 }
 
 /// Whether a page of this server sent it, by what the browser says.
-bool Door::is_own_page(const PageRequest& request) const {
+bool HttpAccess::is_own_page(const PageRequest& request) const {
   const std::string_view origin = request.origin;
   if (origin == fmt::format("{}://{}", request.encrypted ? "https" : "http", request.host)) return true;
   // A proxy with TLS in front, which calls by the name that people use.
@@ -106,14 +106,14 @@ bool Door::is_own_page(const PageRequest& request) const {
                      [&](const std::string& name) { return origin == "https://" + name; });
 }
 
-PageAnswer Door::login(const PageRequest& request, Access::Time now) {
-  if (!is_own_page(request)) return told(403, "log in on the page of this server");
+PageAnswer HttpAccess::login(const PageRequest& request, Access::Time now) {
+  if (!is_own_page(request)) return text_answer(403, "log in on the page of this server");
   const auto asked = login_of(request.body);
-  if (!asked) return told(400, "a login is {\"name\": \"…\", \"password\": \"…\"}");
+  if (!asked) return text_answer(400, "a login is {\"name\": \"…\", \"password\": \"…\"}");
   const std::string_view known = cookie_value(request.cookie, cookie_name(request.encrypted) + known_suffix);
   const Access::Login login = access_.login(asked->name, asked->password, {request.peer, known}, now);
   if (login.too_many) return too_many();
-  if (login.session.empty()) return told(401, "name or password is wrong");
+  if (login.session.empty()) return text_answer(401, "name or password is wrong");
   PageAnswer out{200, media::json, session_json(login.visitor, access_.has_accounts())};
   const std::string name = cookie_name(request.encrypted);
   out.headers.emplace_back("Set-Cookie", set_cookie(request.encrypted, name + known_suffix, login.browser, known_s));
@@ -122,32 +122,33 @@ PageAnswer Door::login(const PageRequest& request, Access::Time now) {
   return out;
 }
 
-PageAnswer Door::logout(const PageRequest& request) {
-  if (!is_own_page(request)) return told(403, "log out on the page of this server");
+PageAnswer HttpAccess::logout(const PageRequest& request) {
+  if (!is_own_page(request)) return text_answer(403, "log out on the page of this server");
   access_.logout(cookie_value(request.cookie, cookie_name(request.encrypted)));
   PageAnswer out{200, media::json, session_json({}, access_.has_accounts())};
   out.headers.emplace_back("Set-Cookie", set_cookie(request.encrypted, cookie_name(request.encrypted), "", 0));
   return out;
 }
 
-PageAnswer Door::acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm) {
+PageAnswer HttpAccess::acknowledge(const PageRequest& request, const Visitor& visitor, std::string_view alarm) {
   // A browser names the page that posts. Where a cookie speaks for the sender it must be there; else it may be missing.
   if (!is_own_page(request) && (visitor.by_cookie || !request.origin.empty())) {
-    return told(403, "acknowledge on the page of this server, or with a token");
+    return text_answer(403, "acknowledge on the page of this server, or with a token");
   }
-  if (visitor.role < Role::acknowledge) return told(403, "this needs the role \"acknowledge\"");
+  if (visitor.role < Role::acknowledge) return text_answer(403, "this needs the role \"acknowledge\"");
   if (auto answer = content_.acknowledge(alarm, visitor.name)) return std::move(*answer);
   return only_get();
 }
 
-PageAnswer Door::posted(const PageRequest& request, const Visitor& visitor) {
+PageAnswer HttpAccess::posted(const PageRequest& request, const Visitor& visitor) {
   const auto alarm = alarm_asked(path_of(request));
   return alarm ? acknowledge(request, visitor, *alarm) : only_get();
 }
 
-Admission Door::admit(const PageRequest& request, Access::Time now) {
+Admission HttpAccess::admit(const PageRequest& request, Access::Time now) {
   if (!knows_host(request.host)) {
-    return {told(421, "this server is 127.0.0.1 or localhost; give names of a proxy by names = [\"…\"] in [page]")};
+    return {
+        text_answer(421, "this server is 127.0.0.1 or localhost; give names of a proxy by names = [\"…\"] in [page]")};
   }
   const std::string_view path = path_of(request);
   const bool posts = request.method == "POST";
@@ -163,14 +164,14 @@ Admission Door::admit(const PageRequest& request, Access::Time now) {
     return {{200, media::json, session_json(visitor, access_.has_accounts())}};
   }
   if (visitor.role == Role::none) {
-    PageAnswer out = told(401, "log in on the page, or send a token: Authorization: Bearer NAME.TOKEN");
+    PageAnswer out = text_answer(401, "log in on the page, or send a token: Authorization: Bearer NAME.TOKEN");
     out.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"" + content_.name + "\"");
     return {out};
   }
   if (request.upgrade) {
     const bool own = is_own_page(request) || (request.origin.empty() && !visitor.by_cookie);
     NextFrame stream = content_.stream && own ? content_.stream(path) : NextFrame();
-    if (!stream) return {told(403, "no stream is there for this page")};
+    if (!stream) return {text_answer(403, "no stream is there for this page")};
     return {{}, std::move(stream)};
   }
   if (posts) return {posted(request, visitor)};
