@@ -15,13 +15,11 @@ void describe_valve(Valve& valve, Visitor&& visitor) {
   visitor.number(
       {.key = "stroke_m", .unit = "m", .limits = {1e-5, 0.1}, .meaning = "of the spool, from closed to open"},
       valve.stroke_m);
-  visitor.number(
-      {.key = "load_area_ratio",
-       .unit = "1",
-       .limits = {0.1, 10},
-       .meaning = "of the cylinder at the ports, piston area at port A over that at port B; absent where the "
-                  "load passes the same flow over both edges"},
-      valve.load_area_ratio);
+  visitor.number({.key = "load_area_ratio",
+                  .unit = "1",
+                  .limits = {0.1, 10},
+                  .meaning = "piston area at port A over that at port B; absent for equal flows over both edges"},
+                 valve.load_area_ratio);
 }
 
 /// visitor.number(Parameter, optional number) of each; `Instruments` may be const.

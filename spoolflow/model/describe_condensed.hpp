@@ -12,14 +12,14 @@ void describe_magnetic_force(MagneticForce& magnetic_force, Visitor& visitor) {
   visitor.map({.key = "magnetic_force_N",
                .unit = "N",
                .limits = {-1e4, 1e4},
-               .meaning = "magnetic force, opening > 0, both directions of motion averaged",
+               .meaning = "magnetic force, opening > 0, mean of both directions",
                .rows = current_axis,
                .columns = position_axis},
               magnetic_force.map);
   visitor.curve({.key = "magnetic_hysteresis_half_width_N",
                  .unit = "N",
                  .limits = {0, 1e4},
-                 .meaning = "half the width of the magnetic force's loop, which averaging left out",
+                 .meaning = "half-width of the magnetic force's loop",
                  .columns = current_axis},
                 magnetic_force.hysteresis_half_width_N);
 }
@@ -39,7 +39,7 @@ void describe_flow_rate(FlowRate& flow_rate, Visitor& visitor) {
   visitor.curve({.key = "largest_flow_force_N",
                  .unit = "N",
                  .limits = {1e-4, 1e4},
-                 .meaning = "the largest flow force that was measured at each position",
+                 .meaning = "largest measured flow force at each position",
                  .columns = position_axis,
                  .relation = alike(1e4)},
                 flow_rate.largest_force_N);
@@ -69,7 +69,7 @@ void describe_condensed(Parameters& parameters, Visitor&& visitor) {
   visitor.curve({.key = "friction_half_width_N",
                  .unit = "N",
                  .limits = {0, 1e4},
-                 .meaning = "half the width of the axial force's loop, which averaging left out",
+                 .meaning = "half-width of the axial force's loop",
                  .columns = position_axis},
                 parameters.friction_half_width_N);
   describe_flow_rate(parameters.flow_rate, visitor);

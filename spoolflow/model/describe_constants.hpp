@@ -13,45 +13,43 @@ namespace spoolflow::model {
 template <class Visitor>
 // long: a list, one entry a constant
 void describe_friction_constants(Visitor& visitor) {
-  visitor.constant({.name = "gauge_smoothing_s",
-                    .unit = "s",
-                    .meaning = "smoothing of the position that the gauge of pre-sliding reads"},
-                   sensor::gauge_smoothing_s);
+  visitor.constant(
+      {.name = "gauge_smoothing_s", .unit = "s", .meaning = "smoothing of the position for pre-sliding friction"},
+      sensor::gauge_smoothing_s);
   visitor.constant(
       {.name = "gauge_slack_deviations",
        .unit = "1",
-       .meaning = "standard deviations of the smoothed position's noise that the gauge takes for no motion"},
+       .meaning = "standard deviations of the smoothed position's noise that count as no motion in pre-sliding"},
       sensor::gauge_slack_deviations);
   visitor.constant({.name = "doubtful_drag_slacks",
                     .unit = "1",
-                    .meaning = "a drag of the sensor by so many times what noise may fake is as likely as not noise"},
+                    .meaning = "backlash engagement by so many times the noise's own counts half"},
                    sensor::doubtful_drag_slacks);
   visitor.constant({.name = "drag_certainty",
                     .unit = "1",
                     .meaning = "share of the reach to the other side of the gauge that is out of question where the "
                                "sensor is surely dragged"},
                    sensor::drag_certainty);
-  visitor.constant(
-      {.name = "drag_memory_s",
-       .unit = "s",
-       .meaning = "for so long after it was dragged the sensor tells at which end of its backlash it lies"},
-      sensor::drag_memory_s);
+  visitor.constant({.name = "drag_memory_s",
+                    .unit = "s",
+                    .meaning = "for so long after engagement the end of the backlash is known"},
+                   sensor::drag_memory_s);
   visitor.constant({.name = "least_stiffness_share",
                     .unit = "1",
-                    .meaning = "what is left of the contact's stiffness at the limit of sticking"},
+                    .meaning = "share of the contact's stiffness at the limit of sticking"},
                    sensor::least_stiffness_share);
   visitor.constant(
       {.name = "sticking_limit_deviations",
        .unit = "1",
-       .meaning = "standard deviations of the gauge by which friction at rest may exceed the sticking limit"},
+       .meaning =
+           "standard deviations of pre-sliding friction by which friction at rest may exceed the sticking limit"},
       sensor::sticking_limit_deviations);
-  visitor.constant({.name = "longest_rest_s", .unit = "s", .meaning = "a longer rest says no more"},
+  visitor.constant({.name = "longest_rest_s", .unit = "s", .meaning = "longest rest that counts"},
                    sensor::longest_rest_s);
-  visitor.constant({.name = "least_rest_s", .unit = "s", .meaning = "a time at rest divides by no less"},
+  visitor.constant({.name = "least_rest_s", .unit = "s", .meaning = "shortest time at rest, as a divisor"},
                    sensor::least_rest_s);
-  visitor.constant(
-      {.name = "breakaway_delay_s", .unit = "s", .meaning = "how much later a break-away shows in the position"},
-      sensor::breakaway_delay_s);
+  visitor.constant({.name = "breakaway_delay_s", .unit = "s", .meaning = "delay of a break-away in the position"},
+                   sensor::breakaway_delay_s);
   visitor.constant({.name = "shortest_rest_s", .unit = "s", .meaning = "a spool breaks away only after so long a rest"},
                    sensor::shortest_rest_s);
 }
@@ -61,7 +59,7 @@ template <class Visitor>
 void describe_pressure_constants(Visitor& visitor) {
   visitor.constant({.name = "first_pressure_share",
                     .unit = "1",
-                    .meaning = "belief before the first sample, as a share of the highest pressure difference"},
+                    .meaning = "estimate before the first sample, as a share of the highest pressure difference"},
                    sensor::first_pressure_share);
   visitor.constant(
       {.name = "first_deviation_share", .unit = "1", .meaning = "its standard deviation, as a share of the same"},
@@ -77,13 +75,13 @@ void describe_pressure_constants(Visitor& visitor) {
                    sensor::innovation_averaging_s);
   visitor.constant({.name = "usual_innovation_squared",
                     .unit = "1",
-                    .meaning = "their average where the band is as wide as its parts tell"},
+                    .meaning = "their average where the band has the width of its parts"},
                    sensor::usual_innovation_squared);
   visitor.constant({.name = "innovation_gate",
                     .unit = "1",
-                    .meaning = "innovations beyond so many standard deviations open the variance"},
+                    .meaning = "standard deviations beyond which an innovation raises the variance"},
                    sensor::innovation_gate);
-  visitor.constant({.name = "gate_opening_s", .unit = "s", .meaning = "the pace of that"}, sensor::gate_opening_s);
+  visitor.constant({.name = "gate_opening_s", .unit = "s", .meaning = "time constant of that"}, sensor::gate_opening_s);
   visitor.constant(
       {.name = "least_friction_ratio", .unit = "1", .meaning = "least friction in operation over that on the bench"},
       sensor::least_friction_ratio);
@@ -101,9 +99,9 @@ void describe_pressure_constants(Visitor& visitor) {
                    sensor::seen_deviation_share);
   visitor.constant({.name = "process_noise_rise",
                     .unit = "1",
-                    .meaning = "share by which the process noise follows an observed change that is more than thought"},
+                    .meaning = "share by which the process noise follows a larger observed change"},
                    sensor::process_noise_rise);
-  visitor.constant({.name = "process_noise_fall", .unit = "1", .meaning = "the same of one that is less"},
+  visitor.constant({.name = "process_noise_fall", .unit = "1", .meaning = "the same for a smaller one"},
                    sensor::process_noise_fall);
   visitor.constant({.name = "first_seen_process_noise",
                     .unit = "1",
@@ -112,34 +110,30 @@ void describe_pressure_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "telling_drift_share",
        .unit = "1",
-       .meaning = "a change tells half where its drift variance is so many times that of the forces' noise"},
+       .meaning = "a change counts half where its drift variance is so many times that of the forces' noise"},
       sensor::telling_drift_share);
-  visitor.constant({.name = "told_late_s",
-                    .unit = "s",
-                    .meaning = "how much later the forces tell of a change of the pressure difference"},
-                   sensor::told_late_s);
+  visitor.constant(
+      {.name = "told_late_s", .unit = "s", .meaning = "measurement delay of the pressure difference by the forces"},
+      sensor::told_late_s);
   visitor.constant({.name = "least_covariance_Pa",
                     .unit = "Pa",
                     .meaning = "a smaller covariance of pressure difference and friction ratio is none"},
                    sensor::least_covariance_Pa);
-  visitor.constant(
-      {.name = "most_variance_Pa2",
-       .unit = "Pa2",
-       .meaning = "a variance of the pressure difference that reaches this is none: the belief begins anew"},
-      sensor::most_variance_Pa2);
+  visitor.constant({.name = "most_variance_Pa2",
+                    .unit = "Pa2",
+                    .meaning = "a variance of the pressure difference that reaches this resets the estimate"},
+                   sensor::most_variance_Pa2);
 }
 
 template <class Visitor>
 // long: a list, one entry a constant
 void describe_answer_constants(Visitor& visitor) {
-  visitor.constant({.name = "least_band_factor",
-                    .unit = "1",
-                    .meaning = "the band becomes narrower than its parts tell by no more than this factor"},
-                   sensor::least_band_factor);
-  visitor.constant({.name = "most_band_factor",
-                    .unit = "1",
-                    .meaning = "the band becomes wider than its parts tell by no more than this factor"},
-                   sensor::most_band_factor);
+  visitor.constant(
+      {.name = "least_band_factor", .unit = "1", .meaning = "least factor on the width of the band's parts"},
+      sensor::least_band_factor);
+  visitor.constant(
+      {.name = "most_band_factor", .unit = "1", .meaning = "largest factor on the width of the band's parts"},
+      sensor::most_band_factor);
   visitor.constant(
       {.name = "flow_residual_factor",
        .unit = "1",
@@ -162,18 +156,17 @@ void describe_answer_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "half the width that an innovation takes in the band while the spool slides, over it"},
                    sensor::innovation_factor);
-  visitor.constant(
-      {.name = "yielded_factor",
-       .unit = "1",
-       .meaning = "half the width that what the pressure difference yielded to at rest takes in the band, over it"},
-      sensor::yielded_factor);
+  visitor.constant({.name = "yielded_factor",
+                    .unit = "1",
+                    .meaning = "half-width of the band from the constrained correction at rest, over that correction"},
+                   sensor::yielded_factor);
   visitor.constant({.name = "longest_regular_step_s",
                     .unit = "s",
                     .meaning = "a time step of this length or more is estimated with time_fault"},
                    sensor::longest_regular_step_s);
   visitor.constant({.name = "unseen_stroke_s",
                     .unit = "s",
-                    .meaning = "a spool that no position tells of is taken to go from end to end in so long: the band "
+                    .meaning = "time in which an unobserved spool is assumed to cross its stroke: the band "
                                "of the held answer opens"},
                    sensor::unseen_stroke_s);
   visitor.constant({.name = "lopsided_share",
@@ -186,9 +179,8 @@ void describe_answer_constants(Visitor& visitor) {
                     .meaning = "how far the band reaches beyond the highest calibrated pressure difference, as a share "
                                "of it"},
                    sensor::ripple_share);
-  visitor.constant(
-      {.name = "slip_widening", .unit = "1", .meaning = "the band is so many times wider while the spool slips"},
-      sensor::slip_widening);
+  visitor.constant({.name = "slip_widening", .unit = "1", .meaning = "factor on the band while the spool slips"},
+                   sensor::slip_widening);
   visitor.constant(
       {.name = "unseen_room_share",
        .unit = "1",

@@ -66,7 +66,7 @@ void describe_listening_constants(Visitor& visitor) {
        .unit = "1/s",
        .meaning = "pace at which the amplitude is raised where dither does not free the spool, as a share of it"},
       sensor::amplitude_raise_per_s);
-  visitor.constant({.name = "hearing_s", .unit = "s", .meaning = "raised after so long: what the sensor takes to hear"},
+  visitor.constant({.name = "hearing_s", .unit = "s", .meaning = "settling time before the amplitude is raised"},
                    sensor::hearing_s);
   visitor.constant({.name = "amplitude_lowering",
                     .unit = "1",

@@ -23,18 +23,18 @@ void describe_coil(Coil& coil, Visitor& visitor) {
   visitor.list({.key = "hysteresis_threshold_Wb",
                 .unit = "Wb",
                 .limits = {1e-9, 1e3},
-                .meaning = "flux change after which each stop of the magnetic hysteresis yields",
+                .meaning = "flux change at which each stop of the magnetic hysteresis slides",
                 .relation = rises},
                hysteresis.threshold);
   visitor.list({.key = "hysteresis_stiffness_A_per_Wb",
                 .unit = "A/Wb",
                 .limits = {0, 1e6},
-                .meaning = "current that each stop asks for, without flux"},
+                .meaning = "current of each stop without flux"},
                hysteresis.stiffness);
   visitor.list({.key = "hysteresis_stiffness_increase_A_per_Wb",
                 .unit = "A/Wb",
                 .limits = {-1e6, 1e6},
-                .meaning = "what is added to that at full flux",
+                .meaning = "increase of that at full flux",
                 .relation = sum_not_negative("hysteresis_stiffness_A_per_Wb")},
                hysteresis.stiffness_increase);
   visitor.number({.key = "hysteresis_per_full_flux_1_per_Wb",
@@ -90,7 +90,7 @@ void describe_actuator(Actuator& actuator, Visitor& visitor) {
   visitor.map({.key = "armature_friction_N",
                .unit = "N",
                .limits = {0, 1e4},
-               .meaning = "half width of the armature's friction while it slides",
+               .meaning = "half-width of the armature's sliding friction",
                .rows = current_axis,
                .columns = position_axis},
               actuator.friction_N);
@@ -151,7 +151,7 @@ void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
   visitor.number({.key = "position_backlash_m",
                   .unit = "m",
                   .limits = {0, 1e-3},
-                  .meaning = "half width of what the spool may creep unseen"},
+                  .meaning = "half-width of unobserved creep of the spool"},
                  sensor.backlash_m);
   visitor.number({.key = "position_drift_m_per_K",
                   .unit = "m/K",
@@ -166,7 +166,7 @@ void describe_position_sensor(Sensor& sensor, Visitor& visitor) {
   visitor.number({.key = "hardest_acceleration_m_per_s2",
                   .unit = "m/s2",
                   .limits = {1e-3, 1e5},
-                  .meaning = "no spool accelerates harder: a jump of the position beyond it is a fault of the signal"},
+                  .meaning = "largest acceleration of the spool; a jump of the position beyond it is a signal fault"},
                  sensor.hardest_acceleration_m_per_s2);
 }
 
@@ -188,7 +188,7 @@ void describe_friction(Friction& friction, Visitor& visitor) {
   visitor.number({.key = "friction_tolerance_N",
                   .unit = "N",
                   .limits = {1e-6, 1e4},
-                  .meaning = "standard deviation of friction at rest about what the pre-sliding displacement tells, "
+                  .meaning = "standard deviation of friction at rest about the pre-sliding friction, "
                              "where pressure difference and friction share a force that does not fit"},
                  friction.tolerance_N);
   visitor.number({.key = "breakaway_share",
@@ -237,7 +237,7 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
   visitor.number({.key = "force_correlation_s",
                   .unit = "s",
                   .limits = {1e-6, 10},
-                  .meaning = "for how long errors of the forces stay alike: samples within are no new evidence"},
+                  .meaning = "correlation time of the errors of the forces"},
                  pressure.force_correlation_s);
   visitor.number({.key = "friction_ratio_deviation",
                   .unit = "1",
@@ -269,7 +269,7 @@ void describe_inlet_share(Inlet& inlet, Visitor& visitor) {
   visitor.number({.key = "inlet_pressure_share_range",
                   .unit = "1",
                   .limits = {0, 0.5},
-                  .meaning = "measured port pressures may tell a share that differs from it by so much",
+                  .meaning = "largest difference from it by measured port pressures",
                   .otherwise = 0.25},
                  inlet.range);
 }

@@ -36,7 +36,7 @@ void describe_coil_constants(Visitor& visitor) {
       sensor::flux_rate_error_share);
   visitor.constant({.name = "coil_averaging_s",
                     .unit = "s",
-                    .meaning = "voltage, current and flux rate are averaged over this before they tell the resistance"},
+                    .meaning = "averaging of voltage, current and flux rate for the resistance"},
                    sensor::coil_averaging_s);
   visitor.constant({.name = "least_voltage_variance_V2s",
                     .unit = "V2 s",
@@ -97,10 +97,10 @@ void describe_position_constants(Visitor& visitor) {
                    sensor::fastest_m_per_s);
   visitor.constant({.name = "velocity_smoothing_s", .unit = "s", .meaning = "smoothing of the velocity"},
                    sensor::velocity_smoothing_s);
-  visitor.constant({.name = "slip_speed_m_per_s", .unit = "m/s", .meaning = "a slip is faster than this"},
+  visitor.constant({.name = "slip_speed_m_per_s", .unit = "m/s", .meaning = "speed above which motion is a slip"},
                    sensor::slip_speed_m_per_s);
   visitor.constant(
-      {.name = "slip_deviations", .unit = "1", .meaning = "standard deviations of the noise beyond which a slip moves"},
+      {.name = "slip_deviations", .unit = "1", .meaning = "standard deviations of the noise that a slip exceeds"},
       sensor::slip_deviations);
   visitor.constant(
       {.name = "slip_settling_s", .unit = "s", .meaning = "how long friction and inertia are in motion after a slip"},
@@ -111,22 +111,19 @@ void describe_position_constants(Visitor& visitor) {
        .meaning = "standard deviations of the noise up to which a change of the position signal is credible"},
       sensor::credible_jump_deviations);
   visitor.constant({.name = "credible_jump_m", .unit = "m", .meaning = "and so much more"}, sensor::credible_jump_m);
-  visitor.constant(
-      {.name = "position_noise_excess",
-       .unit = "1",
-       .meaning =
-           "how many times the calibrated noise the position's second differences show before they are believed"},
-      sensor::position_noise_excess);
+  visitor.constant({.name = "position_noise_excess",
+                    .unit = "1",
+                    .meaning = "factor of the calibrated noise beyond which the position's second differences count"},
+                   sensor::position_noise_excess);
   visitor.constant(
       {.name = "position_noise_follow_share",
        .unit = "1",
        .meaning = "share of the calibrated noise by which the median of these differences moves with each block"},
       sensor::position_noise_follow_share);
-  visitor.constant(
-      {.name = "quiet_current_share",
-       .unit = "1",
-       .meaning = "share of the largest current: a smaller change from sample to sample tells of no motion"},
-      sensor::quiet_current_share);
+  visitor.constant({.name = "quiet_current_share",
+                    .unit = "1",
+                    .meaning = "share of the largest current: a smaller change from sample to sample is no motion"},
+                   sensor::quiet_current_share);
   visitor.constant({.name = "quiet_voltage_share",
                     .unit = "1",
                     .meaning = "the same for the voltage, as a share of what holds the largest current"},
@@ -137,14 +134,14 @@ void describe_position_constants(Visitor& visitor) {
                    sensor::quiet_jump_m);
   visitor.constant({.name = "longest_position_fault_s",
                     .unit = "s",
-                    .meaning = "a jump of the position signal that lasts longer is believed"},
+                    .meaning = "a jump of the position signal that lasts longer is accepted"},
                    sensor::longest_position_fault_s);
   visitor.constant({.name = "longest_position_doubt_s",
                     .unit = "s",
-                    .meaning = "and doubted until so long after it, within which the way back is believed at once"},
+                    .meaning = "and marked until so long after it, within which the way back is accepted at once"},
                    sensor::longest_position_doubt_s);
   visitor.constant(
-      {.name = "direction_only_m", .unit = "m", .meaning = "size of a travel that tells a direction and nothing else"},
+      {.name = "direction_only_m", .unit = "m", .meaning = "size of a travel that shows the direction only"},
       sensor::direction_only_m);
 }
 

@@ -16,7 +16,7 @@ void describe_port_pressure_constants(Visitor& visitor) {
                    sensor::sure_drop_Pa);
   visitor.constant({.name = "share_following_s",
                     .unit = "s",
-                    .meaning = "pace at which measured pressures tell the inlet edge's share of the path's drop"},
+                    .meaning = "time constant of the inlet edge's share of the path's drop by measured pressures"},
                    sensor::share_following_s);
   visitor.constant({.name = "inlet_share_deviation", .unit = "1", .meaning = "one standard deviation of it then"},
                    sensor::inlet_share_deviation);
@@ -39,7 +39,7 @@ void describe_whole_valve_constants(Visitor& visitor) {
                    sensor::centring_m);
   visitor.constant({.name = "centring_rest_s",
                     .unit = "s",
-                    .meaning = "for how long both coils are silent there before the position's zero is believed"},
+                    .meaning = "for how long both coils are silent there before the position's zero is accepted"},
                    sensor::centring_rest_s);
   visitor.constant({.name = "zero_following_s", .unit = "s", .meaning = "pace at which the zero follows the reading"},
                    sensor::zero_following_s);
