@@ -1,10 +1,12 @@
 /// `spoolflow calibrate`: from a campaign's bench recordings to a model file.
 #include <exception>
 #include <functional>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/apps/calibrate_units.hpp"
 #include "spoolflow/apps/calibrate_work.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
@@ -12,6 +14,7 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
+#include "spoolflow/calibration/type/type_model.hpp"
 
 namespace spoolflow::apps {
 namespace {
@@ -25,6 +28,9 @@ MadeModel calibrate_here(const CalibrateArguments& arguments, const CalibrationT
                              progress.update(share);
                            }),
                 {}};
+  if (arguments.as_type) {
+    out.model = calibration::type_model(std::move(out.model), calibration::tolerances_from(campaign.tolerances));
+  }
   out.text = readable_text(out.model, task.model);
   return out;
 }
@@ -53,9 +59,24 @@ std::vector<CalibrationTask> tasks_of(const CalibrateArguments& arguments) {
   return out;
 }
 
+void refuse_contradictions(const CalibrateArguments& arguments) {
+  if (arguments.as_type && !arguments.type.empty())
+    throw std::invalid_argument("--as-type makes a type's model, --type one of its units: give one of them");
+  if (arguments.as_type && arguments.campaigns.size() > 1)
+    throw std::invalid_argument(fmt::format(
+        "--as-type makes a type of one campaign, and {} are given; give that of the unit nearest to the middle, and "
+        "how units differ as its [tolerances]",
+        arguments.campaigns.size()));
+  if ((arguments.as_type || !arguments.type.empty()) && !arguments.fleet.empty())
+    throw std::invalid_argument("types and units are calibrated on this machine: leave out --fleet");
+  if (!arguments.type.empty() && !arguments.report.empty())
+    throw std::invalid_argument("--report shows a campaign's fits, and a unit has none: leave it out with --type");
+}
+
 }  // namespace
 
 void calibrate(const CalibrateArguments& arguments) {
+  refuse_contradictions(arguments);
   const std::vector<CalibrationTask> tasks = tasks_of(arguments);
   std::vector<std::exception_ptr> failures;
   const auto attempt = [&](const std::function<void()>& work) {
@@ -67,7 +88,9 @@ void calibrate(const CalibrateArguments& arguments) {
       failures.push_back(std::current_exception());
     }
   };
-  if (arguments.fleet.empty()) {
+  if (!arguments.type.empty()) {
+    calibrate_units(arguments, tasks, attempt);
+  } else if (arguments.fleet.empty()) {
     for (const CalibrationTask& task : tasks) {
       attempt([&] {
         calibrate_one(arguments, task,
@@ -92,7 +115,9 @@ void add_calibrate_command(CLI::App& program) {
        "the model as JSON: maps, their ranges and residuals, and where they came from; of several campaigns "
        "DIR/NAME.json each, NAME that of the campaign's folder",
        {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json",
-        "spoolflow calibrate valve_*/campaign.toml -o models --fleet fleet.toml"}});
+        "spoolflow calibrate valve_*/campaign.toml -o models --fleet fleet.toml",
+        "spoolflow calibrate valve_a/campaign.toml --as-type -o type_a.json",
+        "spoolflow calibrate unit_17/unit.toml --type type_a.json -o unit_17.json"}});
   command->add_option("campaign", arguments->campaigns, "one or several campaign files (TOML)")->required();
   command
       ->add_option("-o,--output", arguments->model,
@@ -107,6 +132,13 @@ void add_calibrate_command(CLI::App& program) {
                     "read recordings that the campaign names outside its own folder, too");
   command->add_flag("--despite-doubts", arguments->despite_doubts,
                     "make a model of recordings that contradict each other or physics, too");
+  command->add_flag("--as-type", arguments->as_type,
+                    "the model is of every unit of the valve's type: its band holds units within [tolerances]");
+  command
+      ->add_option("--type", arguments->type,
+                   "model of the type of which the campaigns are units, each known by strokes without pressure and "
+                   "what operation was recorded")
+      ->type_name("TYPE.json");
   add_fleet_option(*command, arguments->fleet, "on the campaigns");
   add_units(*command, arguments->units);
   add_quiet(*command, arguments->quiet);

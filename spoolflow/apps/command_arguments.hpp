@@ -32,6 +32,8 @@ struct CalibrateArguments {
   bool despite_doubts = false;          ///< recordings that contradict each other or physics
   std::string fleet = {};               ///< whose workers do the work; empty: this machine
   bool quiet = false;
+  bool as_type = false;   ///< the model is to serve every unit of the valve's type
+  std::string type = {};  ///< model of the type of which the campaigns are units; empty: each is a valve of its own
 };
 void calibrate(const CalibrateArguments& arguments);
 

@@ -98,28 +98,12 @@ void add_unused_entries(std::vector<std::string>& to, const recording::ChannelMa
   }
 }
 
-}  // namespace
-
-std::vector<std::string> bench_directions(const recording::Campaign& campaign) {
-  std::vector<std::string> out;
-  for (const char* direction : {"b", "a"}) {
-    if (std::ranges::any_of(campaign.recordings, [&](const recording::CampaignRecording& entry) {
-          const bool of_bench = entry.protocol == Protocol::metering || !recording::by_own_solenoid(entry.protocol);
-          return of_bench && entry.direction == direction;
-        })) {
-      out.emplace_back(direction);
-    }
-  }
-  return out;
-}
-
-std::vector<recording::ReadOptions> complete_read_options(const recording::Campaign& campaign) {
+/// What each recording is read with; why one cannot serve goes to `missing`. Nothing of directions is asked.
+std::vector<recording::ReadOptions> options_of(const recording::Campaign& campaign, std::vector<std::string>& missing) {
   std::vector<recording::ReadOptions> out;
-  std::vector<std::string> tests, missing;
   std::set<std::string> columns;
-  add_tests(tests, campaign);
   bool all_open = true;
-  const bool one_direction = bench_directions(campaign).size() == 1;
+  const bool one_direction = bench_directions(campaign).size() <= 1;
   for (const recording::CampaignRecording& entry : campaign.recordings) {
     const ProtocolChannels wanted = channels_of(entry.protocol);
     recording::ReadOptions options{entry.channels, wanted.required, wanted.optional, campaign.valve.stroke_m};
@@ -144,10 +128,46 @@ std::vector<recording::ReadOptions> complete_read_options(const recording::Campa
     out.push_back(std::move(options));
   }
   if (all_open) add_unused_entries(missing, campaign.channels, columns);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> bench_directions(const recording::Campaign& campaign) {
+  std::vector<std::string> out;
+  for (const char* direction : {"b", "a"}) {
+    if (std::ranges::any_of(campaign.recordings, [&](const recording::CampaignRecording& entry) {
+          const bool of_bench = entry.protocol == Protocol::metering || !recording::by_own_solenoid(entry.protocol);
+          return of_bench && entry.direction == direction;
+        })) {
+      out.emplace_back(direction);
+    }
+  }
+  return out;
+}
+
+std::vector<recording::ReadOptions> complete_read_options(const recording::Campaign& campaign) {
+  std::vector<std::string> tests, missing;
+  add_tests(tests, campaign);
+  std::vector<recording::ReadOptions> out = options_of(campaign, missing);
   if (tests.empty() && missing.empty()) return out;
   std::string text = tests.empty() ? "" : fmt::format("{}: {}", campaign.file.string(), fmt::join(tests, "; "));
   for (const std::string& each : missing) text += (text.empty() ? "" : "; also ") + each;
   throw CalibrationError(text);
+}
+
+std::vector<recording::ReadOptions> unit_read_options(const recording::Campaign& unit) {
+  std::vector<std::string> missing;
+  for (const recording::CampaignRecording& entry : unit.recordings) {
+    if (entry.protocol == Protocol::unpressurised_strokes || entry.protocol == Protocol::operation) continue;
+    missing.push_back(
+        fmt::format("{}: protocol \"{}\" is of a bench; a unit of a type is calibrated from unpressurised_strokes "
+                    "and operation: leave the recording out, or calibrate the campaign without --type",
+                    entry.place, recording::name(entry.protocol)));
+  }
+  std::vector<recording::ReadOptions> out = options_of(unit, missing);
+  if (missing.empty()) return out;
+  throw CalibrationError(fmt::format("{}", fmt::join(missing, "; also ")));
 }
 
 }  // namespace spoolflow::calibration

@@ -9,6 +9,7 @@
 #include "spoolflow/model/evidence.hpp"
 #include "spoolflow/model/model_error.hpp"
 #include "spoolflow/model/provenance.hpp"
+#include "spoolflow/model/type_section.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
@@ -106,6 +107,7 @@ struct Model {
   Condensed condensed;
   std::optional<Observer> observer;  ///< absent: not calibrated
   Evidence evidence;
+  std::optional<TypeSection> type;  ///< absent: of one valve, by its own campaign
   std::optional<Direction> p_to_a;  ///< of a whole valve; what stands above is then its other direction, P to B
 
   [[nodiscard]] bool whole() const { return p_to_a.has_value(); }

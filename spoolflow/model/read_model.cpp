@@ -97,6 +97,26 @@ Observer observer(const JsonNode& node) {
   return out;
 }
 
+TypeSection type_section(const JsonNode& node) {
+  TypeSection out;
+  out.name = node.at("name").text();
+  const std::string of = node.at("of").text();
+  if (of != "unit" && of != "type") node.at("of").refuse("is neither \"unit\" nor \"type\"");
+  out.unit = of == "unit";
+  for (const JsonNode& each : node.at("deviations").elements()) {
+    out.deviations.push_back({each.at("name").text(), each.at("unit").text(), each.at("tolerance").number(1e-12, 10),
+                              each.at("value").number(-10, 10), each.at("uncertainty").number(0, 10)});
+  }
+  out.correlation = node.at("correlation").numbers();
+  const std::size_t wanted = out.deviations.size() * out.deviations.size();
+  if (out.correlation.size() != wanted)
+    node.at("correlation").refuse(fmt::format("has {} entries, {} would fit", out.correlation.size(), wanted));
+  const JsonNode environment = node.at("environment_without_spread");
+  out.environment = {environment.at("force_N").number(0, 1e5), environment.at("friction_share").number(0, 10),
+                     environment.at("flow_share").number(0, 10)};
+  return out;
+}
+
 Condensed condensed(const JsonNode& node) {
   Condensed out{};
   out.current_A = range(node.at("current_range_A"));
@@ -213,6 +233,7 @@ Model parse_model(const std::string& text, const std::string& file) {
   out.provenance = provenance(root.at("provenance"));
   out.condensed = condensed(root.at("condensed"));
   if (root.has("observer")) out.observer = observer(root.at("observer"));
+  if (root.has("type")) out.type = type_section(root.at("type"));
   out.evidence = evidence(root.at("evidence"));
   if (out.valve.direction == "both") {
     const JsonNode p_to_a = root.at("p_to_a");

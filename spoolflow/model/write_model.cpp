@@ -93,6 +93,25 @@ Json observer(const Observer& observer) {
   return out;
 }
 
+Json type_section(const TypeSection& type) {
+  Json deviations = Json::array();
+  for (const UnitDeviation& each : type.deviations) {
+    deviations.push_back({{"name", each.name},
+                          {"unit", each.unit},
+                          {"tolerance", each.tolerance},
+                          {"value", each.value},
+                          {"uncertainty", each.uncertainty}});
+  }
+  return {{"name", type.name},
+          {"of", type.unit ? "unit" : "type"},
+          {"deviations", deviations},
+          {"correlation", type.correlation},
+          {"environment_without_spread",
+           {{"force_N", type.environment.force_N},
+            {"friction_share", type.environment.friction_share},
+            {"flow_share", type.environment.flow_share}}}};
+}
+
 Json condensed(const Condensed& condensed) {
   Json out{{"current_range_A", range(condensed.current_A)},
            {"position_range_m", range(condensed.position_m)},
@@ -168,6 +187,7 @@ void write_model(std::ostream& out, const Model& model) {
   file["provenance"] = provenance(model.provenance);
   file["condensed"] = condensed(model.condensed);
   if (model.observer) file["observer"] = observer(*model.observer);
+  if (model.type) file["type"] = type_section(*model.type);
   file["evidence"] = evidence(model.evidence);
   if (model.p_to_a) {
     Json& p_to_a = file["p_to_a"] = {{"condensed", condensed(model.p_to_a->condensed)}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,29 @@ CampaignValve valve_of(const TomlTable& table) {
                                      table.place("stroke_mm"), units::mm_from_m(valve.stroke_m)));
   }
   return valve;
+}
+
+/// What a unit's [valve] may say against its type: its name, and what agrees with the type.
+CampaignValve unit_valve_of(const TomlTable& table, CampaignValve type) {
+  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction"});
+  if (const auto name = table.optional_text("name")) type.name = *name;
+  const auto require = [&](std::string_view key, double of_type) {
+    const auto written = table.optional_positive(key);
+    constexpr double alike = 1e-6;
+    if (!written || std::abs(*written - of_type) <= alike * of_type) return;
+    throw RecordingError(
+        fmt::format("{}: {} = {} is not the type's {}; leave it out, or give the model of its own type",
+                    table.place(key), key, *written, of_type));
+  };
+  require("rated_flow_L_min", units::L_per_min_from_m3_per_s(type.rated_flow_m3_per_s));
+  require("stroke_mm", units::mm_from_m(type.stroke_m));
+  return type;
+}
+
+CampaignTolerances tolerances_of(const TomlTable& table) {
+  CampaignTolerances out{place_of(table.table, table.file), {}};
+  for (const auto& [key, node] : table.table) out.values.emplace(std::string(key.str()), table.positive(key.str()));
+  return out;
 }
 
 CampaignFluid fluid_of(const TomlTable& table) {
@@ -196,6 +220,32 @@ TomlTable table_of(const TomlTable& document, std::string_view key) {
   return {*table, document.file, fmt::format("[{}]", key)};
 }
 
+/// All but the valve, which `campaign` has.
+void read_rest(const TomlTable& document, OutsideFiles outside, Campaign& campaign) {
+  const toml::table& read = document.table;
+  const std::filesystem::path& file = document.file;
+  campaign.file = file;
+  if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
+  if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
+  if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
+  if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
+  campaign.environment = environment_of(document, "bench");
+  if (read.contains("tolerances")) campaign.tolerances = tolerances_of(table_of(document, "tolerances"));
+  const toml::array* recordings = read["recording"].as_array();
+  if (recordings == nullptr || recordings->empty()) {
+    throw RecordingError(fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file",
+                                     document.place("recording")));
+  }
+  for (const toml::node& node : *recordings) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      throw RecordingError(fmt::format("{}: write each recording as a table [[recording]]", place_of(node, file)));
+    }
+    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve, outside));
+  }
+  require_whole_paths(campaign);
+}
+
 }  // namespace
 
 std::string_view name(Protocol protocol) {
@@ -222,28 +272,23 @@ std::vector<const CampaignRecording*> Campaign::of(Protocol protocol) const {
 Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside) {
   const toml::table read = read_toml(file);
   const TomlTable document{read, file, "the campaign"};
-  document.allow_only({"valve", "fluid", "instruments", "load", "environment", "channels", "recording"});
+  document.allow_only({"valve", "fluid", "instruments", "load", "environment", "tolerances", "channels", "recording"});
   Campaign campaign;
-  campaign.file = file;
   campaign.valve = valve_of(table_of(document, "valve"));
-  if (read.contains("fluid")) campaign.fluid = fluid_of(table_of(document, "fluid"));
-  if (read.contains("instruments")) campaign.instruments = instruments_of(table_of(document, "instruments"));
-  if (read.contains("channels")) campaign.channels = read_channels(table_of(document, "channels"));
-  if (read.contains("load")) campaign.load = load_of(table_of(document, "load"));
-  campaign.environment = environment_of(document, "bench");
-  const toml::array* recordings = read["recording"].as_array();
-  if (recordings == nullptr || recordings->empty()) {
-    throw RecordingError(fmt::format("{}: names no recordings; add [[recording]] tables with protocol and file",
-                                     document.place("recording")));
-  }
-  for (const toml::node& node : *recordings) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      throw RecordingError(fmt::format("{}: write each recording as a table [[recording]]", place_of(node, file)));
-    }
-    campaign.recordings.push_back(recording_of({*table, file, "[[recording]]"}, campaign.valve, outside));
-  }
-  require_whole_paths(campaign);
+  read_rest(document, outside, campaign);
+  return campaign;
+}
+
+Campaign read_unit_campaign(const std::filesystem::path& file, const CampaignValve& type, OutsideFiles outside) {
+  const toml::table read = read_toml(file);
+  const TomlTable document{read, file, "the unit"};
+  document.allow_only({"name", "valve", "fluid", "instruments", "environment", "channels", "recording"});
+  Campaign campaign;
+  campaign.valve = type;
+  campaign.valve.name = std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
+  if (const auto name = document.optional_text("name")) campaign.valve.name = *name;
+  if (read.contains("valve")) campaign.valve = unit_valve_of(table_of(document, "valve"), campaign.valve);
+  read_rest(document, outside, campaign);
   return campaign;
 }
 

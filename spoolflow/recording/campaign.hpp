@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -59,6 +60,12 @@ struct CampaignLoad {
   double area_ratio = 1;  ///< the piston's area at port A over that at port B; 1: both ports pass the same flow
 };
 
+/// By what units of the type differ, one standard deviation each, as written: the keys are calibration's.
+struct CampaignTolerances {
+  std::string place;  ///< "campaign.toml, line 17", for messages
+  std::map<std::string, double> values;
+};
+
 struct CampaignRecording {
   Protocol protocol;
   std::filesystem::path file;  ///< resolved against the campaign's folder
@@ -82,6 +89,7 @@ struct Campaign {
   CampaignFluid fluid;
   CampaignInstruments instruments;
   CampaignLoad load;
+  CampaignTolerances tolerances{};
   Environment environment{};  ///< of the machine that the valve is for
   ChannelMap channels{};      ///< of all files that have the columns; a recording's own entries come before it
   std::vector<CampaignRecording> recordings;
@@ -96,5 +104,10 @@ enum class OutsideFiles : std::uint8_t { refused, allowed };
 /// exist, or that stands outside where that is refused, an edge that is not of its direction, a path of which one edge
 /// alone was measured.
 [[nodiscard]] Campaign read_campaign(const std::filesystem::path& file, OutsideFiles outside = OutsideFiles::refused);
+
+/// The recordings of one unit of a type. [valve] may be absent, or say no more than the unit's name; so may the whole
+/// file, by `name = "…"` at its top. All else is the type's, and the name is the file's folder where none is given.
+[[nodiscard]] Campaign read_unit_campaign(const std::filesystem::path& file, const CampaignValve& type,
+                                          OutsideFiles outside = OutsideFiles::refused);
 
 }  // namespace spoolflow::recording

@@ -1,0 +1,138 @@
+#include "spoolflow/calibration/type/calibrate_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/completeness.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "spoolflow/calibration/unpressurised_strokes.hpp"
+#include "spoolflow/recording/reader.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+Deviations deviations_from(const Eigen::VectorXd& mean) {
+  Deviations out{};
+  for (std::size_t k = 0; k < variations; ++k) out[k] = mean(static_cast<Eigen::Index>(k));
+  return out;
+}
+
+/// Each direction beside the type: how far the fit moved, over how far units of the type lie.
+std::vector<UnitParameter> compared(const UnitFit& fit, const KnownDeviations& type, const Deviations& tolerances) {
+  std::vector<UnitParameter> out;
+  for (std::size_t k = 0; k < variations; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const VariationAbout& about = all_variations()[k];
+    const double prior2 = type.covariance(row, row), left2 = fit.known.covariance(row, row);
+    const double moved = fit.known.mean(row) - type.mean(row);
+    const bool seen = left2 < unseen_share * unseen_share * prior2;
+    const double deviations = moved / std::sqrt(prior2);
+    out.push_back({std::string(about.name), std::string(about.unit), tolerances[k], fit.known.mean(row),
+                   std::sqrt(left2), deviations, seen, std::abs(deviations) > marginal_deviations});
+  }
+  return out;
+}
+
+std::string written(const UnitParameter& parameter) {
+  constexpr double percent = 100, um_per_m = 1e6;
+  const bool length = parameter.unit == "m";
+  return fmt::format("{} {:+.3g} {} ({:.1f} standard deviations)", parameter.name,
+                     parameter.value * (length ? um_per_m : percent), length ? "um" : "%",
+                     std::abs(parameter.deviations));
+}
+
+/// The worst first, up to four.
+std::string worst_of(std::vector<UnitParameter> parameters) {
+  std::ranges::sort(parameters,
+                    [](const auto& a, const auto& b) { return std::abs(a.deviations) > std::abs(b.deviations); });
+  std::string out;
+  constexpr std::size_t named = 4;
+  for (std::size_t k = 0; k < std::min(named, parameters.size()); ++k) {
+    if (k > 0 && std::abs(parameters[k].deviations) < 2) break;
+    out += (k > 0 ? ", " : "") + written(parameters[k]);
+  }
+  return out;
+}
+
+void require_of_type(const UnitCalibration& unit, const std::string& file, const std::string& type) {
+  const bool far = std::ranges::any_of(unit.parameters, [](const UnitParameter& parameter) {
+    return std::abs(parameter.deviations) > foreign_deviations;
+  });
+  if (far || unit.chi_square > foreign_chi_square) {
+    throw CalibrationError(fmt::format(
+        "{}: the unit is not of the type {}: {}; a unit of the type lies within {:g} standard deviations in each; "
+        "check "
+        "that recordings and type belong together, or give the type wider [tolerances] where such units are made",
+        file, type, worst_of(unit.parameters), foreign_deviations));
+  }
+  if (unit.misfit <= largest_misfit) return;
+  throw CalibrationError(fmt::format(
+      "{}: no unit of the type {} explains the recordings: their forces and flows are off by {:.1f} times what is "
+      "expected, at most {:g}; nearest is {}; check signs, units and instruments of the recordings, or calibrate the "
+      "unit by a campaign of its own",
+      file, type, unit.misfit, largest_misfit, worst_of(unit.parameters)));
+}
+
+void require_evidence(const UnitEvidence& evidence, const std::string& file) {
+  if (evidence.any(EvidenceOf::force) || evidence.any(EvidenceOf::unpressurised_force) ||
+      evidence.any(EvidenceOf::breakaway) || evidence.any(EvidenceOf::flow))
+    return;
+  throw CalibrationError(fmt::format(
+      "{}: the recordings show no forces and no flow of the unit; record unpressurised_strokes, or operation with "
+      "pressure_difference or flow_reference, in which the spool moves over its stroke",
+      file));
+}
+
+}  // namespace
+
+recording::CampaignValve valve_of_type(const model::Model& type) {
+  return {type.valve.name, type.valve.rated_flow_m3_per_s, type.valve.stroke_m, type.valve.direction};
+}
+
+UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file, const recording::Campaign& unit,
+                               const std::string& tool_version, const CalibrationProgress& progress) {
+  const KnownDeviations prior = known_of_type(type, type_file);
+  const std::vector<recording::ReadOptions> options = unit_read_options(unit);
+  model::Provenance provenance{tool_version, model::creation_time(), {}};
+  provenance.inputs.push_back({"campaign", unit.file.filename().string(), model::sha256_of_file(unit.file), 0});
+  provenance.inputs.push_back(
+      {type_protocol, std::filesystem::path(type_file).filename().string(), model::sha256_of_file(type_file), 0});
+  std::deque<recording::Recording> recordings;
+  std::vector<UnitRun> runs;
+  for (std::size_t k = 0; k < unit.recordings.size(); ++k) {
+    const recording::CampaignRecording& entry = unit.recordings[k];
+    progress(fmt::format("reading {}", entry.file.filename().string()), 0);
+    const recording::Recording& read = recordings.emplace_back(recording::read_recording(entry.file, options[k]));
+    if (entry.protocol == recording::Protocol::unpressurised_strokes)
+      require_unpressurised_strokes(read, type.valve.rated_flow_m3_per_s, type.valve.stroke_m);
+    provenance.inputs.push_back({std::string(recording::name(entry.protocol)), entry.file.filename().string(),
+                                 model::sha256_of_file(entry.file), read.size(), read.resampled});
+    runs.push_back({&read, entry.protocol});
+  }
+  constexpr double reading_share = 0.3;
+  progress("the unit against its type", reading_share);
+  const UnitEvidence evidence(type, runs);
+  require_evidence(evidence, unit.file.string());
+  const UnitFit fit = most_likely_unit(evidence, prior);
+  Deviations tolerances{};
+  for (std::size_t k = 0; k < variations; ++k) tolerances[k] = type.type->deviations[k].tolerance;
+  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit};
+  for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
+  require_of_type(out, unit.file.string(), type.type->name);
+  const Deviations deviations = deviations_from(fit.known.mean);
+  out.model.valve.name = unit.valve.name;
+  out.model.provenance = std::move(provenance);
+  out.model.observer->parameters = unit_parameters(type.observer->parameters, deviations);
+  out.model.condensed.parameters = unit_parameters(type.condensed.parameters, deviations);
+  out.model.type = type_section(type.type->name, true, tolerances, fit.known, type.type->environment);
+  set_spread(out.model, type.type->environment, fit.known);
+  progress("done", 1.0);
+  return out;
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,53 @@
+#pragma once
+/// From a type's model and a minute of a unit's recordings to the unit's own model.
+#include <string>
+#include <vector>
+
+#include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/calibration/type/map_estimate.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/recording/campaign.hpp"
+
+namespace spoolflow::calibration {
+
+/// More standard deviations than that between a unit and its type in one direction, and it is not of the type; ...
+inline constexpr double foreign_deviations = 4.5;
+/// ... more than that, and it is marked as at the type's edge.
+inline constexpr double marginal_deviations = 3;
+/// Sum of the squares of all directions' standard deviations that no unit of the type reaches: chi square of fifteen
+/// directions, one unit in a thousand; what is not seen adds nothing to it.
+inline constexpr double foreign_chi_square = 38;
+/// Recordings fit no unit where their rows are off by more than this times what was expected.
+inline constexpr double largest_misfit = 4;
+/// A direction whose uncertainty stays above this share of its tolerance was not seen by the recordings.
+inline constexpr double unseen_share = 0.8;
+
+/// How far a unit lies from its type in one direction.
+struct UnitParameter {
+  std::string name, unit;
+  double tolerance, value, uncertainty;
+  double deviations;  ///< from the type's mean, in standard deviations between its units
+  bool seen, marginal;
+};
+
+struct UnitCalibration {
+  model::Model model;
+  std::vector<UnitParameter> parameters;
+  double chi_square;
+  double misfit;  ///< see UnitFit
+};
+
+/// The name of a unit's protocol in provenance that stands for its type's model.
+inline constexpr const char* type_protocol = "type";
+
+/// Reads the unit's recordings and fits them. `type_file` is the file of `type`, for provenance and messages. Throws
+/// RecordingError or CalibrationError: recordings that cannot serve, that show nothing of any direction, or a unit
+/// that is not of the type, with the directions by name and by how many standard deviations.
+[[nodiscard]] UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file,
+                                             const recording::Campaign& unit, const std::string& tool_version,
+                                             const CalibrationProgress& progress);
+
+/// The valve of a type as a unit's campaign takes it.
+[[nodiscard]] recording::CampaignValve valve_of_type(const model::Model& type);
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,31 @@
+#pragma once
+/// What is not known of a unit's deviations makes of its forces and its flow, for the band.
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "spoolflow/calibration/type/map_estimate.hpp"
+#include "spoolflow/sensor/observer_parameters.hpp"
+
+namespace spoolflow::calibration {
+
+/// Standard uncertainties that the deviations leave, root mean squares over the opening and over pressure differences
+/// of a tenth of the highest and more.
+struct UnitSpread {
+  double force_N;         ///< of magnetic force less spring and flow force, in balance
+  double friction_share;  ///< of sliding friction
+  double flow_share;      ///< of the conductance
+};
+[[nodiscard]] UnitSpread spread_of(const sensor::ObserverParameters<double>& unit, const KnownDeviations& known);
+
+/// Standard uncertainty of the flow at one operating point, sliding, that the deviations leave.
+struct FlowSpread {
+  double position_m, pressure_difference_Pa;
+  double flow_m3_per_s;         ///< there
+  double uncertainty_m3_per_s;  ///< one standard deviation
+};
+/// Over a grid of openings and pressure differences.
+[[nodiscard]] std::vector<FlowSpread> flow_spread_of(const sensor::ObserverParameters<double>& unit,
+                                                     const KnownDeviations& known);
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,121 @@
+#include "spoolflow/calibration/type/type_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/numerics/fitted_parameters.hpp"
+#include "spoolflow/calibration/type/spread.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+constexpr double um_per_m = 1e6;
+/// unit_parameters() is linear enough for some standard deviations of this.
+constexpr double largest_share = 0.3, largest_length_m = 5e-5;
+
+std::string key_of(const VariationAbout& about) {
+  return std::string(about.name) + (about.unit == "m" ? "_um" : "");
+}
+
+std::string all_keys() {
+  std::vector<std::string> keys;
+  for (const VariationAbout& about : all_variations()) keys.push_back(key_of(about));
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+}  // namespace
+
+Deviations tolerances_from(const recording::CampaignTolerances& written) {
+  Deviations out{};
+  for (std::size_t k = 0; k < variations; ++k) out[k] = all_variations()[k].tolerance;
+  for (const auto& [key, value] : written.values) {
+    const auto found = std::ranges::find_if(all_variations(), [&](const auto& about) { return key_of(about) == key; });
+    if (found == all_variations().end()) {
+      throw CalibrationError(
+          fmt::format("{}: [tolerances] has no key {}; allowed: {}", written.place, key, all_keys()));
+    }
+    const bool length = found->unit == "m";
+    const double most = length ? largest_length_m * um_per_m : largest_share;
+    if (!(value <= most)) {
+      throw CalibrationError(
+          fmt::format("{}: {} = {} is more than {:g}, one standard deviation between units of a type", written.place,
+                      key, value, most));
+    }
+    out[static_cast<std::size_t>(found - all_variations().begin())] = length ? value / um_per_m : value;
+  }
+  return out;
+}
+
+model::TypeSection type_section(const std::string& type_name, bool unit, const Deviations& tolerances,
+                                const KnownDeviations& known, const model::EnvironmentWithoutSpread& environment) {
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (std::size_t k = 0; k < variations; ++k) {
+    names.emplace_back(all_variations()[k].name);
+    values.push_back(known.mean(static_cast<Eigen::Index>(k)));
+  }
+  const model::Fit fit = known_from("deviations", names, values, known.covariance);
+  model::TypeSection out{type_name, unit, {}, fit.correlation, environment};
+  for (std::size_t k = 0; k < variations; ++k) {
+    out.deviations.push_back(
+        {names[k], std::string(all_variations()[k].unit), tolerances[k], values[k], fit.parameters[k].uncertainty});
+  }
+  return out;
+}
+
+void set_spread(model::Model& model, const model::EnvironmentWithoutSpread& environment, const KnownDeviations& known) {
+  sensor::ObserverParameters<double>& observer = model.observer->parameters;
+  const UnitSpread spread = spread_of(observer, known);
+  observer.environment.force_N = std::hypot(environment.force_N, spread.force_N);
+  observer.environment.friction_share = std::hypot(environment.friction_share, spread.friction_share);
+  observer.environment.flow_share = std::hypot(environment.flow_share, spread.flow_share);
+}
+
+model::Model type_model(model::Model valve, const Deviations& tolerances) {
+  if (!valve.observer)
+    throw CalibrationError(
+        "a type needs the full sensor, and the campaign made the condensed one alone; record solenoid_dynamic, and "
+        "axial_force_map at two or more oil temperatures");
+  if (valve.whole())
+    throw CalibrationError(
+        "a type is of one direction of flow, and the campaign is of both; make one type of each direction's benches");
+  if (valve.type) throw CalibrationError("the model is of a type already");
+  const sensor::Environment<double>& own = valve.observer->parameters.environment;
+  const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share};
+  const KnownDeviations known = spread_of(tolerances);
+  valve.type = type_section(valve.valve.name, false, tolerances, known, environment);
+  set_spread(valve, environment, known);
+  return valve;
+}
+
+KnownDeviations known_of_type(const model::Model& model, const std::string& file) {
+  if (!model.type || model.type->unit || !model.observer) {
+    throw CalibrationError(fmt::format(
+        "{}: is the model of {}; make the type's with `spoolflow calibrate CAMPAIGN.toml --as-type -o TYPE.json`", file,
+        model.type ? "one unit" : "one valve"));
+  }
+  const auto& deviations = model.type->deviations;
+  const auto count = static_cast<Eigen::Index>(variations);
+  KnownDeviations out{Eigen::VectorXd(count), Eigen::MatrixXd(count, count)};
+  bool alike = deviations.size() == variations;
+  for (std::size_t k = 0; alike && k < variations; ++k) alike = deviations[k].name == all_variations()[k].name;
+  if (!alike) {
+    throw CalibrationError(fmt::format(
+        "{}: its type has other directions of variation than this program; make it again with --as-type", file));
+  }
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const model::UnitDeviation& row = deviations[static_cast<std::size_t>(r)];
+    out.mean(r) = row.value;
+    for (Eigen::Index c = 0; c < count; ++c) {
+      out.covariance(r, c) = row.uncertainty * deviations[static_cast<std::size_t>(c)].uncertainty *
+                             model.type->correlation[static_cast<std::size_t>(r * count + c)];
+    }
+  }
+  return out;
+}
+
+}  // namespace spoolflow::calibration

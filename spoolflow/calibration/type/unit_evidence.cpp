@@ -1,0 +1,303 @@
+#include "spoolflow/calibration/type/unit_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "spoolflow/estimation/columns.hpp"
+#include "spoolflow/numerics/median.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using recording::Channel;
+
+constexpr double row_travel_m = 1e-4;
+constexpr double row_time_s = 0.5;
+/// Of even motion one way until friction has its full size [m].
+constexpr double settling_travel_m = 4e-5;
+/// A shorter rest [s] is part of a motion.
+constexpr double least_rest_s = 0.05;
+constexpr double fastest_sliding_m_per_s = 0.03;
+/// So close to either end [share of the stroke] stops may carry force.
+constexpr double end_share = 0.015;
+/// Flow rows of a spool that moves faster [m/s] show the meter's lag rather than the edge.
+constexpr double fastest_metered_m_per_s = 2e-3;
+/// Of the force at which a spool breaks away, beside that of forces [N].
+constexpr double breakaway_uncertainty_N = 0.5;
+constexpr double resistance_uncertainty_share = 0.01;  ///< of copper whose temperature nobody knows
+
+double value_or(const recording::Recording& recording, Channel channel, std::size_t k, double otherwise) {
+  if (!recording.has(channel)) return otherwise;
+  const double value = recording[channel][k];
+  return std::isfinite(value) ? value : otherwise;
+}
+
+/// What the spool does at a sample.
+struct Doing {
+  int direction;         ///< of even motion: 1 opening, -1 closing, else 0
+  bool slides;           ///< friction has its full size, away from both stops
+  bool metered;          ///< slow enough for a flow meter, the edge open
+  double broke_after_s;  ///< > 0: it broke away after this rest
+};
+
+/// Tells it from the state of the type's sensor, sample by sample.
+class SpoolTrack {
+ public:
+  explicit SpoolTrack(const model::Model& type) : type_(type) {}
+
+  Doing next(const sensor::ObserverState<double>& state, sensor::Status status, const sensor::Sample<double>& sample,
+             double position_m) {
+    const sensor::Motion motion = state.position.motion;
+    const int now = motion == sensor::Motion::opening ? 1 : motion == sensor::Motion::closing ? -1 : 0;
+    const bool usable = sensor::unusable(sample) == sensor::Status::none &&
+                        !sensor::has(status, sensor::Status::dithered | sensor::Status::position_fault);
+    travelled_m_ = now == direction_ && usable ? travelled_m_ + now * (position_m - position_m_) : 0;
+    direction_ = now;
+    position_m_ = position_m;
+    const double speed_m_per_s = std::abs(state.position.velocity_m_per_s), stroke_m = type_.valve.stroke_m;
+    Doing out{now, false, false, 0};
+    out.slides = now != 0 && travelled_m_ > settling_travel_m && speed_m_per_s < fastest_sliding_m_per_s &&
+                 position_m > end_share * stroke_m && position_m < (1 - end_share) * stroke_m;
+    out.metered =
+        usable && speed_m_per_s < fastest_metered_m_per_s && position_m > type_.observer->parameters.closed_below_m;
+    if (usable && rested_s_ > least_rest_s && motion != sensor::Motion::rest) out.broke_after_s = rested_s_;
+    rested_s_ = motion == sensor::Motion::rest ? state.friction.rest_s : 0;
+    return out;
+  }
+
+ private:
+  const model::Model& type_;
+  int direction_ = 0;
+  double travelled_m_ = 0, position_m_ = NAN, rested_s_ = 0;
+};
+
+}  // namespace
+
+UnitEvidence::UnitEvidence(const model::Model& type, std::vector<UnitRun> runs) : type_(type) {
+  for (const UnitRun& run : runs) {
+    prepare(run);
+    add_closed_reading();
+    add_resistance(run);
+  }
+}
+
+bool UnitEvidence::any(EvidenceOf kind) const {
+  return std::ranges::count(kinds_, kind) > 0;
+}
+
+void UnitEvidence::prepare(const UnitRun& of) {
+  const recording::Recording& recording = *of.recording;
+  const sensor::ObserverParameters<double>& type = type_.observer->parameters;
+  Run run{};
+  run.pressurised = of.protocol == recording::Protocol::operation;
+  run.has_pressure = recording.has(Channel::pressure_difference);
+  run.has_flow = run.pressurised && recording.has(Channel::flow_reference);
+  estimation::RunningSensor sensor(&type, type_.valve.rated_flow_m3_per_s);
+  const estimation::Columns columns{.time_s = recording[Channel::time],
+                                    .current_A = recording[Channel::current],
+                                    .voltage_V = recording.column(Channel::voltage),
+                                    .position_m = recording[Channel::position],
+                                    .oil_temperature_K = recording.column(Channel::oil_temperature)};
+  SpoolTrack track(type_);
+  double before_s = columns.time_s.empty() ? 0 : columns.time_s[0];
+  estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& told) {
+    const sensor::ObserverState<double>& state = sensor.state().observer;
+    const double step_s = columns.time_s[k] - before_s, current_A = columns.current_A[k];
+    before_s = columns.time_s[k];
+    const double position_m =
+        sensor::drift_free_m(type.position_sensor, columns.position_m[k], state.oil_temperature_K);
+    const Doing doing = track.next(state, told.status, {step_s, current_A, {}, columns.position_m[k], {}}, position_m);
+    run.samples.push_back(
+        {position_m, current_A, step_s, run.pressurised ? value_or(recording, Channel::pressure_difference, k, NAN) : 0,
+         value_or(recording, Channel::flow_reference, k, NAN), state.oil_temperature_K, doing.slides ? 0 : -1,
+         doing.metered && run.has_flow ? 0 : -1, static_cast<signed char>(doing.direction)});
+    if (doing.broke_after_s > 0) add_breakaway(run, k, doing.broke_after_s, state.position.travel_m);
+  });
+  if (run.has_flow && run.has_pressure) run.meter = meter_of(run, recording);
+  find_rows(run);
+  runs_.push_back(std::move(run));
+}
+
+/// The lag that the meter shows beside the type's flow at the measured pressure difference.
+numerics::MeterLag UnitEvidence::meter_of(const Run& run, const recording::Recording& recording) const {
+  std::vector<double> flow_m3_per_s, reference_m3_per_s;
+  for (const Sample& sample : run.samples) {
+    const double pressure_Pa = std::max(0.0, sample.pressure_Pa);
+    flow_m3_per_s.push_back(
+        type_.observer->parameters.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance *
+        std::sqrt(pressure_Pa));
+    reference_m3_per_s.push_back(sample.flow_m3_per_s);
+  }
+  return numerics::find_meter_lag(recording[Channel::time], flow_m3_per_s, reference_m3_per_s)
+      .value_or(numerics::MeterLag{});
+}
+
+/// The last samples before the spool left where it stood, about to `sample`, at which the motion showed.
+void UnitEvidence::add_breakaway(Run& run, std::size_t sample, double rested_s, double travel_m) {
+  constexpr std::size_t look_back = 12, mean_over = 3;
+  constexpr double left_m = 4e-6;
+  if (sample < 2 * look_back) return;
+  double rest_m = 0;
+  for (std::size_t k = sample - 2 * look_back; k < sample - look_back; ++k)
+    rest_m += run.samples[k].position_m / look_back;
+  std::size_t last = sample;
+  while (last > sample - look_back && std::abs(run.samples[last].position_m - rest_m) > left_m) --last;
+  const double stroke_m = type_.valve.stroke_m;
+  if (last == sample || last == sample - look_back || rest_m < end_share * stroke_m ||
+      rest_m > (1 - end_share) * stroke_m)
+    return;
+  for (std::size_t k = last + 1 - mean_over; k <= last; ++k) {
+    Sample& each = run.samples[k];
+    each.force_row = 0;
+    each.flow_row = -1;
+    each.direction = travel_m > 0 ? 1 : -1;
+    each.rested_s = rested_s;
+  }
+}
+
+/// Numbers the rows, one after the other.
+void UnitEvidence::find_rows(Run& run) {
+  const sensor::ObserverParameters<double>& type = type_.observer->parameters;
+  const double force_N =
+      std::hypot(unit_force_residual_N, type.band.force_residual_N, type.actuator.force_uncertainty_N);
+  const double flow_m3_per_s =
+      std::hypot(type.band.flow_residual_m3_per_s, meter_uncertainty_share * type_.valve.rated_flow_m3_per_s);
+  const auto number = [&](int Sample::*row, EvidenceOf kind, double deviation) {
+    int open = -1, direction = 0;
+    double from_m = 0, lasted_s = 0;
+    for (Sample& sample : run.samples) {
+      if (sample.*row < 0) {
+        open = -1;
+        continue;
+      }
+      lasted_s += sample.time_step_s;
+      const bool over =
+          std::abs(sample.position_m - from_m) > row_travel_m || lasted_s > row_time_s || sample.direction != direction;
+      if (open < 0 || over) {
+        open = static_cast<int>(kinds_.size());
+        const bool breaks = kind != EvidenceOf::flow && sample.rested_s > 0;
+        kinds_.push_back(breaks ? EvidenceOf::breakaway : kind);
+        counts_.push_back(0);
+        deviations_.push_back(breaks ? std::hypot(deviation, breakaway_uncertainty_N) : deviation);
+        from_m = sample.position_m;
+        lasted_s = 0;
+        direction = sample.direction;
+      }
+      sample.*row = open;
+      counts_.back() += 1;
+    }
+  };
+  const bool forces_tell = !run.pressurised || run.has_pressure || run.has_flow;
+  for (Sample& sample : run.samples) {
+    if (!forces_tell || (run.has_pressure && std::isnan(sample.pressure_Pa))) sample.force_row = -1;
+    if (!run.has_pressure || std::isnan(sample.flow_m3_per_s)) sample.flow_row = -1;
+    if (!run.has_pressure && run.pressurised && !(sample.flow_m3_per_s > 0.01 * type_.valve.rated_flow_m3_per_s))
+      sample.force_row = -1;
+  }
+  number(&Sample::force_row, run.pressurised ? EvidenceOf::force : EvidenceOf::unpressurised_force, force_N);
+  number(&Sample::flow_row, EvidenceOf::flow, flow_m3_per_s);
+}
+
+/// Where the spool rests at its closed end without current; readings of the unit in the type's drift.
+void UnitEvidence::add_closed_reading() {
+  const Run& run = runs_.back();
+  const sensor::ObserverParameters<double>& type = type_.observer->parameters;
+  std::vector<double> readings_m;
+  for (const Sample& sample : run.samples) {
+    if (std::abs(sample.current_A) < 0.01 * type.largest_current_A && sample.direction == 0 &&
+        sample.position_m < type.closed_below_m)
+      readings_m.push_back(sample.position_m);
+  }
+  constexpr std::size_t least_samples = 100;
+  if (readings_m.size() < least_samples) return;
+  kinds_.push_back(EvidenceOf::closed_reading);
+  counts_.push_back(1);
+  deviations_.push_back(closed_reading_uncertainty_m);
+  closed_readings_m_.push_back(numerics::median(std::move(readings_m)));
+}
+
+void UnitEvidence::add_resistance(const UnitRun& of) {
+  const recording::Recording& recording = *of.recording;
+  const double known_Ohm = type_.observer->parameters.actuator.coil_resistance.resistance_Ohm;
+  if (!recording.has(Channel::voltage) || !(known_Ohm > 0)) return;
+  const auto voltage_V = recording[Channel::voltage], current_A = recording[Channel::current];
+  double voltage_sum = 0, current_sum = 0;  // over whole strokes the flux returns to where it was
+  for (std::size_t k = 0; k < voltage_V.size(); ++k) {
+    if (!std::isfinite(voltage_V[k]) || !std::isfinite(current_A[k])) continue;
+    voltage_sum += voltage_V[k];
+    current_sum += current_A[k];
+  }
+  if (!(current_sum > 0.05 * type_.observer->parameters.largest_current_A * static_cast<double>(voltage_V.size())))
+    return;
+  kinds_.push_back(EvidenceOf::resistance);
+  counts_.push_back(1);
+  deviations_.push_back(resistance_uncertainty_share * known_Ohm);
+  resistances_Ohm_.push_back(voltage_sum / current_sum);
+}
+
+void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<double>& unit,
+                              Eigen::VectorXd& sums) const {
+  sensor::ActuatorState<double> actuator{};
+  bool first = true;
+  for (const Sample& sample : run.samples) {
+    if (!std::isfinite(sample.current_A) || !std::isfinite(sample.position_m)) continue;
+    const sensor::ActuatorEstimate<double> told =
+        sensor::step(unit.actuator, actuator,
+                     sensor::Sample<double>{sample.time_step_s, sample.current_A, {}, sample.position_m, {}}, first,
+                     sample.force_row >= 0);
+    first = false;
+    if (sample.force_row < 0) continue;
+    double pressure_Pa = sample.pressure_Pa;
+    if (run.pressurised && !run.has_pressure) {
+      const double rated_Pa = 0.5 * unit.edge.highest_pressure_difference_Pa();
+      pressure_Pa = std::pow(
+          sample.flow_m3_per_s / unit.edge.at(sample.temperature_K, rated_Pa, sample.position_m).conductance, 2);
+    }
+    const sensor::EdgePoint<double> edge =
+        unit.edge.at(sample.temperature_K, std::max(0.0, pressure_Pa), sample.position_m);
+    const double aged = sample.rested_s > 0 ? sensor::ageing(unit.friction, sample.rested_s) : 1;
+    const double friction_N = unit.friction.operation_ratio * (aged * edge.friction_N + told.friction_half_width_N);
+    sums(sample.force_row) += told.magnetic_force_N - unit.spring.at(sample.position_m).value -
+                              (run.pressurised ? edge.flow_force_N : 0) - sample.direction * friction_N;
+  }
+}
+
+void UnitEvidence::add_flows(const Run& run, const sensor::ObserverParameters<double>& unit, double meter_gain,
+                             Eigen::VectorXd& sums) const {
+  double seen_m3_per_s = NAN;
+  for (const Sample& sample : run.samples) {
+    const double pressure_Pa = std::max(0.0, sample.pressure_Pa);
+    const double flow_m3_per_s =
+        unit.edge.at(sample.temperature_K, pressure_Pa, sample.position_m).conductance * std::sqrt(pressure_Pa);
+    if (std::isnan(flow_m3_per_s)) continue;
+    const double lag_s = run.meter.lag_s + run.meter.dead_time_s;
+    const double share = std::isnan(seen_m3_per_s) || !(lag_s > 0) ? 1 : numerics::lag_share(sample.time_step_s, lag_s);
+    if (std::isnan(seen_m3_per_s)) seen_m3_per_s = 0;
+    seen_m3_per_s += share * (flow_m3_per_s - seen_m3_per_s);
+    if (sample.flow_row >= 0) sums(sample.flow_row) += sample.flow_m3_per_s - (1 + meter_gain) * seen_m3_per_s;
+  }
+}
+
+Eigen::VectorXd UnitEvidence::rows(const UnitUnknowns& unknowns) const {
+  sensor::ObserverParameters<double> unit = unit_parameters(type_.observer->parameters, unknowns.deviations);
+  unit.friction.ageing_ratio = 1 + (unit.friction.ageing_ratio - 1) * (1 + unknowns.ageing);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kinds_.size()));
+  for (const Run& run : runs_) {
+    add_forces(run, unit, out);
+    if (run.has_pressure && run.has_flow) add_flows(run, unit, unknowns.meter_gain, out);
+  }
+  std::size_t closed = 0, resistance = 0;
+  for (Eigen::Index row = 0; row < out.size(); ++row) {
+    const auto k = static_cast<std::size_t>(row);
+    if (kinds_[k] == EvidenceOf::closed_reading)
+      out(row) = closed_readings_m_[closed++] - unknowns.deviations[at(Variation::position_zero)];
+    if (kinds_[k] == EvidenceOf::resistance)
+      out(row) = resistances_Ohm_[resistance++] - unit.actuator.coil_resistance.resistance_Ohm;
+    out(row) /= counts_[k] * deviations_[k];
+  }
+  return out;
+}
+
+}  // namespace spoolflow::calibration

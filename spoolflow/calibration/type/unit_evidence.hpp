@@ -1,0 +1,90 @@
+#pragma once
+/// What a unit's own recordings say of how it deviates from its type: rows that are zero where the deviations are
+/// right.
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "spoolflow/calibration/type/variation.hpp"
+#include "spoolflow/model/model.hpp"
+#include "spoolflow/numerics/meter_lag.hpp"
+#include "spoolflow/recording/campaign.hpp"
+#include "spoolflow/recording/recording.hpp"
+
+namespace spoolflow::calibration {
+
+/// A recording of the unit.
+struct UnitRun {
+  const recording::Recording* recording;
+  recording::Protocol protocol;  ///< unpressurised_strokes or operation
+};
+
+/// What is searched: the deviations; what the flow meter reads too much, as a share; and by what share the force at
+/// which the spool breaks away exceeds or falls below that of the type's ageing. The last two are of the recordings and
+/// stay out of the unit's model: the type's ageing is one that serves its pre-sliding, not its break-away alone.
+struct UnitUnknowns {
+  Deviations deviations{};
+  double meter_gain = 0;
+  double ageing = 0;
+};
+inline constexpr std::size_t unit_unknowns = variations + 2;
+inline constexpr double ageing_uncertainty = 0.5;  ///< one standard deviation
+
+/// One standard deviation of the flow meter's gain [share] and of a mean over a row [share of the rated flow].
+inline constexpr double meter_gain_uncertainty = 0.005;
+inline constexpr double meter_uncertainty_share = 0.002;
+/// What the type's maps leave of the forces of another unit in a row, beside what its own bench left [N].
+inline constexpr double unit_force_residual_N = 0.25;
+/// The reading of the position at the closed end [m], one standard deviation.
+inline constexpr double closed_reading_uncertainty_m = 1e-6;
+
+/// What a row of evidence is of.
+enum class EvidenceOf : unsigned char { force, unpressurised_force, breakaway, flow, closed_reading, resistance };
+
+/// Rows of evidence: means over a tenth of a millimetre of travel, or half a second, whichever ends first, of
+/// - force while the spool slides without dither: magnetic force less spring, flow force at the measured pressure
+///   difference and friction, as the sensor has them; needs no pressure, or a measured one or flow;
+/// - flow: the meter less conductance times root of the measured pressure difference, seen through the meter's lag;
+/// - the position at the closed end, without current;
+/// - the coil's resistance, where the voltage is measured.
+class UnitEvidence {
+ public:
+  /// Keeps the type and the recordings by reference.
+  UnitEvidence(const model::Model& type, std::vector<UnitRun> runs);
+
+  /// Each row over its standard deviation, at these unknowns.
+  [[nodiscard]] Eigen::VectorXd rows(const UnitUnknowns& unknowns) const;
+  /// What each of them is of.
+  [[nodiscard]] const std::vector<EvidenceOf>& kinds() const { return kinds_; }
+  [[nodiscard]] bool any(EvidenceOf kind) const;
+
+ private:
+  struct Sample {
+    double position_m, current_A, time_step_s, pressure_Pa, flow_m3_per_s, temperature_K;
+    int force_row, flow_row;  ///< -1: none
+    signed char direction;    ///< 1 opening, -1 closing, 0 does not slide
+    double rested_s = 0;      ///< > 0: the spool is about to break away after this rest
+  };
+  struct Run {
+    std::vector<Sample> samples;
+    bool pressurised, has_pressure, has_flow;
+    numerics::MeterLag meter;
+  };
+  void prepare(const UnitRun& run);
+  [[nodiscard]] numerics::MeterLag meter_of(const Run& run, const recording::Recording& recording) const;
+  void add_breakaway(Run& run, std::size_t sample, double rested_s, double travel_m);
+  void find_rows(Run& run);
+  void add_closed_reading();
+  void add_resistance(const UnitRun& run);
+  void add_forces(const Run& run, const sensor::ObserverParameters<double>& unit, Eigen::VectorXd& sums) const;
+  void add_flows(const Run& run, const sensor::ObserverParameters<double>& unit, double meter_gain,
+                 Eigen::VectorXd& sums) const;
+
+  const model::Model& type_;
+  std::vector<Run> runs_;
+  std::vector<EvidenceOf> kinds_;
+  std::vector<double> counts_, deviations_;  ///< of each row: samples, standard deviation
+  std::vector<double> closed_readings_m_, resistances_Ohm_;
+};
+
+}  // namespace spoolflow::calibration

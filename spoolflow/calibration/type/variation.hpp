@@ -1,0 +1,46 @@
+#pragma once
+/// How one unit of a type differs from the next: a handful of directions in physics, each one number.
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace spoolflow::calibration {
+
+/// Directions of variation. Of the whole valve, as its own sensor reads it.
+enum class Variation : unsigned char {
+  turns,              ///< of the coil: force and flux linkage over ampere turns stay
+  permeance,          ///< of the air gap at every position: the iron's share of the ampere turns stays
+  coercivity,         ///< currents of the hysteresis loop at a given flux
+  resistance,         ///< of the coil
+  spring_preload,     ///< added to the spring force everywhere, as a share of its mean over the stroke
+  spring_rate,        ///< what it rises by along the stroke
+  edge_position,      ///< the spool's position at which the edge opens: > 0 opens later
+  edge_width,         ///< conductance, and flow force with it
+  flow_force,         ///< at a given flow and pressure difference: jet angle and the spool's shape
+  flow_force_tilt,    ///< the same rising along the stroke: -1 at its beginning, 1 at its end
+  spool_friction,     ///< without pressure
+  pressure_friction,  ///< what pressure adds to it
+  armature_friction,
+  position_zero,  ///< reading of the sensor at the closed end
+  position_gain
+};
+inline constexpr std::size_t variations = 15;
+
+/// One entry a direction: a share, or metres for edge_position and position_zero.
+using Deviations = std::array<double, variations>;
+
+/// What is known of a direction before a unit is measured.
+struct VariationAbout {
+  std::string_view name;  ///< key in [tolerances], and in a model's `type`
+  std::string_view unit;  ///< "1" or "m"
+  double tolerance;       ///< one standard deviation between units
+  std::string_view meaning;
+  std::string_view source;  ///< of the tolerance
+};
+
+[[nodiscard]] const std::array<VariationAbout, variations>& all_variations();
+[[nodiscard]] constexpr std::size_t at(Variation variation) {
+  return static_cast<std::size_t>(variation);
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,165 @@
+#include "spoolflow/calibration/type/calibrate_unit.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/type/type_model.hpp"
+#include "tests/calibration/type/virtual_unit.hpp"
+#include "tests/recording/temporary_file.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double oil_K = 323.15;
+
+const model::Model& type() {
+  static const model::Model model = [] {
+    model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+    // Positions of the virtual unit are free of drift.
+    valve.observer->parameters.position_sensor.drift_m_per_K = 0;
+    return type_model(std::move(valve), tolerances_from({}));
+  }();
+  return model;
+}
+
+/// The type's file, a unit's campaign and its recordings in one folder.
+class UnitFolder {
+ public:
+  UnitFolder(const Deviations& deviations, const std::string& channels_left_out = "")
+      : file_("unit.toml",
+              "name = \"U 17\"\n[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n"
+              "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n" +
+                  channels_left_out) {
+    const sensor::ObserverParameters<double> unit = unit_parameters(type().observer->parameters, deviations);
+    write_strokes(file_.folder() / "dry.csv", unit, 0, type().valve.stroke_m);
+    write_strokes(file_.folder() / "wet.csv", unit, 40, type().valve.stroke_m);
+    std::ofstream out(file_.folder() / "type.json");
+    model::write_model(out, type());
+  }
+  [[nodiscard]] UnitCalibration calibrate() const {
+    const recording::Campaign campaign = recording::read_unit_campaign(file_.path(), valve_of_type(type()));
+    return calibrate_unit(type(), (file_.folder() / "type.json").string(), campaign, "test",
+                          [](const std::string&, double) {});
+  }
+
+ private:
+  recording::TemporaryFile file_;
+};
+
+/// Flow at a force that balances, from the sensor's chain: what remains wrong of the unit's flow at one point.
+double flow_error(const sensor::ObserverParameters<double>& found, const sensor::ObserverParameters<double>& truth,
+                  double position_m) {
+  const double pressure_Pa = 40e5;
+  const sensor::EdgePoint<double> there = truth.edge.at(oil_K, pressure_Pa, position_m);
+  double low_A = 0, high_A = 2.4;
+  for (int k = 0; k < 40; ++k) {
+    const double middle_A = 0.5 * (low_A + high_A);
+    const double net_N = truth.actuator.magnetic_force.at(middle_A, position_m).value -
+                         truth.spring.at(position_m).value - there.flow_force_N;
+    (net_N < 0 ? low_A : high_A) = middle_A;
+  }
+  const sensor::EdgePoint<double> here = found.edge.at(oil_K, pressure_Pa, position_m);
+  const double left_N =
+      found.actuator.magnetic_force.at(low_A, position_m).value - found.spring.at(position_m).value - here.flow_force_N;
+  const double told_Pa = pressure_Pa + left_N / here.flow_force_per_pressure_N_Pa;
+  return here.conductance * std::sqrt(told_Pa) / (there.conductance * std::sqrt(pressure_Pa)) - 1;
+}
+
+TEST(CalibrateUnit, FindsAUnitsFlowWithinAHundredthWhereItsTypeErrsByMore) {
+  Deviations deviations{};
+  deviations[at(Variation::spring_preload)] = 0.04;
+  deviations[at(Variation::spring_rate)] = 0.02;
+  deviations[at(Variation::permeance)] = -0.02;
+  deviations[at(Variation::edge_position)] = 10e-6;
+  deviations[at(Variation::edge_width)] = 0.015;
+  deviations[at(Variation::spool_friction)] = 0.3;
+  deviations[at(Variation::position_zero)] = 6e-6;
+  const UnitCalibration unit = UnitFolder(deviations).calibrate();
+  const sensor::ObserverParameters<double> truth = unit_parameters(type().observer->parameters, deviations);
+  for (const double position_m : {1.0e-3, 1.6e-3, 2.2e-3}) {
+    EXPECT_NEAR(flow_error(unit.model.observer->parameters, truth, position_m), 0, 0.01);
+    EXPECT_GT(std::abs(flow_error(type().observer->parameters, truth, position_m)), 0.01);
+  }
+  EXPECT_EQ(unit.model.valve.name, "U 17");
+  EXPECT_TRUE(unit.model.type->unit);
+  EXPECT_LT(unit.model.observer->parameters.environment.force_N, 0.5 * type().observer->parameters.environment.force_N);
+}
+
+TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
+  const recording::TemporaryFile file("unit.toml",
+                                      "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n");
+  write_strokes(file.folder() / "dry.csv", type().observer->parameters, 0, type().valve.stroke_m);
+  std::ofstream(file.folder() / "type.json") << "{}";
+  const UnitCalibration unit = calibrate_unit(type(), (file.folder() / "type.json").string(),
+                                              recording::read_unit_campaign(file.path(), valve_of_type(type())), "test",
+                                              [](const std::string&, double) {});
+  for (const UnitParameter& parameter : unit.parameters) {
+    const bool of_pressure = parameter.name.starts_with("edge") || parameter.name.starts_with("flow_force") ||
+                             parameter.name == "pressure_friction";
+    if (of_pressure) {
+      EXPECT_FALSE(parameter.seen) << parameter.name;
+      EXPECT_NEAR(parameter.uncertainty, parameter.tolerance, 0.05 * parameter.tolerance) << parameter.name;
+    }
+    if (parameter.name == "spring_preload" || parameter.name == "position_zero") {
+      EXPECT_TRUE(parameter.seen) << parameter.name;
+    }
+  }
+}
+
+TEST(CalibrateUnit, AnotherSpringIsNoUnitOfTheTypeAndIsNamedByStandardDeviations) {
+  Deviations deviations{};
+  deviations[at(Variation::spring_rate)] = 0.25;
+  try {
+    (void)UnitFolder(deviations).calibrate();
+    FAIL() << "a spring of another rate passed for one of the type";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the unit is not of the type"));
+    EXPECT_THAT(error.what(), HasSubstr("spring_rate +"));
+    EXPECT_THAT(error.what(), HasSubstr("standard deviations"));
+  }
+}
+
+TEST(CalibrateUnit, ItsModelIsReadAgainAsItWasWritten) {
+  const UnitCalibration unit = UnitFolder({}).calibrate();
+  std::ostringstream out;
+  model::write_model(out, unit.model);
+  const model::Model read = model::parse_model(out.str(), "unit.json");
+  ASSERT_TRUE(read.type.has_value());
+  EXPECT_EQ(read.type->deviations.size(), variations);
+  EXPECT_EQ(read.type->name, type().type->name);
+  EXPECT_DOUBLE_EQ(read.type->deviations[at(Variation::spring_rate)].value,
+                   unit.model.type->deviations[at(Variation::spring_rate)].value);
+  EXPECT_THROW((void)known_of_type(read, "unit.json"), CalibrationError);  // a unit is no type
+}
+
+TEST(TypeModel, HoldsUnitsWithinItsTolerancesInAWiderBandOverTheSameTables) {
+  const model::Model valve = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+  const model::Model made = type_model(valve, tolerances_from({}));
+  EXPECT_EQ(made.observer->parameters.spring.curve.values, valve.observer->parameters.spring.curve.values);
+  EXPECT_GT(made.observer->parameters.environment.force_N, 0.5);  // some spring and magnet, in newtons
+  EXPECT_GT(made.observer->parameters.environment.friction_share, 0.05);
+  EXPECT_GT(made.observer->parameters.environment.flow_share, 0.01);
+  const KnownDeviations known = known_of_type(made, "type.json");
+  EXPECT_NEAR(std::sqrt(known.covariance(1, 1)), 0.015, 1e-12);
+  EXPECT_THROW((void)type_model(made, tolerances_from({})), CalibrationError);
+}
+
+TEST(TypeModel, TolerancesAreReadInTheirUnitsAndUnknownOnesRefusedByLine) {
+  EXPECT_DOUBLE_EQ(tolerances_from({"", {{"edge_position_um", 12}}})[at(Variation::edge_position)], 12e-6);
+  try {
+    (void)tolerances_from({"campaign.toml, line 9", {{"edge_position", 12}}});
+    FAIL() << "a length without its unit passed";
+  } catch (const CalibrationError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("campaign.toml, line 9: [tolerances] has no key edge_position; allowed: turns"));
+  }
+  EXPECT_THROW((void)tolerances_from({"", {{"spring_rate", 2}}}), CalibrationError);  // percent for a share
+}
+
+}  // namespace
+}  // namespace spoolflow::calibration

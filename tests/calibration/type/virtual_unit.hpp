@@ -1,0 +1,62 @@
+#pragma once
+/// Recordings of a unit as the sensor's own functions have it, in closed form: for how a fit behaves, not for how well
+/// it does on a valve.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "spoolflow/model/model.hpp"
+
+namespace spoolflow::calibration {
+
+inline constexpr double virtual_step_s = 2e-3;
+
+/// The coil current at which all forces of a sliding spool balance, found from the memory before the sample.
+inline double balancing_current_A(const sensor::ObserverParameters<double>& unit,
+                                  const sensor::ActuatorState<double>& before, double position_m, double wanted_N,
+                                  double direction) {
+  double low_A = 0, high_A = unit.largest_current_A;
+  for (int k = 0; k < 22; ++k) {
+    const double middle_A = 0.5 * (low_A + high_A);
+    sensor::ActuatorState<double> tried = before;
+    const auto told =
+        sensor::step(unit.actuator, tried, sensor::Sample<double>{virtual_step_s, middle_A, {}, position_m, {}}, false);
+    (told.magnetic_force_N - direction * told.friction_half_width_N < wanted_N ? low_A : high_A) = middle_A;
+  }
+  return low_A;
+}
+
+/// Two slow strokes at a held pressure difference, from rest at the closed end, as CSV.
+inline void write_strokes(const std::filesystem::path& file, const sensor::ObserverParameters<double>& unit,
+                          double pressure_bar, double stroke_m) {
+  std::ofstream out(file);
+  out.precision(9);
+  out << "time_s,position_mm,current_A,oil_temperature_C,pressure_difference_bar,flow_reference_L_min\n";
+  sensor::ActuatorState<double> actuator{};
+  constexpr double rest_s = 0.5, way_s = 6, turn_s = 0.2;
+  const double read_zero_m = unit.spring.curve.axis.first;  // where the closed end reads
+  double time_s = 0, before_m = read_zero_m;
+  for (bool first = true; time_s < rest_s + 4 * way_s + 4 * turn_s; time_s += virtual_step_s) {
+    const double moving_s = std::max(0.0, time_s - rest_s);
+    const double phase = std::fmod(moving_s, 2 * (way_s + turn_s));
+    const double share = phase < way_s            ? phase / way_s
+                         : phase < way_s + turn_s ? 1
+                                                  : std::max(0.0, 1 - (phase - way_s - turn_s) / way_s);
+    const double position_m = read_zero_m + 0.99 * stroke_m * share;
+    const double direction = position_m > before_m ? 1 : position_m < before_m ? -1 : 0;
+    before_m = position_m;
+    const sensor::EdgePoint<double> edge = unit.edge.at(323.15, pressure_bar * 1e5, position_m);
+    const double ratio = unit.friction.operation_ratio;
+    const double wanted_N = unit.spring.at(position_m).value + (pressure_bar > 0 ? edge.flow_force_N : 0) +
+                            direction * ratio * edge.friction_N;
+    const double current_A =
+        time_s < rest_s ? 0 : balancing_current_A(unit, actuator, position_m, wanted_N, ratio * direction);
+    sensor::step(unit.actuator, actuator, sensor::Sample<double>{virtual_step_s, current_A, {}, position_m, {}}, first);
+    first = false;
+    out << time_s << ',' << 1e3 * position_m << ',' << current_A << ",50," << pressure_bar << ','
+        << 6e4 * edge.conductance * std::sqrt(pressure_bar * 1e5) << '\n';
+  }
+}
+
+}  // namespace spoolflow::calibration
