@@ -5,16 +5,25 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "spoolflow/model/former_keys.hpp"
 #include "spoolflow/model/json_node.hpp"
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::model {
+
+/// Keys of older model files, which are read and never written.
+struct FormerKey {
+  std::string_view key;  ///< in the older file
+  std::string_view now;  ///< what it is called
+  bool squared;          ///< the older file holds the square root
+};
+inline constexpr std::array former_keys{FormerKey{"least_liveliness", "least_process_noise", true},
+                                        FormerKey{"first_liveliness", "first_process_noise", false}};
 
 class TableWriter {
  public:

@@ -179,13 +179,16 @@ SPOOLFLOW_INLINE constexpr PressureReach<T> pressure_reach(const BandParameters<
   return reach;
 }
 
-/// The pressure difference to answer with, from 0 to the highest that was calibrated, and what is left open of it.
+/// The pressure difference to answer with, from 0 to the highest that is answered, and what is left open of it. Where
+/// the estimate stands at that highest one, nothing says how far above the truth lies.
 template <class T>
 SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure, T highest_Pa) {
   const T believed_Pa = pressure.pressure_difference_Pa;
+  const T above_Pa = believed_Pa + pressure.reach.above_Pa;
+  const bool capped = !(believed_Pa < highest_Pa);
   return {larger(believed_Pa - pressure.reach.below_Pa, T(0)),
           limited(believed_Pa + pressure.reach.ahead_Pa, T(0), highest_Pa),
-          smaller(believed_Pa + pressure.reach.above_Pa, T(1 + ripple_share) * highest_Pa)};
+          capped ? above_Pa : smaller(above_Pa, T(1 + ripple_share) * highest_Pa)};
 }
 
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the

@@ -306,8 +306,9 @@ constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state
   const T believed2 = squared(beyond.slope_N_per_Pa) * state.variance_Pa2;
   const T share = believed2 / (believed2 + squared(beyond.noise_N));
   const T force_N = smaller(time_step_s / pressure.yielding_s, T(1)) * beyond.force_N;
-  const T yields_Pa = share * force_N / beyond.slope_N_per_Pa;
-  state.pressure_difference_Pa = limited(state.pressure_difference_Pa + yields_Pa, T(0), highest_Pa);
+  const T before_Pa = state.pressure_difference_Pa;
+  state.pressure_difference_Pa = limited(before_Pa + share * force_N / beyond.slope_N_per_Pa, T(0), highest_Pa);
+  const T yields_Pa = state.pressure_difference_Pa - before_Pa;
   state.yielded_Pa = yields_Pa + (yields_Pa * state.yielded_Pa < T(0) ? T(0) : state.yielded_Pa);
   return (T(1) - share) * force_N;
 }

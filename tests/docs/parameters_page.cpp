@@ -1,6 +1,5 @@
 /// Prints docs/formats/parameters.md: every number of the sensor as its description has it.
 #include <cstdio>
-#include <map>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,7 +9,6 @@
 #include "spoolflow/model/describe_constants.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/model.hpp"
-#include "tests/docs/tuning_evidence.hpp"
 
 namespace spoolflow::docs {
 namespace {
@@ -44,22 +42,19 @@ std::string allowed(const model::Limits& limits) {
 /// Writes a line of a table for each number: visitor of the descriptions.
 class Lines {
  public:
-  /// By the number's name.
-  explicit Lines(std::map<std::string, std::string> evidence) : evidence_(std::move(evidence)) {}
-
   template <class Value>
   void number(const model::Parameter& about, const Value& /*value*/) {
-    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning, of(about.key));
+    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning);
   }
   template <class Values>
   void list(const model::Parameter& about, const Values& values) {
     line(fmt::format("{}[{}]", about.key, values.size()), about.unit, allowed(about.limits), told(about.relation),
-         about.meaning, of(about.key));
+         about.meaning);
   }
   template <class Axis>
   void axis(const model::AxisParameter& about, const Axis& /*axis*/, int points) {
     line(fmt::format("{}[{}]", about.key, points), about.unit, allowed(about.limits), "rises in equal steps",
-         "axis of the volumes below", "");
+         "axis of the volumes below");
   }
   template <class Curve>
   void curve(const model::TableParameter& about, const Curve& /*curve*/) {
@@ -75,34 +70,27 @@ class Lines {
     table(about, "; over the three axes above");
   }
   void constant(const model::Constant& about, double value) {
-    out +=
-        fmt::format("| `{}` | {:g} | {} | {} | {} |\n", about.name, value, about.unit, about.meaning, of(about.name));
+    out += fmt::format("| `{}` | {:g} | {} | {} |\n", about.name, value, about.unit, about.meaning);
   }
 
   void heading(const std::string& text) {
-    out += "\n## " + text + "\n\n| key | unit | range | relation | meaning | evidence |\n|---|---|---|---|---|---|\n";
+    out += "\n## " + text + "\n\n| key | unit | range | relation | meaning |\n|---|---|---|---|---|\n";
   }
 
   std::string out;
 
  private:
-  [[nodiscard]] std::string of(const std::string& name) const {
-    const auto found = evidence_.find(name);
-    return found == evidence_.end() ? "" : found->second;
-  }
   void table(const model::TableParameter& about, const std::string& over) {
-    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning + over, of(about.key));
+    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning + over);
   }
   void line(const std::string& key, const std::string& unit, const std::string& range, const std::string& relation,
-            const std::string& meaning, const std::string& evidence) {
-    out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key, unit, range, relation, meaning, evidence);
+            const std::string& meaning) {
+    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit, range, relation, meaning);
   }
-
-  std::map<std::string, std::string> evidence_;
 };
 
 std::string page() {
-  Lines lines(read_tuning_evidence(SPOOLFLOW_ROOT "/spoolflow/model/tuning_evidence.csv"));
+  Lines lines;
   lines.out =
       "# Parameters\n\n"
       "Made by `ci/parameters_page.sh` from the descriptions in `spoolflow/model/describe_condensed.hpp`, "
@@ -111,12 +99,8 @@ std::string page() {
       "write the model file, refuse what lies outside of range\nor relation, and make the exports. What each number "
       "does "
       "stands at its structure in `spoolflow/sensor`.\n\n"
-      "Evidence (`spoolflow/model/tuning_evidence.csv`): the run of valve A (simulated) that shows most of it, with "
-      "the 95th percentile of the error "
-      "against the true flow and\nthe share in the band where the number is halved, as it is, and doubled; "
-      "`bench/tuning_evidence.py --update` writes it. Numbers that no run\nshows hold for cases that the runs do not "
-      "have; the tests of "
-      "`tests/sensor` have them.\n";
+      "What runs show of each number stands in `spoolflow/model/tuning_evidence.csv` "
+      "(`bench/tuning_evidence.py --update`).\n";
   lines.heading("Valve");
   const model::Model model{};
   model::describe_valve(model.valve, lines);
@@ -130,7 +114,7 @@ std::string page() {
   model::describe_observer(observer, lines);
   lines.out +=
       "\n## Constants\n\nThe same for all valves; they stand in the code.\n\n"
-      "| name | value | unit | meaning | evidence |\n|---|---|---|---|---|\n";
+      "| name | value | unit | meaning |\n|---|---|---|---|\n";
   model::describe_constants(lines);
   return lines.out;
 }

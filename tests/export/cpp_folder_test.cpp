@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/export/cpp/cell_sums.hpp"
+#include "spoolflow/numerics/single_precision.hpp"
 #include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 #include "tests/export/exported_folder.hpp"
@@ -17,6 +18,7 @@
 namespace spoolflow::exports {
 namespace {
 
+using numerics::single_precision;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -17,13 +17,13 @@ double conductance(double x) {
 
 /// A spool that hops by 0.12 mm and rests between, as it does under friction, beside a meter with a lag.
 recording::Recording hopping() {
-  constexpr double step_s = 2e-3;
+  constexpr double sampling_s = 2e-3;
   recording::Recording out;
   out.file = "metering.csv";
   double shown = 0;
   const auto put = [&](double x, double pressure_Pa) {
-    shown += (1 - std::exp(-step_s / meter_lag_s)) * (conductance(x) * std::sqrt(pressure_Pa) - shown);
-    out.column(Channel::time).push_back(static_cast<double>(out.size()) * step_s);
+    shown += (1 - std::exp(-sampling_s / meter_lag_s)) * (conductance(x) * std::sqrt(pressure_Pa) - shown);
+    out.column(Channel::time).push_back(static_cast<double>(out.size()) * sampling_s);
     out.column(Channel::position).push_back(x);
     out.column(Channel::pressure_difference).push_back(pressure_Pa);
     out.column(Channel::flow_reference).push_back(shown);

@@ -31,7 +31,7 @@ double friction_at(double x, double pressure_Pa) {
 
 /// Strokes both ways at each pressure difference, a rest at either end.
 recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_voltage) {
-  constexpr double step_s = 2e-3, stroke_s = 3;
+  constexpr double sampling_s = 2e-3, stroke_s = 3;
   recording::Recording out;
   out.file = "strokes.csv";
   std::mt19937 generator(3);
@@ -41,18 +41,18 @@ recording::Recording strokes(const std::vector<double>& pressures_Pa, bool with_
     const double force_N = spring_at(x) + flow_force_at(x, pressure_Pa) + direction * friction_at(x, pressure_Pa);
     const double current_A = direction == 0 ? 0 : std::sqrt(force_N / force_per_A2);
     const double now_Wb = current_A * (inductance_H + inductance_per_m * x);
-    out.column(Channel::time).push_back(time_s += step_s);
+    out.column(Channel::time).push_back(time_s += sampling_s);
     out.column(Channel::position).push_back(x + 0.7e-6 * unit(generator));
     out.column(Channel::current).push_back(current_A + 1e-3 * unit(generator));
     if (with_voltage)
       out.column(Channel::voltage)
-          .push_back(resistance_Ohm * current_A + (now_Wb - flux_Wb) / step_s + 0.01 * unit(generator));
+          .push_back(resistance_Ohm * current_A + (now_Wb - flux_Wb) / sampling_s + 0.01 * unit(generator));
     out.column(Channel::pressure_difference).push_back(pressure_Pa);
     out.column(Channel::oil_temperature).push_back(323.15);
     flux_Wb = now_Wb;
   };
   for (const double pressure_Pa : pressures_Pa) {
-    const int samples = static_cast<int>(stroke_s / step_s);
+    const int samples = static_cast<int>(stroke_s / sampling_s);
     for (int k = 0; k < 200; ++k) put(0, 0, pressure_Pa);
     for (int k = 0; k <= samples; ++k) put(driven_stroke_m * k / samples, 1, pressure_Pa);
     for (int k = samples; k >= 0; --k) put(driven_stroke_m * k / samples, -1, pressure_Pa);

@@ -29,7 +29,7 @@ inline double balancing_current_A(const sensor::ObserverParameters<double>& unit
 
 /// Two slow strokes at a held pressure difference, from rest at the closed end, as CSV.
 inline void write_strokes(const std::filesystem::path& file, const sensor::ObserverParameters<double>& unit,
-                          double pressure_bar, double stroke_m) {
+                          double pressure_bar, double full_stroke_m) {
   std::ofstream out(file);
   out.precision(9);
   out << "time_s,position_mm,current_A,oil_temperature_C,pressure_difference_bar,flow_reference_L_min\n";
@@ -43,7 +43,7 @@ inline void write_strokes(const std::filesystem::path& file, const sensor::Obser
     const double share = phase < way_s            ? phase / way_s
                          : phase < way_s + turn_s ? 1
                                                   : std::max(0.0, 1 - (phase - way_s - turn_s) / way_s);
-    const double position_m = read_zero_m + 0.99 * stroke_m * share;
+    const double position_m = read_zero_m + 0.99 * full_stroke_m * share;
     const double direction = position_m > before_m ? 1 : position_m < before_m ? -1 : 0;
     before_m = position_m;
     const sensor::EdgePoint<double> edge = unit.edge.at(323.15, pressure_bar * 1e5, position_m);
