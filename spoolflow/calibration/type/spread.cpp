@@ -8,7 +8,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr int openings = 12, pressures = 4;
+constexpr int openings = 12;
 
 struct Point {
   double position_m, pressure_Pa, current_A;

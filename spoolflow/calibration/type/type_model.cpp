@@ -33,7 +33,7 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
   Deviations out{};
   for (std::size_t k = 0; k < variations; ++k) out[k] = all_variations()[k].tolerance;
   for (const auto& [key, value] : written.values) {
-    const auto found = std::ranges::find_if(all_variations(), [&](const auto& about) { return key_of(about) == key; });
+    const auto found = std::ranges::find(all_variations(), key, key_of);
     if (found == all_variations().end()) {
       throw CalibrationError(
           fmt::format("{}: [tolerances] has no key {}; allowed: {}", written.place, key, all_keys()));

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "spoolflow/recording/inspection.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/reader.hpp"
 #include "tests/recording/column_of.hpp"
