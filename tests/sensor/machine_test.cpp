@@ -11,7 +11,7 @@
 namespace spoolflow::sensor {
 namespace {
 
-constexpr double sample_s = 1e-3;
+constexpr double sampling_s = 1e-3;
 
 /// Opens to 2.2 mm and closes to 0.6 mm again, at one pressure difference.
 Course stroke(double pressure_Pa) {
@@ -32,7 +32,7 @@ Course narrow_stroke(double pressure_Pa) {
 }
 
 std::vector<ValveSample> run_of(const Course& course, Instruments instruments = {}) {
-  return ClosedFormRun(closed_form, course, instruments).sampled(course.end_s(), sample_s);
+  return ClosedFormRun(closed_form, course, instruments).sampled(course.end_s(), sampling_s);
 }
 
 /// The observer with the limits that the closed-form coil has at 24 V: 0.1 Wb/A at least, and its eddy currents.
@@ -54,7 +54,7 @@ Judgement judged(const ObserverParameters<double>& parameters, const std::vector
     Sample<double> measured = sample.measured;
     if (meddle) meddle(k, measured);
     const Estimate<double>& answer = step(parameters, state, measured);
-    if (++k * sample_s > from_s) out.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
+    if (++k * sampling_s > from_s) out.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
   }
   return out;
 }
