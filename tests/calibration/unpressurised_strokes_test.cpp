@@ -14,7 +14,7 @@ namespace {
 using recording::Channel;
 using testing::HasSubstr;
 
-constexpr double stroke_m = 2.4e-3;
+constexpr double whole_stroke_m = 2.4e-3;
 constexpr double rated_m3_per_s = 80 / 60e3;
 
 /// One slow stroke of so much of the whole, under a pressure difference and the flow it drives.
@@ -23,7 +23,7 @@ recording::Recording strokes(double share, double pressure_Pa, double flow_m3_pe
   out.file = "strokes.csv";
   for (int k = 0; k <= 200; ++k) {
     out.column(Channel::time).push_back(0.1 * k);
-    out.column(Channel::position).push_back(share * stroke_m * (1 - std::abs(k - 100) / 100.0));
+    out.column(Channel::position).push_back(share * whole_stroke_m * (1 - std::abs(k - 100) / 100.0));
     out.column(Channel::current).push_back(0.5);
     out.column(Channel::pressure_difference).push_back(pressure_Pa);
     out.column(Channel::flow_reference).push_back(flow_m3_per_s);
@@ -33,7 +33,7 @@ recording::Recording strokes(double share, double pressure_Pa, double flow_m3_pe
 
 std::string refusal(const recording::Recording& recording) {
   try {
-    require_unpressurised_strokes(recording, rated_m3_per_s, stroke_m);
+    require_unpressurised_strokes(recording, rated_m3_per_s, whole_stroke_m);
   } catch (const CalibrationError& error) {
     return error.what();
   }

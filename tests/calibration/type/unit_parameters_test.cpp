@@ -7,12 +7,12 @@
 namespace spoolflow::calibration {
 namespace {
 
-const model::Model& type() {
+const model::Model& example_type() {
   static const model::Model model = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
   return model;
 }
 const sensor::ObserverParameters<double>& observer() {
-  return type().observer->parameters;
+  return example_type().observer->parameters;
 }
 Deviations only(Variation variation, double value) {
   Deviations out{};
@@ -28,8 +28,9 @@ TEST(UnitParameters, WithoutDeviationsAreTheTypesOwn) {
   EXPECT_EQ(unit.edge.conductance.values, observer().edge.conductance.values);
   EXPECT_EQ(unit.edge.flow_force_N.values, observer().edge.flow_force_N.values);
   EXPECT_EQ(unit.edge.friction_N.values, observer().edge.friction_N.values);
-  const sensor::CondensedParameters<double> condensed = unit_parameters(type().condensed.parameters, {});
-  EXPECT_EQ(condensed.flow_rate.flow_m3_per_s.values, type().condensed.parameters.flow_rate.flow_m3_per_s.values);
+  const sensor::CondensedParameters<double> condensed = unit_parameters(example_type().condensed.parameters, {});
+  EXPECT_EQ(condensed.flow_rate.flow_m3_per_s.values,
+            example_type().condensed.parameters.flow_rate.flow_m3_per_s.values);
 }
 
 TEST(UnitParameters, ACoilOfMoreTurnsNeedsLessCurrentForTheSameForceAndLinksMoreFlux) {
