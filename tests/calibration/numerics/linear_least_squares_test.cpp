@@ -64,7 +64,7 @@ TEST(LinearLeastSquares, RefusesRowsThatDoNotTellTheUnknownsApart) {
   twins << 1, 2, 2, 4, 3, 6;
   EXPECT_THAT([&] { (void)least_squares(twins, Eigen::VectorXd::Ones(3), "the spring"); },
               ::testing::ThrowsMessage<CalibrationError>(
-                  HasSubstr("the spring cannot be identified: 3 values do not tell 2 unknowns apart")));
+                  HasSubstr("the spring cannot be identified: 3 values do not determine 2 unknowns")));
 }
 
 }  // namespace
