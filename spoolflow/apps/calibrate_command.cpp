@@ -133,11 +133,11 @@ void add_calibrate_command(CLI::App& program) {
   command->add_flag("--despite-doubts", arguments->despite_doubts,
                     "make a model of recordings that contradict each other or physics, too");
   command->add_flag("--as-type", arguments->as_type,
-                    "the model is of every unit of the valve's type: its band holds units within [tolerances]");
+                    "the model is of every unit of the valve's type:\nits band holds units within [tolerances]");
   command
       ->add_option("--type", arguments->type,
-                   "model of the type of which the campaigns are units, each known by strokes without pressure and "
-                   "what operation was recorded")
+                   "model of the type of which the campaigns are units,\neach known by strokes without pressure "
+                   "and\nwhat operation was recorded")
       ->type_name("TYPE.json");
   add_fleet_option(*command, arguments->fleet, "on the campaigns");
   add_units(*command, arguments->units);

@@ -98,7 +98,7 @@ void add_inspect_command(CLI::App& program) {
   command
       ->add_option("--protocol", arguments->protocol,
                    "whether the file serves this test of a campaign; status 1 if not")
-      ->type_name("NAME")
+      ->option_text("NAME")
       ->check(CLI::IsMember(protocols));
   command->add_flag("--json", arguments->json, "print JSON instead of text");
   add_quiet(*command, arguments->quiet);
