@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 
@@ -89,24 +90,6 @@ UnitSpread spread_of(const sensor::ObserverParameters<double>& unit, const Known
   }
   const auto count = static_cast<double>(points.size());
   return {std::sqrt(force / count), std::sqrt(friction / count), std::sqrt(flow / count)};
-}
-
-std::vector<FlowSpread> flow_spread_of(const sensor::ObserverParameters<double>& unit, const KnownDeviations& known) {
-  const std::vector<Point> points = grid(unit);
-  const Eigen::MatrixXd slope = effect_slopes(unit, points, known.covariance.diagonal().cwiseSqrt());
-  std::vector<FlowSpread> out;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const auto row = 3 * static_cast<Eigen::Index>(p);
-    const sensor::EdgePoint<double> edge =
-        unit.edge.at(unit.edge.temperature_K.at(1), points[p].pressure_Pa, points[p].position_m);
-    const double flow_m3_per_s = edge.conductance * std::sqrt(points[p].pressure_Pa);
-    // Q = C sqrt(dp), and dp is where flow force holds what the magnetic force leaves.
-    const Eigen::RowVectorXd relative =
-        slope.row(row + 2) + slope.row(row) / (2 * points[p].pressure_Pa * edge.flow_force_per_pressure_N_Pa);
-    const double variance = (relative * known.covariance * relative.transpose()).value();
-    out.push_back({points[p].position_m, points[p].pressure_Pa, flow_m3_per_s, flow_m3_per_s * std::sqrt(variance)});
-  }
-  return out;
 }
 
 }  // namespace spoolflow::calibration

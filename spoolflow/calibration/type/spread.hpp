@@ -1,9 +1,5 @@
 #pragma once
 /// What is not known of a unit's deviations makes of its forces and its flow, for the band.
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "spoolflow/calibration/type/map_estimate.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
@@ -17,15 +13,5 @@ struct UnitSpread {
   double flow_share;      ///< of the conductance
 };
 [[nodiscard]] UnitSpread spread_of(const sensor::ObserverParameters<double>& unit, const KnownDeviations& known);
-
-/// Standard uncertainty of the flow at one operating point, sliding, that the deviations leave.
-struct FlowSpread {
-  double position_m, pressure_difference_Pa;
-  double flow_m3_per_s;         ///< there
-  double uncertainty_m3_per_s;  ///< one standard deviation
-};
-/// Over a grid of openings and pressure differences.
-[[nodiscard]] std::vector<FlowSpread> flow_spread_of(const sensor::ObserverParameters<double>& unit,
-                                                     const KnownDeviations& known);
 
 }  // namespace spoolflow::calibration
