@@ -48,7 +48,7 @@ class CortexM : public ::testing::TestWithParam<Core> {
 
 TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   const Replay observer = replay(model, Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(observer, {1450, 9, 2560, 480});
+  expect_fit_for_a_valve(observer, {1470, 9, 2560, 480});
   for (const Status status :
        {Status::closed, Status::spool_at_rest, Status::outside_force_map, Status::outside_temperature,
         Status::position_fault, Status::sample_missing, Status::dithered, Status::temperature_fault}) {
