@@ -16,9 +16,9 @@ help_of() {
   echo "# The command"
   echo
   echo "Made by \`ci/cli_page.sh\` from \`spoolflow --help\`; a test keeps it fresh. Every command has \`--help\`; \`-q\` leaves out its"
-  echo "progress, which is shown on a terminal only."
+  echo "progress, which is shown on a terminal only. Commands of add-ons are those of [live](live.md) and [fleet](fleet.md)."
   help_of spoolflow
-  for command in $("$spoolflow" --help | sed -n '/^Commands/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
+  for command in $("$spoolflow" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'); do
     help_of "spoolflow $command" "$command"
   done
 } >"$made"

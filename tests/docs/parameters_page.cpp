@@ -6,7 +6,6 @@
 
 #include "spoolflow/model/describe_campaign.hpp"
 #include "spoolflow/model/describe_condensed.hpp"
-#include "spoolflow/model/describe_constants.hpp"
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/model.hpp"
 
@@ -15,28 +14,29 @@ namespace {
 
 using model::Relation;
 
-std::string told(const Relation& relation) {
+/// What a number must hold beside its range, after a semicolon; empty where nothing.
+std::string in_words(const Relation& relation) {
   switch (relation.kind) {
     case Relation::Kind::none:
       return "";
     case Relation::Kind::rises:
-      return "rises";
+      return "; rises";
     case Relation::Kind::rises_over_rows:
-      return fmt::format("rises from row to row, by {} of the largest entry at least", relation.least);
+      return fmt::format("; rises from row to row, by {} of the largest entry at least", relation.least);
     case Relation::Kind::never_falls:
-      return "never falls along a row";
+      return "; never falls along a row";
     case Relation::Kind::alike:
-      return fmt::format("neighbours differ by a factor of {} at most", relation.least);
+      return fmt::format("; neighbours differ by a factor of {} at most", relation.least);
     case Relation::Kind::not_above:
-      return fmt::format("not larger than `{}`", relation.other);
+      return fmt::format("; not larger than `{}`", relation.other);
     case Relation::Kind::sum_not_negative:
-      return fmt::format("`{}` added, not below zero", relation.other);
+      return fmt::format("; `{}` added, not below zero", relation.other);
   }
   return "";
 }
 
 std::string allowed(const model::Limits& limits) {
-  return fmt::format("{:g} to {:g}", limits.lowest, limits.highest);
+  return fmt::format("{:g}…{:g}", limits.lowest, limits.highest);
 }
 
 /// Writes a line of a table for each number: visitor of the descriptions.
@@ -44,16 +44,16 @@ class Lines {
  public:
   template <class Value>
   void number(const model::Parameter& about, const Value& /*value*/) {
-    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning);
+    line(about.key, about.unit, allowed(about.limits), in_words(about.relation), about.meaning);
   }
   template <class Values>
   void list(const model::Parameter& about, const Values& values) {
-    line(fmt::format("{}[{}]", about.key, values.size()), about.unit, allowed(about.limits), told(about.relation),
+    line(fmt::format("{}[{}]", about.key, values.size()), about.unit, allowed(about.limits), in_words(about.relation),
          about.meaning);
   }
   template <class Axis>
   void axis(const model::AxisParameter& about, const Axis& /*axis*/, int points) {
-    line(fmt::format("{}[{}]", about.key, points), about.unit, allowed(about.limits), "rises in equal steps",
+    line(fmt::format("{}[{}]", about.key, points), about.unit, allowed(about.limits), "; rises in equal steps",
          "axis of the volumes below");
   }
   template <class Curve>
@@ -69,38 +69,29 @@ class Lines {
   void volume(const model::TableParameter& about, const Volume& /*volume*/) {
     table(about, "; over the three axes above");
   }
-  void constant(const model::Constant& about, double value) {
-    out += fmt::format("| `{}` | {:g} | {} | {} |\n", about.name, value, about.unit, about.meaning);
-  }
-
   void heading(const std::string& text) {
-    out += "\n## " + text + "\n\n| key | unit | range | relation | meaning |\n|---|---|---|---|---|\n";
+    out += "\n## " + text + "\n\n| key | unit | range | meaning |\n|---|---|---|---|\n";
   }
 
   std::string out;
 
  private:
   void table(const model::TableParameter& about, const std::string& over) {
-    line(about.key, about.unit, allowed(about.limits), told(about.relation), about.meaning + over);
+    line(about.key, about.unit, allowed(about.limits), in_words(about.relation), about.meaning + over);
   }
   void line(const std::string& key, const std::string& unit, const std::string& range, const std::string& relation,
             const std::string& meaning) {
-    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit, range, relation, meaning);
+    out += fmt::format("| `{}` | {} | {} | {}{} |\n", key, unit, range, meaning, relation);
   }
 };
 
 std::string page() {
   Lines lines;
   lines.out =
-      "# Parameters\n\n"
-      "Made by `ci/parameters_page.sh` from the descriptions in `spoolflow/model/describe_condensed.hpp`, "
-      "`spoolflow/model/describe_observer.hpp`\nand their neighbours; a test keeps it fresh. The same descriptions "
-      "read and "
-      "write the model file, refuse what lies outside of range\nor relation, and make the exports. What each number "
-      "does "
-      "stands at its structure in `spoolflow/sensor`.\n\n"
-      "What runs show of each number stands in `spoolflow/model/tuning_evidence.csv` "
-      "(`bench/tuning_evidence.py --update`).\n";
+      "# Parameters\n\nMade by `ci/parameters_page.sh` from the descriptions in `spoolflow/model/describe_observer.hpp` and its "
+      "neighbours, which also read and write\nthe model file and refuse what lies outside of range or relation. The sensor's "
+      "constants, the same for all valves, stand in\n`spoolflow/model/describe_constants.hpp`; what runs show of each number "
+      "in `spoolflow/model/tuning_evidence.csv`\n(`bench/tuning_evidence.py --update`).\n";
   lines.heading("Valve");
   const model::Model model{};
   model::describe_valve(model.valve, lines);
@@ -112,10 +103,6 @@ std::string page() {
   lines.heading("Observer");
   const sensor::ObserverParameters<double> observer{};
   model::describe_observer(observer, lines);
-  lines.out +=
-      "\n## Constants\n\nThe same for all valves; they stand in the code.\n\n"
-      "| name | value | unit | meaning |\n|---|---|---|---|\n";
-  model::describe_constants(lines);
   return lines.out;
 }
 

@@ -1,4 +1,4 @@
-"""read_block(bytes): a block of docs/formats/block.md as Python values, by Python's zlib and libzstd alone."""
+"""read_block(bytes): a block of addons/live/blocks/block.hpp as Python values, by Python's zlib and libzstd alone."""
 import ctypes
 import ctypes.util
 import math

@@ -29,7 +29,7 @@ def packed(content):
 
 
 def report(samples=1000, energy=0.5, events=()):
-    """The body of docs/formats/block.md, version 2."""
+    """The body of addons/live/blocks/block.hpp, version 2."""
     body = struct.pack("<Q7dI", 1000, 7, 1e-5, 2e-5, 3e-5, NAN, 4e-5, 0.1, 0) + struct.pack("<QdI", samples, energy, 0)
     body += struct.pack("<I", len(events))
     for text in events:

@@ -1,6 +1,49 @@
 #pragma once
 /// Consecutive samples of one valve, a tenth of a second to a second of them, as they travel from a site to the fleet.
-/// Laid out in docs/formats/block.md.
+/// Version 1 has samples, version 2 a report of results (site_report.hpp); addons/fleet/tests/block_reader.py reads
+/// both.
+///
+/// Little-endian; at most 1 MiB; a contradictory block is refused as a whole.
+///
+///   byte  bytes
+///   0     4   the letters SFBL
+///   4     1   version, 1 or 2
+///   5     1   L, bytes of the valve's name, 1 to 65
+///   6     2   channels of the body, one bit each, in the order below; 0 in version 2
+///   8     8   session of the site's store, ascending: numbers begin at 1 with each
+///   16    8   number: that of the valve's block before and one more
+///   24    8   first number that this block stands for: its own, or a smaller one where the site has lost the blocks
+///             from that one on
+///   32    8   the site's clock when the block was closed, ms since 1970-01-01 UTC, of the years 1970 to 9999
+///   40    8   time of the first sample that has one, in steps of 2^-30 s, signed; 0 in version 2
+///   48    8   sampling period in steps of 2^-30 s, signed, at most 2^31 to both sides; 0 in version 2
+///   56    4   samples n, at most 32768; 0 in a block that only declares lost ones, and in version 2
+///   60    4   bytes of the body before it was compressed, at most 110 n; of version 2 at most 4 MiB
+///   64    8   0
+///   72    32  SHA-256 of the model file that is in force from this block on
+///   104   L   name of the valve, SITE/ID: up to 32 letters, digits, '_' and '-' each, and '.' in the ID
+///   ...       the body, one zstd frame that states its length; nothing where n is 0
+///   last  4   CRC-32 (IEEE 802.3, as in zlib) of all bytes before
+///
+/// Body of version 1: a column of n times, then one of n values for each channel, as whole numbers in LEB128. 0: no
+/// value (NaN). 1: measured, but not now (infinite; only of current_a_A). Any other code c is the difference to the
+/// expected value as (c - 2) folded: even numbers 2 d are d >= 0, odd ones -2 d - 1 are d < 0. Expected is, of a time,
+/// the last time plus one period (at first the header's); of a value the channel's last value (at first 0).
+///
+///   bit   channel                step
+///   0     current_A              2^-16 A
+///   1     voltage_V              2^-12 V
+///   2     position_m             2^-30 m
+///   3     oil_temperature_K      2^-10 K
+///   4, 5  current_a_A, voltage_a_V of a whole valve, as bits 0 and 1
+///   6..9  pressure_p_Pa, _a_, _b_, _t_: 8 Pa
+///
+/// Every step is a power of two, so a whole number of steps is an exact double, and site and fleet compute with the
+/// same values. Values reach to 2^31 - 1 steps, times to 2^62 - 2^40; values beyond are limited to these.
+///
+/// Body of version 2: numbers of 64 bits (doubles by their bits), 32 bits for lengths and status; a text is its length
+/// and UTF-8 without control characters, at most 4096 bytes (names 256); a list is its length and its entries. The
+/// second's summary, totals, indicators (once a minute), events and alarms follow in the order of site_report.hpp.
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 /// What a site that estimates by itself sends of a valve and a second, instead of samples: its summary, indicators,
-/// events and alarms as its own store keeps them. The body of a block of version 2 (docs/formats/block.md).
+/// events and alarms as its own store keeps them. The body of a block of version 2 (block.hpp).
 #include <cstdint>
 #include <span>
 #include <vector>

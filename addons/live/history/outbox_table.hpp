@@ -1,6 +1,6 @@
 #pragma once
-/// Blocks of samples that a site keeps until the fleet has committed them (docs/formats/block.md). To the store they
-/// are bytes with a number.
+/// Blocks of samples (addons/live/blocks/block.hpp) that a site keeps until the fleet has committed them. To the store
+/// they are bytes with a number.
 #include <cstdint>
 #include <string>
 #include <vector>
