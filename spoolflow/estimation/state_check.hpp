@@ -27,10 +27,14 @@ inline bool may_be_answer(const sensor::Estimate<double>& answer) {
   return RunningSensor::is_ordered(answer) && holds_numbers(answer);
 }
 
+inline bool may_be_held(int samples) {
+  return samples >= 0 && samples <= sensor::most_held_currents;
+}
+
 inline bool may_be_observer(sensor::ObserverState<double> state) {
   if (std::isnan(state.position.voltage_V)) state.position.voltage_V = 0;  // nobody measures it
-  if (state.held_currents < 0 || state.held_currents > sensor::most_held_currents) return false;
-  return may_be_track(state.position) && may_be_answer(state.last) && holds_numbers(state);
+  return may_be_held(state.held_currents) && may_be_track(state.position) && may_be_answer(state.last) &&
+         holds_numbers(state);
 }
 
 /// `bytes`: sizeof(RunningState) of them. What it lets through leads to finite answers inside ordered bands
@@ -41,8 +45,8 @@ inline bool may_be_observer(sensor::ObserverState<double> state) {
   sensor::WholeValveState<double> whole_valve = state.whole_valve;
   whole_valve.open = {};
   return may_be_answer(state.condensed.last) && may_be_answer(state.whole_condensed.last) &&
-         may_be_observer(state.observer) && may_be_observer(state.whole_valve.open) && holds_numbers(whole_valve) &&
-         holds_numbers(state.times);
+         may_be_observer(state.observer) && may_be_observer(state.whole_valve.open) &&
+         may_be_held(whole_valve.idle.held_currents) && holds_numbers(whole_valve) && holds_numbers(state.times);
 }
 
 }  // namespace spoolflow::estimation

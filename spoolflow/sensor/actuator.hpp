@@ -6,6 +6,7 @@
 #include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/coil_resistance.hpp"
 #include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/due.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
 #include "spoolflow/sensor/sample.hpp"
 
@@ -70,14 +71,14 @@ constexpr T unknown_memory_A(const ActuatorParameters<T>& actuator, const Actuat
 }
 
 /// Diagnosis of the coil by its voltage, from the same sample as the step before it; a NaN or a coil whose resistance
-/// was never calibrated says nothing. Every sample counts in the mean. The rest is done in the first sample that is not
-/// `busy` with other things, at least `period_s` after the last time.
+/// was never calibrated says nothing. Every sample counts in the mean; the rest runs where it is `due`, at least
+/// `due.since_s` after the last time.
 template <class T>
 SPOOLFLOW_INLINE constexpr void follow_coil(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
-                                            const Sample<T>& sample, T largest_current_A, T period_s, bool busy) {
+                                            const Sample<T>& sample, T largest_current_A, const Due<T>& due) {
   average(state.coil_resistance, {sample.current_A, sample.voltage_V, state.coil.flux_rate_V}, sample.time_step_s);
-  const bool due = !busy && state.coil_resistance.waits_s > period_s - T(0.5) * sample.time_step_s;
-  if (due && is_number(sample.voltage_V)) {
+  const bool waited = state.coil_resistance.waits_s > due.since_s - T(0.5) * sample.time_step_s;
+  if (due.now && waited && is_number(sample.voltage_V)) {
     const CoilResistance<T>& coil = actuator.coil_resistance;
     follow_resistance(coil, state.coil_resistance);
     judge_answer(coil, state.coil_resistance, T(unanswered_voltage_share) * largest_current_A * coil.resistance_Ohm);

@@ -24,7 +24,7 @@ SPOOLFLOW_INLINE constexpr bool is_bench(const Environment<T>& environment) {
            T(0));
 }
 
-/// What an edge elsewhere, or of other oil, does to the flow rate that is told from a force [N]: as the force that
+/// What an edge elsewhere, or of other oil, does to the flow rate that is computed from a force [N]: as the force that
 /// would change it alike. An edge with more flow force is thought to have more pressure difference than it has; one
 /// with more conductance passes more.
 template <class T>
@@ -34,23 +34,32 @@ constexpr T edge_effect_N(const EdgePoint<T>& edge, const EdgePoint<T>& other, T
          (other.flow_force_N - edge.flow_force_N);
 }
 
-/// What the environment leaves open of the force that the pressure difference is told from [N], one standard deviation.
-/// What a position error does to force and conductance belongs together: the one takes off the other.
+/// Where the valve works.
 template <class T>
-SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve, const ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, T position_m, T current_A) {
+struct OperatingPoint {
+  T oil_temperature_K;
+  T pressure_difference_Pa;  ///< estimated
+  T position_m;
+  T current_A;
+};
+
+/// What the environment leaves open of the force that the pressure difference is estimated from [N], one standard
+/// deviation. What a position error does to force and conductance belongs together: the one takes off the other.
+template <class T>
+SPOOLFLOW_NOINLINE constexpr T environment_N(const ObserverParameters<T>& valve, const ForceBalance<T>& balance,
+                                             const OperatingPoint<T>& at) {
   const Environment<T>& environment = valve.environment;
   const MeteringEdge<T>& edge = valve.edge;
-  const T believed_Pa = state.pressure.pressure_difference_Pa;
+  const T position_m = at.position_m, pressure_Pa = at.pressure_difference_Pa;
   const T widest = edge.conductance.node(0, 1, edge_positions - 1);
   const T least = larger(T(least_conductance_share) * widest, T(vanishing_conductance));
   const T off_m = sqrt(squared(environment.position_m) + squared(environment.position_share * position_m));
-  const EdgePoint<T> there = edge.at(state.oil_temperature_K, believed_Pa, position_m + off_m);
+  const EdgePoint<T> there = edge.at(at.oil_temperature_K, pressure_Pa, position_m + off_m);
   const T stiffness_N_per_m = valve.spring.at(position_m).slope - balance.actuator.force_per_position_N_per_m;
-  const T moved_N = edge_effect_N(balance.edge, there, believed_Pa, least) - stiffness_N_per_m * off_m;
-  const EdgePoint<T> warmer = edge.at(state.oil_temperature_K + environment.oil_temperature_K, believed_Pa, position_m);
-  const T warmer_N = edge_effect_N(balance.edge, warmer, believed_Pa, least);
-  const T current_N = environment.current_share * current_A * balance.actuator.force_per_current_N_per_A;
+  const T moved_N = edge_effect_N(balance.edge, there, pressure_Pa, least) - stiffness_N_per_m * off_m;
+  const EdgePoint<T> warmer = edge.at(at.oil_temperature_K + environment.oil_temperature_K, pressure_Pa, position_m);
+  const T warmer_N = edge_effect_N(balance.edge, warmer, pressure_Pa, least);
+  const T current_N = environment.current_share * at.current_A * balance.actuator.force_per_current_N_per_A;
   const T ripple_N = balance.edge.flow_force_per_pressure_N_Pa * environment.ripple_Pa;
   const T freed_N = smaller(ripple_N, balance.bounds.sliding_N);
   const T friction_N = environment.friction_share * (balance.spool_friction_N + balance.armature_friction_N);
@@ -121,7 +130,7 @@ SPOOLFLOW_INLINE constexpr T unseen_Pa(const PressureState<T>& pressure, const F
   return rises ? gone_Pa : -gone_Pa;
 }
 
-/// What motion leaves open of the forces, to either side [N]: what they ask for beyond what is believed, friction that
+/// What motion leaves open of the forces, to either side [N]: what they ask for beyond the estimate, friction that
 /// depends on speed, friction that operation has shown to differ by `displaced_ratio` (>= 0) from what was calibrated,
 /// and the swing of friction under dither.
 template <class T>
@@ -185,10 +194,9 @@ template <class T>
 SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure, T highest_Pa) {
   const T believed_Pa = pressure.pressure_difference_Pa;
   const T above_Pa = believed_Pa + pressure.reach.above_Pa;
-  const bool capped = !(believed_Pa < highest_Pa);
   return {larger(believed_Pa - pressure.reach.below_Pa, T(0)),
           limited(believed_Pa + pressure.reach.ahead_Pa, T(0), highest_Pa),
-          capped ? above_Pa : smaller(above_Pa, T(1 + ripple_share) * highest_Pa)};
+          is_capped(pressure, highest_Pa) ? above_Pa : smaller(above_Pa, T(1 + ripple_share) * highest_Pa)};
 }
 
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
@@ -227,47 +235,36 @@ constexpr void admit_stall(const ForceBalance<T>& balance, T pressure_difference
   if (stalled > T(least_likelihood)) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, T(0));
 }
 
-/// What is left open of the pressure difference while no force tells of it. `edge` is that of the last position or of
-/// the one that is measured still.
+/// What is left open of the pressure difference while no force shows it. `edge` is that of the last position or of the
+/// one that is measured still.
 template <class T>
-constexpr PressureBand<T> unobserved_pressure_band(const BandParameters<T>& band, const ObserverState<T>& state,
-                                                   const EdgePoint<T>& edge, T highest_Pa) {
-  const T believed_Pa = limited(state.pressure.pressure_difference_Pa, T(0), highest_Pa);
-  const T known_N2 = squared(band.rest_share * state.force_noise_N) + squared(state.environment_N);
+constexpr PressureBand<T> unobserved_pressure_band(const BandParameters<T>& band, const PressureState<T>& pressure,
+                                                   const ForceErrors<T>& errors, const EdgePoint<T>& edge,
+                                                   T highest_Pa) {
+  const T estimate_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
+  const T known_N2 = squared(band.rest_share * errors.noise_N) + squared(errors.environment_N);
   const T known_Pa = pressure_deviation_Pa(edge, sqrt(known_N2));
-  const T open_Pa = band.coverage_factor * state.pressure.band_factor *
-                    sqrt(squared(unobserved_change_Pa(state.pressure, band.unseen_factor)) + squared(known_Pa));
-  return {larger(believed_Pa - open_Pa, T(0)), believed_Pa, smaller(believed_Pa + open_Pa, highest_Pa)};
+  const T open_Pa = band.coverage_factor * pressure.band_factor *
+                    sqrt(squared(unobserved_change_Pa(pressure, band.unseen_factor)) + squared(known_Pa));
+  return {larger(estimate_Pa - open_Pa, T(0)), estimate_Pa, smaller(estimate_Pa + open_Pa, highest_Pa)};
 }
 
-/// Where the spool stands while an answer is held.
+/// Conductances [m3/s/sqrt(Pa)] of where the spool may stand; < 0 through the other direction's edge.
 template <class T>
-struct HeldPosition {
-  T position_m;  ///< free of drift, in the direction's signs; the last one where none is measured
-  bool seen;     ///< it is measured
+struct Passage {
+  T expected;
+  T least;
+  T most;
 };
 
-/// One more sample of `time_step_s` >= 0 in which no force tells: the pressure difference moves unseen, and the band of
-/// the held answer, in the direction's signs, takes in what then may flow. That is told by the position, or without one
-/// lies between nothing and what the edge passes when it is wide open. The flow itself stays.
+/// The flow rate [m3/s] of what passes at what is open of the pressure difference, with its band.
 template <class T>
-constexpr void widen_held(const ObserverParameters<T>& valve, ObserverState<T>& state, const HeldPosition<T>& at,
-                          T time_step_s, Estimate<T>& held) {
-  PressureState<T>& pressure = state.pressure;
-  const MeteringEdge<T>& edges = valve.edge;
-  const T highest_Pa = valve.highest_pressure_difference_Pa();
-  drift_unseen(valve.pressure, pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
-  const T believed_Pa = pressure.pressure_difference_Pa;
-  const EdgePoint<T> edge = edges.at(state.oil_temperature_K, believed_Pa, at.position_m);
-  const T open_conductance =
-      edges.at(state.oil_temperature_K, believed_Pa, edges.position_m.at(edge_positions - 1)).conductance;
-  const PressureBand<T> band = unobserved_pressure_band(valve.band, state, edge, highest_Pa);
-  const T most_conductance = at.seen ? edge.conductance : open_conductance;
-  const T least_conductance = at.seen ? edge.conductance : T(0);
-  Estimate<T> now{};
-  now.flow_m3_per_s = least_conductance * sqrt(band.expected_Pa);
-  band_of_flow(valve, least_conductance * sqrt(band.least_Pa), most_conductance * sqrt(band.most_Pa), now);
-  open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
+SPOOLFLOW_INLINE constexpr void answer_flow(const ObserverParameters<T>& valve, const Passage<T>& passage,
+                                            const PressureBand<T>& band, Estimate<T>& out) {
+  out.pressure_difference_Pa = band.expected_Pa;
+  out.flow_m3_per_s = larger(passage.expected * sqrt(band.expected_Pa), T(0));
+  const T backward_Pa = passage.least < T(0) ? band.most_Pa : band.least_Pa;
+  band_of_flow(valve, passage.least * sqrt(backward_Pa), passage.most * sqrt(band.most_Pa), out);
 }
 
 }  // namespace spoolflow::sensor

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/due.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
@@ -185,13 +186,13 @@ SPOOLFLOW_INLINE constexpr void hold(FrictionState<T>& state, T apparent_N, T ti
 
 /// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
 /// while the spool slips it is all there is. Where contacts creep, as dither lets them, where the spool stands tells no
-/// friction. Returns where friction may lie at rest.
+/// friction. `memory` is due once a block of positions. Returns where friction may lie at rest.
 template <class T>
 SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                                     const FrictionBounds<T>& bounds, const PositionSensor<T>& sensor,
                                                     const PositionPoint<T>& position, T apparent_N, bool creeps,
-                                                    T time_step_s) {
-  if (position.turn.closed) state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s);
+                                                    const Due<T>& memory, T time_step_s) {
+  if (memory.now) state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s);
   const T slack_m = state.slack_m;
   const T reach_N = gauge_reach_N(friction, sensor, slack_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;
@@ -207,7 +208,7 @@ SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>&
     }
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   }
-  if (position.turn.closed) detail::hold(state, apparent_N, position.block_s);
+  if (memory.now) detail::hold(state, apparent_N, memory.since_s);
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
   if (creeps) return out;
   // Friction lies on the side of the gauge to which the sensor is dragged.

@@ -1,45 +1,66 @@
 #pragma once
 /// The full soft sensor (paper Fig 3): spool position, actuator, spring, friction fed back from the estimated flow and
-/// metering edge by temperature, with the pressure difference as the hidden state.
-#include <limits>
-
+/// metering edge by temperature, with the pressure difference as the hidden state. Each stage has its own part of the
+/// state; only this file sees it whole.
 #include "spoolflow/sensor/band.hpp"
 #include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
+#include "spoolflow/sensor/held_answer.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 #include "spoolflow/sensor/pressure_update.hpp"
 
 namespace spoolflow::sensor {
 
-/// The oil warms slowly and its sensor is noisy [s].
-inline constexpr double temperature_smoothing_s = 2;
-/// No oil that a valve has is colder or warmer [K]: the sensor or its line is broken.
-inline constexpr double coldest_oil_K = 233.15;
-inline constexpr double warmest_oil_K = 423.15;
-/// Nor does oil leap by more than this [K] from what it was; ...
-inline constexpr double oil_leap_K = 15;
-/// ... what has lasted for longer [s] is believed.
-inline constexpr double longest_oil_fault_s = 20;
-/// Of currents that leapt as no coil lets them so many in a row are replaced by the last credible one; what lasts is
-/// believed.
-inline constexpr int most_held_currents = 2;
+/// When each part of the step runs that the answer can do without for some samples, so that no sample does everything.
+/// Beside these every sample runs magnetic force, axial forces, friction, pressure difference and flow rate. A block of
+/// positions (position_state.hpp) is 2 ms long; where it is one sample, as the first is, all run with every sample.
+///
+/// | part                | due                                                                  | since it last ran |
+/// |---------------------|----------------------------------------------------------------------|-------------------|
+/// | friction_memory     | with the sample that closes a block                                  | a block           |
+/// | coil_diagnosis      | with the first sample after a block's time that closes none          | a block           |
+/// | force_uncertainty   | with odd samples that close no block, and where the spool changes    | not used          |
+/// | slip_excess         |   sides                                                              | not used          |
+/// | process_noise, band | with even samples that close no block                                | not used          |
+/// | friction_ratio      | with the even ones of those that follow a block                      | two blocks        |
+/// | oil_temperature     | with the odd ones of those that follow a block                       | two blocks        |
+template <class T>
+struct Schedule {
+  Due<T> friction_memory;
+  Due<T> coil_diagnosis;
+  bool force_uncertainty;
+  bool slip_excess;
+  bool process_noise;
+  bool band;
+  Due<T> friction_ratio;
+  Due<T> oil_temperature;
+};
 
 namespace detail {
 
 template <class T>
-constexpr bool is_oil_temperature(T temperature_K) {
-  return temperature_K > T(coldest_oil_K) && temperature_K < T(warmest_oil_K);
+SPOOLFLOW_INLINE constexpr Schedule<T> schedule_of(const PositionBlock<T>& block) {
+  const bool busy = block.closed && !block.lone;
+  const bool odd = block.lone || (!busy && !block.even);
+  const bool even = block.lone || (!busy && block.even);
+  const T two_blocks_s = block.length_s * (block.lone ? T(1) : T(2));
+  Schedule<T> out;
+  out.friction_memory = {block.closed, block.length_s};
+  out.coil_diagnosis = {!busy, block.length_s};
+  out.force_uncertainty = out.slip_excess = odd;
+  out.process_noise = out.band = even;
+  out.friction_ratio = {even && block.follows, two_blocks_s};
+  out.oil_temperature = {odd && block.follows, two_blocks_s};
+  return out;
 }
 
 /// To be called before the first sample goes through the stages, and where time has leapt.
 template <class T>
 constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
   state.started = true;
-  state.oil_temperature_K =
-      (is_oil_temperature(sample.oil_temperature_K) ? sample.oil_temperature_K : valve.edge.temperature_K.at(1));
-  state.oil_fault_s = T(0);
+  sensor::begin(state.oil, sample.oil_temperature_K, valve.edge.temperature_K.at(1));
   state.held_currents = 0;
-  const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
+  const T position_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil.temperature_K);
   sensor::begin(state.position, position_m);
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
@@ -47,32 +68,35 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
                 valve.band.unseen_factor);
 }
 
-/// The oil temperature reads what no oil has, or leapt, or did so before: believed only where a leap has lasted.
-template <class T>
-constexpr void judge_temperature(ObserverState<T>& state, T oil_temperature_K, bool odd, T since_s) {
-  state.oil_fault_s = odd ? state.oil_fault_s + since_s : T(0);
-  const bool lasted = is_oil_temperature(oil_temperature_K) && state.oil_fault_s > T(longest_oil_fault_s);
-  if (lasted) state.oil_temperature_K = oil_temperature_K;
-}
-
-/// Where it is `due`. A missing oil temperature is held, and one that no oil has, too.
-template <class T>
-constexpr void follow_temperature(ObserverState<T>& state, T oil_temperature_K, bool due) {
-  if (due && is_number(oil_temperature_K)) {
-    const T since_s = slow_period_s(state.position);
-    const T change_K = oil_temperature_K - state.oil_temperature_K;
-    const bool odd = magnitude(change_K) > T(oil_leap_K) || !is_oil_temperature(oil_temperature_K);
-    const T pace = smaller(since_s * T(1 / temperature_smoothing_s), T(1));
-    state.oil_temperature_K += (odd ? T(0) : pace) * change_K;
-    if (odd || state.oil_fault_s > T(0)) judge_temperature(state, oil_temperature_K, odd, since_s);
-  }
-}
-
 /// What a coil shows whose armature does not move.
 template <class T>
 constexpr QuietCoil<T> quiet_coil(const ObserverParameters<T>& valve) {
   return {T(quiet_current_share) * valve.largest_current_A,
           T(quiet_voltage_share) * valve.largest_current_A * valve.actuator.coil_resistance.resistance_Ohm};
+}
+
+/// The sample, or, in `held`, with the last credible current where its own leapt.
+template <class T>
+SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                     const Sample<T>& measured, Sample<T>& held) {
+  const T last_A = state.position.current_A;
+  const bool holds =
+      is_held(valve.current_limits, {last_A, measured.current_A}, measured.time_step_s, state.held_currents);
+  state.held_currents = held_in_a_row(state.held_currents, holds);
+  if (likely(!holds)) return measured;
+  held = with_current(measured, last_A);
+  return held;
+}
+
+/// The actuator's part of a sample, at the position that is free of drift and faults.
+template <class T>
+SPOOLFLOW_INLINE constexpr ActuatorEstimate<T> net_actuator(const ObserverParameters<T>& valve, ActuatorState<T>& state,
+                                                            const Sample<T>& sample, T position_m, T opposing_N,
+                                                            bool begins, bool judged) {
+  ActuatorEstimate<T> out =
+      step(valve.actuator, state, Sample<T>{sample.time_step_s, sample.current_A, {}, position_m, {}}, begins, judged);
+  out.magnetic_force_N -= opposing_N;
+  return out;
 }
 
 /// What the sample and its answer must be taken with.
@@ -84,41 +108,44 @@ SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const
   mark(out, !balance.sliding, Status::spool_at_rest);
   mark(out, balance.dithered, Status::dithered);
   mark(out, !balance.actuator.inside_map, Status::outside_force_map);
-  const bool capped = !(state.pressure.pressure_difference_Pa < valve.highest_pressure_difference_Pa());
+  const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
   mark(out, (!balance.edge.inside || capped) && !balance.closed, Status::outside_flow_force_map);
   mark(out, !balance.edge.temperature_inside, Status::outside_temperature);
   mark(out, sample.current_A > valve.largest_current_A, Status::current_saturated);
   mark(out, state.actuator.coil_resistance.implausible, Status::coil_fault);
-  mark(out, state.oil_fault_s > T(0), Status::temperature_fault);
+  mark(out, state.oil.fault_s > T(0), Status::temperature_fault);
   return out;
 }
 
-/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3. How far the pressure
-/// difference may lie from the believed one is reckoned where it is its turn.
+/// What is left open of the pressure difference, computed where it is due.
 template <class T>
-SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                       const ForceBalance<T>& balance, const PositionPoint<T>& position, T current_A) {
-  if (position.turn.even) {
-    if (!is_bench(valve.environment))
-      state.environment_N = environment_N(valve, state, balance, position.position_m, current_A);
-    state.pressure.reach = pressure_reach(
-        valve.band, state.pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
-        displaced_ratio(valve.pressure, state.pressure, valve.friction.operation_ratio), state.environment_N);
-  }
-  const PressureBand<T> band = pressure_band(state.pressure, valve.highest_pressure_difference_Pa());
+SPOOLFLOW_INLINE constexpr void follow_reach(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                             const ForceBalance<T>& balance, const PositionPoint<T>& position,
+                                             T current_A) {
+  PressureState<T>& pressure = state.pressure;
+  if (!is_bench(valve.environment))
+    state.force_errors.environment_N = environment_N(
+        valve, balance, {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A});
+  pressure.reach = pressure_reach(valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
+                                  displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio),
+                                  state.force_errors.environment_N);
+}
+
+/// Flow rate of this instant at the expected pressure difference, with its band; paper section 3.
+template <class T>
+SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const PressureState<T>& pressure,
+                                       const ForceBalance<T>& balance, Estimate<T>& out) {
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T conductance = balance.edge.conductance;
-  Estimate<T>& out = state.last;
-  out.flow_m3_per_s = larger(conductance * sqrt(band.expected_Pa), T(0));
-  band_of_flow(valve, conductance * sqrt(band.least_Pa), conductance * sqrt(band.most_Pa), out);
-  admit_stall(balance, band.expected_Pa, valve.highest_pressure_difference_Pa(), out);
-  out.pressure_difference_Pa = band.expected_Pa;
+  answer_flow(valve, {conductance, conductance, conductance}, pressure_band(pressure, highest_Pa), out);
+  admit_stall(balance, out.pressure_difference_Pa, highest_Pa, out);
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;
   out.flow_force_N = balance.edge.flow_force_N;
   out.friction_force_N = balance.friction_N;
 }
 
-/// Where a spool stands whose forces are not believed.
+/// Where the spool may stand while forces are not used.
 template <class T>
 struct DoubtfulPlace {
   T position_m;
@@ -126,33 +153,40 @@ struct DoubtfulPlace {
   bool fault;     ///< of the position signal
 };
 
-/// While the position signal may be wrong, or the current is, forces tell nothing: the flow where the spool is believed
-/// to be, at the pressure difference last believed, and in the band what that may have become. It holds what flows at
-/// the other place where the spool may be, too; beyond the centre as much as through the direction's own edge.
+/// What passes at both places; beyond the centre as much as through the direction's own edge.
+template <class T>
+constexpr Passage<T> passage_at(const MeteringEdge<T>& edges, const EdgePoint<T>& edge, const Unobserved<T>& known,
+                                const DoubtfulPlace<T>& position) {
+  if (!position.fault) return {edge.conductance, edge.conductance, edge.conductance};
+  const T there =
+      edges.at(known.oil_temperature_K, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m))
+          .conductance;
+  const T elsewhere = position.elsewhere_m < T(0) ? -there : there;
+  return {edge.conductance, smaller(edge.conductance, elsewhere), larger(edge.conductance, elsewhere)};
+}
+
+/// While the position signal or the current may be wrong, forces are not used: the flow where the spool is thought to
+/// stand, at the last estimate of the pressure difference, and in the band what that may have become. It holds what
+/// flows at the other place where the spool may be, too.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const ObserverParameters<T>& valve,
                                                   const Sample<T>& sample, const DoubtfulPlace<T>& position,
                                                   T opposing_N, bool begins) {
   const ActuatorEstimate<T> actuator =
-      step(valve.actuator, state.actuator, Sample<T>{sample.time_step_s, sample.current_A, {}, position.position_m, {}},
-           begins, false);
-  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, T(0), false);
+      net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, begins, false);
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, {true, T(0)});
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
-  const T believed_Pa = state.pressure.pressure_difference_Pa;
-  const EdgePoint<T> edge = valve.edge.at(state.oil_temperature_K, believed_Pa, position.position_m);
-  const PressureBand<T> band = unobserved_pressure_band(valve.band, state, edge, highest_Pa);
-  Estimate<T>& out = state.last;
-  out.pressure_difference_Pa = band.expected_Pa;
-  out.flow_m3_per_s = edge.conductance * sqrt(band.expected_Pa);
-  const T there = valve.edge.at(state.oil_temperature_K, believed_Pa, magnitude(position.elsewhere_m)).conductance;
-  const T elsewhere = position.fault ? (position.elsewhere_m < T(0) ? -there : there) : edge.conductance;
+  const EdgePoint<T> edge =
+      valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
+  PressureBand<T> band = unobserved_pressure_band(valve.band, state.pressure, state.force_errors, edge, highest_Pa);
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
-  const T least = sqrt(coil.unanswered ? T(0) : band.least_Pa);
-  const T most = sqrt(coil.unanswered ? highest_Pa : band.most_Pa);
-  band_of_flow(valve, smaller(edge.conductance * least, elsewhere * (elsewhere < T(0) ? most : least)),
-               larger(edge.conductance, elsewhere) * most, out);
-  out.magnetic_force_N = actuator.magnetic_force_N - opposing_N;
+  if (coil.unanswered) band = {T(0), band.expected_Pa, highest_Pa};
+  Estimate<T>& out = state.last;
+  answer_flow(valve,
+              passage_at(valve.edge, edge, {state.pressure, state.force_errors, state.oil.temperature_K}, position),
+              band, out);
+  out.magnetic_force_N = actuator.magnetic_force_N;
   out.spring_force_N = valve.spring.at(position.position_m).value;
   out.flow_force_N = edge.flow_force_N;
   out.friction_force_N = T(0);
@@ -162,26 +196,45 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   mark(out.status, sample.current_A > valve.largest_current_A, Status::current_saturated);
   mark(out.status, position.fault, Status::position_fault);
   mark(out.status, coil.implausible || coil.unanswered, Status::coil_fault);
-  mark(out.status, state.oil_fault_s > T(0), Status::temperature_fault);
+  mark(out.status, state.oil.fault_s > T(0), Status::temperature_fault);
 }
 
-/// Forces of this sample are to be believed: the place of the spool is known, and the current answers the voltage.
+/// Pressure difference from the balance of forces, and what it makes of friction.
+template <class T>
+SPOOLFLOW_INLINE constexpr void update_pressure(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                const ForceBalance<T>& balance, const Schedule<T>& schedule,
+                                                T time_step_s) {
+  PressureState<T>& pressure = state.pressure;
+  const T prior_Pa = pressure.pressure_difference_Pa;
+  const T to_friction_N =
+      update(valve, pressure, balance, {schedule.friction_ratio, schedule.process_noise, time_step_s});
+  correct_friction(state.friction, balance, to_friction_N);
+  if (balance.dithered) {
+    state.swing.flow_force_N +=
+        balance.edge.flow_force_per_pressure_N_Pa * (pressure.pressure_difference_Pa - prior_Pa);
+  }
+  if (schedule.band) follow_agreement(pressure);
+}
+
+/// The chain of the paper's Fig 3 where the place of the spool is known and the current answers the voltage.
 template <class T>
 SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                                const Sample<T>& sample, const PositionPoint<T>& position,
-                                               const Dither<T>& dither, T opposing_N, bool begins) {
-  const ForceBalance<T> balance = balance_forces(valve, state, sample, position, dither, opposing_N, begins);
-  state.force_noise_N = balance.noise_N;
-  const T believed_Pa = state.pressure.pressure_difference_Pa;
-  believe(valve, state, balance, position, sample.time_step_s);
-  if (balance.dithered) {
-    state.swing.flow_force_N +=
-        balance.edge.flow_force_per_pressure_N_Pa * (state.pressure.pressure_difference_Pa - believed_Pa);
-  }
-  if (position.turn.even) follow_agreement(state.pressure);
-  // Once a block, whatever the spool does.
-  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, position.block_s, position.turn.busy);
-  answer(valve, state, balance, position, sample.current_A);
+                                               const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
+                                               bool begins) {
+  const ActuatorEstimate<T> actuator =
+      net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, begins, schedule.force_uncertainty);
+  const T spring_N = valve.spring.at(position.position_m).value;
+  const EdgePoint<T> edge =
+      valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
+  const ForceBalance<T> balance = balance_forces(
+      valve, {state.friction, state.swing}, {actuator, spring_N, edge, state.pressure.friction_ratio}, position, dither,
+      {schedule.slip_excess, schedule.friction_memory, state.dither.period_s, sample.time_step_s});
+  state.force_errors.noise_N = balance.noise_N;
+  update_pressure(valve, state, balance, schedule, sample.time_step_s);
+  follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, schedule.coil_diagnosis);
+  if (schedule.band) follow_reach(valve, state, balance, position, sample.current_A);
+  answer(valve, state.pressure, balance, state.last);
   state.last.status = status(valve, state, sample, balance);
 }
 
@@ -190,43 +243,14 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
 template <class T>
 SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                         const Sample<T>& sample, const PositionPoint<T>& position,
-                                        const Dither<T>& dither, T opposing_N, bool begins) {
+                                        const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
+                                        bool begins) {
   if (unlikely(position.fault || state.actuator.coil_resistance.unanswered)) {
     answer_in_doubt(state, valve, sample, {position.position_m, position.elsewhere_m, position.fault}, opposing_N,
                     begins);
     return;
   }
-  observe_forces(valve, state, sample, position, dither, opposing_N, begins);
-}
-
-/// Whether the current leapt since the last sample as the coil's equation allows none: `jump_A` at once, and as voltage
-/// over incremental inductance with the time.
-template <class T>
-SPOOLFLOW_INLINE constexpr bool current_leaps(const CurrentLimits<T>& limits, T last_A, const Sample<T>& sample) {
-  return magnitude(sample.current_A - last_A) > limits.jump_A + limits.slope_A_per_s * sample.time_step_s &&
-         limits.jump_A > T(0);
-}
-
-/// Of a current that leapt: whether the last credible one is taken for it. Once more in a row.
-template <class T>
-constexpr bool is_held(ObserverState<T>& state) {
-  const bool held = state.held_currents < most_held_currents;
-  state.held_currents = held ? state.held_currents + 1 : 0;
-  return held;
-}
-
-/// The sample, or where its current leapt with the last credible one, and no voltage.
-template <class T>
-SPOOLFLOW_INLINE constexpr const Sample<T>& credible(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                     const Sample<T>& measured, Sample<T>& held) {
-  const bool leaps = current_leaps(valve.current_limits, state.position.current_A, measured);
-  if (likely(!leaps || !is_held(state))) {
-    if (!leaps) state.held_currents = 0;
-    return measured;
-  }
-  constexpr T missing = std::numeric_limits<T>::quiet_NaN();
-  held = {measured.time_step_s, state.position.current_A, missing, measured.position_m, measured.oil_temperature_K};
-  return held;
+  observe_forces(valve, state, sample, position, dither, schedule, opposing_N, begins);
 }
 
 /// The band takes in all that may flow through the other direction's edge.
@@ -234,7 +258,7 @@ template <class T>
 SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
                                             bool opens) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  const T most = valve.edge.at(state.oil_temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
+  const T most = valve.edge.at(state.oil.temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
   Estimate<T>& out = state.last;
   if (opens) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, -most);
   mark(out.status, opens, Status::other_direction);
@@ -255,9 +279,10 @@ SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>&
   const T time_step_s = sample.time_step_s;
   const bool leapt = time_step_s > T(longest_step_s);  // not where it is no number
   const bool seen = is_number(sample.position_m);
-  const T measured_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil_temperature_K);
+  const T measured_m = drift_free_m(valve.position_sensor, sample.position_m, state.oil.temperature_K);
   if (state.started && within(time_step_s, T(endless_step_s))) {
-    widen_held(valve, state, {seen ? measured_m : state.position.last_m, seen}, time_step_s, state.last);
+    widen_held(valve, {state.pressure, state.force_errors, state.oil.temperature_K},
+               {seen ? measured_m : state.position.last_m, seen}, time_step_s, state.last);
   }
   state.started = state.started && !leapt;
   state.last.status = unusable(sample) | when(leapt, Status::time_fault);
@@ -293,9 +318,10 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   if (begins) detail::begin(valve, state, sample);
   const Dither<T> dither = follow_dither(state.dither, sample.current_A, valve.largest_current_A, sample.time_step_s);
   const PositionPoint<T> position = track(valve.position_sensor, state.position, sample, detail::quiet_coil(valve),
-                                          state.oil_temperature_K, dither, state.swing.frees);
-  detail::follow_temperature(state, sample.oil_temperature_K, position.turn.slow_odd);
-  detail::observe(valve, state, sample, position, dither, T(0), begins);
+                                          state.oil.temperature_K, dither, state.swing.frees);
+  const Schedule<T> schedule = detail::schedule_of(position.block);
+  follow_temperature(state.oil, sample.oil_temperature_K, schedule.oil_temperature);
+  detail::observe(valve, state, sample, position, dither, schedule, T(0), begins);
   detail::admit_other_direction(valve, state, position.position_m);
   if (late) state.last.status |= Status::time_fault;
   if (unlikely(state.held_currents > 0)) state.last.status |= Status::current_fault;

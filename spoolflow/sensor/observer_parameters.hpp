@@ -3,10 +3,12 @@
 #include <type_traits>
 
 #include "spoolflow/sensor/actuator.hpp"
+#include "spoolflow/sensor/current_guard.hpp"
 #include "spoolflow/sensor/dither.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
 #include "spoolflow/sensor/friction.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
+#include "spoolflow/sensor/oil_temperature.hpp"
 #include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
 #include "spoolflow/sensor/sample.hpp"
@@ -33,13 +35,6 @@ template <class T>
 struct InletShare {
   T share = T(0.5);   ///< that lies over the inlet edge, P to B or P to A
   T range = T(0.25);  ///< measured pressures may tell one that differs from it by so much
-};
-
-/// How the coil current changes at most between two samples. A larger change is none that the coil's equation allows.
-template <class T>
-struct CurrentLimits {
-  T jump_A{};         ///< at once: eddy currents and noise; 0: not known, no sample is refused
-  T slope_A_per_s{};  ///< and with the time since the last sample: voltage over incremental inductance
 };
 
 /// What the machine around the valve leaves unknown, one standard deviation each; {} is the bench (band.hpp).
@@ -83,6 +78,13 @@ struct ObserverParameters {
   }
 };
 
+/// How wrong the forces may be that the pressure difference is estimated from [N], one standard deviation each.
+template <class T>
+struct ForceErrors {
+  T environment_N{};  ///< that the machine around the valve leaves open
+  T noise_N{};        ///< of all forces together, as their parts say
+};
+
 template <class T>
 struct ObserverState {
   ActuatorState<T> actuator;
@@ -91,12 +93,9 @@ struct ObserverState {
   PressureState<T> pressure;
   DitherState<T> dither;
   FrictionSwingState<T> swing;
-  T oil_temperature_K{};  ///< smoothed
-  T oil_fault_s{};        ///< for how long its sensor has read what no oil has
-  T environment_N{};    ///< what the machine leaves open of the force that tells the pressure difference, one standard
-                        ///< deviation
-  int held_currents{};  ///< so many currents before this sample's were none that a coil can have
-  T force_noise_N{};    ///< one standard deviation of all forces together, as the parts tell it
+  OilState<T> oil;
+  ForceErrors<T> force_errors;
+  int held_currents{};  ///< samples in a row whose current was implausible and replaced
   bool started{};       ///< a sample came in
   Estimate<T> last{};
 };

@@ -112,16 +112,14 @@ struct PositionState {
   Motion motion{};  ///< at rest
 };
 
-/// Whose turn it is: what the answer can do without for some samples is not done in all of them, so that no sample has
-/// everything to do. Where a block is one sample, and at the first, all is done.
+/// Where this sample stands among the blocks of positions.
 template <class T>
-struct Turn {
-  bool closed{};     ///< this sample closed a block of positions
-  bool busy{};       ///< a block of several: what can wait for the next sample does
-  bool even{};       ///< every second of those that are not busy ...
-  bool odd{};        ///< ... and every other
-  bool slow_even{};  ///< one of them in every two blocks, and ...
-  bool slow_odd{};   ///< ... one of those: for what changes in seconds
+struct PositionBlock {
+  bool closed{};   ///< this sample closed a block
+  bool follows{};  ///< the sample before did
+  bool lone{};     ///< a block is one sample, as the first always is
+  bool even{};     ///< every second sample; of those that follow a block every second, too
+  T length_s{};    ///< of the last block
 };
 
 template <class T>
@@ -133,9 +131,8 @@ struct PositionPoint {
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};
   T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
-  T block_s{};      ///< length of the last block
   T noise_times{};  ///< the signal's noise over the calibrated one, >= 1
-  Turn<T> turn{};
+  PositionBlock<T> block{};
 };
 
 static_assert(std::is_trivially_copyable_v<PositionState<float>>);

@@ -203,33 +203,14 @@ constexpr void begin(PositionState<T>& state, T position_m) {
   state.motion = Motion::rest;
 }
 
-/// From one slow turn to the next [s].
-template <class T>
-constexpr T slow_period_s(const PositionState<T>& state) {
-  return state.block_s * (state.lone ? T(1) : T(2));
-}
-
-namespace detail {
-
-template <class T>
-constexpr Turn<T> turn_of(const PositionState<T>& state, bool closed, bool follows_a_block) {
-  const bool busy = closed && !state.lone;
-  const bool parity = ((state.newest + state.samples) & 1) == 0;
-  const bool odd = state.lone || (!busy && !parity);
-  const bool even = state.lone || (!busy && parity);
-  return {closed, busy, even, odd, even && follows_a_block, odd && follows_a_block};
-}
-
-}  // namespace detail
-
 /// One sample.
 template <class T>
 SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& sensor, PositionState<T>& state,
                                                   const Sample<T>& sample, const QuietCoil<T>& coil,
                                                   T oil_temperature_K, const Dither<T>& dither, bool freed) {
   const T time_step_s = sample.time_step_s;
-  const bool due = state.velocity_due;
-  if (due) detail::follow_velocity(sensor, state);
+  const bool follows_block = state.velocity_due;
+  if (follows_block) detail::follow_velocity(sensor, state);
   const T step_before_m = state.step_m;
   const T position_m =
       detail::without_faults(sensor, state, sample, coil, drift_free_m(sensor, sample.position_m, oil_temperature_K));
@@ -244,7 +225,7 @@ SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& senso
     detail::close_block(state);
     detail::tell_motion(sensor, state);
   }
-  const Turn<T> turn = detail::turn_of(state, closed, due);
+  const bool even = ((state.newest + state.samples) & 1) == 0;
   return {position_m,
           state.motion,
           !is_zero(state.fault_s),
@@ -252,9 +233,8 @@ SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& senso
           state.velocity_m_per_s,
           state.acceleration_m_per_s2,
           position_m + state.elsewhere_m,
-          state.block_s,
           state.noise.times,
-          turn};
+          {closed, follows_block, state.lone, even, state.block_s}};
 }
 
 }  // namespace spoolflow::sensor

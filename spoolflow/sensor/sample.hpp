@@ -1,5 +1,7 @@
 #pragma once
 /// What goes into the sensor and what comes out, each sample.
+#include <limits>
+
 #include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 #include "spoolflow/sensor/status.hpp"
@@ -15,6 +17,13 @@ struct Sample {
   T position_m{};   ///< spool position, 0 closed, > 0 opens P to B
   T oil_temperature_K{};
 };
+
+/// The sample with another coil current, which no voltage goes with.
+template <class T>
+constexpr Sample<T> with_current(const Sample<T>& sample, T current_A) {
+  return {sample.time_step_s, current_A, std::numeric_limits<T>::quiet_NaN(), sample.position_m,
+          sample.oil_temperature_K};
+}
 
 /// A spool that reads so far beyond half the overlap on the closed side [m] opens the other direction of flow: no zero
 /// drifts as far.

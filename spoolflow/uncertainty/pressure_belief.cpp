@@ -68,7 +68,7 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
                                const sensor::ObserverState<double>& state, double position_m, double step_s) {
   const sensor::Estimate<double>& answer = state.last;
   const double believed_Pa = std::max(0.0, answer.pressure_difference_Pa);
-  const auto edge = valve.edge.at(state.oil_temperature_K, believed_Pa, position_m);
+  const auto edge = valve.edge.at(state.oil.temperature_K, believed_Pa, position_m);
   const double slope_N_per_Pa = edge.flow_force_per_pressure_N_Pa;
   const double share = valve.band.coverage_factor * deviation_per_half_width(Distribution::normal);
   PressureBelief::Parts parts{
@@ -82,7 +82,7 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
   };
   if (!sensor::has(answer.status, sensor::Status::spool_at_rest)) {
     const double noise_Pa_sqrt_s =
-        sensor::pressure_deviation_Pa(edge, state.force_noise_N) * std::sqrt(valve.pressure.force_correlation_s);
+        sensor::pressure_deviation_Pa(edge, state.force_errors.noise_N) * std::sqrt(valve.pressure.force_correlation_s);
     parts.deviation_Pa = std::sqrt(parts.deviation_Pa * parts.deviation_Pa +
                                    0.5 * valve.pressure.sliding_drift_Pa_per_sqrt_s * noise_Pa_sqrt_s);
   } else if (!sensor::has(answer.status, sensor::Status::closed)) {

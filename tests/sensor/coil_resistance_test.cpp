@@ -121,7 +121,7 @@ TEST(CoilResistance, GrowsAsUncertainAndLearnsAsMuchHoweverSeldomItIsFollowed) {
     const Sample<double> sample{sampled_every_s, current_A, 11 * current_A, 1e-3, 320.0};
     const auto followed_every = [&](int samples) {
       ActuatorState<double> state{};
-      for (int n = 1; n <= 10000; ++n) follow_coil(actuator, state, sample, 2.0, 0.0, n % samples != 0);
+      for (int n = 1; n <= 10000; ++n) follow_coil(actuator, state, sample, 2.0, {n % samples == 0, 0.0});
       return state.coil_resistance;
     };
     const auto always = followed_every(1), seldom = followed_every(20);
@@ -135,10 +135,10 @@ TEST(CoilResistance, OfACoilWithoutVoltageIsLeftAlone) {
   actuator.coil_resistance = coil;
   ActuatorState<double> state{};
   Sample<double> sample{sampled_every_s, 0.8, std::numeric_limits<double>::quiet_NaN(), 1e-3, 320.0};
-  follow_coil(actuator, state, sample, 2.0, 0.0, false);
+  follow_coil(actuator, state, sample, 2.0, {true, 0.0});
   EXPECT_EQ(state.coil_resistance.variance_Ohm2, 0);
   sample.voltage_V = 8;
-  follow_coil(actuator, state, sample, 2.0, 0.0, false);
+  follow_coil(actuator, state, sample, 2.0, {true, 0.0});
   EXPECT_GT(state.coil_resistance.variance_Ohm2, 0);
 }
 

@@ -1,84 +1,91 @@
-/// The balance of forces at a pressure difference that is right, and at one that is wrong, against the forces that were
-/// there.
+/// The balance of forces at a pressure difference that is right, and at one that is wrong, against forces in closed
+/// form.
 #include "spoolflow/sensor/force_balance.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/sensor/valve_course.hpp"
+#include "tests/sensor/closed_form_valve.hpp"
 
 namespace spoolflow::sensor {
 namespace {
 
-/// Walks a course with the pressure difference held at what it is plus `wrong_Pa`; `each` sees truth and balance.
-template <class Each>
-void balance_along(const Course& course, double step_s, double wrong_Pa, const Each& each) {
-  const ObserverParameters<double> parameters = closed_form_observer<double>(closed_form);
-  ObserverState<double> state{};
-  double time_s = 0;
-  bool begins = true;
-  for (const ValveSample& now : ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s)) {
-    time_s += step_s;
-    state.oil_temperature_K = now.truth.oil_temperature_K;
-    state.pressure.pressure_difference_Pa = now.truth.pressure_difference_Pa + wrong_Pa;
-    state.pressure.friction_ratio = 1;
-    if (begins) begin(state.position, now.measured.position_m);
-    const Dither<double> dither =
-        follow_dither(state.dither, now.measured.current_A, parameters.largest_current_A, step_s);
-    const PositionPoint<double> position = track(parameters.position_sensor, state.position, now.measured, {},
-                                                 state.oil_temperature_K, dither, state.swing.frees);
-    each(time_s, now, balance_forces(parameters, state, now.measured, position, dither, 0.0, begins));
-    begins = false;
+constexpr double opened_m = 1.2e-3;
+constexpr double true_Pa = 60e5;
+constexpr double armature_sliding_N = 1.1;
+
+/// A spool on which `friction_N` acts, taken for one with another pressure difference by `wrong_Pa`.
+struct Balance {
+  ForceBalance<double> of(PositionPoint<double> point, double friction_N, double wrong_Pa = 0) {
+    point.position_m = opened_m;
+    ActuatorEstimate<double> actuator{};
+    actuator.magnetic_force_N =
+        ClosedFormValve::spring_N(opened_m) + ClosedFormValve::flow_force_N(opened_m, true_Pa) + friction_N;
+    actuator.friction_half_width_N = armature_sliding_N;
+    actuator.uncertainty_N = 0.2;
+    const EdgePoint<double> edge = valve.edge.at(ClosedFormValve::drift_free_K, true_Pa + wrong_Pa, opened_m);
+    return balance_forces(valve, {contacts, swing}, {actuator, valve.spring.at(opened_m).value, edge, 1.0}, point,
+                          Dither<double>{}, {false, {true, 1e-3}, 0.0, 1e-3});
+  }
+  ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
+  FrictionState<double> contacts{};
+  FrictionSwingState<double> swing{};
+};
+
+PositionPoint<double> moving(Motion motion, double direction) {
+  return {opened_m, motion, false, direction * 1e-6};
+}
+PositionPoint<double> resting() {
+  return moving(Motion::rest, 1);
+}
+
+double sliding_friction_N(double pressure_Pa) {
+  return ClosedFormValve::spool_friction_N(pressure_Pa, ClosedFormValve::drift_free_K) + armature_sliding_N;
+}
+
+TEST(ForceBalance, LeavesTheFrictionThatIsThereAtTheRightPressureDifference) {
+  for (const PositionPoint<double>& point :
+       {resting(), moving(Motion::transient, 1), moving(Motion::opening, 1), moving(Motion::closing, -1)}) {
+    for (const double friction_N : {-3.0, 0.0, 2.0}) {
+      EXPECT_NEAR(Balance{}.of(point, friction_N).apparent_friction_N, friction_N, 1e-9);
+    }
   }
 }
 
-TEST(ForceBalance, LeavesTheFrictionThatWasThereAtTheRightPressure) {
-  Course course({.position_m = 0.4e-3});
-  course.rest(0.1, 1).slide(2.0e-3, 0.8).rest(0.4, -0.5).rest(0.2, -1).slide(0.6e-3, 0.8);
-  for (const double step_s : {50e-6, 200e-6, 1e-3, 5e-3}) {
-    int within = 0, samples = 0;
-    double largest_N = 0;
-    balance_along(course, step_s, 0, [&](double time_s, const ValveSample& now, const ForceBalance<double>& balance) {
-      if (time_s < 0.5) return;
-      const double error_N = balance.apparent_friction_N - now.friction_N;
-      largest_N = std::max(largest_N, std::abs(error_N));
-      within += std::abs(error_N) < 2 * balance.noise_N ? 1 : 0;
-      ++samples;
-    });
-    EXPECT_GT(within, 0.95 * samples) << step_s;
-    EXPECT_LT(largest_N, 0.8) << step_s;
-  }
-}
-
-TEST(ForceBalance, HasNoInnovationAtTheRightPressureWhileTheSpoolSlidesAndTheFlowForcesShareAtAWrongOne) {
-  Course course({.position_m = 0.4e-3});
-  course.rest(0.1, 1).slide(2.2e-3, 1.5);
-  for (const double wrong_Pa : {0.0, 6e5, -6e5}) {
-    int sliding = 0;
-    balance_along(
-        course, 1e-3, wrong_Pa, [&](double time_s, const ValveSample& now, const ForceBalance<double>& balance) {
-          if (time_s < 0.4 || !balance.sliding) return;
-          ++sliding;
-          // Too much pressure means too much flow force, which closes, and too much friction, which hinders the
-          // opening.
-          const double expected_N =
-              -wrong_Pa * (ClosedFormValve::flow_force_per_pressure(now.truth.position_m) + 2e-7 * (1 - 0.1 * 0.25));
-          EXPECT_NEAR(balance.apparent_friction_N - balance.friction_N, expected_N, 0.35) << time_s;
-        });
-    EXPECT_GT(sliding, 1000);
+TEST(ForceBalance, HasTheInnovationOfFlowForceAndFrictionWhereTheSpoolSlidesAtAWrongPressureDifference) {
+  constexpr double friction_per_pressure = 2e-7 * (1 - 0.1 * 0.25);
+  for (const double direction : {1.0, -1.0}) {
+    const PositionPoint<double> point = moving(direction > 0 ? Motion::opening : Motion::closing, direction);
+    for (const double wrong_Pa : {0.0, 6e5, -6e5}) {
+      const ForceBalance<double> balance = Balance{}.of(point, direction * sliding_friction_N(true_Pa), wrong_Pa);
+      EXPECT_TRUE(balance.sliding);
+      // Too much pressure means too much flow force, which closes, and too much friction, which hinders the motion.
+      const double slope = ClosedFormValve::flow_force_per_pressure(opened_m) + direction * friction_per_pressure;
+      EXPECT_NEAR(balance.apparent_friction_N - balance.friction_N, -wrong_Pa * slope, 1e-9);
+    }
   }
 }
 
 TEST(ForceBalance, KeepsFrictionAtRestWithinWhatTheContactsHold) {
-  Course course({.position_m = 0.4e-3});
-  course.rest(0.1, 1).slide(2.0e-3, 0.8).rest(1.0, -0.8);
-  balance_along(course, 1e-3, 20e5, [&](double time_s, const ValveSample&, const ForceBalance<double>& balance) {
-    if (time_s < 1.2) return;
+  for (const double wrong_Pa : {20e5, -20e5}) {
+    Balance spool;
+    const ForceBalance<double> balance = spool.of(resting(), 0.5 * sliding_friction_N(true_Pa), wrong_Pa);
     EXPECT_FALSE(balance.sliding);
     EXPECT_LE(balance.resting.lower_N, balance.friction_N);
     EXPECT_LE(balance.friction_N, balance.resting.upper_N);
-    EXPECT_LE(std::abs(balance.friction_N), balance.bounds.sticking_N + 2 * 0.7);
+    EXPECT_LE(std::abs(balance.friction_N), balance.bounds.sticking_N + 2 * spool.valve.friction.tolerance_N);
     EXPECT_GE(balance.bounds.sticking_N, balance.bounds.sliding_N);
-  });
+    EXPECT_GT(std::abs(balance.apparent_friction_N - balance.friction_N), 1);
+  }
+}
+
+TEST(ForceBalance, GivesTheMassItsShareOfTheForceAndIsNoSurerOfItThanItsSize) {
+  PositionPoint<double> point = moving(Motion::opening, 1);
+  const ForceBalance<double> even = Balance{}.of(point, 4.0);
+  point.acceleration_m_per_s2 = 20;
+  const ForceBalance<double> accelerated = Balance{}.of(point, 4.0);
+  const double inertia_N = Balance{}.valve.moving_mass_kg * 20;
+  EXPECT_NEAR(even.apparent_friction_N - accelerated.apparent_friction_N, inertia_N, 1e-9);
+  EXPECT_NEAR(accelerated.noise_N, std::hypot(even.noise_N, inertia_N), 1e-9);
 }
 
 }  // namespace

@@ -25,15 +25,14 @@ constexpr double armature_N = 1;
 
 class Friction : public testing::TestWithParam<double> {
  protected:
-  /// One sample; `apparent_N` is what the believed pressure difference leaves.
+  /// One sample; `apparent_N` is what the estimated pressure difference leaves.
   FrictionInterval<double> sample(Motion motion, double position_m, double apparent_N, double direction = 1) {
     const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
     dragged_m_ = std::clamp(dragged_m_, position_m - fine_lvdt.backlash_m, position_m + fine_lvdt.backlash_m);
     PositionPoint<double> point{dragged_m_ + noise_times * noise_(generator_), motion, false, direction * 1e-6};
-    point.turn.closed = true;  // a block of one sample
-    point.block_s = GetParam();
     point.noise_times = learnt_times;
-    return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, GetParam());
+    const Due<double> memory{true, GetParam()};  // a block of positions is one sample
+    return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, memory, GetParam());
   }
   /// Slides, opening or closing, then stops at 1 mm.
   void stop_after(double direction) {

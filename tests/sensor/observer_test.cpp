@@ -247,7 +247,7 @@ TEST(Observer, BelievesALeapOfTheOilTemperatureThatLasts) {
   const ObserverParameters<double> valve = closed_form_observer<double>(closed_form);
   ObserverState<double> state{};
   for (int k = 0; k < 25000; ++k) step(valve, state, {1e-3, 1.2, 10, 1e-3, k < 1000 ? 303.0 : 333.0});
-  EXPECT_NEAR(state.oil_temperature_K, 333.0, 0.1);
+  EXPECT_NEAR(state.oil.temperature_K, 333.0, 0.1);
   EXPECT_FALSE(has(state.last.status, Status::temperature_fault));
 }
 

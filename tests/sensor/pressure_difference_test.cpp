@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "spoolflow/sensor/band.hpp"
+#include "spoolflow/sensor/pressure_update.hpp"
 
 namespace spoolflow::sensor {
 namespace {

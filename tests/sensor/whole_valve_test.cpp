@@ -299,5 +299,34 @@ TEST(WholeValve, SaysWhereMoreForceActsThanTheSupplyExplains) {
   EXPECT_FALSE(has(opened(sides, false).open.last.status, Status::ambiguous_load));
 }
 
+/// The end of a stroke to b, with `spike_A` on the other coil in every fiftieth sample.
+struct IdleSpikes {
+  double opposing_N = 0;
+  int faults = 0;
+};
+IdleSpikes with_idle_spikes(const CurrentLimits<double>& limits, double spike_A) {
+  Sides sides{.law = closed_form};
+  sides.a.current_limits = sides.b.current_limits = limits;
+  WholeValveState<double> state{};
+  IdleSpikes out;
+  int k = 0;
+  for (const ValveSample& sample : run_of(sides.law, out_and_back(60e5))) {
+    WholeValveSample<double> measured = to_side(sample.measured, false);
+    if (++k % 50 == 0) measured.current_a_A = spike_A;
+    out.faults += has(step(sides.whole, state, measured).status, Status::current_fault) ? 1 : 0;
+    out.opposing_N = std::max(out.opposing_N, state.idle.magnetic_force_N);
+  }
+  return out;
+}
+
+TEST(WholeValve, TakesALeapOfTheIdleCoilsCurrentForAFaultOfItsMeasurement) {
+  const CurrentLimits<double> limits{0.2, 490};
+  EXPECT_EQ(with_idle_spikes(limits, 0).faults, 0);
+  const IdleSpikes guarded = with_idle_spikes(limits, 2.0);
+  EXPECT_GT(guarded.faults, 20);
+  EXPECT_EQ(guarded.opposing_N, with_idle_spikes(limits, 0).opposing_N);
+  EXPECT_GT(with_idle_spikes({}, 2.0).opposing_N, guarded.opposing_N + 0.5);
+}
+
 }  // namespace
 }  // namespace spoolflow::sensor

@@ -12,9 +12,10 @@ double force_error_ratio(const sensor::ObserverParameters<double>& parameters, c
     const auto& [valve, state, time_s, position_m, reference_m3_per_s, shown] = sample;
     if (state.position.motion != sensor::Motion::rest || sensor::has(state.last.status, sensor::Status::closed)) return;
     const double pressure_Pa = std::max(1e5, state.pressure.pressure_difference_Pa);
-    const sensor::EdgePoint<double> edge = valve.edge.at(state.oil_temperature_K, pressure_Pa, position_m);
+    const sensor::EdgePoint<double> edge = valve.edge.at(state.oil.temperature_K, pressure_Pa, position_m);
     const double flow_per_pressure = edge.conductance / (2 * std::sqrt(pressure_Pa));
-    const double deviation_m3_per_s = flow_per_pressure * sensor::pressure_deviation_Pa(edge, state.force_noise_N);
+    const double deviation_m3_per_s =
+        flow_per_pressure * sensor::pressure_deviation_Pa(edge, state.force_errors.noise_N);
     const double error =
         (reference_m3_per_s - shown.flow) / std::hypot(deviation_m3_per_s, 2 * parameters.band.flow_residual_m3_per_s);
     sum += error * error;

@@ -107,11 +107,11 @@ void UnitEvidence::prepare(const UnitRun& of) {
     const double step_s = columns.time_s[k] - before_s, current_A = columns.current_A[k];
     before_s = columns.time_s[k];
     const double position_m =
-        sensor::drift_free_m(type.position_sensor, columns.position_m[k], state.oil_temperature_K);
+        sensor::drift_free_m(type.position_sensor, columns.position_m[k], state.oil.temperature_K);
     const Doing doing = track.next(state, told.status, {step_s, current_A, {}, columns.position_m[k], {}}, position_m);
     run.samples.push_back(
         {position_m, current_A, step_s, run.pressurised ? value_or(recording, Channel::pressure_difference, k, NAN) : 0,
-         value_or(recording, Channel::flow_reference, k, NAN), state.oil_temperature_K, doing.slides ? 0 : -1,
+         value_or(recording, Channel::flow_reference, k, NAN), state.oil.temperature_K, doing.slides ? 0 : -1,
          doing.metered && run.has_flow ? 0 : -1, static_cast<signed char>(doing.direction)});
     if (doing.broke_after_s > 0) add_breakaway(run, k, doing.broke_after_s, state.position.travel_m);
   });

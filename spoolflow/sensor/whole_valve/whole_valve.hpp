@@ -51,9 +51,10 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   const Sides<T> now = sides(valve, state.opens_a);
   begin(now.open, state.open, sample_of(sample, state.opens_a));
   sensor::begin(state.open.position,
-                drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil_temperature_K));
+                drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil.temperature_K));
   sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.highest_pressure_difference_Pa(),
                 now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
+  state.idle.held_currents = 0;
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
   state.idle.waiting_s = state.idle.charge_As = T(0);
   state.settled_m3_per_s = T(0);
@@ -79,6 +80,7 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   exchange(state.open.actuator, state.idle.actuator);
   std::swap(state.open.pressure, state.idle.pressure);
   std::swap(state.open.dither, state.idle.dither);
+  std::swap(state.open.held_currents, state.idle.held_currents);
   std::swap(state.inlet_share, state.idle.inlet_share);
   state.settled_m3_per_s = -state.settled_m3_per_s;
   mirror(state.open.friction);
@@ -134,7 +136,7 @@ template <class T>
 constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState<T>& state, const PathDrops<T>& drops,
                                T share, T position_m) {
   const DrivingDrop<T> drop = driving_drop(drops, share);
-  const T conductance = valve.edge.at(state.oil_temperature_K, magnitude(drop.drop_Pa), position_m).conductance;
+  const T conductance = valve.edge.at(state.oil.temperature_K, magnitude(drop.drop_Pa), position_m).conductance;
   const T uncertain_Pa = valve.band.coverage_factor * drop.deviation_Pa;
   Estimate<T>& out = state.last;
   out.flow_m3_per_s = conductance * signed_root(drop.drop_Pa);
@@ -148,8 +150,8 @@ constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState
 /// the supply.
 template <class T>
 constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
-  const bool within_supply = state.pressure.pressure_difference_Pa < valve.highest_pressure_difference_Pa();
-  mark(state.last.status, !within_supply && !(position_m < valve.closed_below_m), Status::ambiguous_load);
+  const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
+  mark(state.last.status, capped && !(position_m < valve.closed_below_m), Status::ambiguous_load);
 }
 
 /// The belief is what was measured.
@@ -163,12 +165,11 @@ constexpr void believe_measured(const ObserverParameters<T>& valve, PressureStat
 template <class T>
 SPOOLFLOW_INLINE constexpr void observe_path(const ObserverParameters<T>& valve, WholeValveState<T>& state,
                                              const WholeValveSample<T>& sample, const Sample<T>& own,
-                                             const PositionPoint<T>& position, const Dither<T>& dither, bool opens_a,
-                                             bool begins) {
-  bool ports_measured = false;
-  ports_measured = measured(sample.ports);
+                                             const PositionPoint<T>& position, const Dither<T>& dither,
+                                             const Schedule<T>& schedule, bool opens_a, bool begins) {
+  const bool ports_measured = measured(sample.ports);
   if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
-  observe(valve, state.open, own, position, dither, state.idle.magnetic_force_N, begins);
+  observe(valve, state.open, own, position, dither, schedule, state.idle.magnetic_force_N, begins);
   if (ports_measured) {
     const PathDrops<T> drops = path_drops(sample.ports, opens_a);
     believe_measured(valve, state.open.pressure, drops);
@@ -187,7 +188,7 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void observe_side(bool opens_a, const Sides<T>& now, WholeValveState<T>& state,
                                              const WholeValveSample<T>& sample,
                                              const PositionSensor<T>& position_sensor, PositionPoint<T> position,
-                                             const Dither<T>& dither, bool begins) {
+                                             const Dither<T>& dither, const Schedule<T>& schedule, bool begins) {
   const Sample<T> own = sample_of(sample, opens_a);
   const Sample<T> other = sample_of(sample, !opens_a);
   const bool silent = magnitude(own.current_A) < T(quiet_current_share) * now.open.largest_current_A &&
@@ -197,31 +198,33 @@ SPOOLFLOW_INLINE constexpr void observe_side(bool opens_a, const Sides<T>& now, 
                     T(sign_margin_m) + T(sign_deviations) * position_sensor.noise_m + position_sensor.backlash_m;
   position = mirrored(opens_a, position);
 
-  const bool busy = !begins && state.open.position.samples == 0;  // it closed a block of positions
+  const bool busy = !begins && position.block.closed;
   follow_idle(now.idle, state.idle, other, begins, busy);
-  observe_path(now.open, state, sample, own, position, dither, opens_a, begins);
+  observe_path(now.open, state, sample, own, position, dither, schedule, opens_a, begins);
   state.open.last = mirrored(opens_a, state.open.last);
   mark(state.open.last.status, near && !(position.position_m < now.open.closed_below_m), Status::sign_undetermined);
 }
 
-/// The sample, with the last credible current of the side that is open where its own is none that the coil can have;
-/// see the same of one direction.
+/// The sample, or, in `held`, with the last credible current of each coil whose current leapt; see the same of one
+/// direction.
 template <class T>
 SPOOLFLOW_INLINE constexpr const WholeValveSample<T>& credible(const WholeValveParameters<T>& valve,
                                                                WholeValveState<T>& state,
                                                                const WholeValveSample<T>& measured,
                                                                WholeValveSample<T>& held) {
-  const ObserverParameters<T>& open = sides(valve, state.opens_a).open;
-  const Sample<T> own = sample_of(measured, state.opens_a);
-  const bool leaps = current_leaps(open.current_limits, state.open.position.current_A, own);
-  if (likely(!leaps || !is_held(state.open))) {
-    if (!leaps) state.open.held_currents = 0;
-    return measured;
-  }
-  constexpr T missing = std::numeric_limits<T>::quiet_NaN();
+  const Sides<T> now = sides(valve, state.opens_a);
+  const bool opens_a = state.opens_a;
+  const T open_A = state.open.position.current_A, idle_A = state.idle.current_A, step_s = measured.time_step_s;
+  const bool holds_open = is_held(now.open.current_limits, {open_A, sample_of(measured, opens_a).current_A}, step_s,
+                                  state.open.held_currents);
+  const bool holds_idle = is_held(now.idle.current_limits, {idle_A, sample_of(measured, !opens_a).current_A}, step_s,
+                                  state.idle.held_currents);
+  state.open.held_currents = held_in_a_row(state.open.held_currents, holds_open);
+  state.idle.held_currents = held_in_a_row(state.idle.held_currents, holds_idle);
+  if (likely(!holds_open && !holds_idle)) return measured;
   held = measured;
-  (state.opens_a ? held.current_a_A : held.current_b_A) = state.open.position.current_A;
-  (state.opens_a ? held.voltage_a_V : held.voltage_b_V) = missing;
+  if (holds_open) hold_current(held, opens_a, open_A);
+  if (holds_idle) hold_current(held, !opens_a, idle_A);
   return held;
 }
 
@@ -234,16 +237,17 @@ constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<
   const T time_step_s = sample.time_step_s;
   const bool seen = is_number(sample.position_m);
   const T measured_m =
-      drift_free_m(valve.b->position_sensor, sample.position_m - state.zero_m, state.open.oil_temperature_K);
+      drift_free_m(valve.b->position_sensor, sample.position_m - state.zero_m, state.open.oil.temperature_K);
   const T signed_m = seen ? measured_m : state.open.position.last_m;
   const T position_m = state.opens_a ? -signed_m : signed_m;
   Estimate<T> held = mirrored(state.opens_a, state.open.last);
-  sensor::widen_held(now.open, state.open, {position_m, seen}, time_step_s, held);
+  sensor::widen_held(now.open, {state.open.pressure, state.open.force_errors, state.open.oil.temperature_K},
+                     {position_m, seen}, time_step_s, held);
 
   const MeteringEdge<T>& other = now.idle.edge;
   const T highest_Pa = other.highest_pressure_difference_Pa();
   const T other_m = seen ? -position_m : other.position_m.at(edge_positions - 1);
-  const T most = other.at(state.open.oil_temperature_K, highest_Pa, other_m).conductance * sqrt(highest_Pa);
+  const T most = other.at(state.open.oil.temperature_K, highest_Pa, other_m).conductance * sqrt(highest_Pa);
   if (!seen || position_m < T(0)) {
     open_band(held, {-most, T(0)}, seen, time_step_s);
   }
@@ -287,19 +291,23 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
   const ObserverParameters<T>& before = sides(valve, state.opens_a).open;
   const Dither<T> dither =
       follow_dither(state.open.dither, own.current_A, before.largest_current_A, sample.time_step_s);
-  PositionPoint<T> position = track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
-                                    state.open.oil_temperature_K, dither, state.open.swing.frees);
-  detail::follow_temperature(state.open, own.oil_temperature_K, position.turn.slow_odd);
+  const PositionPoint<T> position =
+      track(position_sensor, state.open.position, signed_sample, detail::quiet_coil(before),
+            state.open.oil.temperature_K, dither, state.open.swing.frees);
+  Schedule<T> schedule = detail::schedule_of(position.block);
+  follow_temperature(state.open.oil, own.oil_temperature_K, schedule.oil_temperature);
   const T from_centre_m = state.opens_a ? -position.position_m : position.position_m;
   const bool changes = from_centre_m < T(-centre_hysteresis_m);
   if (changes) {
     detail::change_sides(valve, state);
     state.open.position.current_A = sample_of(sample, state.opens_a).current_A;
+    schedule.force_uncertainty = schedule.slip_excess = true;  // they are those of the other solenoid
   }
-  position.turn.odd = position.turn.odd || changes;  // friction and uncertainty are those of the other solenoid
+  state.idle.current_A = sample_of(sample, !state.opens_a).current_A;
 
   const auto seen_from = [&](bool opens_a) SPOOLFLOW_INLINE_LAMBDA {
-    detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, begins);
+    detail::observe_side(opens_a, sides(valve, opens_a), state, sample, position_sensor, position, dither, schedule,
+                         begins);
   };
   if (state.opens_a) {
     seen_from(true);
@@ -307,7 +315,8 @@ constexpr const Estimate<T>& step(const WholeValveParameters<T>& valve, WholeVal
     seen_from(false);
   }
   if (late) state.open.last.status |= Status::time_fault;
-  if (unlikely(state.open.held_currents > 0)) state.open.last.status |= Status::current_fault;
+  if (unlikely(state.open.held_currents + state.idle.held_currents > 0))
+    state.open.last.status |= Status::current_fault;
   return state.open.last;
 }
 

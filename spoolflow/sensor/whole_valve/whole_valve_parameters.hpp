@@ -27,6 +27,8 @@ struct IdleSide {
   T waiting_s{};         ///< since its solenoid was last stepped
   T charge_As{};         ///< through its coil since
   T inlet_share{};       ///< as of the open path
+  T current_A{};         ///< the last credible one of its coil
+  int held_currents{};   ///< samples in a row whose current was implausible and replaced
 };
 
 template <class T>

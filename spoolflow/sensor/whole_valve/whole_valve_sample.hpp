@@ -25,6 +25,13 @@ constexpr Sample<T> sample_of(const WholeValveSample<T>& sample, bool side_a) {
           sample.oil_temperature_K};
 }
 
+/// Puts another current in place of one side's, which no voltage goes with.
+template <class T>
+constexpr void hold_current(WholeValveSample<T>& sample, bool side_a, T current_A) {
+  (side_a ? sample.current_a_A : sample.current_b_A) = current_A;
+  (side_a ? sample.voltage_a_V : sample.voltage_b_V) = std::numeric_limits<T>::quiet_NaN();
+}
+
 /// Why a sample cannot be estimated; see the same of one direction. Both currents are needed.
 template <class T>
 constexpr auto unusable(const WholeValveSample<T>& sample) {

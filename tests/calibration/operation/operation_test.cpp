@@ -163,7 +163,7 @@ sensor::ObserverParameters<double> with_wrong_spring(const sensor::ClosedFormVal
   double sum_N = 0;
   double samples = 0;
   replay(parameters, only(run), [&](const ReplayedSample& sample) {
-    sum_N += sample.state.force_noise_N;
+    sum_N += sample.state.force_errors.noise_N;
     ++samples;
   });
   for (double& force_N : parameters.spring.curve.values) force_N += deviations * sum_N / samples;

@@ -1,0 +1,44 @@
+#pragma once
+/// The answer while no force shows the pressure difference: what is known of it ages, and the band takes in all that
+/// may flow.
+#include "spoolflow/sensor/band.hpp"
+
+namespace spoolflow::sensor {
+
+/// What is left while no force is used.
+template <class T>
+struct Unobserved {
+  PressureState<T>& pressure;
+  const ForceErrors<T>& errors;
+  T oil_temperature_K;
+};
+
+/// Where the spool stands while an answer is held.
+template <class T>
+struct HeldPosition {
+  T position_m;  ///< free of drift, in the direction's signs; the last one where none is measured
+  bool seen;     ///< it is measured
+};
+
+/// One more sample of `time_step_s` >= 0: the band of the held answer, in the direction's signs, takes in what may flow
+/// at the position, or without one between nothing and what the edge passes when it is wide open. The flow itself
+/// stays.
+template <class T>
+constexpr void widen_held(const ObserverParameters<T>& valve, const Unobserved<T>& known, const HeldPosition<T>& at,
+                          T time_step_s, Estimate<T>& held) {
+  const MeteringEdge<T>& edges = valve.edge;
+  const T highest_Pa = valve.highest_pressure_difference_Pa();
+  drift_unseen(valve.pressure, known.pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
+  const T pressure_Pa = known.pressure.pressure_difference_Pa;
+  const EdgePoint<T> edge = edges.at(known.oil_temperature_K, pressure_Pa, at.position_m);
+  const T open_conductance =
+      edges.at(known.oil_temperature_K, pressure_Pa, edges.position_m.at(edge_positions - 1)).conductance;
+  const T least = at.seen ? edge.conductance : T(0);
+  const Passage<T> passage{least, least, at.seen ? edge.conductance : open_conductance};
+  Estimate<T> now{};
+  answer_flow(valve, passage, unobserved_pressure_band(valve.band, known.pressure, known.errors, edge, highest_Pa),
+              now);
+  open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
+}
+
+}  // namespace spoolflow::sensor
