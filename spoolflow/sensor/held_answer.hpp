@@ -13,6 +13,26 @@ struct Unobserved {
   T oil_temperature_K;
 };
 
+/// Where the spool may stand while forces are not used.
+template <class T>
+struct DoubtfulPlace {
+  T position_m;
+  T elsewhere_m;  ///< where it is instead, if it is not there
+  bool fault;     ///< of the position signal
+};
+
+/// What passes at both places; beyond the centre as much as through the direction's own edge.
+template <class T>
+constexpr Passage<T> passage_at(const MeteringEdge<T>& edges, const EdgePoint<T>& edge, const Unobserved<T>& known,
+                                const DoubtfulPlace<T>& position) {
+  if (!position.fault) return {edge.conductance, edge.conductance, edge.conductance};
+  const T there =
+      edges.at(known.oil_temperature_K, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m))
+          .conductance;
+  const T elsewhere = position.elsewhere_m < T(0) ? -there : there;
+  return {edge.conductance, smaller(edge.conductance, elsewhere), larger(edge.conductance, elsewhere)};
+}
+
 /// Where the spool stands while an answer is held.
 template <class T>
 struct HeldPosition {

@@ -7,6 +7,7 @@
 #include "spoolflow/sensor/force_balance.hpp"
 #include "spoolflow/sensor/held_answer.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
+#include "spoolflow/sensor/other_direction.hpp"
 #include "spoolflow/sensor/pressure_update.hpp"
 
 namespace spoolflow::sensor {
@@ -145,26 +146,6 @@ SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const
   out.friction_force_N = balance.friction_N;
 }
 
-/// Where the spool may stand while forces are not used.
-template <class T>
-struct DoubtfulPlace {
-  T position_m;
-  T elsewhere_m;  ///< where it is instead, if it is not there
-  bool fault;     ///< of the position signal
-};
-
-/// What passes at both places; beyond the centre as much as through the direction's own edge.
-template <class T>
-constexpr Passage<T> passage_at(const MeteringEdge<T>& edges, const EdgePoint<T>& edge, const Unobserved<T>& known,
-                                const DoubtfulPlace<T>& position) {
-  if (!position.fault) return {edge.conductance, edge.conductance, edge.conductance};
-  const T there =
-      edges.at(known.oil_temperature_K, known.pressure.pressure_difference_Pa, magnitude(position.elsewhere_m))
-          .conductance;
-  const T elsewhere = position.elsewhere_m < T(0) ? -there : there;
-  return {edge.conductance, smaller(edge.conductance, elsewhere), larger(edge.conductance, elsewhere)};
-}
-
 /// While the position signal or the current may be wrong, forces are not used: the flow where the spool is thought to
 /// stand, at the last estimate of the pressure difference, and in the band what that may have become. It holds what
 /// flows at the other place where the spool may be, too.
@@ -253,25 +234,6 @@ SPOOLFLOW_INLINE constexpr void observe(const ObserverParameters<T>& valve, Obse
   observe_forces(valve, state, sample, position, dither, schedule, opposing_N, begins);
 }
 
-/// The band takes in all that may flow through the other direction's edge.
-template <class T>
-SPOOLFLOW_NOINLINE constexpr void admit_all(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m,
-                                            bool opens) {
-  const T highest_Pa = valve.highest_pressure_difference_Pa();
-  const T most = valve.edge.at(state.oil.temperature_K, highest_Pa, -position_m).conductance * sqrt(highest_Pa);
-  Estimate<T>& out = state.last;
-  if (opens) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, -most);
-  mark(out.status, opens, Status::other_direction);
-}
-
-/// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
-template <class T>
-SPOOLFLOW_INLINE constexpr void admit_other_direction(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                                      T position_m) {
-  const bool opens = position_m < T(-0.5) * valve.closed_below_m - T(other_direction_m);
-  if (unlikely(opens)) admit_all(valve, state, position_m, opens);
-}
-
 /// See sensor::hold. A call of its own, with its arguments in an order that costs the step nothing.
 template <class T>
 SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>& sample,
@@ -286,7 +248,7 @@ SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>&
   }
   state.started = state.started && !leapt;
   state.last.status = unusable(sample) | when(leapt, Status::time_fault);
-  admit_other_direction(valve, state, seen ? measured_m : T(0));
+  admit_other_direction(valve, state.oil.temperature_K, seen ? measured_m : T(0), state.last);
 }
 
 }  // namespace detail
@@ -322,7 +284,7 @@ constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverSt
   const Schedule<T> schedule = detail::schedule_of(position.block);
   follow_temperature(state.oil, sample.oil_temperature_K, schedule.oil_temperature);
   detail::observe(valve, state, sample, position, dither, schedule, T(0), begins);
-  detail::admit_other_direction(valve, state, position.position_m);
+  admit_other_direction(valve, state.oil.temperature_K, position.position_m, state.last);
   if (late) state.last.status |= Status::time_fault;
   if (unlikely(state.held_currents > 0)) state.last.status |= Status::current_fault;
   return state.last;

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "spoolflow/sensor/observer_parameters.hpp"
-#include "spoolflow/sensor/pressure_difference.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
@@ -98,15 +97,6 @@ template <class T>
 constexpr T signed_root(T drop_Pa) {
   const T root = sqrt(magnitude(drop_Pa));
   return drop_Pa < T(0) ? -root : root;
-}
-
-/// The belief is what was measured.
-template <class T>
-constexpr void believe_measured(PressureState<T>& pressure, T pressure_difference_Pa) {
-  pressure.pressure_difference_Pa = pressure.observed_Pa = pressure_difference_Pa;
-  pressure.variance_Pa2 = squared(T(2 * port_pressure_deviation_Pa));
-  pressure.covariance_Pa = pressure.yielded_Pa = T(0);
-  pressure.drift_variance_Pa2 = pressure.unobserved_variance_Pa2 = T(0);
 }
 
 }  // namespace spoolflow::sensor

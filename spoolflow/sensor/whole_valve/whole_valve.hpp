@@ -1,11 +1,12 @@
 #pragma once
 /// The whole 4/3 valve: one spool between two solenoids, which opens P to B on one side of the centre and P to A on the
 /// other. Whichever side the spool stands on, the chain is that of one direction (observer.hpp) with the net force of
-/// both solenoids; what is believed of the other path waits, and grows uncertain, until the spool comes back.
+/// both solenoids; what is known of the other path waits, and grows uncertain, until the spool comes back.
 #include <utility>
 
 #include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/observer.hpp"
+#include "spoolflow/sensor/whole_valve/measured_answer.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"
 #include "spoolflow/sensor/whole_valve/unsettled_load.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_parameters.hpp"
@@ -131,34 +132,12 @@ constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& po
     state.zero_m += position.position_m * smaller(time_step_s / T(zero_following_s), T(1));
 }
 
-/// The flow rate by measured port pressures, signed in the direction's own sense.
-template <class T>
-constexpr void answer_measured(const ObserverParameters<T>& valve, ObserverState<T>& state, const PathDrops<T>& drops,
-                               T share, T position_m) {
-  const DrivingDrop<T> drop = driving_drop(drops, share);
-  const T conductance = valve.edge.at(state.oil.temperature_K, magnitude(drop.drop_Pa), position_m).conductance;
-  const T uncertain_Pa = valve.band.coverage_factor * drop.deviation_Pa;
-  Estimate<T>& out = state.last;
-  out.flow_m3_per_s = conductance * signed_root(drop.drop_Pa);
-  band_of_flow(valve, conductance * signed_root(drop.drop_Pa - uncertain_Pa),
-               conductance * signed_root(drop.drop_Pa + uncertain_Pa), out);
-  out.pressure_difference_Pa = drops.inlet_Pa + drops.outlet_Pa;
-  mark(out.status, flow_reversed(drops), Status::flow_reversed);
-}
-
 /// Where no pressures are measured. A pressure difference at the end of what was calibrated may be of a load that helps
 /// the supply.
 template <class T>
 constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
   const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
   mark(state.last.status, capped && !(position_m < valve.closed_below_m), Status::ambiguous_load);
-}
-
-/// The belief is what was measured.
-template <class T>
-constexpr void believe_measured(const ObserverParameters<T>& valve, PressureState<T>& pressure,
-                                const PathDrops<T>& drops) {
-  sensor::believe_measured(pressure, limited(drops.forcing_Pa(), T(0), valve.highest_pressure_difference_Pa()));
 }
 
 /// The observer of the open side, with measured port pressures where they are.
@@ -168,15 +147,15 @@ SPOOLFLOW_INLINE constexpr void observe_path(const ObserverParameters<T>& valve,
                                              const PositionPoint<T>& position, const Dither<T>& dither,
                                              const Schedule<T>& schedule, bool opens_a, bool begins) {
   const bool ports_measured = measured(sample.ports);
-  if (ports_measured) believe_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
+  if (ports_measured) use_measured(valve, state.open.pressure, path_drops(sample.ports, opens_a));
   observe(valve, state.open, own, position, dither, schedule, state.idle.magnetic_force_N, begins);
   if (ports_measured) {
     const PathDrops<T> drops = path_drops(sample.ports, opens_a);
-    believe_measured(valve, state.open.pressure, drops);
+    use_measured(valve, state.open.pressure, drops);
     follow_share(valve.inlet, state.inlet_share, drops, sample.time_step_s);
-    answer_measured(valve, state.open, drops, state.inlet_share, position.position_m);
-  }
-  if (!ports_measured) {
+    answer_measured(valve, {drops, state.inlet_share}, {state.open.oil.temperature_K, position.position_m},
+                    state.open.last);
+  } else {
     doubt_load(valve, state.open, position.position_m);
     widen_unsettled(valve.unsettled_load_share, state.settled_m3_per_s, sample.time_step_s, state.open.last);
   }
