@@ -188,14 +188,14 @@ SPOOLFLOW_INLINE constexpr PressureReach<T> pressure_reach(const BandParameters<
   return reach;
 }
 
-/// The pressure difference to answer with, from 0 to the highest that is answered, and what is left open of it. Where
-/// the estimate stands at that highest one, nothing says how far above the truth lies.
+/// The pressure difference to answer with, from 0 to the highest that is answered, and what `reach` leaves open of it.
+/// Where the estimate stands at that highest one, nothing says how far above the truth lies.
 template <class T>
-SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure, T highest_Pa) {
-  const T believed_Pa = pressure.pressure_difference_Pa;
-  const T above_Pa = believed_Pa + pressure.reach.above_Pa;
-  return {larger(believed_Pa - pressure.reach.below_Pa, T(0)),
-          limited(believed_Pa + pressure.reach.ahead_Pa, T(0), highest_Pa),
+SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure,
+                                                         const PressureReach<T>& reach, T highest_Pa) {
+  const T estimate_Pa = pressure.pressure_difference_Pa;
+  const T above_Pa = estimate_Pa + reach.above_Pa;
+  return {larger(estimate_Pa - reach.below_Pa, T(0)), limited(estimate_Pa + reach.ahead_Pa, T(0), highest_Pa),
           is_capped(pressure, highest_Pa) ? above_Pa : smaller(above_Pa, T(1 + ripple_share) * highest_Pa)};
 }
 
@@ -235,18 +235,16 @@ constexpr void admit_stall(const ForceBalance<T>& balance, T pressure_difference
   if (stalled > T(least_likelihood)) out.flow_lower_m3_per_s = smaller(out.flow_lower_m3_per_s, T(0));
 }
 
-/// What is left open of the pressure difference while no force shows it. `edge` is that of the last position or of the
-/// one that is measured still.
+/// How far the pressure difference may lie while no force shows it. `edge` is that of the last position or of the one
+/// that is measured still.
 template <class T>
-constexpr PressureBand<T> unobserved_pressure_band(const BandParameters<T>& band, const PressureState<T>& pressure,
-                                                   const ForceErrors<T>& errors, const EdgePoint<T>& edge,
-                                                   T highest_Pa) {
-  const T estimate_Pa = limited(pressure.pressure_difference_Pa, T(0), highest_Pa);
+constexpr PressureReach<T> unobserved_reach(const BandParameters<T>& band, const PressureState<T>& pressure,
+                                            const ForceErrors<T>& errors, const EdgePoint<T>& edge) {
   const T known_N2 = squared(band.rest_share * errors.noise_N) + squared(errors.environment_N);
   const T known_Pa = pressure_deviation_Pa(edge, sqrt(known_N2));
   const T open_Pa = band.coverage_factor * pressure.band_factor *
                     sqrt(squared(unobserved_change_Pa(pressure, band.unseen_factor)) + squared(known_Pa));
-  return {larger(estimate_Pa - open_Pa, T(0)), estimate_Pa, smaller(estimate_Pa + open_Pa, highest_Pa)};
+  return {open_Pa, open_Pa, T(0)};
 }
 
 /// Conductances [m3/s/sqrt(Pa)] of where the spool may stand; < 0 through the other direction's edge.

@@ -56,8 +56,8 @@ constexpr void widen_held(const ObserverParameters<T>& valve, const Unobserved<T
   const T least = at.seen ? edge.conductance : T(0);
   const Passage<T> passage{least, least, at.seen ? edge.conductance : open_conductance};
   Estimate<T> now{};
-  answer_flow(valve, passage, unobserved_pressure_band(valve.band, known.pressure, known.errors, edge, highest_Pa),
-              now);
+  const PressureReach<T> reach = unobserved_reach(valve.band, known.pressure, known.errors, edge);
+  answer_flow(valve, passage, pressure_band(known.pressure, reach, highest_Pa), now);
   open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
 }
 

@@ -138,7 +138,7 @@ SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const
                                        const ForceBalance<T>& balance, Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T conductance = balance.edge.conductance;
-  answer_flow(valve, {conductance, conductance, conductance}, pressure_band(pressure, highest_Pa), out);
+  answer_flow(valve, {conductance, conductance, conductance}, pressure_band(pressure, pressure.reach, highest_Pa), out);
   admit_stall(balance, out.pressure_difference_Pa, highest_Pa, out);
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;
@@ -160,7 +160,8 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
   drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
   const EdgePoint<T> edge =
       valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
-  PressureBand<T> band = unobserved_pressure_band(valve.band, state.pressure, state.force_errors, edge, highest_Pa);
+  const PressureReach<T> reach = unobserved_reach(valve.band, state.pressure, state.force_errors, edge);
+  PressureBand<T> band = pressure_band(state.pressure, reach, highest_Pa);
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
   if (coil.unanswered) band = {T(0), band.expected_Pa, highest_Pa};
   Estimate<T>& out = state.last;

@@ -74,10 +74,10 @@ struct RestingSpool {
     balance.resting = {-2.5, 1.5, 0, 0};
   }
   [[nodiscard]] PressureBand<double> band() const {
-    PressureState<double> now = pressure;
-    now.reach = pressure_reach(parameters.band, pressure, balance, 3.0, 0.0,
-                               displaced_ratio(parameters.pressure, pressure, calibrated_ratio), environment_N);
-    return pressure_band(now, 1000e5);
+    const PressureReach<double> reach =
+        pressure_reach(parameters.band, pressure, balance, 3.0, 0.0,
+                       displaced_ratio(parameters.pressure, pressure, calibrated_ratio), environment_N);
+    return pressure_band(pressure, reach, 1000e5);
   }
 
   static constexpr double calibrated_ratio = 0.9;
