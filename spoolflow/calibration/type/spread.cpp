@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spoolflow/calibration/type/unit_parameters.hpp"
+#include "spoolflow/numerics/crossing.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -32,13 +33,9 @@ Effects effects_at(const sensor::ObserverParameters<double>& unit, const Point& 
 double balance_current_A(const sensor::ObserverParameters<double>& unit, double position_m, double pressure_Pa) {
   const double wanted_N = unit.spring.at(position_m).value +
                           unit.edge.at(unit.edge.temperature_K.at(1), pressure_Pa, position_m).flow_force_N;
-  double low_A = 0, high_A = unit.largest_current_A;
-  constexpr int halvings = 30;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle_A = 0.5 * (low_A + high_A);
-    (unit.actuator.magnetic_force.at(middle_A, position_m).value < wanted_N ? low_A : high_A) = middle_A;
-  }
-  return low_A;
+  return numerics::crossing({0, unit.largest_current_A}, wanted_N, [&](double current_A) {
+    return unit.actuator.magnetic_force.at(current_A, position_m).value;
+  });
 }
 
 /// Openings beyond the closed part at pressures from a tenth of the highest on.
