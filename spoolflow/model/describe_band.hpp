@@ -6,7 +6,6 @@
 namespace spoolflow::model {
 
 template <class Band, class Visitor>
-// long: a list, one entry a parameter
 void describe_band(Band& band, Visitor& visitor) {
   visitor.number({.key = "band_friction_share",
                   .unit = "1",

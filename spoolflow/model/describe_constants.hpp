@@ -10,8 +10,8 @@
 
 namespace spoolflow::model {
 
+/// Of friction at rest.
 template <class Visitor>
-// long: a list, one entry a constant
 void describe_friction_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "gauge_smoothing_s", .unit = "s", .meaning = "smoothing of the position for pre-sliding friction"},
@@ -54,8 +54,8 @@ void describe_friction_constants(Visitor& visitor) {
                    sensor::shortest_rest_s);
 }
 
+/// Of the estimated pressure difference before and between observations.
 template <class Visitor>
-// long: a list, one entry a constant
 void describe_pressure_constants(Visitor& visitor) {
   visitor.constant({.name = "first_pressure_share",
                     .unit = "1",
@@ -69,6 +69,11 @@ void describe_pressure_constants(Visitor& visitor) {
                     .meaning = "share of the same up to which the standard deviation grows, by drift or by forces "
                                "that it does not explain"},
                    sensor::most_deviation_share);
+}
+
+/// Of the update by an innovation, while the spool slides or breaks away.
+template <class Visitor>
+void describe_innovation_constants(Visitor& visitor) {
   visitor.constant({.name = "innovation_averaging_s",
                     .unit = "s",
                     .meaning = "sliding over which normalised innovations squared are averaged"},
@@ -92,6 +97,11 @@ void describe_pressure_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "least share of the flow force's slope that friction leaves when the spool closes"},
                    sensor::least_slope_share);
+}
+
+/// Of how the supply has been seen to move.
+template <class Visitor>
+void describe_process_noise_constants(Visitor& visitor) {
   visitor.constant({.name = "seen_deviation_share",
                     .unit = "1",
                     .meaning = "the pressure difference counts as seen where it is known to this share of what the "
@@ -125,9 +135,9 @@ void describe_pressure_constants(Visitor& visitor) {
                    sensor::most_variance_Pa2);
 }
 
+/// Of the band while the spool moves.
 template <class Visitor>
-// long: a list, one entry a constant
-void describe_answer_constants(Visitor& visitor) {
+void describe_band_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "least_band_factor", .unit = "1", .meaning = "least factor on the width of the band's parts"},
       sensor::least_band_factor);
@@ -160,6 +170,11 @@ void describe_answer_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "half-width of the band from the constrained correction at rest, over that correction"},
                    sensor::yielded_factor);
+}
+
+/// Of answers that are late or held.
+template <class Visitor>
+void describe_held_constants(Visitor& visitor) {
   visitor.constant({.name = "longest_regular_step_s",
                     .unit = "s",
                     .meaning = "a time step of this length or more is estimated with time_fault"},
@@ -169,6 +184,11 @@ void describe_answer_constants(Visitor& visitor) {
                     .meaning = "time in which an unobserved spool is assumed to cross its stroke: the band "
                                "of the held answer opens"},
                    sensor::unseen_stroke_s);
+}
+
+/// Of the band at rest, while the spool slips, and at the highest pressure difference.
+template <class Visitor>
+void describe_rest_band_constants(Visitor& visitor) {
   visitor.constant({.name = "lopsided_share",
                     .unit = "1",
                     .meaning = "share of the difference between what is left open to either side at rest, by which "
@@ -186,6 +206,11 @@ void describe_answer_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "share of what friction leaves by which a supply that moved at rest is taken to have gone on unseen"},
       sensor::unseen_room_share);
+}
+
+/// Of the oil temperature's signal.
+template <class Visitor>
+void describe_oil_constants(Visitor& visitor) {
   visitor.constant({.name = "temperature_smoothing_s", .unit = "s", .meaning = "smoothing of the oil temperature"},
                    sensor::temperature_smoothing_s);
   visitor.constant(
@@ -206,9 +231,16 @@ void describe_constants(Visitor&& visitor) {
   describe_map_constants(visitor);
   describe_coil_constants(visitor);
   describe_position_constants(visitor);
+  describe_slip_constants(visitor);
+  describe_position_fault_constants(visitor);
   describe_friction_constants(visitor);
   describe_pressure_constants(visitor);
-  describe_answer_constants(visitor);
+  describe_innovation_constants(visitor);
+  describe_process_noise_constants(visitor);
+  describe_band_constants(visitor);
+  describe_held_constants(visitor);
+  describe_rest_band_constants(visitor);
+  describe_oil_constants(visitor);
   describe_dither_constants(visitor);
   describe_listening_constants(visitor);
   describe_whole_valve_constants(visitor);

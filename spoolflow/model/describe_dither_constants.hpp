@@ -8,7 +8,6 @@ namespace spoolflow::model {
 
 /// Of dither and of the friction that swings with it.
 template <class Visitor>
-// long: a list, one entry a constant
 void describe_dither_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "least_dither_swing_share",

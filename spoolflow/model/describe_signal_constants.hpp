@@ -62,8 +62,8 @@ void describe_coil_constants(Visitor& visitor) {
                    sensor::unanswered_voltage_share);
 }
 
+/// Of blocks and windows of positions.
 template <class Visitor>
-// long: a list, one entry a constant
 void describe_position_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "block_length_s", .unit = "s", .meaning = "length of the blocks over which the position is averaged"},
@@ -97,6 +97,11 @@ void describe_position_constants(Visitor& visitor) {
                    sensor::fastest_m_per_s);
   visitor.constant({.name = "velocity_smoothing_s", .unit = "s", .meaning = "smoothing of the velocity"},
                    sensor::velocity_smoothing_s);
+}
+
+/// Of a spool that slips.
+template <class Visitor>
+void describe_slip_constants(Visitor& visitor) {
   visitor.constant({.name = "slip_speed_m_per_s", .unit = "m/s", .meaning = "speed above which motion is a slip"},
                    sensor::slip_speed_m_per_s);
   visitor.constant(
@@ -105,6 +110,11 @@ void describe_position_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "slip_settling_s", .unit = "s", .meaning = "how long friction and inertia are in motion after a slip"},
       sensor::slip_settling_s);
+}
+
+/// Of what the position signal may credibly do.
+template <class Visitor>
+void describe_position_fault_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "credible_jump_deviations",
        .unit = "1",

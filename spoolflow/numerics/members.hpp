@@ -34,22 +34,10 @@ inline constexpr bool is_array = false;
 template <class Element, std::size_t size>
 inline constexpr bool is_array<std::array<Element, size>> = true;
 
-}  // namespace detail
-
-/// A structure without constructors, base classes and built-in arrays, of up to 24 members.
-template <class Object>
-concept Structure = std::is_aggregate_v<Object> && !detail::is_array<Object>;
-
-/// `visit(member)` for each, in their order.
-template <Structure Object, class Visit>
-// long: one case for each number of members, which the language asks for
-constexpr void for_each_member(Object& object, const Visit& visit) {
-  constexpr std::size_t count = detail::member_count<std::remove_const_t<Object>>();
-  static_assert(count <= 24);
-  if constexpr (count == 0) {
-    (void)object;
-    (void)visit;
-  } else if constexpr (count == 1) {
+/// One case for each number of members, which the language asks for.
+template <std::size_t count, class Object, class Visit>
+constexpr void visit_1_to_8(Object& object, const Visit& visit) {
+  if constexpr (count == 1) {
     auto& [a] = object;
     (visit(a));
   } else if constexpr (count == 2) {
@@ -73,7 +61,12 @@ constexpr void for_each_member(Object& object, const Visit& visit) {
   } else if constexpr (count == 8) {
     auto& [a, b, c, d, e, f, g, h] = object;
     (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h));
-  } else if constexpr (count == 9) {
+  }
+}
+
+template <std::size_t count, class Object, class Visit>
+constexpr void visit_9_to_16(Object& object, const Visit& visit) {
+  if constexpr (count == 9) {
     auto& [a, b, c, d, e, f, g, h, i] = object;
     (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i));
   } else if constexpr (count == 10) {
@@ -102,7 +95,12 @@ constexpr void for_each_member(Object& object, const Visit& visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = object;
     (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
      visit(l), visit(m), visit(n), visit(o), visit(p));
-  } else if constexpr (count == 17) {
+  }
+}
+
+template <std::size_t count, class Object, class Visit>
+constexpr void visit_17_to_24(Object& object, const Visit& visit) {
+  if constexpr (count == 17) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = object;
     (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
      visit(l), visit(m), visit(n), visit(o), visit(p), visit(q));
@@ -136,6 +134,29 @@ constexpr void for_each_member(Object& object, const Visit& visit) {
     (visit(a), visit(b), visit(c), visit(d), visit(e), visit(f), visit(g), visit(h), visit(i), visit(j), visit(k),
      visit(l), visit(m), visit(n), visit(o), visit(p), visit(q), visit(r), visit(s), visit(t), visit(u), visit(v),
      visit(w), visit(x));
+  }
+}
+
+}  // namespace detail
+
+/// A structure without constructors, base classes and built-in arrays, of up to 24 members.
+template <class Object>
+concept Structure = std::is_aggregate_v<Object> && !detail::is_array<Object>;
+
+/// `visit(member)` for each, in their order.
+template <Structure Object, class Visit>
+constexpr void for_each_member(Object& object, const Visit& visit) {
+  constexpr std::size_t count = detail::member_count<std::remove_const_t<Object>>();
+  static_assert(count <= 24);
+  if constexpr (count == 0) {
+    (void)object;
+    (void)visit;
+  } else if constexpr (count <= 8) {
+    detail::visit_1_to_8<count>(object, visit);
+  } else if constexpr (count <= 16) {
+    detail::visit_9_to_16<count>(object, visit);
+  } else {
+    detail::visit_17_to_24<count>(object, visit);
   }
 }
 
