@@ -19,9 +19,9 @@ CONSTANT = re.compile(r"inline constexpr double (\w+) = ([^;]+);")
 PARAMETERS = """friction.ageing_ratio friction.ageing_s friction.contact_stiffness_N_per_m friction.tolerance_N
 friction.breakaway_share position_sensor.backlash_m position_sensor.hardest_acceleration_m_per_s2
 pressure.sliding_drift_Pa_per_sqrt_s pressure.resting_drift_Pa_per_sqrt_s pressure.least_process_noise
-pressure.first_process_noise pressure.yielding_s pressure.force_correlation_s pressure.ratio_deviation
+pressure.first_process_noise pressure.constrained_correction_s pressure.force_correlation_s pressure.ratio_deviation
 pressure.ratio_memory_s band.friction_share band.coverage_factor band.force_share band.rest_share band.tolerance_N
-band.creep_per_s band.unseen_factor moving_mass_kg""".split()
+band.creep_per_s band.unobserved_factor moving_mass_kg""".split()
 # of these, how the model file calls them where not by the last name
 KEYS = {"friction.ageing_ratio": "friction_ageing_ratio",
         "friction.ageing_s": "friction_ageing_s",
@@ -35,7 +35,7 @@ KEYS = {"friction.ageing_ratio": "friction_ageing_ratio",
         "band.rest_share": "band_rest_share",
         "band.tolerance_N": "band_tolerance_N",
         "band.creep_per_s": "band_creep_per_s",
-        "band.unseen_factor": "band_unseen_factor"}
+        "band.unobserved_factor": "band_unobserved_factor"}
 
 PROGRAM = """
 #include <algorithm>
@@ -113,7 +113,7 @@ def tunable_headers(folder):
     """Makes the constants variables; returns their names."""
     names = []
     for header in sorted((folder / "spoolflow/sensor").glob("*.hpp")):
-        if header.name == "listening.hpp":
+        if header.name == "dither_request.hpp":
             continue  # no run listens
         text = header.read_text()
         names += CONSTANT.findall(text)

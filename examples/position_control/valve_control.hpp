@@ -1,7 +1,7 @@
 #pragma once
 /// A position controller for a whole 4/3 valve with the flow sensor in its loop: the machine's set position is obeyed
 /// as far as the flow stays below what the machine can bear. docs/embedded.md walks through it.
-#include "spoolflow/sensor/whole_valve/whole_listening.hpp"
+#include "spoolflow/sensor/whole_valve/whole_dither_request.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
 namespace sensor = spoolflow::sensor;
@@ -24,7 +24,7 @@ struct ControlSettings {
   float cautious_m = 0.9e-3F;          ///< the most opening while the flow is not known
   float longest_doubt_s = 0.05F;       ///< that the flow limit waits for a fault to pass
   float longest_hold_s = 0.02F;        ///< that the currents stay where the position is missing
-  sensor::ListeningParameters<float> listening{2e-5F, 0.26F, 0.39F, 125, 0.5F, 0};
+  sensor::DitherRequestParameters<float> dither_request{2e-5F, 0.26F, 0.39F, 125, 0.5F, 0};
 };
 
 /// What of the sensor's answer the controller goes by.
@@ -44,7 +44,7 @@ inline Trust trust_in(Status status) {
 
 struct ControlState {
   sensor::WholeValveState<float> sensor{};
-  sensor::ListeningState<float> listening{};
+  sensor::DitherRequestState<float> dither_request{};
   float integral_A = 0;
   float set_A = 0;  ///< > 0: solenoid b
   float set_m = 0;  ///< on its way to what is asked for
@@ -105,7 +105,7 @@ inline Orders control(const ControlSettings& set, ControlState& state, const sen
     state.unseen_s = 0;
     const Status status = step(*valve, state.sensor, sample).status;
     orders.trust = trust_in(unseen ? without(status, Status::time_fault) : status);  // the gap is of its own making
-    orders.dither = listen(set.listening, state.listening, *valve, state.sensor, sample.time_step_s);
+    orders.dither = request_dither(set.dither_request, state.dither_request, *valve, state.sensor, sample.time_step_s);
   } else {
     state.unseen_s += time_step_s;
     orders.trust = sensor::is_number(sample.position_m) ? Trust::position_alone : Trust::nothing;

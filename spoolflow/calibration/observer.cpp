@@ -42,7 +42,7 @@ constexpr sensor::PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s
                                                     .resting_drift_Pa_per_sqrt_s = 1e6,
                                                     .least_process_noise = 1e-4,
                                                     .first_process_noise = 0.05,
-                                                    .yielding_s = 0.03,
+                                                    .constrained_correction_s = 0.03,
                                                     .force_correlation_s = 2e-3,
                                                     .ratio_deviation = 0.03,
                                                     .ratio_memory_s = 10};
@@ -165,7 +165,7 @@ sensor::ObserverParameters<double> parameters_from(const BenchFits& fits, double
               .flow_residual_m3_per_s = together(fits.axial.path, &AxialForceFit::flow_residual).rms(),
               .coverage_factor = coverage_factor,
               .creep_per_s = 1,
-              .unseen_factor = 2.4};
+              .unobserved_factor = 2.4};
   out.inlet = fits.axial.inlet;
   out.unsettled_load_share = fits.axial.equal_flows ? 0 : unsettled_cylinder_share;
   out.moving_mass_kg = assumed_moving_mass_kg;
@@ -265,7 +265,7 @@ ObserverCalibration calibrate_on_bench(const ObserverRecordings& recordings, con
     out.inferred = recordings.flow_bench->inferred;
   }
   out.defaults = {"hardest_acceleration_m_per_s2", "drifts and process noise of the pressure", "band_coverage_factor",
-                  "band_unseen_factor", "band_creep_per_s"};
+                  "band_unobserved_factor", "band_creep_per_s"};
   if (fits.maps.edges_are_assumed()) out.defaults.emplace_back(model::each_edge_alone);
   if (!fits.actuator.dynamics) out.defaults.emplace_back("hysteresis_threshold_Wb");
   if (!fits.actuator.dynamics && !recordings.actuator_is_inferred) out.defaults.emplace_back("eddy_currents");

@@ -50,11 +50,11 @@ void describe_band(Band& band, Visitor& visitor) {
                   .limits = {0, 10},
                   .meaning = "growth of that tolerance with the time at rest, as a share of it"},
                  band.creep_per_s);
-  visitor.number({.key = "band_unseen_factor",
+  visitor.number({.key = "band_unobserved_factor",
                   .unit = "1",
                   .limits = {1e-3, 100},
-                  .meaning = "standard deviation of unseen changes of pressure over the liveliest random walk"},
-                 band.unseen_factor);
+                  .meaning = "standard deviation of unobserved changes of pressure over the most restless random walk"},
+                 band.unobserved_factor);
 }
 
 template <class Limits, class Visitor>

@@ -14,26 +14,26 @@ namespace spoolflow::model {
 template <class Visitor>
 void describe_friction_constants(Visitor& visitor) {
   visitor.constant(
-      {.name = "gauge_smoothing_s", .unit = "s", .meaning = "smoothing of the position for pre-sliding friction"},
-      sensor::gauge_smoothing_s);
+      {.name = "presliding_smoothing_s", .unit = "s", .meaning = "smoothing of the position for pre-sliding friction"},
+      sensor::presliding_smoothing_s);
   visitor.constant(
-      {.name = "gauge_slack_deviations",
+      {.name = "presliding_deadband_deviations",
        .unit = "1",
        .meaning = "standard deviations of the smoothed position's noise that count as no motion in pre-sliding"},
-      sensor::gauge_slack_deviations);
-  visitor.constant({.name = "doubtful_drag_slacks",
+      sensor::presliding_deadband_deviations);
+  visitor.constant({.name = "doubtful_engagement_deadbands",
                     .unit = "1",
                     .meaning = "backlash engagement by so many times the noise's own counts half"},
-                   sensor::doubtful_drag_slacks);
-  visitor.constant({.name = "drag_certainty",
+                   sensor::doubtful_engagement_deadbands);
+  visitor.constant({.name = "engagement_certainty",
                     .unit = "1",
-                    .meaning = "share of the reach to the other side of the gauge that is out of question where the "
-                               "sensor is surely dragged"},
-                   sensor::drag_certainty);
-  visitor.constant({.name = "drag_memory_s",
+                    .meaning = "share of the half-width on the other side of the estimate that is out of question "
+                               "where the backlash surely engages"},
+                   sensor::engagement_certainty);
+  visitor.constant({.name = "engagement_memory_s",
                     .unit = "s",
                     .meaning = "for so long after engagement the end of the backlash is known"},
-                   sensor::drag_memory_s);
+                   sensor::engagement_memory_s);
   visitor.constant({.name = "least_stiffness_share",
                     .unit = "1",
                     .meaning = "share of the contact's stiffness at the limit of sticking"},
@@ -102,29 +102,30 @@ void describe_innovation_constants(Visitor& visitor) {
 /// Of how the supply has been seen to move.
 template <class Visitor>
 void describe_process_noise_constants(Visitor& visitor) {
-  visitor.constant({.name = "seen_deviation_share",
+  visitor.constant({.name = "observed_deviation_share",
                     .unit = "1",
-                    .meaning = "the pressure difference counts as seen where it is known to this share of what the "
+                    .meaning = "the pressure difference counts as observed where it is known to this share of what the "
                                "forces' noise makes of it"},
-                   sensor::seen_deviation_share);
+                   sensor::observed_deviation_share);
   visitor.constant({.name = "process_noise_rise",
                     .unit = "1",
                     .meaning = "share by which the process noise follows a larger observed change"},
                    sensor::process_noise_rise);
   visitor.constant({.name = "process_noise_fall", .unit = "1", .meaning = "the same for a smaller one"},
                    sensor::process_noise_fall);
-  visitor.constant({.name = "first_seen_process_noise",
+  visitor.constant({.name = "first_observed_process_noise",
                     .unit = "1",
-                    .meaning = "least process noise when the pressure difference is first seen"},
-                   sensor::first_seen_process_noise);
+                    .meaning = "least process noise when the pressure difference is first observed"},
+                   sensor::first_observed_process_noise);
   visitor.constant(
-      {.name = "telling_drift_share",
+      {.name = "informative_drift_share",
        .unit = "1",
        .meaning = "a change counts half where its drift variance is so many times that of the forces' noise"},
-      sensor::telling_drift_share);
-  visitor.constant(
-      {.name = "told_late_s", .unit = "s", .meaning = "measurement delay of the pressure difference by the forces"},
-      sensor::told_late_s);
+      sensor::informative_drift_share);
+  visitor.constant({.name = "measurement_delay_s",
+                    .unit = "s",
+                    .meaning = "measurement delay of the pressure difference by the forces"},
+                   sensor::measurement_delay_s);
   visitor.constant({.name = "least_covariance_Pa",
                     .unit = "Pa",
                     .meaning = "a smaller covariance of pressure difference and friction ratio is none"},
@@ -166,10 +167,10 @@ void describe_band_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "half the width that an innovation takes in the band while the spool slides, over it"},
                    sensor::innovation_factor);
-  visitor.constant({.name = "yielded_factor",
+  visitor.constant({.name = "constrained_correction_factor",
                     .unit = "1",
                     .meaning = "half-width of the band from the constrained correction at rest, over that correction"},
-                   sensor::yielded_factor);
+                   sensor::constrained_correction_factor);
 }
 
 /// Of answers that are late or held.
@@ -179,21 +180,21 @@ void describe_held_constants(Visitor& visitor) {
                     .unit = "s",
                     .meaning = "a time step of this length or more is estimated with time_fault"},
                    sensor::longest_regular_step_s);
-  visitor.constant({.name = "unseen_stroke_s",
+  visitor.constant({.name = "unobserved_stroke_s",
                     .unit = "s",
                     .meaning = "time in which an unobserved spool is assumed to cross its stroke: the band "
                                "of the held answer opens"},
-                   sensor::unseen_stroke_s);
+                   sensor::unobserved_stroke_s);
 }
 
 /// Of the band at rest, while the spool slips, and at the highest pressure difference.
 template <class Visitor>
 void describe_rest_band_constants(Visitor& visitor) {
-  visitor.constant({.name = "lopsided_share",
+  visitor.constant({.name = "asymmetry_share",
                     .unit = "1",
                     .meaning = "share of the difference between what is left open to either side at rest, by which "
-                               "the pressure difference is expected beyond the believed one"},
-                   sensor::lopsided_share);
+                               "the pressure difference is expected beyond the estimate"},
+                   sensor::asymmetry_share);
   visitor.constant({.name = "ripple_share",
                     .unit = "1",
                     .meaning = "how far the band reaches beyond the highest calibrated pressure difference, as a share "
@@ -202,10 +203,11 @@ void describe_rest_band_constants(Visitor& visitor) {
   visitor.constant({.name = "slip_widening", .unit = "1", .meaning = "factor on the band while the spool slips"},
                    sensor::slip_widening);
   visitor.constant(
-      {.name = "unseen_room_share",
+      {.name = "unobserved_room_share",
        .unit = "1",
-       .meaning = "share of what friction leaves by which a supply that moved at rest is taken to have gone on unseen"},
-      sensor::unseen_room_share);
+       .meaning =
+           "share of what friction leaves by which a supply that moved at rest is taken to have gone on unobserved"},
+      sensor::unobserved_room_share);
 }
 
 /// Of the oil temperature's signal.
@@ -242,7 +244,7 @@ void describe_constants(Visitor&& visitor) {
   describe_rest_band_constants(visitor);
   describe_oil_constants(visitor);
   describe_dither_constants(visitor);
-  describe_listening_constants(visitor);
+  describe_dither_request_constants(visitor);
   describe_whole_valve_constants(visitor);
   describe_machine_constants(visitor);
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// The sensor's constants of dither and of asking for it, each described once; see parameter.hpp.
 #include "spoolflow/model/parameter.hpp"
-#include "spoolflow/sensor/listening.hpp"
+#include "spoolflow/sensor/dither_request.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace spoolflow::model {
@@ -59,14 +59,15 @@ void describe_dither_constants(Visitor& visitor) {
 
 /// Of asking for dither.
 template <class Visitor>
-void describe_listening_constants(Visitor& visitor) {
+void describe_dither_request_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "amplitude_raise_per_s",
        .unit = "1/s",
        .meaning = "pace at which the amplitude is raised where dither does not free the spool, as a share of it"},
       sensor::amplitude_raise_per_s);
-  visitor.constant({.name = "hearing_s", .unit = "s", .meaning = "settling time before the amplitude is raised"},
-                   sensor::hearing_s);
+  visitor.constant(
+      {.name = "dither_settling_s", .unit = "s", .meaning = "settling time before the amplitude is raised"},
+      sensor::dither_settling_s);
   visitor.constant({.name = "amplitude_lowering",
                     .unit = "1",
                     .meaning = "by so much it is lowered after a request that brought the wanted band, as a ratio: too "

@@ -250,11 +250,11 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
                   .meaning = "time of sliding in which the friction ratio forgets what it has learnt"},
                  pressure.ratio_memory_s);
   visitor.number(
-      {.key = "yielding_s",
+      {.key = "constrained_correction_s",
        .unit = "s",
        .limits = {1e-5, 1e3},
        .meaning = "how fast the pressure difference gives way to a force that resting friction cannot explain"},
-      pressure.yielding_s);
+      pressure.constrained_correction_s);
 }
 
 template <class Inlet, class Visitor>

@@ -55,11 +55,12 @@ void describe_coil_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "how well the resistance must be known, as a share of it, before it is called implausible"},
       sensor::known_resistance_share);
-  visitor.constant({.name = "unanswered_voltage_share",
-                    .unit = "1",
-                    .meaning = "voltage that no current answers before the current is not believed, as a share of what "
-                               "holds the largest current"},
-                   sensor::unanswered_voltage_share);
+  visitor.constant(
+      {.name = "unanswered_voltage_share",
+       .unit = "1",
+       .meaning = "voltage that no current answers before the current counts as not measured, as a share of what "
+                  "holds the largest current"},
+      sensor::unanswered_voltage_share);
 }
 
 /// Of blocks and windows of positions.
@@ -85,10 +86,10 @@ void describe_position_constants(Visitor& visitor) {
        .unit = "1",
        .meaning = "a spool whose newest window travels less than one over this of the others is about to stop"},
       sensor::slowing_travel_ratio);
-  visitor.constant({.name = "longest_tremble_block_s",
+  visitor.constant({.name = "longest_dither_block_s",
                     .unit = "s",
                     .meaning = "a block of positions under dither ends after so long at the latest"},
-                   sensor::longest_tremble_block_s);
+                   sensor::longest_dither_block_s);
   visitor.constant({.name = "shortest_block_s",
                     .unit = "s",
                     .meaning = "a block of positions is taken for no shorter: velocities divide by it"},

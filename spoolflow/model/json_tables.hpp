@@ -23,7 +23,9 @@ struct FormerKey {
   bool squared;          ///< the older file holds the square root
 };
 inline constexpr std::array former_keys{FormerKey{"least_liveliness", "least_process_noise", true},
-                                        FormerKey{"first_liveliness", "first_process_noise", false}};
+                                        FormerKey{"first_liveliness", "first_process_noise", false},
+                                        FormerKey{"yielding_s", "constrained_correction_s", false},
+                                        FormerKey{"band_unseen_factor", "band_unobserved_factor", false}};
 
 class TableWriter {
  public:

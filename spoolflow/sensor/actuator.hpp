@@ -34,7 +34,7 @@ struct ActuatorState {
   T lowest_flux_Wb{};  ///< since the first sample
   T highest_flux_Wb{};
   T uncertainty_N{};          ///< of the magnetic force and ...
-  T friction_half_width_N{};  ///< ... the armature's friction, as they were when they were last reckoned
+  T friction_half_width_N{};  ///< ... the armature's friction, as they were when they were last computed
 };
 
 /// What the solenoid answers.
@@ -85,7 +85,7 @@ SPOOLFLOW_INLINE constexpr void follow_coil(const ActuatorParameters<T>& actuato
   }
 }
 
-/// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It begins anew at
+/// The coil's part of one sample: its flux linkage and magnetising current follow the coil current. It starts again at
 /// the first, and where a coil current that no coil has, or a leap in time, left a flux that no coil has.
 template <class T>
 SPOOLFLOW_INLINE constexpr void magnetise(const ActuatorParameters<T>& actuator, ActuatorState<T>& state,
@@ -110,7 +110,7 @@ SPOOLFLOW_INLINE constexpr void judge_force(const ActuatorParameters<T>& actuato
   state.friction_half_width_N = actuator.friction_N.at(current, position).value;
 }
 
-/// One sample. `position_m` is the position to be believed: faults and drift are removed before. Current and position
+/// One sample. `position_m` is free of faults and drift. Current and position
 /// must be finite; nothing else of the sample is read. Any time step from 50 us to 5 ms. Uncertainty and friction,
 /// which are slow, may be those of an earlier sample where they are not `judged`.
 template <class T>

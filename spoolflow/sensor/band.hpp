@@ -84,15 +84,14 @@ inline constexpr double displaced_friction_factor = 2;
 inline constexpr double innovation_factor = 1.5;
 /// While the spool slips the pressure difference may move with it: the band is so many times wider.
 inline constexpr double slip_widening = 3.1;
-/// A supply that moved while the spool rested, told by friction at its bound, may go on unseen: it is taken to have
-/// gone on by as much as it was seen to move, but by no more than this share of what friction's other bound leaves.
-inline constexpr double unseen_room_share = 0.25;
-/// Half the width that what the pressure difference yielded to at rest takes, over it: what friction was not thought
-/// able to hold it may have held.
-inline constexpr double yielded_factor = 2;
-/// At rest more may be left open to one side than to the other: the pressure difference is expected so much of their
-/// difference beyond the believed one.
-inline constexpr double lopsided_share = 0.15;
+/// A supply that moved while the spool rested, as friction at its bound showed, may go on unobserved: by as much as it
+/// was seen to move, but by no more than this share of what friction's other bound leaves.
+inline constexpr double unobserved_room_share = 0.25;
+/// Half-width that the constrained correction at rest takes, over that correction: friction may have held it instead.
+inline constexpr double constrained_correction_factor = 2;
+/// At rest more may be open to one side than to the other: the pressure difference is expected beyond the estimate by
+/// this share of their difference.
+inline constexpr double asymmetry_share = 0.15;
 /// A supply at the highest calibrated pressure difference ripples about it: the band reaches so much further, as a
 /// share of it.
 inline constexpr double ripple_share = 0.02;
@@ -117,16 +116,16 @@ struct PressureBand {
   T most_Pa;      ///< hardly above the highest that was calibrated
 };
 
-/// By how much the pressure difference at rest is expected beyond the believed one, as what may have gone on unseen: in
-/// the way in which it yielded.
+/// By how much the pressure difference at rest is expected beyond the estimate: the supply may have gone on unobserved,
+/// in the direction in which the estimate was corrected.
 template <class T>
-SPOOLFLOW_INLINE constexpr T unseen_Pa(const PressureState<T>& pressure, const ForceBalance<T>& balance) {
-  const T yielded_Pa = pressure.yielded_Pa;
-  const bool rises = yielded_Pa > T(0);
-  const T room_N = rises ? balance.apparent_friction_N - balance.resting.lower_N
-                         : balance.resting.upper_N - balance.apparent_friction_N;
-  const T room_Pa = T(unseen_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
-  const T gone_Pa = smaller(magnitude(yielded_Pa), room_Pa);
+SPOOLFLOW_INLINE constexpr T unobserved_Pa(const PressureState<T>& pressure, const ForceBalance<T>& balance) {
+  const T corrected_Pa = pressure.constrained_correction_Pa;
+  const bool rises = corrected_Pa > T(0);
+  const T room_N =
+      rises ? balance.residual_force_N - balance.resting.lower_N : balance.resting.upper_N - balance.residual_force_N;
+  const T room_Pa = T(unobserved_room_share) * pressure_deviation_Pa(balance.edge, larger(room_N, T(0)));
+  const T gone_Pa = smaller(magnitude(corrected_Pa), room_Pa);
   return rises ? gone_Pa : -gone_Pa;
 }
 
@@ -137,7 +136,7 @@ template <class T>
 SPOOLFLOW_INLINE constexpr T motion_deviation_N(const ForceBalance<T>& balance, T velocity_m_per_s, T displaced_ratio) {
   const T of_speed =
       smaller(T(friction_share_per_speed_s_per_m) * magnitude(velocity_m_per_s), T(most_friction_share_of_speed));
-  const T sliding_N = T(innovation_factor) * magnitude(balance.apparent_friction_N - balance.friction_N) +
+  const T sliding_N = T(innovation_factor) * magnitude(balance.residual_force_N - balance.friction_N) +
                       magnitude(balance.friction_N) * (of_speed + T(displaced_friction_factor) * displaced_ratio);
   return (balance.sliding ? sliding_N : T(0)) + T(swing_deviation_share) * balance.half_swing_N;
 }
@@ -148,54 +147,55 @@ SPOOLFLOW_INLINE constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open
   return pressure_deviation_Pa(edge, bound_N / sqrt(T(1) + squared(bound_N) * per_open_1_N2));
 }
 
-/// After the pressure difference was believed; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
-/// open and how far friction's bounds and their uncertainty reach limit the error: each side lies below either.
+/// After the update of the pressure difference; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
+/// open and how far friction's bounds and their uncertainty lie limit the error: each side lies below either.
 template <class T>
-SPOOLFLOW_INLINE constexpr PressureReach<T> pressure_reach(const BandParameters<T>& band,
-                                                           const PressureState<T>& pressure,
-                                                           const ForceBalance<T>& balance, T rest_s, T velocity_m_per_s,
-                                                           T displaced_ratio, T environment_N) {
+SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const BandParameters<T>& band,
+                                                                      const PressureState<T>& pressure,
+                                                                      const ForceBalance<T>& balance, T rest_s,
+                                                                      T velocity_m_per_s, T displaced_ratio,
+                                                                      T environment_N) {
   const T share = balance.sliding ? band.force_share : band.rest_share;
   const T slope = balance.edge.flow_force_per_pressure_N_Pa;
-  const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unseen_factor));
+  const T unobserved_N2 = squared(slope * unobserved_change_Pa(pressure, band.unobserved_factor));
   const T factor = band.coverage_factor * pressure.band_factor * (balance.slips ? T(slip_widening) : T(1));
   T open_N2 = squared(factor) * (unobserved_N2 + squared(share * balance.noise_N));
   if (balance.sliding || balance.dithered)
     open_N2 += squared(motion_deviation_N(balance, velocity_m_per_s, displaced_ratio));
   open_N2 += squared(band.coverage_factor * environment_N);
   const T open_Pa = pressure_deviation_Pa(balance.edge, sqrt(open_N2));
-  PressureReach<T> reach{open_Pa, open_Pa, T(0)};
+  PressureHalfWidths<T> widths{open_Pa, open_Pa, T(0)};
   const bool bounded = !balance.sliding && !balance.slips && !balance.closed;
   if (bounded) {
-    open_N2 += squared(T(yielded_factor) * slope * pressure.yielded_Pa);
+    open_N2 += squared(T(constrained_correction_factor) * slope * pressure.constrained_correction_Pa);
     const T bounds_N = band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s);
     const T certain_N = band.coverage_factor * sqrt(squared(bounds_N) + squared(environment_N));
-    const T to_upper_N = larger(balance.resting.upper_N - balance.apparent_friction_N, T(0)) + certain_N;
-    const T to_lower_N = larger(balance.apparent_friction_N - balance.resting.lower_N, T(0)) + certain_N;
+    const T to_upper_N = larger(balance.resting.upper_N - balance.residual_force_N, T(0)) + certain_N;
+    const T to_lower_N = larger(balance.residual_force_N - balance.resting.lower_N, T(0)) + certain_N;
     const T per_open_1_N2 = T(1) / open_N2;
-    reach.below_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_upper_N);
-    reach.above_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_lower_N);
-    reach.ahead_Pa = T(lopsided_share) * (reach.above_Pa - reach.below_Pa);
-    // What the pressure difference yielded friction may have held instead: it may be back where it was.
-    const T yielded_Pa = pressure.yielded_Pa;
-    const T usual_Pa = band.coverage_factor * unobserved_change_Pa(pressure, band.unseen_factor);
-    reach.ahead_Pa -= T(lopsided_share) * (yielded_Pa - limited(yielded_Pa, -usual_Pa, usual_Pa));
-    if (yielded_Pa > T(0)) reach.below_Pa = sqrt(squared(reach.below_Pa) + squared(yielded_Pa));
-    if (yielded_Pa < T(0)) reach.above_Pa = sqrt(squared(reach.above_Pa) + squared(yielded_Pa));
+    widths.below_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_upper_N);
+    widths.above_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_lower_N);
+    widths.bias_Pa = T(asymmetry_share) * (widths.above_Pa - widths.below_Pa);
+    // Friction may have held what was corrected: the pressure difference may be back where it was.
+    const T corrected_Pa = pressure.constrained_correction_Pa;
+    const T usual_Pa = band.coverage_factor * unobserved_change_Pa(pressure, band.unobserved_factor);
+    widths.bias_Pa -= T(asymmetry_share) * (corrected_Pa - limited(corrected_Pa, -usual_Pa, usual_Pa));
+    if (corrected_Pa > T(0)) widths.below_Pa = sqrt(squared(widths.below_Pa) + squared(corrected_Pa));
+    if (corrected_Pa < T(0)) widths.above_Pa = sqrt(squared(widths.above_Pa) + squared(corrected_Pa));
   }
-  const bool yielded = !is_zero(pressure.yielded_Pa) && !balance.sliding && !balance.closed;
-  if (yielded) reach.ahead_Pa += unseen_Pa(pressure, balance);
-  return reach;
+  const bool corrected = !is_zero(pressure.constrained_correction_Pa) && !balance.sliding && !balance.closed;
+  if (corrected) widths.bias_Pa += unobserved_Pa(pressure, balance);
+  return widths;
 }
 
-/// The pressure difference to answer with, from 0 to the highest that is answered, and what `reach` leaves open of it.
+/// The pressure difference to answer with, from 0 to the highest that is answered, and what `widths` leave open of it.
 /// Where the estimate stands at that highest one, nothing says how far above the truth lies.
 template <class T>
 SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure,
-                                                         const PressureReach<T>& reach, T highest_Pa) {
+                                                         const PressureHalfWidths<T>& widths, T highest_Pa) {
   const T estimate_Pa = pressure.pressure_difference_Pa;
-  const T above_Pa = estimate_Pa + reach.above_Pa;
-  return {larger(estimate_Pa - reach.below_Pa, T(0)), limited(estimate_Pa + reach.ahead_Pa, T(0), highest_Pa),
+  const T above_Pa = estimate_Pa + widths.above_Pa;
+  return {larger(estimate_Pa - widths.below_Pa, T(0)), limited(estimate_Pa + widths.bias_Pa, T(0), highest_Pa),
           is_capped(pressure, highest_Pa) ? above_Pa : smaller(above_Pa, T(1 + ripple_share) * highest_Pa)};
 }
 
@@ -238,12 +238,12 @@ constexpr void admit_stall(const ForceBalance<T>& balance, T pressure_difference
 /// How far the pressure difference may lie while no force shows it. `edge` is that of the last position or of the one
 /// that is measured still.
 template <class T>
-constexpr PressureReach<T> unobserved_reach(const BandParameters<T>& band, const PressureState<T>& pressure,
-                                            const ForceErrors<T>& errors, const EdgePoint<T>& edge) {
+constexpr PressureHalfWidths<T> unobserved_half_widths(const BandParameters<T>& band, const PressureState<T>& pressure,
+                                                       const ForceErrors<T>& errors, const EdgePoint<T>& edge) {
   const T known_N2 = squared(band.rest_share * errors.noise_N) + squared(errors.environment_N);
   const T known_Pa = pressure_deviation_Pa(edge, sqrt(known_N2));
   const T open_Pa = band.coverage_factor * pressure.band_factor *
-                    sqrt(squared(unobserved_change_Pa(pressure, band.unseen_factor)) + squared(known_Pa));
+                    sqrt(squared(unobserved_change_Pa(pressure, band.unobserved_factor)) + squared(known_Pa));
   return {open_Pa, open_Pa, T(0)};
 }
 

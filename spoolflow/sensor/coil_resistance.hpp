@@ -7,7 +7,7 @@
 namespace spoolflow::sensor {
 
 /// Share of the flux rate that its model may be wrong by: fast changes drive currents in the iron that one stage of
-/// eddy currents tells poorly.
+/// eddy currents describes poorly.
 inline constexpr double flux_rate_error_share = 1.0 / 3;
 /// Variance density of the voltage that is always assumed [V2 s]: the filter divides by it.
 inline constexpr double least_voltage_variance_V2s = 1e-12;
@@ -21,11 +21,11 @@ inline constexpr double unanswered_voltage_share = 0.1;
 inline constexpr double known_resistance_share = 0.1;
 
 /// Voltage, current and flux rate are averaged over this [s]: many periods of dither, whose voltage is several times
-/// that over the resistance and follows from a flux rate that is told poorly so fast.
+/// that over the resistance and follows from a flux rate whose model is poor so fast.
 inline constexpr double coil_averaging_s = 0.05;
 
 /// Coil resistance [Ohm], followed while the valve works: the coil warms, copper by 0.39 % per kelvin. It does not
-/// enter the force, which comes from the current (docs/accuracy.md, ablation); it tells of faults of the coil.
+/// enter the force, which comes from the current (docs/accuracy.md, ablation); it shows faults of the coil.
 template <class T>
 struct CoilResistance {
   T resistance_Ohm{};          ///< as calibrated, where following starts; 0: not known
@@ -34,7 +34,7 @@ struct CoilResistance {
   T voltage_noise_V_root_s{};  ///< of the voltage about R i + d flux/dt, noise density
 };
 
-/// What the coil's equation u = R i + d flux/dt tells of the resistance during one sample, or in the mean over many.
+/// The terms of the coil's equation u = R i + d flux/dt during one sample, or in the mean over many.
 template <class T>
 struct CoilEquation {
   T current_A{};
@@ -50,7 +50,7 @@ struct CoilResistanceState {
   CoilEquation<T> mean{};
   T waits_s{};         ///< samples with a voltage since the filter's last step
   bool implausible{};  ///< known well, and not what copper can have
-  bool unanswered{};   ///< there is voltage, and no current to go with it: the current is none to believe
+  bool unanswered{};   ///< there is voltage, and no current to go with it: the current is not measured
 };
 
 static_assert(std::is_trivially_copyable_v<CoilResistanceState<float>>);

@@ -19,7 +19,7 @@ static_assert(std::is_trivially_copyable_v<CondensedState<float>>);
 
 namespace detail {
 
-/// A point in the tables, and what is told of it.
+/// A point in the tables, and its status.
 template <class T>
 struct CondensedPoint {
   Place<T> position;
@@ -48,7 +48,7 @@ constexpr Status why_held(const Sample<T>& sample) {
 }
 
 /// The root of the flow force in cells; `cells2`, its square, is taken to the end of the axis where it lies beyond.
-/// That is told of a valve that is open; of one that is closed, that it is.
+/// The status says so of an open valve; of a closed one, that it is closed.
 template <class T>
 constexpr Place<T> find_root(bool closed, T& cells2, Status& status) {
   constexpr int cells = CondensedLayout::root_cells;

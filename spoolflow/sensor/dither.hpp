@@ -1,11 +1,11 @@
 #pragma once
-/// Dither: the tremble that the electronics lay on the coil current, 80 to 250 Hz as a rule, so that spool and armature
-/// do not stick. Found from the current alone, turning point by turning point, whatever its shape; where a sample
-/// averages over most of a period, what is left of its swing counts.
+/// Dither: the oscillation that the electronics lay on the coil current, 80 to 250 Hz as a rule, so that spool and
+/// armature do not stick. Found from the current alone, turning point by turning point, whatever its shape; where a
+/// sample averages over most of a period, what is left of its swing counts.
 ///
-/// Friction under dither: it swings with the magnetic force, many times a second. No single sample tells, but the
+/// Friction under dither: it swings with the magnetic force, many times a second. No single sample measures it, but the
 /// extremes of a period do: they lie within the limits of friction, and while the spool moves on one of them is at its
-/// limit. So friction is told by the middle of its swing, and its limits are nearer by half the swing.
+/// limit. So friction is measured by the middle of its swing, and its limits are nearer by half the swing.
 #include <type_traits>
 
 #include "spoolflow/sensor/compiler.hpp"
@@ -65,10 +65,10 @@ constexpr T dither_frequency_Hz(const DitherState<T>& state) {
 
 namespace detail {
 
-/// Whether neither is more than `alike_ratio` times the other; `slack` is added to that.
+/// Whether neither is more than `alike_ratio` times the other; `margin` is added to that.
 template <class T>
-constexpr bool alike(T one, T other, T slack) {
-  return one < T(alike_ratio) * other + slack && other < T(alike_ratio) * one + slack;
+constexpr bool alike(T one, T other, T margin) {
+  return one < T(alike_ratio) * other + margin && other < T(alike_ratio) * one + margin;
 }
 
 /// The current turned: half a period is over.
@@ -133,10 +133,10 @@ inline constexpr double missed_middle = 2;
 inline constexpr double slip_excess_factor = 2.962;
 
 /// Extremes of what friction would have to be, in this period of dither and in the one before, at the flow force that
-/// was believed when this one began.
+/// was estimated when this one began.
 template <class T>
 struct FrictionSwingState {
-  T flow_force_N{};  ///< believed more since then
+  T flow_force_N{};  ///< estimated more since then
   T highest_N{};
   T lowest_N{};
   T last_highest_N{};
@@ -162,32 +162,32 @@ template <class T>
 struct FrictionSwing {
   T middle_N;
   T half_swing_N;  ///< >= 0
-  bool settled;    ///< a whole period tells
+  bool settled;    ///< a whole period has been measured
 };
 
-/// A period is over: what was told in it is kept.
+/// A period is over: what was measured in it is kept.
 template <class T>
-SPOOLFLOW_INLINE constexpr void turn_swing(FrictionSwingState<T>& state, T apparent_N) {
+SPOOLFLOW_INLINE constexpr void turn_swing(FrictionSwingState<T>& state, T residual_N) {
   const bool lone = is_zero(state.periods);
   state.periods = smaller(state.periods + T(1), T(2));
-  state.last_highest_N = lone ? apparent_N : state.highest_N - state.flow_force_N;
-  state.last_lowest_N = lone ? apparent_N : state.lowest_N - state.flow_force_N;
-  state.highest_N = state.lowest_N = apparent_N;
+  state.last_highest_N = lone ? residual_N : state.highest_N - state.flow_force_N;
+  state.last_lowest_N = lone ? residual_N : state.lowest_N - state.flow_force_N;
+  state.highest_N = state.lowest_N = residual_N;
   state.flow_force_N = T(0);
 }
 
-/// One sample. `apparent_N` is what friction would have to be.
+/// One sample. `residual_N` is what friction would have to be.
 template <class T>
 SPOOLFLOW_INLINE constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& state, const Dither<T>& dither,
-                                                         T apparent_N) {
-  const bool anew = !dither.present;
-  if (anew) {
+                                                         T residual_N) {
+  const bool starts = !dither.present;
+  if (starts) {
     state.periods = state.half_swing_N = state.flow_force_N = T(0);
-    state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = apparent_N;
+    state.highest_N = state.lowest_N = state.last_highest_N = state.last_lowest_N = residual_N;
   }
-  if (!dither.present) return {apparent_N, T(0), anew};
-  if (dither.began && !anew) turn_swing(state, apparent_N);
-  const T then_N = apparent_N + state.flow_force_N;
+  if (!dither.present) return {residual_N, T(0), starts};
+  if (dither.began && !starts) turn_swing(state, residual_N);
+  const T then_N = residual_N + state.flow_force_N;
   state.highest_N = larger(state.highest_N, then_N);
   state.lowest_N = smaller(state.lowest_N, then_N);
   const bool settled = !(state.periods < T(2));
@@ -199,8 +199,8 @@ SPOOLFLOW_INLINE constexpr FrictionSwing<T> follow_swing(FrictionSwingState<T>& 
     const T reach_N = known_N > T(0) ? T(swing_following) * known_N : half_N;
     state.half_swing_N = limited(half_N, known_N - reach_N, known_N + reach_N);
   }
-  return {anew ? apparent_N : T(0.5) * (highest_N + lowest_N) - state.flow_force_N, state.half_swing_N,
-          settled || anew};
+  return {starts ? residual_N : T(0.5) * (highest_N + lowest_N) - state.flow_force_N, state.half_swing_N,
+          settled || starts};
 }
 
 /// By how much the peaks of the force exceed sliding friction where dither moves the spool on in one slip a period: the

@@ -38,7 +38,7 @@ struct ForceBalance {
   ActuatorEstimate<T> actuator;
   T spring_N;
   EdgePoint<T> edge;
-  T apparent_friction_N;  ///< residual force: magnetic force less spring and flow force
+  T residual_force_N;     ///< residual force: magnetic force less spring and flow force
   T spool_friction_N;     ///< of the spool while it slides, >= 0
   T armature_friction_N;  ///< of the armature while it slides, >= 0
   FrictionBounds<T> bounds;
@@ -86,12 +86,12 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void swing(const ObserverParameters<T>& valve, const FrictionMemory<T>& memory,
                                       const Dither<T>& dither, const PositionPoint<T>& position,
                                       const FrictionTiming<T>& timing, ForceBalance<T>& balance) {
-  const FrictionSwing<T> swing = follow_swing(memory.swing, dither, balance.apparent_friction_N);
+  const FrictionSwing<T> swing = follow_swing(memory.swing, dither, balance.residual_force_N);
   balance.dithered = dither.present;
   // Where dither frees the spool altogether, no contact ages.
   balance.freed = dither.present && swing.half_swing_N > valve.friction.freeing_share * balance.bounds.sliding_N;
   balance.settled = swing.settled;
-  balance.apparent_friction_N = swing.middle_N;
+  balance.residual_force_N = swing.middle_N;
   balance.half_swing_N = swing.half_swing_N;
   memory.swing.frees = balance.freed;
   if (!dither.present) return;
@@ -119,10 +119,10 @@ SPOOLFLOW_INLINE constexpr ForceBalance<T> balance_forces(const ObserverParamete
   out.spool_friction_N = forces.friction_ratio * forces.edge.friction_N;
   out.armature_friction_N = forces.friction_ratio * forces.actuator.friction_half_width_N;
   out.bounds = friction_bounds(valve.friction, memory.contacts, out.spool_friction_N, out.armature_friction_N);
-  out.apparent_friction_N = net_N - forces.edge.flow_force_N;
+  out.residual_force_N = net_N - forces.edge.flow_force_N;
   detail::swing(valve, memory, dither, position, timing, out);
-  out.resting = step(valve.friction, memory.contacts, out.bounds, valve.position_sensor, position,
-                     out.apparent_friction_N, out.dithered, timing.memory, timing.time_step_s);
+  out.resting = step(valve.friction, memory.contacts, out.bounds, valve.position_sensor, position, out.residual_force_N,
+                     out.dithered, timing.memory, timing.time_step_s);
 
   out.closed = position.position_m < valve.closed_below_m;
   const bool travels = position.motion == Motion::opening || position.motion == Motion::closing;
@@ -130,10 +130,10 @@ SPOOLFLOW_INLINE constexpr ForceBalance<T> balance_forces(const ObserverParamete
   out.slips = position.motion == Motion::transient && !out.freed;
   out.direction = travels || !out.freed ? (position.travel_m > T(0) ? T(1) : T(-1)) : T(0);
   out.friction_N = out.sliding ? out.direction * out.bounds.sliding_N
-                               : limited(out.apparent_friction_N, out.resting.lower_N, out.resting.upper_N);
+                               : limited(out.residual_force_N, out.resting.lower_N, out.resting.upper_N);
   // Paper (1): the mass takes a part of the force; position shows it late, so that it is no surer than its size.
   const T inertia_N = travels && !out.dithered ? valve.moving_mass_kg * position.acceleration_m_per_s2 : T(0);
-  out.apparent_friction_N -= inertia_N;
+  out.residual_force_N -= inertia_N;
   const T missed_N = T(missed_middle) * squared(dither.sample_per_period) * out.half_swing_N;
   out.noise_N = force_noise_N(valve.band, out.actuator, out.bounds, out.dithered ? missed_N : inertia_N);
   return out;

@@ -1,6 +1,6 @@
 #pragma once
-/// Friction of spool and armature: known while they slide, bounded while they stick, and told there by the micrometres
-/// by which the contact gives way (pre-sliding).
+/// Friction of spool and armature: known while they slide, bounded while they stick, and estimated there from the
+/// micrometres by which the contact gives way (pre-sliding).
 #include <cmath>
 #include <type_traits>
 
@@ -11,13 +11,13 @@
 
 namespace spoolflow::sensor {
 
-/// What the bench's half widths do not tell. See paper section 2.1.3; pre-sliding after Dahl.
+/// What the bench's half-widths do not include. See paper section 2.1.3; pre-sliding after Dahl.
 template <class T>
 struct FrictionParameters {
   T ageing_ratio{};               ///< the spool's friction after a long rest over its sliding friction, >= 1
   T ageing_s{};                   ///< time constant of that growth
   T contact_stiffness_N_per_m{};  ///< of the contacts in pre-sliding
-  T tolerance_N{};                ///< standard deviation of friction told by the pre-sliding displacement
+  T tolerance_N{};                ///< standard deviation of friction estimated from the pre-sliding displacement
   T breakaway_share{};            ///< standard deviation of the break-away force about ageing, as a share of it
   T operation_ratio{};            ///< friction in operation over half the width of the bench's loops, to begin with
   T freeing_share = T(1.2);       ///< dither frees the spool where half the swing of friction is so many times sliding
@@ -26,16 +26,16 @@ struct FrictionParameters {
 
 template <class T>
 struct FrictionState {
-  T gauge_N{};     ///< middle of where friction may lie by the pre-sliding displacement, sign of the velocity
-  T smooth_m{};    ///< position, smoothed
-  T followed_m{};  ///< the same without what noise may fake
-  T dragged_m{};   ///< by how much the spool has dragged the sensor along one way
-  T dragging{};    ///< how sure that it does so now, sign of the way, -1 to 1
-  T rest_s{};      ///< since the spool came to rest
-  T held_N{};      ///< friction as it was some milliseconds ago
-  T earlier_N{};   ///< and some before
+  T presliding_N{};  ///< middle of where friction may lie by the pre-sliding displacement, sign of the velocity
+  T smooth_m{};      ///< position, smoothed
+  T followed_m{};    ///< the same without what noise may fake
+  T engaged_m{};     ///< how far the spool has moved the sensor one way, backlash engaged
+  T engagement{};    ///< how sure that it is engaged, sign of the way, -1 to 1
+  T rest_s{};        ///< since the spool came to rest
+  T held_N{};        ///< friction as it was some milliseconds ago
+  T earlier_N{};     ///< and some before
   T held_s{};
-  T slack_m{};  ///< what noise may fake of a displacement
+  T deadband_m{};  ///< deadband of the displacement: what noise may fake
 };
 
 /// Friction lies between these; > 0 hinders opening.
@@ -47,19 +47,19 @@ struct FrictionInterval {
   T rested_s;     ///< how long it had rested before
 };
 
-/// Of the position that the gauge of pre-sliding reads [s].
-inline constexpr double gauge_smoothing_s = 0.03;
-/// Standard deviations of the smoothed position's noise that the gauge takes for no motion.
-inline constexpr double gauge_slack_deviations = 2;
-/// A drag of the sensor by so many times what noise may fake is as likely as not noise's.
-inline constexpr double doubtful_drag_slacks = 0.7;
-/// For so long [s] after it was dragged the sensor tells at which end of its backlash it lies.
-inline constexpr double drag_memory_s = 0.02;
-/// So much of the reach to the other side of the gauge is out of question where the sensor is surely dragged.
-inline constexpr double drag_certainty = 0.8;
+/// Smoothing of the position for pre-sliding friction [s].
+inline constexpr double presliding_smoothing_s = 0.03;
+/// Standard deviations of the smoothed position's noise that count as no motion.
+inline constexpr double presliding_deadband_deviations = 2;
+/// An engagement of the backlash by so many deadbands is as likely as not noise's.
+inline constexpr double doubtful_engagement_deadbands = 0.7;
+/// For so long [s] after it engaged it is known at which end of its backlash the sensor lies.
+inline constexpr double engagement_memory_s = 0.02;
+/// So much of the half-width on the other side of the estimate is out of question where the backlash surely engages.
+inline constexpr double engagement_certainty = 0.8;
 /// What is left of the contact's stiffness at the limit of sticking, as a share of it.
 inline constexpr double least_stiffness_share = 0.1;
-/// Standard deviations of the gauge by which friction at rest may exceed the sticking limit.
+/// Standard deviations of pre-sliding friction by which friction at rest may exceed the sticking limit.
 inline constexpr double sticking_limit_deviations = 2;
 /// A longer rest [s] says no more; in single precision time steps of 50 us still add up to it.
 inline constexpr double longest_rest_s = 500;
@@ -90,50 +90,50 @@ constexpr FrictionBounds<T> friction_bounds(const FrictionParameters<T>& frictio
 
 /// By how much noise may fake a displacement at rest.
 template <class T>
-SPOOLFLOW_INLINE constexpr T gauge_slack_m(T noise_m, T time_step_s) {
-  const T smoothing_s = T(gauge_smoothing_s);
-  return T(gauge_slack_deviations) * noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
+SPOOLFLOW_INLINE constexpr T presliding_deadband_m(T noise_m, T time_step_s) {
+  const T smoothing_s = T(presliding_smoothing_s);
+  return T(presliding_deadband_deviations) * noise_m * sqrt(T(0.5) * time_step_s / (smoothing_s + time_step_s));
 }
 
-/// How far to either side of what the pre-sliding displacement tells friction may lie.
+/// How far to either side of its estimate from the pre-sliding displacement friction may lie.
 template <class T>
-SPOOLFLOW_INLINE constexpr T gauge_reach_N(const FrictionParameters<T>& friction, const PositionSensor<T>& sensor,
-                                           T slack_m) {
-  return friction.contact_stiffness_N_per_m * (sensor.backlash_m + slack_m);
+SPOOLFLOW_INLINE constexpr T presliding_half_width_N(const FrictionParameters<T>& friction,
+                                                     const PositionSensor<T>& sensor, T deadband_m) {
+  return friction.contact_stiffness_N_per_m * (sensor.backlash_m + deadband_m);
 }
 
 /// To be called before the first sample, with its position: how long the spool has been at rest is not known.
 template <class T>
 constexpr void begin(const FrictionParameters<T>& friction, FrictionState<T>& state, T position_m) {
   state.smooth_m = state.followed_m = position_m;
-  state.gauge_N = state.dragged_m = state.dragging = state.held_N = state.earlier_N = state.held_s = T(0);
+  state.presliding_N = state.engaged_m = state.engagement = state.held_N = state.earlier_N = state.held_s = T(0);
   state.rest_s = friction.ageing_s;
 }
 
 namespace detail {
 
-/// What friction is told by while the spool rests.
+/// What friction is estimated from while the spool rests.
 template <class T>
 struct Contact {
-  T apparent_N;  ///< friction that the believed pressure difference leaves
-  T sticking_N;  ///< the most that the contacts hold
-  T holds_N;     ///< the same, by what the gauge may be wrong more
-  T slack_m;     ///< what noise may fake
-  T reach_N;     ///< how far friction may lie from the gauge
+  T residual_N;    ///< residual force at the estimated pressure difference
+  T sticking_N;    ///< the most that the contacts hold
+  T holds_N;       ///< the same, and what the estimate may be wrong by
+  T deadband_m;    ///< what noise may fake
+  T half_width_N;  ///< how far friction may lie from the estimate
   bool creeps;
 };
 
-/// Whether the spool drags the sensor along, and which way.
+/// Whether the spool moves the sensor along, and which way.
 template <class T>
-SPOOLFLOW_INLINE constexpr void drag(FrictionState<T>& state, T moved_m, T slack_m, T time_step_s) {
-  const bool goes_on = !(moved_m * state.dragged_m < T(0));
+SPOOLFLOW_INLINE constexpr void engage(FrictionState<T>& state, T moved_m, T deadband_m, T time_step_s) {
+  const bool goes_on = !(moved_m * state.engaged_m < T(0));
   const bool moves = !is_zero(moved_m);
-  state.dragged_m = moved_m + (goes_on ? state.dragged_m : T(0));
-  const T size2 = squared(state.dragged_m);
-  const T doubtful2 = squared(T(doubtful_drag_slacks) * slack_m);
-  const T sure = (state.dragged_m < T(0) ? T(-1) : T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
-  const T left = T(1) - smaller(time_step_s / T(drag_memory_s), T(1));
-  state.dragging = moves ? sure : left * state.dragging;
+  state.engaged_m = moved_m + (goes_on ? state.engaged_m : T(0));
+  const T size2 = squared(state.engaged_m);
+  const T doubtful2 = squared(T(doubtful_engagement_deadbands) * deadband_m);
+  const T sure = (state.engaged_m < T(0) ? T(-1) : T(1)) * size2 / larger(size2 + doubtful2, T(1e-30));
+  const T left = T(1) - smaller(time_step_s / T(engagement_memory_s), T(1));
+  state.engagement = moves ? sure : left * state.engagement;
 }
 
 /// At rest: friction changes with the pre-sliding displacement. Dahl: stiffness fades towards the limit.
@@ -141,19 +141,20 @@ template <class T>
 SPOOLFLOW_INLINE constexpr void follow_displacement(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                                     const Contact<T>& contact, T position_m, T time_step_s) {
   state.rest_s = smaller(state.rest_s + time_step_s, T(longest_rest_s));
-  const T share =
-      larger(time_step_s / larger(state.rest_s, T(least_rest_s)), time_step_s / (T(gauge_smoothing_s) + time_step_s));
+  const T share = larger(time_step_s / larger(state.rest_s, T(least_rest_s)),
+                         time_step_s / (T(presliding_smoothing_s) + time_step_s));
   state.smooth_m += smaller(share, T(1)) * (position_m - state.smooth_m);
   const T before_m = state.followed_m;
-  state.followed_m = limited(state.followed_m, state.smooth_m - contact.slack_m, state.smooth_m + contact.slack_m);
+  state.followed_m =
+      limited(state.followed_m, state.smooth_m - contact.deadband_m, state.smooth_m + contact.deadband_m);
   const T moved_m = state.followed_m - before_m;
   const T sign = moved_m < T(0) ? T(-1) : T(1);
-  const T reserve = limited(T(1) - sign * contact.apparent_N / contact.holds_N, T(least_stiffness_share), T(1));
-  state.gauge_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
-  if (!contact.creeps) drag(state, moved_m, contact.slack_m, time_step_s);
-  // Whoever drags the sensor along is at that end of its backlash, and holds no more than the contact bears.
-  const T most_N = larger(contact.sticking_N - contact.reach_N, T(0));
-  state.gauge_N = limited(state.gauge_N, -most_N, most_N);
+  const T reserve = limited(T(1) - sign * contact.residual_N / contact.holds_N, T(least_stiffness_share), T(1));
+  state.presliding_N += friction.contact_stiffness_N_per_m * moved_m * reserve;
+  if (!contact.creeps) engage(state, moved_m, contact.deadband_m, time_step_s);
+  // A spool that moves the sensor is at that end of its backlash, and holds no more than the contact bears.
+  const T most_N = larger(contact.sticking_N - contact.half_width_N, T(0));
+  state.presliding_N = limited(state.presliding_N, -most_N, most_N);
 }
 
 /// In motion: friction is that of sliding, or in a slip what the forces leave; from there the next rest begins.
@@ -163,40 +164,40 @@ SPOOLFLOW_INLINE constexpr void follow_motion(FrictionState<T>& state, const Con
   const T direction = position.travel_m > T(0) ? T(1) : T(-1);
   const bool sliding = position.motion != Motion::transient;
   const T friction_N =
-      (sliding ? direction * sliding_N : limited(contact.apparent_N, -contact.holds_N, contact.holds_N));
-  state.gauge_N = sliding ? friction_N - direction * contact.reach_N : friction_N;
+      (sliding ? direction * sliding_N : limited(contact.residual_N, -contact.holds_N, contact.holds_N));
+  state.presliding_N = sliding ? friction_N - direction * contact.half_width_N : friction_N;
   state.smooth_m = position.position_m;
-  state.followed_m = position.position_m - direction * contact.slack_m;
+  state.followed_m = position.position_m - direction * contact.deadband_m;
   state.rest_s = T(0);
-  state.dragged_m = state.dragging = T(0);
+  state.engaged_m = state.engagement = T(0);
 }
 
 /// Keeps what friction was `breakaway_delay_s` ago and before.
 template <class T>
-SPOOLFLOW_INLINE constexpr void hold(FrictionState<T>& state, T apparent_N, T time_step_s) {
+SPOOLFLOW_INLINE constexpr void hold(FrictionState<T>& state, T residual_N, T time_step_s) {
   state.held_s += time_step_s;
   const bool delayed = state.held_s > T(breakaway_delay_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
   if (!delayed) return;
   state.held_s = T(0);
   state.earlier_N = state.held_N;
-  state.held_N = apparent_N;
+  state.held_N = residual_N;
 }
 
 }  // namespace detail
 
-/// Follows the pre-sliding displacement. `apparent_N` is the friction that the believed pressure difference leaves;
-/// while the spool slips it is all there is. Where contacts creep, as dither lets them, where the spool stands tells no
-/// friction. `memory` is due once a block of positions. Returns where friction may lie at rest.
+/// Follows the pre-sliding displacement. `residual_N` is the residual force at the estimated pressure
+/// difference; while the spool slips it is all there is. Where contacts creep, as dither lets them, the position shows
+/// no friction. `memory` is due once a block of positions. Returns where friction may lie at rest.
 template <class T>
 SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>& friction, FrictionState<T>& state,
                                                     const FrictionBounds<T>& bounds, const PositionSensor<T>& sensor,
-                                                    const PositionPoint<T>& position, T apparent_N, bool creeps,
+                                                    const PositionPoint<T>& position, T residual_N, bool creeps,
                                                     const Due<T>& memory, T time_step_s) {
-  if (memory.now) state.slack_m = gauge_slack_m(sensor.noise_m * position.noise_times, time_step_s);
-  const T slack_m = state.slack_m;
-  const T reach_N = gauge_reach_N(friction, sensor, slack_m);
+  if (memory.now) state.deadband_m = presliding_deadband_m(sensor.noise_m * position.noise_times, time_step_s);
+  const T deadband_m = state.deadband_m;
+  const T half_width_N = presliding_half_width_N(friction, sensor, deadband_m);
   const T holds_N = bounds.sticking_N + T(sticking_limit_deviations) * friction.tolerance_N;
-  const detail::Contact<T> contact{apparent_N, bounds.sticking_N, holds_N, slack_m, reach_N, creeps};
+  const detail::Contact<T> contact{residual_N, bounds.sticking_N, holds_N, deadband_m, half_width_N, creeps};
   const T rested_s = state.rest_s;
   T breakaway_N{};
   if (position.motion == Motion::rest) {
@@ -208,14 +209,14 @@ SPOOLFLOW_INLINE constexpr FrictionInterval<T> step(const FrictionParameters<T>&
     }
     detail::follow_motion(state, contact, bounds.sliding_N, position);
   }
-  if (memory.now) detail::hold(state, apparent_N, memory.since_s);
+  if (memory.now) detail::hold(state, residual_N, memory.since_s);
   FrictionInterval<T> out{-bounds.sticking_N, bounds.sticking_N, breakaway_N, rested_s};
   if (creeps) return out;
-  // Friction lies on the side of the gauge to which the sensor is dragged.
-  const T below_N = reach_N * (T(1) - T(drag_certainty) * larger(state.dragging, T(0)));
-  const T above_N = reach_N * (T(1) + T(drag_certainty) * smaller(state.dragging, T(0)));
-  out.lower_N = larger(state.gauge_N - below_N, -holds_N);
-  out.upper_N = smaller(state.gauge_N + above_N, holds_N);
+  // Friction lies on the side of the estimate to which the backlash engages.
+  const T below_N = half_width_N * (T(1) - T(engagement_certainty) * larger(state.engagement, T(0)));
+  const T above_N = half_width_N * (T(1) + T(engagement_certainty) * smaller(state.engagement, T(0)));
+  out.lower_N = larger(state.presliding_N - below_N, -holds_N);
+  out.upper_N = smaller(state.presliding_N + above_N, holds_N);
   return out;
 }
 

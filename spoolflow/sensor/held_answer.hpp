@@ -48,7 +48,7 @@ constexpr void widen_held(const ObserverParameters<T>& valve, const Unobserved<T
                           T time_step_s, Estimate<T>& held) {
   const MeteringEdge<T>& edges = valve.edge;
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  drift_unseen(valve.pressure, known.pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
+  drift_unobserved(valve.pressure, known.pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
   const T pressure_Pa = known.pressure.pressure_difference_Pa;
   const EdgePoint<T> edge = edges.at(known.oil_temperature_K, pressure_Pa, at.position_m);
   const T open_conductance =
@@ -56,8 +56,8 @@ constexpr void widen_held(const ObserverParameters<T>& valve, const Unobserved<T
   const T least = at.seen ? edge.conductance : T(0);
   const Passage<T> passage{least, least, at.seen ? edge.conductance : open_conductance};
   Estimate<T> now{};
-  const PressureReach<T> reach = unobserved_reach(valve.band, known.pressure, known.errors, edge);
-  answer_flow(valve, passage, pressure_band(known.pressure, reach, highest_Pa), now);
+  const PressureHalfWidths<T> widths = unobserved_half_widths(valve.band, known.pressure, known.errors, edge);
+  answer_flow(valve, passage, pressure_band(known.pressure, widths, highest_Pa), now);
   open_band(held, {now.flow_lower_m3_per_s, now.flow_upper_m3_per_s}, at.seen, time_step_s);
 }
 

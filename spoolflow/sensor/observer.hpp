@@ -66,7 +66,7 @@ constexpr void begin(const ObserverParameters<T>& valve, ObserverState<T>& state
   sensor::begin(state.dither, sample.current_A);  // without dither no swing is kept either
   sensor::begin(valve.friction, state.friction, position_m);
   sensor::begin(valve.pressure, state.pressure, valve.highest_pressure_difference_Pa(), valve.friction.operation_ratio,
-                valve.band.unseen_factor);
+                valve.band.unobserved_factor);
 }
 
 /// What a coil shows whose armature does not move.
@@ -120,16 +120,16 @@ SPOOLFLOW_INLINE constexpr auto status(const ObserverParameters<T>& valve, const
 
 /// What is left open of the pressure difference, computed where it is due.
 template <class T>
-SPOOLFLOW_INLINE constexpr void follow_reach(const ObserverParameters<T>& valve, ObserverState<T>& state,
-                                             const ForceBalance<T>& balance, const PositionPoint<T>& position,
-                                             T current_A) {
+SPOOLFLOW_INLINE constexpr void follow_half_widths(const ObserverParameters<T>& valve, ObserverState<T>& state,
+                                                   const ForceBalance<T>& balance, const PositionPoint<T>& position,
+                                                   T current_A) {
   PressureState<T>& pressure = state.pressure;
   if (!is_bench(valve.environment))
     state.force_errors.environment_N = environment_N(
         valve, balance, {state.oil.temperature_K, pressure.pressure_difference_Pa, position.position_m, current_A});
-  pressure.reach = pressure_reach(valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
-                                  displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio),
-                                  state.force_errors.environment_N);
+  pressure.half_widths = pressure_half_widths(
+      valve.band, pressure, balance, state.friction.rest_s, position.velocity_m_per_s,
+      displaced_ratio(valve.pressure, pressure, valve.friction.operation_ratio), state.force_errors.environment_N);
 }
 
 /// Flow rate of this instant at the expected pressure difference, with its band; paper section 3.
@@ -138,7 +138,8 @@ SPOOLFLOW_INLINE constexpr void answer(const ObserverParameters<T>& valve, const
                                        const ForceBalance<T>& balance, Estimate<T>& out) {
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   const T conductance = balance.edge.conductance;
-  answer_flow(valve, {conductance, conductance, conductance}, pressure_band(pressure, pressure.reach, highest_Pa), out);
+  answer_flow(valve, {conductance, conductance, conductance}, pressure_band(pressure, pressure.half_widths, highest_Pa),
+              out);
   admit_stall(balance, out.pressure_difference_Pa, highest_Pa, out);
   out.magnetic_force_N = balance.actuator.magnetic_force_N;
   out.spring_force_N = balance.spring_N;
@@ -157,11 +158,11 @@ SPOOLFLOW_NOINLINE constexpr void answer_in_doubt(ObserverState<T>& state, const
       net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, begins, false);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, {true, T(0)});
   const T highest_Pa = valve.highest_pressure_difference_Pa();
-  drift_unseen(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
+  drift_unobserved(valve.pressure, state.pressure, sample.time_step_s, highest_Pa);
   const EdgePoint<T> edge =
       valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
-  const PressureReach<T> reach = unobserved_reach(valve.band, state.pressure, state.force_errors, edge);
-  PressureBand<T> band = pressure_band(state.pressure, reach, highest_Pa);
+  const PressureHalfWidths<T> widths = unobserved_half_widths(valve.band, state.pressure, state.force_errors, edge);
+  PressureBand<T> band = pressure_band(state.pressure, widths, highest_Pa);
   const CoilResistanceState<T>& coil = state.actuator.coil_resistance;
   if (coil.unanswered) band = {T(0), band.expected_Pa, highest_Pa};
   Estimate<T>& out = state.last;
@@ -215,7 +216,7 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
   state.force_errors.noise_N = balance.noise_N;
   update_pressure(valve, state, balance, schedule, sample.time_step_s);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, schedule.coil_diagnosis);
-  if (schedule.band) follow_reach(valve, state, balance, position, sample.current_A);
+  if (schedule.band) follow_half_widths(valve, state, balance, position, sample.current_A);
   answer(valve, state.pressure, balance, state.last);
   state.last.status = status(valve, state, sample, balance);
 }
@@ -255,15 +256,15 @@ SPOOLFLOW_NOINLINE constexpr void hold(ObserverState<T>& state, const Sample<T>&
 }  // namespace detail
 
 /// A sample that cannot be used: the last flow is held, its band opens for as long as that lasts, and the status says
-/// why. After a leap of time the sensor begins anew with the next one.
+/// why. After a leap of time the sensor starts again with the next one.
 template <class T>
 constexpr void hold(const ObserverParameters<T>& valve, ObserverState<T>& state, const Sample<T>& sample) {
   detail::hold(state, sample, valve);
 }
 
 /// One sample through the chain of paper Fig 3. Needs current and position, and a time that does not run backwards:
-/// otherwise the last flow is held (`hold`); after a leap of time it begins anew. A missing oil temperature is held;
-/// the voltage tells of the coil alone and may be missing. The answer stays in the state.
+/// otherwise the last flow is held (`hold`); after a leap of time it starts again. A missing oil temperature is held;
+/// the voltage serves the coil's diagnosis alone and may be missing. The answer stays in the state.
 template <class T>
 constexpr const Estimate<T>& step(const ObserverParameters<T>& valve, ObserverState<T>& state,
                                   const Sample<T>& measured) {

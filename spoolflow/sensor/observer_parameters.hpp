@@ -15,18 +15,19 @@
 
 namespace spoolflow::sensor {
 
-/// How sure the observer may be, beyond what its parts tell; see band.hpp.
+/// How sure the observer may be, beyond the uncertainty of its parts; see band.hpp.
 template <class T>
 struct BandParameters {
   T friction_share{};    ///< standard deviation of sliding friction about its map, as a share of it
   T force_residual_N{};  ///< standard deviation of all maps together
   T flow_residual_m3_per_s{};
-  T coverage_factor{};  ///< standard deviations in the 95 % band
-  T force_share{};      ///< how much of the force errors that the parts tell the band counts while the spool slides
-  T rest_share{};       ///< the same at rest
-  T tolerance_N{};    ///< standard deviation of where the band's ends at rest lie, told by the pre-sliding displacement
-  T creep_per_s{};    ///< growth of that tolerance with the time at rest, as a share of it
-  T unseen_factor{};  ///< standard deviation of unobserved changes of pressure over the resting drift's, at its most
+  T coverage_factor{};    ///< standard deviations in the 95 % band
+  T force_share{};        ///< share of the parts' force errors that the band counts while the spool slides
+  T rest_share{};         ///< the same at rest
+  T tolerance_N{};        ///< standard deviation of the band's ends at rest, from the pre-sliding displacement
+  T creep_per_s{};        ///< growth of that tolerance with the time at rest, as a share of it
+  T unobserved_factor{};  ///< standard deviation of unobserved changes of pressure over the resting drift's, at its
+                          ///< most
 };
 
 /// How the open path's pressure difference lies over its two edges while both pass the flows of the calibrated load.
@@ -34,7 +35,7 @@ struct BandParameters {
 template <class T>
 struct InletShare {
   T share = T(0.5);   ///< that lies over the inlet edge, P to B or P to A
-  T range = T(0.25);  ///< measured pressures may tell one that differs from it by so much
+  T range = T(0.25);  ///< measured pressures may show one that differs from it by so much
 };
 
 /// What the machine around the valve leaves unknown, one standard deviation each; {} is the bench (band.hpp).

@@ -1,5 +1,5 @@
 #pragma once
-/// What a position track keeps, and what it tells of a sample; position_track.hpp says how it is told.
+/// What a position track keeps, and what it answers to a sample; position_track.hpp says how.
 #include <array>
 #include <cstdint>
 #include <type_traits>
@@ -9,9 +9,9 @@
 namespace spoolflow::sensor {
 
 /// Length of the blocks over which the position is averaged [s]: 20 samples at 10 kHz, 2 at 1 kHz, one at 500 Hz. Where
-/// dither frees the spool a block is a period, in which the spool's tremble cancels.
+/// dither frees the spool a block is a period, in which its dither motion cancels.
 inline constexpr double block_length_s = 2e-3;
-/// Sliding is told from windows of so many blocks, three in a row: short ones at the pace of a duty cycle ...
+/// Sliding is found from windows of so many blocks, three in a row: short ones at the pace of a duty cycle ...
 inline constexpr int short_window_blocks = 2;
 /// ... which must travel further than so many standard deviations of the noise, ...
 inline constexpr double short_window_deviations = 3;
@@ -46,19 +46,19 @@ inline constexpr double quiet_current_share = 0.005;
 inline constexpr double quiet_voltage_share = 0.03;
 /// ... no jump is credible by more than this [m], however long the step in which a spool could accelerate.
 inline constexpr double quiet_jump_m = 60e-6;
-/// A jump that lasts longer than this [s] is believed, but doubted until that [s]: where the signal jumps back
+/// A jump that lasts longer than this [s] is accepted, but marked until that [s]: where the signal jumps back
 /// meanwhile, it was the jump that was wrong.
 inline constexpr double longest_position_fault_s = 0.25;
 inline constexpr double longest_position_doubt_s = 2.5;
 /// A period of dither that is longer [s] is none any more: the block ends.
-inline constexpr double longest_tremble_block_s = 0.015;
+inline constexpr double longest_dither_block_s = 0.015;
 /// A block is taken for no shorter [s]: velocities divide by it.
 inline constexpr double shortest_block_s = 1e-6;
 inline constexpr double fastest_m_per_s = 10;         ///< no spool moves faster
 inline constexpr double velocity_smoothing_s = 0.03;  ///< of the velocity
-inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that tells a direction and nothing else
+inline constexpr double direction_only_m = 1e-6;      ///< size of a travel that shows a direction and nothing else
 
-/// Changes of the coil's current and voltage from one sample to the next, >= 0, that tell of no motion.
+/// Changes of the coil's current and voltage from one sample to the next, >= 0, that show no motion.
 template <class T>
 struct QuietCoil {
   T current_A;
@@ -79,7 +79,7 @@ inline constexpr int short_blocks = 8;      ///< of means over one, for the shor
 template <class T>
 struct PositionNoise {
   T median{};  ///< of the size of second differences
-  T times{};   ///< standard deviation of one sample: 1, or what the median tells where that is more
+  T times{};   ///< standard deviation of one sample: 1, or what the median shows where that is more
 };
 
 /// Trivially copyable memory of a track. The rings hold means over blocks of some milliseconds, newest at `newest`;
@@ -93,12 +93,12 @@ struct PositionState {
   T block_s{};
   T per_block_samples{};  ///< 1 / samples in a block
   T last_m{};
-  T step_m{};  ///< last believed change
+  T step_m{};  ///< last accepted change
   PositionNoise<T> noise{};
   T current_A{};  ///< of the coil, in the last sample
   T voltage_V{};
   T offset_m{};               ///< what an acquisition fault adds to the signal
-  T elsewhere_m{};            ///< where the spool is, from there, if the jump is the other way about than believed
+  T elsewhere_m{};            ///< where the spool is, from there, if the jump is the other way about than taken
   T fault_s{};                ///< how long ago the fault began; 0: there is none
   T unsettled_s{};            ///< time until a slip counts as over
   T travel_m{};               ///< over the last blocks of a motion, sign of the velocity
@@ -126,11 +126,11 @@ template <class T>
 struct PositionPoint {
   T position_m;  ///< free of drift and faults
   Motion motion;
-  bool fault;            ///< a jump of the signal is taken out of it, or doubted
-  T travel_m;            ///< sign of the velocity of what `motion` tells
+  bool fault;            ///< a jump of the signal is taken out of it, or marked
+  T travel_m;            ///< sign of the velocity of `motion`
   T velocity_m_per_s{};  ///< smoothed
   T acceleration_m_per_s2{};
-  T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than believed
+  T elsewhere_m{};  ///< under a fault: where the spool is if the jump is the other way about than taken
   T noise_times{};  ///< the signal's noise over the calibrated one, >= 1
   PositionBlock<T> block{};
 };

@@ -109,7 +109,7 @@ constexpr void follow_noise(const PositionSensor<T>& sensor, PositionNoise<T>& n
 
 /// What the spool does, after each block.
 template <class T>
-SPOOLFLOW_INLINE constexpr void tell_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
+SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, PositionState<T>& state) {
   const T noise_m = state.noise.times * sensor.noise_m * sqrt(T(2) * state.per_block_samples);
   const Motion motion = even_motion(state, noise_m);
   const bool even = motion != Motion::rest;
@@ -128,7 +128,7 @@ SPOOLFLOW_INLINE constexpr void tell_motion(const PositionSensor<T>& sensor, Pos
 }
 
 /// How much more than its noise the signal's step [m] may credibly change: what the hardest acceleration allows, or
-/// less where the coil tells of no motion.
+/// less where the coil shows no motion.
 template <class T>
 constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T>& state, const Sample<T>& sample,
                           const QuietCoil<T>& coil) {
@@ -140,25 +140,25 @@ constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T
 }
 
 /// A change of the signal's step beyond its noise: what is not credible goes into the offset, or is the way back from a
-/// jump that was believed.
+/// jump that was accepted.
 template <class T>
 constexpr void judge_jump(PositionState<T>& state, T change_m, T credible_m, T time_step_s) {
   // A spool may stop in no time, at an end stop or by friction.
   const T innovation_m = change_m - limited(change_m, smaller(state.step_m, T(0)), larger(state.step_m, T(0)));
   if (!(magnitude(innovation_m) > credible_m)) return;
-  const bool believed = is_zero(state.offset_m);
-  const bool returns = believed && state.fault_s > T(0) && magnitude(innovation_m - state.elsewhere_m) < credible_m;
+  const bool accepted = is_zero(state.offset_m);
+  const bool returns = accepted && state.fault_s > T(0) && magnitude(innovation_m - state.elsewhere_m) < credible_m;
   const T offset_m = state.offset_m + innovation_m;
   const T left_m = magnitude(offset_m) < credible_m || returns ? T(0) : offset_m;
   state.offset_m = state.elsewhere_m = left_m;
   if (is_zero(left_m)) {
     state.fault_s = T(0);
-  } else if (believed) {
+  } else if (accepted) {
     state.fault_s = time_step_s;
   }
 }
 
-/// One more sample of a fault: a jump that lasts is believed, then doubted, then forgotten. Returns the position.
+/// One more sample of a fault: a jump that lasts is accepted, then marked, then forgotten. Returns the position.
 template <class T>
 constexpr T outlast_fault(PositionState<T>& state, T position_m, T time_step_s) {
   if (!is_zero(state.offset_m) && state.fault_s > T(longest_position_fault_s) + T(0.5) * time_step_s) {
@@ -178,13 +178,13 @@ SPOOLFLOW_INLINE constexpr T without_faults(const PositionSensor<T>& sensor, Pos
   const T change_m = position_m - state.offset_m - state.last_m;
   if (magnitude(change_m - state.step_m) > noise_m)
     judge_jump(state, change_m, noise_m + accelerated_m(sensor, state, sample, coil), sample.time_step_s);
-  const T believed_m =
+  const T accepted_m =
       is_zero(state.fault_s) ? position_m - state.offset_m : outlast_fault(state, position_m, sample.time_step_s);
   state.current_A = sample.current_A;
   state.voltage_V = sample.voltage_V;
-  state.step_m = believed_m - state.last_m;
-  state.last_m = believed_m;
-  return believed_m;
+  state.step_m = accepted_m - state.last_m;
+  state.last_m = accepted_m;
+  return accepted_m;
 }
 
 }  // namespace detail
@@ -218,12 +218,12 @@ SPOOLFLOW_INLINE constexpr PositionPoint<T> track(const PositionSensor<T>& senso
   state.sum_s += time_step_s;
   state.samples = state.samples + 1;
   const bool whole = state.sum_s > T(block_length_s) - T(0.5) * time_step_s;  // no matter how the sum rounds
-  const bool trembles = freed && dither.present && state.sum_s < T(longest_tremble_block_s);
-  const bool closed = whole && (dither.begins || !trembles);
+  const bool dithers = freed && dither.present && state.sum_s < T(longest_dither_block_s);
+  const bool closed = whole && (dither.begins || !dithers);
   if (closed) {
     detail::follow_noise(sensor, state.noise, magnitude(state.step_m - step_before_m));
     detail::close_block(state);
-    detail::tell_motion(sensor, state);
+    detail::find_motion(sensor, state);
   }
   const bool even = ((state.newest + state.samples) & 1) == 0;
   return {position_m,

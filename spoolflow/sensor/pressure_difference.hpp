@@ -24,9 +24,8 @@ inline constexpr double usual_innovation_squared = 0.3;
 inline constexpr double innovation_gate = 1.2;
 /// ... at this pace [s].
 inline constexpr double gate_opening_s = 0.015;
-/// The forces tell of a change of the pressure difference so much later [s]: what it did since is unobserved at any
-/// time.
-inline constexpr double told_late_s = 0.002;
+/// The forces show a change of the pressure difference so much later [s]: what it did since is unobserved at any time.
+inline constexpr double measurement_delay_s = 0.002;
 /// A variance that reaches this [Pa2], or falls below zero, is none: rounding has broken the estimate.
 inline constexpr double most_variance_Pa2 = 1e30;
 /// Friction grows with pressure against the flow force when the spool closes: what is left of the slope of both
@@ -40,7 +39,7 @@ struct PressureParameters {
   T resting_drift_Pa_per_sqrt_s{};  ///< random walk while it is unobserved, of the most restless supply
   T least_process_noise{};          ///< share of that drift's variance where the supply has proved steady, (0, 1]
   T first_process_noise{};          ///< the same of a supply of which nothing is known yet
-  T yielding_s{};                   ///< how fast it gives way to a force that friction at rest cannot explain
+  T constrained_correction_s{};     ///< time constant of the correction by a force that friction at rest cannot explain
   T force_correlation_s{};  ///< for how long errors of the forces stay alike: samples within are no new evidence
   T ratio_deviation{};      ///< standard deviation of the friction ratio at any time
   T ratio_memory_s{};       ///< of sliding, in which it forgets what it has learnt
@@ -48,10 +47,10 @@ struct PressureParameters {
 
 /// How far the pressure difference may lie from the estimate [Pa].
 template <class T>
-struct PressureReach {
+struct PressureHalfWidths {
   T below_Pa{};  ///< >= 0
   T above_Pa{};  ///< >= 0
-  T ahead_Pa{};  ///< so far above it is expected; below it where < 0
+  T bias_Pa{};   ///< so far above it is expected; below it where < 0
 };
 
 template <class T>
@@ -60,15 +59,15 @@ struct PressureState {
   T variance_Pa2{};
   T friction_ratio{};  ///< friction in operation over the bench's
   T ratio_variance{};
-  T covariance_Pa{};            ///< of pressure difference and friction ratio
-  T process_noise{};            ///< variance of unobserved changes over that of the resting drift
-  T observed_Pa{};              ///< when last seen; < 0 before
-  T drift_variance_Pa2{};       ///< of the resting drift since
-  T unobserved_variance_Pa2{};  ///< what of it no force has shown yet
-  T yielded_Pa{};               ///< to forces that friction at rest cannot explain, one way, since last seen
-  T innovation_squared{};       ///< normalised, averaged over the last seconds of sliding
-  T band_factor{};              ///< how much wider than its parts say the band must be
-  PressureReach<T> reach{};     ///< as it was when it was last computed
+  T covariance_Pa{};              ///< of pressure difference and friction ratio
+  T process_noise{};              ///< variance of unobserved changes over that of the resting drift
+  T observed_Pa{};                ///< when last observed; < 0 before
+  T drift_variance_Pa2{};         ///< of the resting drift since
+  T unobserved_variance_Pa2{};    ///< what of it no force has shown yet
+  T constrained_correction_Pa{};  ///< at rest, by forces that friction cannot explain; one way, since last observed
+  T innovation_squared{};         ///< normalised, averaged over the last seconds of sliding
+  T band_factor{};                ///< how much wider than its parts say the band must be
+  PressureHalfWidths<T> half_widths{};  ///< as it was when it was last computed
 };
 
 static_assert(std::is_trivially_copyable_v<PressureState<float>>);
@@ -96,23 +95,23 @@ SPOOLFLOW_INLINE constexpr T whole_slope_N_per_Pa(T slope_N_per_Pa, T friction_s
 }
 
 /// To be called before the first sample, and where the estimate is broken. `calibrated_ratio` is the friction ratio to
-/// begin with, `unseen_factor` that of unobserved_change_Pa.
+/// begin with, `unobserved_factor` that of unobserved_change_Pa.
 template <class T>
 constexpr void begin(const PressureParameters<T>& pressure, PressureState<T>& state, T highest_Pa, T calibrated_ratio,
-                     T unseen_factor) {
+                     T unobserved_factor) {
   state.pressure_difference_Pa = T(first_pressure_share) * highest_Pa;
   state.variance_Pa2 = squared(T(first_deviation_share) * highest_Pa);
   state.covariance_Pa = T(0);
   state.process_noise = pressure.first_process_noise;
   state.observed_Pa = T(-1);
   state.drift_variance_Pa2 = T(0);
-  state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unseen_factor * pressure.first_process_noise);
-  state.yielded_Pa = T(0);
+  state.unobserved_variance_Pa2 = state.variance_Pa2 / squared(unobserved_factor * pressure.first_process_noise);
+  state.constrained_correction_Pa = T(0);
   state.friction_ratio = calibrated_ratio;
   state.ratio_variance = squared(pressure.ratio_deviation);
   state.innovation_squared = T(usual_innovation_squared);
   state.band_factor = T(1);
-  state.reach = {highest_Pa, highest_Pa, T(0)};
+  state.half_widths = {highest_Pa, highest_Pa, T(0)};
 }
 
 /// Whether an update came to what is no variance: forces that are many orders of magnitude beyond their noise leave
@@ -132,8 +131,8 @@ SPOOLFLOW_INLINE constexpr T displaced_ratio(const PressureParameters<T>& pressu
 
 /// Prediction while no force shows the pressure difference: as restless as the supply has shown itself.
 template <class T>
-constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s,
-                            T highest_Pa) {
+constexpr void drift_unobserved(const PressureParameters<T>& pressure, PressureState<T>& state, T time_step_s,
+                                T highest_Pa) {
   const T variance_Pa2 = squared(pressure.resting_drift_Pa_per_sqrt_s) * time_step_s;
   state.drift_variance_Pa2 += variance_Pa2;
   state.unobserved_variance_Pa2 += variance_Pa2;
@@ -141,12 +140,12 @@ constexpr void drift_unseen(const PressureParameters<T>& pressure, PressureState
       state.variance_Pa2 < squared(T(most_deviation_share) * highest_Pa) ? state.process_noise * variance_Pa2 : T(0);
 }
 
-/// One standard deviation of what the pressure difference may have done unseen [Pa]. In proportion to the process
+/// One standard deviation of what the pressure difference may have done unobserved [Pa]. In proportion to the process
 /// noise, which is a ratio of variances, not to its root: a restless supply leaps, and leaps are more often large than
 /// those of a random walk.
 template <class T>
-constexpr T unobserved_change_Pa(const PressureState<T>& state, T unseen_factor) {
-  return unseen_factor * state.process_noise * sqrt(state.unobserved_variance_Pa2);
+constexpr T unobserved_change_Pa(const PressureState<T>& state, T unobserved_factor) {
+  return unobserved_factor * state.process_noise * sqrt(state.unobserved_variance_Pa2);
 }
 
 /// Kalman's terms of one innovation.
@@ -190,10 +189,10 @@ constexpr void correct_pressure(const PressureParameters<T>& pressure, PressureS
                                 const KalmanUpdate<T>& update, T highest_Pa) {
   const T corrected_Pa = state.pressure_difference_Pa + update.gain_Pa_per_N * update.innovation_N;
   state.pressure_difference_Pa = limited(corrected_Pa, T(0), highest_Pa);
-  state.yielded_Pa = T(0);
+  state.constrained_correction_Pa = T(0);
   state.variance_Pa2 -= update.gain_Pa_per_N * update.covariance_N_Pa;
   state.covariance_Pa -= update.gain_Pa_per_N * update.ratio_covariance_N;
-  state.unobserved_variance_Pa2 = larger(squared(pressure.resting_drift_Pa_per_sqrt_s) * T(told_late_s),
+  state.unobserved_variance_Pa2 = larger(squared(pressure.resting_drift_Pa_per_sqrt_s) * T(measurement_delay_s),
                                          state.unobserved_variance_Pa2 * squared(update.remaining_share));
 }
 

@@ -28,7 +28,7 @@ SPOOLFLOW_INLINE constexpr void predict(const ObserverParameters<T>& valve, Pres
   if (balance.sliding) drift(valve.pressure, pressure, timing.time_step_s, highest_Pa);
   if (balance.sliding && timing.friction_ratio.now)
     forget_ratio(valve.pressure, pressure, valve.friction.operation_ratio, timing.friction_ratio.since_s);
-  if (!balance.sliding) drift_unseen(valve.pressure, pressure, timing.time_step_s, highest_Pa);
+  if (!balance.sliding) drift_unobserved(valve.pressure, pressure, timing.time_step_s, highest_Pa);
 }
 
 }  // namespace detail
@@ -56,11 +56,11 @@ SPOOLFLOW_INLINE constexpr T update(const ObserverParameters<T>& valve, Pressure
   } else if (const T beyond_N = beyond_bounds_N(balance); !is_zero(beyond_N)) {
     // Friction that holds more than calibrated looks alike: alone it leads to no pressure difference beyond that.
     const T most_Pa = larger(pressure.pressure_difference_Pa, valve.edge.highest_pressure_difference_Pa());
-    to_friction_N = yield(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N},
-                          timing.time_step_s, most_Pa);
+    to_friction_N = correct_constrained(valve.pressure, pressure, {beyond_N, slope, T(0), valve.friction.tolerance_N},
+                                        timing.time_step_s, most_Pa);
   }
   if (broken(pressure))
-    begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unseen_factor);
+    begin(valve.pressure, pressure, highest_Pa, valve.friction.operation_ratio, valve.band.unobserved_factor);
   return to_friction_N;
 }
 

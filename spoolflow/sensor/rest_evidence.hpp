@@ -11,21 +11,22 @@ namespace spoolflow::sensor {
 template <class T>
 SPOOLFLOW_INLINE constexpr T beyond_bounds_N(const ForceBalance<T>& balance) {
   const bool rests = balance.settled && !balance.closed && !balance.sliding && !balance.slips;
-  return rests ? balance.apparent_friction_N - balance.friction_N : T(0);
+  return rests ? balance.residual_force_N - balance.friction_N : T(0);
 }
 
 /// Moves the pressure difference by its share in what brings the force back within the bounds, at the pace of
 /// `time_step_s`; returns the force left to the other explanation, friction [N].
 template <class T>
-constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state, const ForceInnovation<T>& beyond,
-                  T time_step_s, T highest_Pa) {
+constexpr T correct_constrained(const PressureParameters<T>& pressure, PressureState<T>& state,
+                                const ForceInnovation<T>& beyond, T time_step_s, T highest_Pa) {
   const T prior_N2 = squared(beyond.slope_N_per_Pa) * state.variance_Pa2;
   const T share = prior_N2 / (prior_N2 + squared(beyond.noise_N));
-  const T force_N = smaller(time_step_s / pressure.yielding_s, T(1)) * beyond.force_N;
+  const T force_N = smaller(time_step_s / pressure.constrained_correction_s, T(1)) * beyond.force_N;
   const T before_Pa = state.pressure_difference_Pa;
   state.pressure_difference_Pa = limited(before_Pa + share * force_N / beyond.slope_N_per_Pa, T(0), highest_Pa);
-  const T yields_Pa = state.pressure_difference_Pa - before_Pa;
-  state.yielded_Pa = yields_Pa + (yields_Pa * state.yielded_Pa < T(0) ? T(0) : state.yielded_Pa);
+  const T change_Pa = state.pressure_difference_Pa - before_Pa;
+  state.constrained_correction_Pa =
+      change_Pa + (change_Pa * state.constrained_correction_Pa < T(0) ? T(0) : state.constrained_correction_Pa);
   return (T(1) - share) * force_N;
 }
 
@@ -33,7 +34,7 @@ constexpr T yield(const PressureParameters<T>& pressure, PressureState<T>& state
 template <class T>
 SPOOLFLOW_INLINE constexpr void correct_friction(FrictionState<T>& contacts, const ForceBalance<T>& balance,
                                                  T force_N) {
-  if (magnitude(balance.apparent_friction_N) < balance.bounds.sticking_N) contacts.gauge_N += force_N;
+  if (magnitude(balance.residual_force_N) < balance.bounds.sticking_N) contacts.presliding_N += force_N;
 }
 
 }  // namespace spoolflow::sensor

@@ -32,13 +32,13 @@ inline constexpr double other_direction_m = 50e-6;
 /// The sensor is made for time steps up to 5 ms, and one that a lost sample doubles passes. One of this length [s] or
 /// more is estimated with time_fault: the source stalls, or gives milliseconds as seconds.
 inline constexpr double longest_regular_step_s = 9e-3;
-/// After a longer time step [s] nothing counts of what was believed before: the sensor begins anew.
+/// After a longer time step [s] nothing that was estimated before counts: the sensor starts again.
 inline constexpr int longest_step_s = 1;
 /// A time step of so much [s] is none.
 inline constexpr int endless_step_s = 1 << 30;
 
-/// A spool that no position tells of is taken to go from end to end in so long [s].
-inline constexpr double unseen_stroke_s = 0.4;
+/// A spool without a measured position is taken to go from end to end in so long [s].
+inline constexpr double unobserved_stroke_s = 0.4;
 
 /// Whether time leapt between the last sample and this one.
 template <class T>
@@ -70,7 +70,7 @@ constexpr auto unusable(const Sample<T>& sample) {
 template <class T>
 struct PositionSensor {
   T noise_m{};                        ///< standard deviation of one sample
-  T backlash_m{};                     ///< half width: how far the spool may creep unseen
+  T backlash_m{};                     ///< half-width: how far the spool may creep unobserved
   T drift_m_per_K{};                  ///< of the zero point over the oil temperature
   T drift_free_K{};                   ///< oil temperature at which the zero point is right
   T hardest_acceleration_m_per_s2{};  ///< no spool moves harder: a jump beyond it is a fault of the signal
@@ -117,7 +117,7 @@ SPOOLFLOW_INLINE constexpr void widen_band(Estimate<T>& out, T half2) {
 /// more step of time [s], >= 0. The flow stays. What a broken state makes no number of opens nothing.
 template <class T>
 constexpr void open_band(Estimate<T>& held, const FlowRange<T>& range, bool at_once, T time_step_s) {
-  const T reach = smaller(time_step_s * T(1 / unseen_stroke_s), T(1)) * (range.most - range.least);
+  const T reach = smaller(time_step_s * T(1 / unobserved_stroke_s), T(1)) * (range.most - range.least);
   const T lower = held.flow_lower_m3_per_s, upper = held.flow_upper_m3_per_s;
   held.flow_lower_m3_per_s = smaller(lower, at_once ? range.least : larger(lower - reach, range.least));
   held.flow_upper_m3_per_s = larger(upper, at_once ? range.most : smaller(upper + reach, range.most));

@@ -14,15 +14,15 @@ inline constexpr double innovation_averaging_s = 5;
 inline constexpr double least_band_factor = 0.7;
 inline constexpr double most_band_factor = 2.5;
 /// The pressure difference counts as observed where it is known to this share of what the forces' noise makes of it.
-inline constexpr double seen_deviation_share = 0.5;
+inline constexpr double observed_deviation_share = 0.5;
 /// How fast the process noise follows what an observed change shows, where it is larger than expected, and where
 /// smaller.
 inline constexpr double process_noise_rise = 0.8;
 inline constexpr double process_noise_fall = 0.2;
 /// When the pressure difference is first observed, its changes are not known yet: no less process noise than this.
-inline constexpr double first_seen_process_noise = 0.2;
+inline constexpr double first_observed_process_noise = 0.2;
 /// A change counts half where its drift variance is so many times the variance of the forces' noise.
-inline constexpr double telling_drift_share = 5;
+inline constexpr double informative_drift_share = 5;
 /// A smaller covariance of pressure difference and friction ratio [Pa] is none; its square would be no normal number.
 inline constexpr double least_covariance_Pa = 1e-3;
 /// Friction in operation over that on the bench lies between these; dither may all but free the spool.
@@ -60,7 +60,7 @@ SPOOLFLOW_INLINE constexpr void follow_agreement(PressureState<T>& state) {
 template <class T>
 SPOOLFLOW_INLINE constexpr ForceInnovation<T> sliding_innovation(const ForceBalance<T>& balance,
                                                                  T friction_slope_N_per_Pa) {
-  return {balance.apparent_friction_N - balance.friction_N,
+  return {balance.residual_force_N - balance.friction_N,
           whole_slope_N_per_Pa(balance.edge.flow_force_per_pressure_N_Pa, balance.direction * friction_slope_N_per_Pa),
           balance.direction * (balance.edge.friction_N + balance.actuator.friction_half_width_N), balance.noise_N};
 }
@@ -96,7 +96,7 @@ template <class T>
 constexpr bool observed(const PressureState<T>& state, T slope_N_per_Pa, T noise_N) {
   const T variance2 = state.variance_Pa2 * state.ratio_variance - squared(state.covariance_Pa);
   return squared(slope_N_per_Pa) * variance2 <
-         T(seen_deviation_share * seen_deviation_share) * squared(noise_N) * state.ratio_variance;
+         T(observed_deviation_share * observed_deviation_share) * squared(noise_N) * state.ratio_variance;
 }
 
 /// The pressure difference is observed again: how far it moved meanwhile, beyond what the forces' errors make of it,
@@ -105,14 +105,15 @@ template <class T>
 constexpr void learn_process_noise(const PressureParameters<T>& pressure, PressureState<T>& state, T noise_Pa) {
   if (state.observed_Pa < T(0)) {
     state.drift_variance_Pa2 = T(0);
-    state.process_noise = larger(state.process_noise, T(first_seen_process_noise));
+    state.process_noise = larger(state.process_noise, T(first_observed_process_noise));
   }
   if (state.drift_variance_Pa2 > squared(noise_Pa)) {
     const T change2 = squared(state.pressure_difference_Pa - state.observed_Pa);
-    const T shown = smaller(
-        (change2 - T(seen_deviation_share * seen_deviation_share) * squared(noise_Pa)) / state.drift_variance_Pa2,
-        T(1));
-    const T weight = state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(telling_drift_share) * squared(noise_Pa));
+    const T shown = smaller((change2 - T(observed_deviation_share * observed_deviation_share) * squared(noise_Pa)) /
+                                state.drift_variance_Pa2,
+                            T(1));
+    const T weight =
+        state.drift_variance_Pa2 / (state.drift_variance_Pa2 + T(informative_drift_share) * squared(noise_Pa));
     const T pace = weight * (shown > state.process_noise ? T(process_noise_rise) : T(process_noise_fall));
     state.process_noise =
         limited(state.process_noise + pace * (shown - state.process_noise), pressure.least_process_noise, T(1));

@@ -5,8 +5,8 @@
 
 namespace spoolflow::sensor {
 
-/// Bits of a status word. A limit tells that the answer is bounded by what was calibrated or by physics; a fault tells
-/// that an input or the model cannot be trusted.
+/// Bits of a status word. A limit says that the answer is bounded by what was calibrated or by physics; a fault says
+/// that an input or the model is wrong.
 enum class Status : std::uint32_t {
   none = 0,
   // limits
@@ -18,8 +18,8 @@ enum class Status : std::uint32_t {
   current_saturated = 1U << 5,       ///< the current sits at the end of its range
   dithered = 1U << 6,                ///< the current is dithered: friction swings between its limits
   sign_undetermined = 1U << 7,       ///< the spool is so near the centre that the flow may go either way
-  ambiguous_load = 1U << 8,  ///< more flow force than the supply explains, and no port pressures tell: a load may drive
-                             ///< the oil, and the flow be larger
+  ambiguous_load = 1U << 8,  ///< more flow force than the supply explains, and no port pressures are measured: a load
+                             ///< may drive the oil, and the flow be larger
   flow_reversed = 1U << 9,   ///< by the port pressures a load drives the oil against the way that the spool opens
   // faults
   position_fault = 1U << 16,   ///< the position signal moved as no spool can: the last credible position is used

@@ -67,7 +67,7 @@ template <class T>
 inline constexpr T wild_cells = T(1 << 30);
 
 /// Where a value lies on an axis of `Cells` cells. Beyond an end it is taken to that end; further than noise, `status`
-/// tells it by `beyond`. False, and no place, where the value is NaN or wild.
+/// marks it by `beyond`. False, and no place, where the value is NaN or wild.
 template <int Cells, class T>
 [[nodiscard]] constexpr bool find_place(T cells_per_unit, T value, Status beyond, Place<T>& place, Status& status) {
   place.cells = value * cells_per_unit;
@@ -92,7 +92,7 @@ template <int Cells, class T>
   return true;
 }
 
-/// The root of `cells2` on an axis of `Cells` cells. Beyond an end both are taken to that end, and `status` tells it by
+/// The root of `cells2` on an axis of `Cells` cells. Beyond an end both are taken to that end, and `status` marks it by
 /// `beyond`. Not for NaN.
 template <int Cells, class T>
 constexpr Place<T> root_place(T& cells2, Status beyond, Status& status) {

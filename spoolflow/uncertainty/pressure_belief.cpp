@@ -73,7 +73,7 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
   const double share = valve.band.coverage_factor * deviation_per_half_width(Distribution::normal);
   PressureBelief::Parts parts{
       .deviation_Pa =
-          share * state.pressure.band_factor * sensor::unobserved_change_Pa(state.pressure, valve.band.unseen_factor),
+          share * state.pressure.band_factor * sensor::unobserved_change_Pa(state.pressure, valve.band.unobserved_factor),
       .below_Pa = unbounded,
       .above_Pa = unbounded,
       .pressure_difference_Pa = believed_Pa,
@@ -86,12 +86,12 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
     parts.deviation_Pa = std::sqrt(parts.deviation_Pa * parts.deviation_Pa +
                                    0.5 * valve.pressure.sliding_drift_Pa_per_sqrt_s * noise_Pa_sqrt_s);
   } else if (!sensor::has(answer.status, sensor::Status::closed)) {
-    const double reach_N = sensor::gauge_reach_N(valve.friction, valve.position_sensor,
-                                                 sensor::gauge_slack_m(valve.position_sensor.noise_m, step_s));
+    const double reach_N = sensor::presliding_half_width_N(valve.friction, valve.position_sensor,
+                                                 sensor::presliding_deadband_m(valve.position_sensor.noise_m, step_s));
     const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
     // The estimate's error is (friction - apparent)/slope, friction within the reach of the gauge.
-    parts.above_Pa = (state.friction.gauge_N + reach_N - apparent_N) / slope_N_per_Pa;
-    parts.below_Pa = (apparent_N - state.friction.gauge_N + reach_N) / slope_N_per_Pa;
+    parts.above_Pa = (state.friction.presliding_N + reach_N - apparent_N) / slope_N_per_Pa;
+    parts.below_Pa = (apparent_N - state.friction.presliding_N + reach_N) / slope_N_per_Pa;
     parts.bounds_Pa =
         sensor::pressure_deviation_Pa(edge, sensor::bounds_deviation_N(valve.band, state.friction.rest_s));
   }

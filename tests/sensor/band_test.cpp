@@ -70,13 +70,13 @@ struct RestingSpool {
     pressure.band_factor = 1;
     pressure.friction_ratio = calibrated_ratio;
     balance.edge = parameters.edge.at(313.0, 50e5, 1.2e-3);
-    balance.apparent_friction_N = 0.5;
+    balance.residual_force_N = 0.5;
     balance.resting = {-2.5, 1.5, 0, 0};
   }
   [[nodiscard]] PressureBand<double> band() const {
-    const PressureReach<double> reach =
-        pressure_reach(parameters.band, pressure, balance, 3.0, 0.0,
-                       displaced_ratio(parameters.pressure, pressure, calibrated_ratio), environment_N);
+    const PressureHalfWidths<double> reach =
+        pressure_half_widths(parameters.band, pressure, balance, 3.0, 0.0,
+                             displaced_ratio(parameters.pressure, pressure, calibrated_ratio), environment_N);
     return pressure_band(pressure, reach, 1000e5);
   }
 
@@ -109,7 +109,7 @@ TEST(Band, AtRestIsNarrowerThanWhatIsOpenAndWhatFrictionAllowsAlone) {
   RestingSpool spool;
   const double friction_Pa = 40e5 - spool.band().least_Pa;
   const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
-  spool.parameters.band.unseen_factor = 0.5;
+  spool.parameters.band.unobserved_factor = 0.5;
   spool.pressure.unobserved_variance_Pa2 = squared(friction_Pa);  // two deviations of half of it
   EXPECT_NEAR(40e5 - spool.band().least_Pa, friction_Pa / std::sqrt(2), 0.02 * friction_Pa);
   spool.pressure.unobserved_variance_Pa2 = 0;
@@ -132,7 +132,7 @@ TEST(Band, ExpectsThePressureDifferenceTowardsWhereMoreIsOpen) {
 TEST(Band, InMotionDoubtsFrictionThatIsNotAsCalibrated) {
   RestingSpool spool;
   spool.balance.sliding = true;
-  spool.balance.friction_N = spool.balance.apparent_friction_N = 4;
+  spool.balance.friction_N = spool.balance.residual_force_N = 4;
   spool.pressure.unobserved_variance_Pa2 = 0;
   const auto half_N = [&] { return (40e5 - spool.band().least_Pa) * ClosedFormValve::flow_force_per_pressure(1.2e-3); };
   const double as_calibrated_N = half_N();
@@ -153,14 +153,15 @@ TEST(Band, HoldsWhatTheMachineLeavesOpenInMotionAndBeyondFrictionsBoundsAtRest) 
   EXPECT_NEAR((40e5 - spool.band().least_Pa) * slope, 1 + std::hypot(uncertain_N, 4), 0.1);
   spool.balance.sliding = true;
   spool.pressure.unobserved_variance_Pa2 = 0;
-  spool.balance.friction_N = spool.balance.apparent_friction_N;
+  spool.balance.friction_N = spool.balance.residual_force_N;
   EXPECT_NEAR((40e5 - spool.band().least_Pa) * slope, 4, 0.3);
 }
 
 TEST(Band, AtRestHoldsThatFrictionMayHaveHeldWhatThePressureYielded) {
   RestingSpool spool;
   const double before_Pa = 40e5 - spool.band().least_Pa;
-  spool.pressure.yielded_Pa = 15e5;  // it went up by so much because friction was not thought able to hold it
+  spool.pressure.constrained_correction_Pa =
+      15e5;  // it went up by so much because friction was not thought able to hold it
   EXPECT_GT(40e5 - spool.band().least_Pa, std::hypot(before_Pa, 14e5));
   EXPECT_LT(spool.band().least_Pa, 25e5);
 }

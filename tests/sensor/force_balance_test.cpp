@@ -46,7 +46,7 @@ TEST(ForceBalance, LeavesTheFrictionThatIsThereAtTheRightPressureDifference) {
   for (const PositionPoint<double>& point :
        {resting(), moving(Motion::transient, 1), moving(Motion::opening, 1), moving(Motion::closing, -1)}) {
     for (const double friction_N : {-3.0, 0.0, 2.0}) {
-      EXPECT_NEAR(Balance{}.of(point, friction_N).apparent_friction_N, friction_N, 1e-9);
+      EXPECT_NEAR(Balance{}.of(point, friction_N).residual_force_N, friction_N, 1e-9);
     }
   }
 }
@@ -60,7 +60,7 @@ TEST(ForceBalance, HasTheInnovationOfFlowForceAndFrictionWhereTheSpoolSlidesAtAW
       EXPECT_TRUE(balance.sliding);
       // Too much pressure means too much flow force, which closes, and too much friction, which hinders the motion.
       const double slope = ClosedFormValve::flow_force_per_pressure(opened_m) + direction * friction_per_pressure;
-      EXPECT_NEAR(balance.apparent_friction_N - balance.friction_N, -wrong_Pa * slope, 1e-9);
+      EXPECT_NEAR(balance.residual_force_N - balance.friction_N, -wrong_Pa * slope, 1e-9);
     }
   }
 }
@@ -74,7 +74,7 @@ TEST(ForceBalance, KeepsFrictionAtRestWithinWhatTheContactsHold) {
     EXPECT_LE(balance.friction_N, balance.resting.upper_N);
     EXPECT_LE(std::abs(balance.friction_N), balance.bounds.sticking_N + 2 * spool.valve.friction.tolerance_N);
     EXPECT_GE(balance.bounds.sticking_N, balance.bounds.sliding_N);
-    EXPECT_GT(std::abs(balance.apparent_friction_N - balance.friction_N), 1);
+    EXPECT_GT(std::abs(balance.residual_force_N - balance.friction_N), 1);
   }
 }
 
@@ -84,7 +84,7 @@ TEST(ForceBalance, GivesTheMassItsShareOfTheForceAndIsNoSurerOfItThanItsSize) {
   point.acceleration_m_per_s2 = 20;
   const ForceBalance<double> accelerated = Balance{}.of(point, 4.0);
   const double inertia_N = Balance{}.valve.moving_mass_kg * 20;
-  EXPECT_NEAR(even.apparent_friction_N - accelerated.apparent_friction_N, inertia_N, 1e-9);
+  EXPECT_NEAR(even.residual_force_N - accelerated.residual_force_N, inertia_N, 1e-9);
   EXPECT_NEAR(accelerated.noise_N, std::hypot(even.noise_N, inertia_N), 1e-9);
 }
 

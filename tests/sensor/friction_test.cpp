@@ -25,14 +25,14 @@ constexpr double armature_N = 1;
 
 class Friction : public testing::TestWithParam<double> {
  protected:
-  /// One sample; `apparent_N` is what the estimated pressure difference leaves.
-  FrictionInterval<double> sample(Motion motion, double position_m, double apparent_N, double direction = 1) {
+  /// One sample; `residual_N` is what the estimated pressure difference leaves.
+  FrictionInterval<double> sample(Motion motion, double position_m, double residual_N, double direction = 1) {
     const FrictionBounds<double> bounds = friction_bounds(contact, state, spool_N, armature_N);
     dragged_m_ = std::clamp(dragged_m_, position_m - fine_lvdt.backlash_m, position_m + fine_lvdt.backlash_m);
     PositionPoint<double> point{dragged_m_ + noise_times * noise_(generator_), motion, false, direction * 1e-6};
     point.noise_times = learnt_times;
     const Due<double> memory{true, GetParam()};  // a block of positions is one sample
-    return step(contact, state, bounds, fine_lvdt, point, apparent_N, creeps, memory, GetParam());
+    return step(contact, state, bounds, fine_lvdt, point, residual_N, creeps, memory, GetParam());
   }
   /// Slides, opening or closing, then stops at 1 mm.
   void stop_after(double direction) {
@@ -101,11 +101,11 @@ TEST_P(Friction, IsNotMovedByNoiseThatTheTrackHasLearntOf) {
   const auto moved_N = [&] {
     stop_after(1);
     for (double time_s = 0; time_s < 0.5; time_s += GetParam()) sample(Motion::rest, 1e-3, friction_N);
-    double lowest_N = state.gauge_N, highest_N = state.gauge_N;
+    double lowest_N = state.presliding_N, highest_N = state.presliding_N;
     for (double time_s = 0; time_s < 5; time_s += GetParam()) {
       sample(Motion::rest, 1e-3, friction_N);
-      lowest_N = std::min(lowest_N, state.gauge_N);
-      highest_N = std::max(highest_N, state.gauge_N);
+      lowest_N = std::min(lowest_N, state.presliding_N);
+      highest_N = std::max(highest_N, state.presliding_N);
     }
     return highest_N - lowest_N;
   };
@@ -119,9 +119,9 @@ TEST_P(Friction, IsNotMovedByNoiseThatTheTrackHasLearntOf) {
 
 TEST_P(Friction, TellsTheForceAtWhichTheSpoolBrokeAwayNotThatOfTheSlip) {
   stop_after(1);
-  double apparent_N = 5;
-  for (double time_s = 0; time_s < 1; time_s += GetParam()) sample(Motion::rest, 1e-3, apparent_N = 5 + 1.2 * time_s);
-  const double breakaway_N = apparent_N;
+  double residual_N = 5;
+  for (double time_s = 0; time_s < 1; time_s += GetParam()) sample(Motion::rest, 1e-3, residual_N = 5 + 1.2 * time_s);
+  const double breakaway_N = residual_N;
   // Inertia takes part of the force as soon as the spool goes; motion is told a block later.
   FrictionInterval<double> interval{};
   int told = 0;

@@ -97,7 +97,7 @@ TEST(HeldAnswer, TrustsThePressureLessTheLongerNobodyLooked) {
     ObserverState<double> state{};
     for (const ValveSample& sample : run) step(valve, state, sample.measured);
     for (int k = 0; k < samples; ++k) step(valve, state, {every_s, lost, 0, run.back().measured.position_m, 313});
-    return unobserved_change_Pa(state.pressure, valve.band.unseen_factor);
+    return unobserved_change_Pa(state.pressure, valve.band.unobserved_factor);
   };
   EXPECT_GT(deviation_Pa(1000), 1.3 * deviation_Pa(10));
 }

@@ -13,7 +13,7 @@ constexpr PressureParameters<double> supply{.sliding_drift_Pa_per_sqrt_s = 2e5,
                                             .resting_drift_Pa_per_sqrt_s = 1e6,
                                             .least_process_noise = 0.0009,
                                             .first_process_noise = 0.1,
-                                            .yielding_s = 0.03,
+                                            .constrained_correction_s = 0.03,
                                             .force_correlation_s = 2e-3,
                                             .ratio_deviation = 0.05,
                                             .ratio_memory_s = 10};
@@ -127,11 +127,11 @@ TEST(PressureDifference, StaysWhereNoPressureDifferenceCouldExplainTheForce) {
 TEST(PressureDifference, TellsLittleOfTheSupplyWhenFirstSeen) {
   PressureState<double> state{};
   begin(supply, state, highest_Pa, 1.0, 2.0);
-  for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
+  for (int k = 0; k < 500; ++k) drift_unobserved(supply, state, 1e-3, highest_Pa);
   state.pressure_difference_Pa = 60e5;
   learn_process_noise(supply, state, 1e5);
-  EXPECT_EQ(state.process_noise, first_seen_process_noise);
-  for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
+  EXPECT_EQ(state.process_noise, first_observed_process_noise);
+  for (int k = 0; k < 500; ++k) drift_unobserved(supply, state, 1e-3, highest_Pa);
   state.pressure_difference_Pa = 45e5;
   learn_process_noise(supply, state, 1e5);
   EXPECT_GT(state.process_noise, 0.5);
@@ -158,7 +158,7 @@ TEST(PressureDifference, ForgetsAFrictionRatioThatSlidingNoLongerConfirms) {
 
 TEST(Band, ABreakawayTakesTheVarianceOfUnseenChangesAway) {
   PressureState<double> state = begin(60e5);
-  for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
+  for (int k = 0; k < 500; ++k) drift_unobserved(supply, state, 1e-3, highest_Pa);
   const double before_Pa = unobserved_change_Pa(state, 4.0);
   update_breakaway(supply, state, {0.0, slope_N_per_Pa, friction_N, 0.7}, highest_Pa);
   EXPECT_LT(unobserved_change_Pa(state, 4.0), 0.5 * before_Pa);
@@ -168,13 +168,13 @@ TEST(Band, KnowsThatWhatIsToldNowIsSomeMillisecondsOld) {
   PressureState<double> state = begin(60e5);
   slide(state, 60e5, 1, 1, 1, 1e-3);
   state.process_noise = 0.5;
-  const double of_a_walk_Pa = 0.5 * supply.resting_drift_Pa_per_sqrt_s * std::sqrt(told_late_s);
+  const double of_a_walk_Pa = 0.5 * supply.resting_drift_Pa_per_sqrt_s * std::sqrt(measurement_delay_s);
   EXPECT_NEAR(unobserved_change_Pa(state, 1.0), of_a_walk_Pa, 1e-3 * of_a_walk_Pa);
 }
 
 TEST(Band, TakesUnseenChangesForLargeWhereTheSupplyHasProvedLively) {
   PressureState<double> state = begin(60e5);
-  for (int k = 0; k < 500; ++k) drift_unseen(supply, state, 1e-3, highest_Pa);
+  for (int k = 0; k < 500; ++k) drift_unobserved(supply, state, 1e-3, highest_Pa);
   state.process_noise = 0.01;
   const double steady_Pa = unobserved_change_Pa(state, 4.0);
   state.process_noise = 0.5;
@@ -207,11 +207,11 @@ TEST(PressureDifference, GrowsUncertainAtRestAsFastAsTheSupplyHasProvedLively) {
   steady.process_noise = 0.001;
   lively.process_noise = 1;
   for (int k = 0; k < 500; ++k) {
-    drift_unseen(supply, steady, 1e-3, highest_Pa);
-    drift_unseen(supply, lively, 1e-3, highest_Pa);
+    drift_unobserved(supply, steady, 1e-3, highest_Pa);
+    drift_unobserved(supply, lively, 1e-3, highest_Pa);
   }
   EXPECT_GT(lively.variance_Pa2 - begin(60e5).variance_Pa2, 100 * (steady.variance_Pa2 - begin(60e5).variance_Pa2));
-  for (int k = 0; k < 100'000; ++k) drift_unseen(supply, lively, 1e-3, highest_Pa);
+  for (int k = 0; k < 100'000; ++k) drift_unobserved(supply, lively, 1e-3, highest_Pa);
   EXPECT_LT(std::sqrt(lively.variance_Pa2), 0.5 * highest_Pa);
 }
 

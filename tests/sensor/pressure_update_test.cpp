@@ -21,7 +21,7 @@ ObserverParameters<double> valve() {
                   .resting_drift_Pa_per_sqrt_s = 1e6,
                   .least_process_noise = 0.0009,
                   .first_process_noise = 0.1,
-                  .yielding_s = 0.03,
+                  .constrained_correction_s = 0.03,
                   .force_correlation_s = 2e-3,
                   .ratio_deviation = 0.05,
                   .ratio_memory_s = 10};
@@ -29,7 +29,7 @@ ObserverParameters<double> valve() {
   out.friction.ageing_s = 2.5;
   out.friction.breakaway_share = 0.12;
   out.friction.tolerance_N = 0.7;
-  out.band.unseen_factor = 2;
+  out.band.unobserved_factor = 2;
   return out;
 }
 
@@ -47,7 +47,7 @@ ForceBalance<double> balance_of(bool sliding, double innovation_N) {
   out.edge.flow_force_per_pressure_N_Pa = force_slope_N_per_Pa;
   out.edge.friction_N = out.spool_friction_N = spool_slides_N;
   out.friction_N = spool_slides_N;
-  out.apparent_friction_N = spool_slides_N + innovation_N;
+  out.residual_force_N = spool_slides_N + innovation_N;
   out.noise_N = forces_noise_N;
   out.direction = 1;
   out.settled = true;
@@ -116,7 +116,7 @@ TEST(PressureUpdate, AtRestDividesWhatFrictionCannotHoldBetweenPressureAndFricti
     const double prior_N2 = squared(force_slope_N_per_Pa) *
                             (squared(prior_deviation_Pa) + valve().pressure.first_process_noise * 1e12 * sampled_s);
     const double share = prior_N2 / (prior_N2 + squared(valve().friction.tolerance_N));
-    const double now_N = beyond_N * sampled_s / valve().pressure.yielding_s;
+    const double now_N = beyond_N * sampled_s / valve().pressure.constrained_correction_s;
     EXPECT_NEAR(force_slope_N_per_Pa * (state.pressure_difference_Pa - prior_Pa), share * now_N, 1e-9);
     EXPECT_NEAR(to_friction_N, (1 - share) * now_N, 1e-9);
     EXPECT_EQ(state.variance_Pa2, squared(prior_deviation_Pa) + 0.1 * (squared(1e6) * sampled_s));  // it says no more

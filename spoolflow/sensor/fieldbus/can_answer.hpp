@@ -20,7 +20,7 @@ struct CanFrame {
   std::array<std::uint8_t, 8> data{};
 };
 
-/// What a frame tells of a valve.
+/// What a frame says of a valve.
 struct FlowAnswer {
   float flow_m3_per_s = 0;  ///< signed: > 0 P to B. NaN: not known
   float flow_lower_m3_per_s = 0;
@@ -95,7 +95,7 @@ inline CanFrame estimated_flow_frame(const FlowAnswer& answer, const AuxiliaryVa
   return out;
 }
 
-/// A J1939 NAME (64 bits) told as the owner of an address: PGN 60928 to all, priority 6. Source address 254: it could
+/// A J1939 NAME (64 bits) announced as the owner of an address: PGN 60928 to all, priority 6. Source address 254: it could
 /// get none.
 inline CanFrame address_claimed_frame(std::uint64_t name, std::uint8_t source_address) {
   CanFrame out;

@@ -16,7 +16,7 @@ enum class ImageRefusal : std::uint32_t {
   wrong_sizes = 8,        ///< a table is not where or not as large as this version has it
   no_text = 9,            ///< a text of the header has no end
   not_finite = 10,        ///< a number of the tables is infinite or none
-  axis_not_rising = 11,   ///< an axis does not rise, or in other steps than it tells
+  axis_not_rising = 11,   ///< an axis does not rise, or in other steps than it states
   not_physical = 12,      ///< a number that is above zero in every valve is not
   sensor_not_held = 13,   ///< it holds other sensors than were asked for
   check_unfinished = 14,  ///< asked for before all of it was looked at

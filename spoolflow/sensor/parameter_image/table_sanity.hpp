@@ -1,5 +1,5 @@
 #pragma once
-/// What a sensor's tables must be for its equations to live with them: axes that rise in the steps that they tell, and
+/// What a sensor's tables must be for its equations to live with them: axes that rise in the steps that they state, and
 /// above zero what is so in every valve. The full limits of a model are held by the tool that reads and exports it.
 #include "spoolflow/sensor/condensed_tables.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"

@@ -11,7 +11,7 @@ constexpr void use_measured(const ObserverParameters<T>& valve, PressureState<T>
   const T measured_Pa = limited(drops.forcing_Pa(), T(0), valve.highest_pressure_difference_Pa());
   pressure.pressure_difference_Pa = pressure.observed_Pa = measured_Pa;
   pressure.variance_Pa2 = squared(T(2 * port_pressure_deviation_Pa));
-  pressure.covariance_Pa = pressure.yielded_Pa = T(0);
+  pressure.covariance_Pa = pressure.constrained_correction_Pa = T(0);
   pressure.drift_variance_Pa2 = pressure.unobserved_variance_Pa2 = T(0);
 }
 

@@ -26,11 +26,11 @@ constexpr PositionPoint<T> mirrored(bool seen_from_a, PositionPoint<T> point) {
 /// What the contacts remember.
 template <class T>
 constexpr void mirror(FrictionState<T>& state) {
-  state.gauge_N = -state.gauge_N;
+  state.presliding_N = -state.presliding_N;
   state.smooth_m = -state.smooth_m;
   state.followed_m = -state.followed_m;
-  state.dragged_m = -state.dragged_m;
-  state.dragging = -state.dragging;
+  state.engaged_m = -state.engaged_m;
+  state.engagement = -state.engagement;
   state.held_N = -state.held_N;
   state.earlier_N = -state.earlier_N;
 }

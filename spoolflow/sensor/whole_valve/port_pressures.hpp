@@ -1,6 +1,6 @@
 #pragma once
 /// The pressures at a whole valve's ports, where they are measured. Steady flow force closes each edge whichever way
-/// the oil goes: under a load that drives the oil, force alone tells neither how much flows nor which way; pressures
+/// the oil goes: under a load that drives the oil, force alone shows neither how much flows nor which way; pressures
 /// do.
 #include <limits>
 
@@ -24,7 +24,7 @@ constexpr T no_pressure() {
   return T(std::numeric_limits<float>::quiet_NaN());
 }
 
-/// Pressures at the ports [Pa]; NaN: not measured. Only all four together tell.
+/// Pressures at the ports [Pa]; NaN: not measured. Only all four together count.
 template <class T>
 struct PortPressures {
   T p_Pa = no_pressure<T>();
@@ -60,7 +60,7 @@ constexpr bool flow_reversed(const PathDrops<T>& drops) {
   return drops.inlet_Pa < T(-sure_drop_Pa) || drops.outlet_Pa < T(-sure_drop_Pa);
 }
 
-/// Whether the drops may be those of the calibrated load's flows through both edges, and are large enough to tell.
+/// Whether the drops may be those of the calibrated load's flows through both edges, and are large enough to show it.
 template <class T>
 constexpr bool of_calibrated_load(const InletShare<T>& inlet, const PathDrops<T>& drops) {
   const T total_Pa = drops.inlet_Pa + drops.outlet_Pa;

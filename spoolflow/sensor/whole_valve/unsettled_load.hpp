@@ -1,7 +1,7 @@
 #pragma once
 /// A load that passes other flows over both edges only once it has settled: behind a cylinder of unequal areas the
 /// drops stand in the calibrated proportion when pressures in its chambers have become steady. Until then the force,
-/// which is made by their sum, tells less of the flow.
+/// which is made by their sum, says less of the flow.
 #include "spoolflow/sensor/sample.hpp"
 #include "spoolflow/sensor/scalar.hpp"
 

@@ -54,7 +54,7 @@ constexpr void begin(const WholeValveParameters<T>& valve, WholeValveState<T>& s
   sensor::begin(state.open.position,
                 drift_free_m(valve.b->position_sensor, sample.position_m, state.open.oil.temperature_K));
   sensor::begin(now.idle.pressure, state.idle.pressure, now.idle.highest_pressure_difference_Pa(),
-                now.idle.friction.operation_ratio, now.idle.band.unseen_factor);
+                now.idle.friction.operation_ratio, now.idle.band.unobserved_factor);
   state.idle.held_currents = 0;
   sensor::begin(state.idle.dither, sample_of(sample, !state.opens_a).current_A);
   state.idle.waiting_s = state.idle.charge_As = T(0);
@@ -88,7 +88,7 @@ constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveStat
   forget(state.open.swing);
   PressureState<T>& pressure = state.open.pressure;
   expect_change(open.pressure, pressure);
-  drift_unseen(open.pressure, pressure, state.idle.closed_s, open.highest_pressure_difference_Pa());
+  drift_unobserved(open.pressure, pressure, state.idle.closed_s, open.highest_pressure_difference_Pa());
   state.idle.magnetic_force_N = magnitude(state.open.last.magnetic_force_N);
   state.idle.closed_s = state.idle.quiet_s = state.idle.waiting_s = state.idle.charge_As = T(0);
 }
@@ -135,7 +135,7 @@ constexpr void follow_zero(WholeValveState<T>& state, const PositionPoint<T>& po
 /// Where no pressures are measured. A pressure difference at the end of what was calibrated may be of a load that helps
 /// the supply.
 template <class T>
-constexpr void doubt_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
+constexpr void mark_ambiguous_load(const ObserverParameters<T>& valve, ObserverState<T>& state, T position_m) {
   const bool capped = is_capped(state.pressure, valve.highest_pressure_difference_Pa());
   mark(state.last.status, capped && !(position_m < valve.closed_below_m), Status::ambiguous_load);
 }
@@ -156,7 +156,7 @@ SPOOLFLOW_INLINE constexpr void observe_path(const ObserverParameters<T>& valve,
     answer_measured(valve, {drops, state.inlet_share}, {state.open.oil.temperature_K, position.position_m},
                     state.open.last);
   } else {
-    doubt_load(valve, state.open, position.position_m);
+    mark_ambiguous_load(valve, state.open, position.position_m);
     widen_unsettled(valve.unsettled_load_share, state.settled_m3_per_s, sample.time_step_s, state.open.last);
   }
 }
@@ -207,7 +207,7 @@ SPOOLFLOW_INLINE constexpr const WholeValveSample<T>& credible(const WholeValveP
   return held;
 }
 
-/// One more sample in which no force tells; see the same of one direction. On the other side of the centre nothing is
+/// One more sample in which no force is used; see the same of one direction. On the other side of the centre nothing is
 /// known of the pressure difference.
 template <class T>
 constexpr void widen_held(const WholeValveParameters<T>& valve, WholeValveState<T>& state,

@@ -2,13 +2,11 @@
 /// the observer at 1 kHz on what its instruments show, against the plant's true flow.
 ///
 ///     spoolflow campaign size_6 -o size_6 && spoolflow calibrate size_6/campaign.toml -o size_6.json
-///     listening size_6.json size_6 [KEY=NUMBER ...]
+///     dither_requests size_6.json size_6 [KEY=NUMBER ...]
 ///
 /// VALVE is a preset or a valve file, as of `spoolflow campaign`. Keys: runs, seconds, highest (amplitude, % of the
 /// rated current; permanent dither has it, too), lowest, frequency (Hz), wanted (half width of the band, % of the rated
 /// flow), request, pause (s).
-#include "spoolflow/sensor/listening.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -23,6 +21,7 @@
 #include "spoolflow/rig/bench/operation_protocols.hpp"
 #include "spoolflow/rig/bench/simulate.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
+#include "spoolflow/sensor/dither_request.hpp"
 #include "spoolflow/sensor/observer.hpp"
 
 namespace {
@@ -78,41 +77,41 @@ void run(const model::Model& model, const rig::ValveUnderTest& valve, const rig:
 
 void compare(const model::Model& model, const rig::ValveUnderTest& valve, Settings set) {
   const double percent_A = 0.01 * valve.rating.current_A;
-  const sensor::ListeningParameters<double> limits{0.01 * set["wanted"] * model.valve.rated_flow_m3_per_s,
-                                                   percent_A * set["lowest"],
-                                                   percent_A * set["highest"],
-                                                   set["frequency"],
-                                                   set["request"],
-                                                   set["pause"]};
+  const sensor::DitherRequestParameters<double> limits{0.01 * set["wanted"] * model.valve.rated_flow_m3_per_s,
+                                                       percent_A * set["lowest"],
+                                                       percent_A * set["highest"],
+                                                       set["frequency"],
+                                                       set["request"],
+                                                       set["pause"]};
   const Observer& observer = model.observer->parameters;
-  Figures without, listening, permanent;
+  Figures without, on_request, permanent;
   for (int k = 1; k <= static_cast<int>(set["runs"]); ++k) {
     const auto seed = static_cast<std::uint64_t>(k);
     const rig::BenchRun course = plan(rig::DutyCycleProtocol{.conditions = {}, .duration_s = set["seconds"]}, seed);
     const rig::Dither none{.amplitude_A = 0, .frequency_Hz = limits.frequency_Hz};
     run(
         model, valve, course, seed, [&](const auto&, double) { return none; }, without);
-    sensor::ListeningState<double> memory{};
+    sensor::DitherRequestState<double> memory{};
     const auto obey = [&](const sensor::ObserverState<double>& state, double time_step_s) -> rig::Dither {
-      const sensor::DitherRequest<double> asked = listen(limits, memory, observer, state, time_step_s);
+      const sensor::DitherRequest<double> asked = request_dither(limits, memory, observer, state, time_step_s);
       return asked.active ? rig::Dither{.amplitude_A = asked.amplitude_A, .frequency_Hz = asked.frequency_Hz} : none;
     };
-    run(model, valve, course, seed, obey, listening);
+    run(model, valve, course, seed, obey, on_request);
     const rig::Dither always{.amplitude_A = limits.highest_amplitude_A, .frequency_Hz = limits.frequency_Hz};
     run(
         model, valve, course, seed, [&](const auto&, double) { return always; }, permanent);
   }
   fmt::print("Errors and mean width of the band, % of the rated flow.\n");
   fmt::print("{:<20}{:>8}{:>8}{:>10}{:>10}{:>12}\n", "", "p95", "max", "inside %", "width", "dithered %");
-  without.print("without listening");
-  listening.print("with listening");
+  without.print("without dither");
+  on_request.print("on request");
   permanent.print("permanent dither");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return spoolflow::bench::on_rig_valve("listening", argc, argv,
+  return spoolflow::bench::on_rig_valve("dither_requests", argc, argv,
                                         {{"runs", 3},
                                          {"seconds", 60},
                                          {"lowest", 3},
