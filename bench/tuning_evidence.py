@@ -114,7 +114,7 @@ def tunable_headers(folder):
     names = []
     for header in sorted((folder / "spoolflow/sensor").glob("*.hpp")):
         if header.name == "dither_request.hpp":
-            continue  # no run listens
+            continue  # no run requests dither
         text = header.read_text()
         names += CONSTANT.findall(text)
         header.write_text(CONSTANT.sub(r"inline double \1 = \2;", text))

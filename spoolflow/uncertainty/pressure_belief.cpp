@@ -89,7 +89,7 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
     const double reach_N = sensor::presliding_half_width_N(valve.friction, valve.position_sensor,
                                                  sensor::presliding_deadband_m(valve.position_sensor.noise_m, step_s));
     const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
-    // The estimate's error is (friction - apparent)/slope, friction within the reach of the gauge.
+    // The estimate's error is (friction - apparent)/slope, friction within its half-width by pre-sliding.
     parts.above_Pa = (state.friction.presliding_N + reach_N - apparent_N) / slope_N_per_Pa;
     parts.below_Pa = (apparent_N - state.friction.presliding_N + reach_N) / slope_N_per_Pa;
     parts.bounds_Pa =

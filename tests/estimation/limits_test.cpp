@@ -198,12 +198,19 @@ TEST(Limits, AModelOfFormerKeysIsReadAndWrittenWithThoseOfNow) {
   observer.erase("first_process_noise");
   observer["least_liveliness"] = 0.02;  // the root of what it is now
   observer["first_liveliness"] = 0.07;
+  observer.erase("constrained_correction_s");
+  observer.erase("band_unobserved_factor");
+  observer["yielding_s"] = 0.04;
+  observer["band_unseen_factor"] = 2.5;
   const model::Model read = model::parse_model(former.dump(), "model.json");
   EXPECT_DOUBLE_EQ(read.observer->parameters.pressure.least_process_noise, 0.0004);
   EXPECT_DOUBLE_EQ(read.observer->parameters.pressure.first_process_noise, 0.07);
+  EXPECT_DOUBLE_EQ(read.observer->parameters.pressure.constrained_correction_s, 0.04);
+  EXPECT_DOUBLE_EQ(read.observer->parameters.band.unobserved_factor, 2.5);
   std::ostringstream again;
   write_model(again, read);
-  EXPECT_THAT(again.str(), Not(HasSubstr("liveliness")));
+  for (const char* key : {"liveliness", "yielding_s", "band_unseen_factor"})
+    EXPECT_THAT(again.str(), Not(HasSubstr(key)));
 }
 
 }  // namespace
