@@ -39,8 +39,8 @@ class PressureBelief {
 /// After an observer's answer to a sample at `position_m`, `step_s` after the one before. Unseen changes count as in
 /// the observer's band, the band's factor as 95 %. While the spool slides comes the lag of its filter behind a pressure
 /// that drifts as the filter expects: half the variance of its steady state, which is drift times noise; the other half
-/// is the forces' errors, which have lines of their own. At rest friction lies within the reach of the pre-sliding
-/// gauge.
+/// is the forces' errors, which have lines of their own. At rest friction lies within its half-width by pre-sliding
+/// displacement.
 [[nodiscard]] PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
                                              const sensor::ObserverState<double>& state, double position_m,
                                              double step_s);

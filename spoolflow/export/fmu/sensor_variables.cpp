@@ -19,7 +19,7 @@ constexpr std::array<Tunable, 15> tunables{{
     {"position_noise_m", "filter.position_noise", "um"},
     {"sliding_drift_Pa_per_sqrt_s", "filter.pressure_drift_sliding", "bar/s(1/2)"},
     {"resting_drift_Pa_per_sqrt_s", "filter.pressure_drift_resting", "bar/s(1/2)"},
-    {"constrained_correction_s", "filter.yielding_time", "ms"},
+    {"constrained_correction_s", "filter.constrained_correction_time", "ms"},
     {"band_coverage_factor", "filter.band_coverage", ""},
     {"force_residual_N", "filter.force_residual", ""},
     {"flow_residual_m3_per_s", "filter.flow_residual", "L/min"},
