@@ -16,15 +16,14 @@ namespace spoolflow::sensor {
 /// Beside these every sample runs magnetic force, axial forces, friction, pressure difference and flow rate. A block of
 /// positions (position_state.hpp) is 2 ms long; where it is one sample, as the first is, all run with every sample.
 ///
-/// | part                | due                                                                  | since it last ran |
-/// |---------------------|----------------------------------------------------------------------|-------------------|
-/// | friction_memory     | with the sample that closes a block                                  | a block           |
-/// | coil_diagnosis      | with the first sample after a block's time that closes none          | a block           |
-/// | force_uncertainty   | with odd samples that close no block, and where the spool changes    | not used          |
-/// | slip_excess         |   sides                                                              | not used          |
-/// | process_noise, band | with even samples that close no block                                | not used          |
-/// | friction_ratio      | with the even ones of those that follow a block                      | two blocks        |
-/// | oil_temperature     | with the odd ones of those that follow a block                       | two blocks        |
+/// | part                           | due with                                               | since it last ran |
+/// |--------------------------------|--------------------------------------------------------|-------------------|
+/// | friction_memory                | the sample that closes a block                         | a block           |
+/// | coil_diagnosis                 | the first after a block's time that closes none        | a block           |
+/// | force_uncertainty, slip_excess | odd samples that close none, and a change of sides     | not needed        |
+/// | process_noise, band            | even samples that close none                           | not needed        |
+/// | friction_ratio                 | the even ones of the samples that follow a block       | two blocks        |
+/// | oil_temperature                | the odd ones of the samples that follow a block        | two blocks        |
 template <class T>
 struct Schedule {
   Due<T> friction_memory;
@@ -205,8 +204,11 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
                                                const Sample<T>& sample, const PositionPoint<T>& position,
                                                const Dither<T>& dither, const Schedule<T>& schedule, T opposing_N,
                                                bool begins) {
+  // Magnetic force.
   const ActuatorEstimate<T> actuator =
       net_actuator(valve, state.actuator, sample, position.position_m, opposing_N, begins, schedule.force_uncertainty);
+
+  // Axial force and friction.
   const T spring_N = valve.spring.at(position.position_m).value;
   const EdgePoint<T> edge =
       valve.edge.at(state.oil.temperature_K, state.pressure.pressure_difference_Pa, position.position_m);
@@ -214,8 +216,12 @@ SPOOLFLOW_INLINE constexpr void observe_forces(const ObserverParameters<T>& valv
       valve, {state.friction, state.swing}, {actuator, spring_N, edge, state.pressure.friction_ratio}, position, dither,
       {schedule.slip_excess, schedule.friction_memory, state.dither.period_s, sample.time_step_s});
   state.force_errors.noise_N = balance.noise_N;
+
+  // Flow force: what friction cannot be moves the pressure difference.
   update_pressure(valve, state, balance, schedule, sample.time_step_s);
   follow_coil(valve.actuator, state.actuator, sample, valve.largest_current_A, schedule.coil_diagnosis);
+
+  // Flow rate and its band.
   if (schedule.band) follow_half_widths(valve, state, balance, position, sample.current_A);
   answer(valve, state.pressure, balance, state.last);
   state.last.status = status(valve, state, sample, balance);
