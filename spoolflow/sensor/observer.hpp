@@ -14,7 +14,8 @@ namespace spoolflow::sensor {
 
 /// When each part of the step runs that the answer can do without for some samples, so that no sample does everything.
 /// Beside these every sample runs magnetic force, axial forces, friction, pressure difference and flow rate. A block of
-/// positions (position_state.hpp) is 2 ms long; where it is one sample, as the first is, all run with every sample.
+/// positions (position_state.hpp) is 2 ms long; where it is one sample, and until the first closes, all run with every
+/// sample.
 ///
 /// | part                           | due with                                               | since it last ran |
 /// |--------------------------------|--------------------------------------------------------|-------------------|

@@ -117,7 +117,7 @@ template <class T>
 struct PositionBlock {
   bool closed{};   ///< this sample closed a block
   bool follows{};  ///< the sample before did
-  bool lone{};     ///< a block is one sample, as the first always is
+  bool lone{};     ///< a block is one sample, or none has closed yet
   bool even{};     ///< every second sample; of those that follow a block every second, too
   T length_s{};    ///< of the last block
 };
