@@ -103,7 +103,7 @@ template <class Visitor>
 void describe_machine_constants(Visitor& visitor) {
   visitor.constant({.name = "most_held_currents",
                     .unit = "1",
-                    .meaning = "so many currents in a row that leapt as no coil lets them are replaced"},
+                    .meaning = "largest number of implausible currents in a row that the last credible one replaces"},
                    sensor::most_held_currents);
   visitor.constant({.name = "stalled_friction_share",
                     .unit = "1",
@@ -116,7 +116,7 @@ void describe_machine_constants(Visitor& visitor) {
                    sensor::stalled_pressure_share);
   visitor.constant({.name = "stalled_pressure_reach",
                     .unit = "1",
-                    .meaning = "beyond so many times that share no actuator is thought to have stalled"},
+                    .meaning = "multiple of that share beyond which no actuator counts as stalled"},
                    sensor::stalled_pressure_reach);
   visitor.constant({.name = "least_likelihood", .unit = "1", .meaning = "the band holds a stall that is more likely"},
                    sensor::least_likelihood);

@@ -23,11 +23,11 @@ void describe_friction_constants(Visitor& visitor) {
       sensor::presliding_deadband_deviations);
   visitor.constant({.name = "doubtful_engagement_deadbands",
                     .unit = "1",
-                    .meaning = "backlash engagement by so many times the noise's own counts half"},
+                    .meaning = "an engagement of the backlash by so many deadbands counts half"},
                    sensor::doubtful_engagement_deadbands);
   visitor.constant({.name = "engagement_certainty",
                     .unit = "1",
-                    .meaning = "share of the half-width on the other side of the estimate that is out of question "
+                    .meaning = "share of the half-width on the other side of the estimate that is excluded "
                                "where the backlash surely engages"},
                    sensor::engagement_certainty);
   visitor.constant({.name = "engagement_memory_s",

@@ -12,7 +12,7 @@ void describe_dither_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "least_dither_swing_share",
        .unit = "1",
-       .meaning = "least swing of the current that is taken for dither, peak to peak over the largest current"},
+       .meaning = "least swing of the current that counts as dither, peak to peak over the largest current"},
       sensor::least_dither_swing_share);
   visitor.constant({.name = "turning_share",
                     .unit = "1",
@@ -26,11 +26,10 @@ void describe_dither_constants(Visitor& visitor) {
                     .unit = "1",
                     .meaning = "periods of dither are alike where neither is more than so many times the other"},
                    sensor::alike_ratio);
-  visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "so many periods alike are dither"},
+  visitor.constant({.name = "periods_of_dither", .unit = "1", .meaning = "periods alike that count as dither"},
                    sensor::periods_of_dither);
-  visitor.constant(
-      {.name = "unlike_weight", .unit = "1", .meaning = "half periods that are not alike count for so many"},
-      sensor::unlike_weight);
+  visitor.constant({.name = "unlike_weight", .unit = "1", .meaning = "weight of a half period that is not alike"},
+                   sensor::unlike_weight);
   visitor.constant({.name = "swing_following",
                     .unit = "1",
                     .meaning = "share of itself by which half the swing follows that of a period at most"},

@@ -247,14 +247,14 @@ void describe_pressure(Pressure& pressure, Visitor& visitor) {
   visitor.number({.key = "friction_ratio_memory_s",
                   .unit = "s",
                   .limits = {1e-3, 1e6},
-                  .meaning = "time of sliding in which the friction ratio forgets what it has learnt"},
+                  .meaning = "time constant of sliding with which the friction ratio returns to the calibrated one"},
                  pressure.ratio_memory_s);
-  visitor.number(
-      {.key = "constrained_correction_s",
-       .unit = "s",
-       .limits = {1e-5, 1e3},
-       .meaning = "how fast the pressure difference gives way to a force that resting friction cannot explain"},
-      pressure.constrained_correction_s);
+  visitor.number({.key = "constrained_correction_s",
+                  .unit = "s",
+                  .limits = {1e-5, 1e3},
+                  .meaning = "time constant of the constrained correction of the pressure difference by a force that "
+                             "friction at rest cannot explain"},
+                 pressure.constrained_correction_s);
 }
 
 template <class Inlet, class Visitor>

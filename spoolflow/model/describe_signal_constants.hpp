@@ -16,15 +16,14 @@ void describe_map_constants(Visitor& visitor) {
                    sensor::wild_cells<double>);
   visitor.constant({.name = "least_force_per_pressure_N_Pa",
                     .unit = "N/Pa",
-                    .meaning = "no less is taken for the slope of the flow force over the pressure difference"},
+                    .meaning = "lower limit of the slope of the flow force over the pressure difference"},
                    sensor::least_force_per_pressure_N_Pa);
 }
 
 template <class Visitor>
 void describe_coil_constants(Visitor& visitor) {
-  visitor.constant(
-      {.name = "shortest_step_s", .unit = "s", .meaning = "a step of time is taken for no shorter by the coil"},
-      sensor::shortest_step_s);
+  visitor.constant({.name = "shortest_step_s", .unit = "s", .meaning = "lower limit of the coil's time step"},
+                   sensor::shortest_step_s);
   visitor.constant({.name = "slow_magnetisation_s",
                     .unit = "s",
                     .meaning = "in which the coil is taken to have been brought to its first current"},
@@ -32,7 +31,7 @@ void describe_coil_constants(Visitor& visitor) {
   visitor.constant(
       {.name = "flux_rate_error_share",
        .unit = "1",
-       .meaning = "share of the flux rate that its model may be wrong by, where the coil's resistance is followed"},
+       .meaning = "error of the flux rate's model as a share of it, where the coil's resistance is followed"},
       sensor::flux_rate_error_share);
   visitor.constant({.name = "coil_averaging_s",
                     .unit = "s",
@@ -90,10 +89,9 @@ void describe_position_constants(Visitor& visitor) {
                     .unit = "s",
                     .meaning = "a block of positions under dither ends after so long at the latest"},
                    sensor::longest_dither_block_s);
-  visitor.constant({.name = "shortest_block_s",
-                    .unit = "s",
-                    .meaning = "a block of positions is taken for no shorter: velocities divide by it"},
-                   sensor::shortest_block_s);
+  visitor.constant(
+      {.name = "shortest_block_s", .unit = "s", .meaning = "lower limit of a block's length: velocities divide by it"},
+      sensor::shortest_block_s);
   visitor.constant({.name = "fastest_m_per_s", .unit = "m/s", .meaning = "no spool moves faster"},
                    sensor::fastest_m_per_s);
   visitor.constant({.name = "velocity_smoothing_s", .unit = "s", .meaning = "smoothing of the velocity"},
