@@ -11,7 +11,7 @@ namespace spoolflow::sensor {
 
 /// Shares of the conductance are taken of no less than this share of the widest opening's.
 inline constexpr double least_conductance_share = 0.01;
-/// A smaller conductance [m3/s/Pa(1/2)] is none: shares divide by it.
+/// Shares divide by no smaller conductance [m3/s/Pa(1/2)].
 inline constexpr double vanishing_conductance = 1e-12;
 /// More than this [N] leaves nothing known of the pressure difference.
 inline constexpr double most_environment_N = 1e5;
@@ -25,8 +25,8 @@ SPOOLFLOW_INLINE constexpr bool is_bench(const Environment<T>& environment) {
 }
 
 /// What an edge elsewhere, or of other oil, does to the flow rate that is computed from a force [N]: as the force that
-/// would change it alike. An edge with more flow force is thought to have more pressure difference than it has; one
-/// with more conductance passes more.
+/// would change it alike. Where the edge has more flow force than the model, the pressure difference is overestimated;
+/// one with more conductance passes more.
 template <class T>
 constexpr T edge_effect_N(const EdgePoint<T>& edge, const EdgePoint<T>& other, T pressure_difference_Pa, T least) {
   const T conductance_share = (other.conductance - edge.conductance) / larger(edge.conductance, least);
@@ -218,7 +218,7 @@ SPOOLFLOW_INLINE constexpr void band_of_flow(const ObserverParameters<T>& valve,
 inline constexpr double stalled_friction_share = 0.3;
 /// ... and the pressure difference this share of the highest.
 inline constexpr double stalled_pressure_share = 0.025;
-/// Beyond so many times that share no actuator is thought to have stalled.
+/// Beyond this multiple of that share no actuator counts as stalled.
 inline constexpr double stalled_pressure_reach = 4;
 /// A band of 95 % holds what is more likely than this.
 inline constexpr double least_likelihood = 0.05;

@@ -13,7 +13,7 @@
 
 namespace spoolflow::sensor {
 
-/// Least swing of the current that is taken for dither, peak to peak, as a share of the largest current.
+/// Least swing of the current that counts as dither, peak to peak, as a share of the largest current.
 inline constexpr double least_dither_swing_share = 0.02;
 /// The current has turned where it went back by this share of its last swing.
 inline constexpr double turning_share = 0.35;

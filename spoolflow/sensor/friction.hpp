@@ -55,7 +55,7 @@ inline constexpr double presliding_deadband_deviations = 2;
 inline constexpr double doubtful_engagement_deadbands = 0.7;
 /// For so long [s] after it engaged it is known at which end of its backlash the sensor lies.
 inline constexpr double engagement_memory_s = 0.02;
-/// So much of the half-width on the other side of the estimate is out of question where the backlash surely engages.
+/// Share of the half-width on the other side of the estimate that is excluded where the backlash surely engages.
 inline constexpr double engagement_certainty = 0.8;
 /// What is left of the contact's stiffness at the limit of sticking, as a share of it.
 inline constexpr double least_stiffness_share = 0.1;

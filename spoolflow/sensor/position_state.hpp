@@ -30,7 +30,7 @@ inline constexpr double slip_deviations = 5;
 /// ... friction and inertia are in motion for so long [s] after it.
 inline constexpr double slip_settling_s = 0.03;
 /// A change of the signal is credible up to so many standard deviations of the noise and this much more [m], besides
-/// what the hardest acceleration allows.
+/// what the largest acceleration allows.
 inline constexpr double credible_jump_deviations = 20;
 inline constexpr double credible_jump_m = 20e-6;
 /// The noise is the calibrated one, or that which the signal has over this factor, where that is more: the spool's
@@ -50,7 +50,7 @@ inline constexpr double quiet_jump_m = 60e-6;
 /// meanwhile, it was the jump that was wrong.
 inline constexpr double longest_position_fault_s = 0.25;
 inline constexpr double longest_position_doubt_s = 2.5;
-/// A period of dither that is longer [s] is none any more: the block ends.
+/// A block under dither ends after so long [s], whole period or not.
 inline constexpr double longest_dither_block_s = 0.015;
 /// A block is taken for no shorter [s]: velocities divide by it.
 inline constexpr double shortest_block_s = 1e-6;

@@ -127,7 +127,7 @@ SPOOLFLOW_INLINE constexpr void find_motion(const PositionSensor<T>& sensor, Pos
   state.motion = even ? motion : unsettled ? Motion::transient : Motion::rest;
 }
 
-/// How much more than its noise the signal's step [m] may credibly change: what the hardest acceleration allows, or
+/// How much more than its noise the signal's step [m] may credibly change: what the largest acceleration allows, or
 /// less where the coil shows no motion.
 template <class T>
 constexpr T accelerated_m(const PositionSensor<T>& sensor, const PositionState<T>& state, const Sample<T>& sample,

@@ -26,7 +26,7 @@ inline constexpr double innovation_gate = 1.2;
 inline constexpr double gate_opening_s = 0.015;
 /// The forces show a change of the pressure difference so much later [s]: what it did since is unobserved at any time.
 inline constexpr double measurement_delay_s = 0.002;
-/// A variance that reaches this [Pa2], or falls below zero, is none: rounding has broken the estimate.
+/// A variance that reaches this [Pa2], or falls below zero, is invalid: rounding has broken the estimate.
 inline constexpr double most_variance_Pa2 = 1e30;
 /// Friction grows with pressure against the flow force when the spool closes: what is left of the slope of both
 /// together is taken for no less than this share of the flow force's.

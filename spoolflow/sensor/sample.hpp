@@ -34,7 +34,7 @@ inline constexpr double other_direction_m = 50e-6;
 inline constexpr double longest_regular_step_s = 9e-3;
 /// After a longer time step [s] nothing that was estimated before counts: the sensor starts again.
 inline constexpr int longest_step_s = 1;
-/// A time step of so much [s] is none.
+/// A time step of this length [s] or more is invalid.
 inline constexpr int endless_step_s = 1 << 30;
 
 /// A spool without a measured position is taken to go from end to end in so long [s].
@@ -113,7 +113,7 @@ SPOOLFLOW_INLINE constexpr void widen_band(Estimate<T>& out, T half2) {
   out.flow_upper_m3_per_s = flow + sqrt(squared(out.flow_upper_m3_per_s - flow) + half2);
 }
 
-/// Opens the band of a held answer to what may flow: at once, or as a spool that nobody sees goes to its ends in one
+/// Opens the band of a held answer to what may flow: at once, or as an unobserved spool goes to its ends in one
 /// more step of time [s], >= 0. The flow stays. What a broken state makes no number of opens nothing.
 template <class T>
 constexpr void open_band(Estimate<T>& held, const FlowRange<T>& range, bool at_once, T time_step_s) {

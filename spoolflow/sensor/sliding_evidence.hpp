@@ -23,7 +23,7 @@ inline constexpr double process_noise_fall = 0.2;
 inline constexpr double first_observed_process_noise = 0.2;
 /// A change counts half where its drift variance is so many times the variance of the forces' noise.
 inline constexpr double informative_drift_share = 5;
-/// A smaller covariance of pressure difference and friction ratio [Pa] is none; its square would be no normal number.
+/// A smaller covariance of pressure difference and friction ratio [Pa] counts as zero: its square would be denormal.
 inline constexpr double least_covariance_Pa = 1e-3;
 /// Friction in operation over that on the bench lies between these; dither may all but free the spool.
 inline constexpr double least_friction_ratio = 0.05;

@@ -73,7 +73,7 @@ constexpr void exchange(ActuatorState<T>& one, ActuatorState<T>& other) {
 }
 
 /// The spool went through the centre: the other solenoid and the other path are at work. What the supply did to it
-/// meanwhile nobody saw.
+/// meanwhile is unobserved.
 template <class T>
 constexpr void change_sides(const WholeValveParameters<T>& valve, WholeValveState<T>& state) {
   state.opens_a = !state.opens_a;
