@@ -72,12 +72,14 @@ PartitionWork::Place& PartitionWork::place(const std::string& valve) {
   return places_.try_emplace(valve, valve, parts_.program, delays).first->second;
 }
 
-/// From memory, else from the store.
+/// Nothing where the store does not have it: rows refer to it. Sensor and monitor share what any partition has read.
 std::optional<live::SharedModel> PartitionWork::model(const std::string& sha256) {
-  if (auto found = parts_.models.find(sha256)) return found;
+  auto found = parts_.models.find(sha256);
+  if (found && kept_models_.contains(sha256)) return found;
   const auto kept = store_.model(sha256);
   if (!kept) return std::nullopt;
-  return parts_.models.add(sha256, *kept);
+  kept_models_.insert(sha256);
+  return found ? found : parts_.models.add(sha256, *kept);
 }
 
 /// What sites sent because it was asked for, by whomever.
@@ -86,10 +88,12 @@ void PartitionWork::take_models() {
   while (const auto message = models_.next(milliseconds(0))) {
     if (message->bytes.size() <= hash_digits) continue;
     const std::string sha256 = message->bytes.substr(0, hash_digits);
-    if (parts_.models.find(sha256)) continue;
+    if (kept_models_.contains(sha256)) continue;
     const std::vector<std::uint8_t> packed(message->bytes.begin() + hash_digits, message->bytes.end());
     try {
-      if (parts_.models.add(sha256, packed)) store_.keep_model(sha256, packed);
+      if (!parts_.models.add(sha256, packed)) continue;
+      store_.keep_model(sha256, packed);
+      kept_models_.insert(sha256);
     } catch (
         const model::ModelError&) {  // of another version of the program: its blocks wait for a worker that knows it
     }

@@ -82,8 +82,9 @@ class PartitionWork {
   Session session_;
   PartitionStore store_;
   std::map<std::string, Place> places_;
-  std::vector<Gathered> gathered_;  ///< of each valve one
-  std::set<std::string> to_tell_;   ///< valves whose coverage their sites should hear
+  std::vector<Gathered> gathered_;     ///< of each valve one
+  std::set<std::string> to_tell_;      ///< valves whose coverage their sites should hear
+  std::set<std::string> kept_models_;  ///< hashes of those that the store is known to have
   std::optional<Puller> puller_;
   SetAside set_aside_;
   Suspects suspects_;

@@ -202,7 +202,9 @@ void Session::check(pg_result* result, const char* sql) {
     if (code.starts_with(passing)) throw ServerAway(fmt::format("PostgreSQL: {}", why));
   }
   const std::string what = fmt::format("PostgreSQL: {} ({}, in: {:.60})", why, code, sql);
-  for (const char* content : {"22", "23", "54"}) {  // data, a table's rules, a row that is too large
+  constexpr std::string_view missing_row = "23503";  // a row that another refers to: no fault of the content
+  for (const char* content : {"22", "23", "54"}) {   // data, a table's rules, a row that is too large
+    if (code == missing_row) break;
     if (code.starts_with(content)) throw ContentRefused(what);
   }
   throw ServerRefuses(what);

@@ -95,6 +95,29 @@ class SetAside(WithAFleet):
         self.send(samples(gap, 1, model, 32768))
         until(lambda: self.covered(gap) and int(self.covered(gap)[0]) > 10, 60, "the blocks that were kept, behind the first")
 
+    def test_a_model_on_its_way_into_the_store_costs_no_block(self):
+        """One partition keeps the model, which all of them share in memory; the store takes its time for it."""
+        fleet = self.fleet = Fleet(COMMAND, self.folder, "single")
+        fleet.setup()
+        fleet.postgres.ask("CREATE FUNCTION slow() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM pg_sleep(2); RETURN NEW; "
+                           "END $$; CREATE TRIGGER slow BEFORE INSERT ON model FOR EACH ROW EXECUTE FUNCTION slow()")
+        fleet.start_worker()
+        with open(os.path.join(EXAMPLES, "live", "size_6.json"), "rb") as file:
+            text = file.read()
+        model = hashlib.sha256(text).hexdigest()
+        valves = [(partition, named(b"hall/v%d", partition)) for partition in range(4)]
+        until(lambda: fleet.postgres.ask("SELECT count(*) FROM partition WHERE owner IS NULL") == ["0"], 20, "a worker")
+
+        def known():
+            for partition, valve in valves:
+                self.publish(b"spoolflow.block.%d.hall" % partition, block(valve, 1, model, report()))
+            self.publish(b"spoolflow.model.hall", model.encode() + packed(text))
+            time.sleep(0.5)
+            return fleet.postgres.ask("SELECT count(*) FROM coverage") == ["4"]
+        until(known, 60, "a block of each valve")
+        self.assertEqual([self.numbers(valve) for _, valve in valves], [["1"]] * 4)
+        self.assertEqual(fleet.postgres.ask("SELECT count(*) FROM set_aside"), ["0"])
+
     def test_blocks_that_nobody_can_keep_hold_up_no_other(self):
         fleet = self.fleet = Fleet(COMMAND, self.folder, "single")
         fleet.setup()
