@@ -1,13 +1,15 @@
 #!/bin/sh
-# ci/packages.sh [ADDON|tests|long]…: installs what the core needs (packages.txt) and this machine lacks, and what each add-on
-# named needs; `tests`: what all tests need, the add-ons among it; `long`: the long acceptance runs, too.
+# ci/packages.sh [ADDON|firmware|tests|long]…: installs what the core needs (packages.txt) and this machine lacks, and what each add-on
+# named needs; `firmware`: the compiler for `export c`; `tests`: what all tests need, the add-ons among it; `long`: the long
+# acceptance runs, too.
 set -eu
 cd "$(dirname "$0")/.."
 lists=packages.txt
 for name in "$@"; do
   case "$name" in
-    tests) for addon in formats cross live fleet python; do lists="$lists addons/$addon/packages.txt"; done; lists="$lists tests/packages.txt" ;;
+    tests) for addon in formats cross live fleet python; do lists="$lists addons/$addon/packages.txt"; done; lists="$lists addons/cross/firmware_packages.txt tests/packages.txt" ;;
     long) lists="$lists addons/playground/packages.txt tests/packages_long.txt" ;;
+    firmware) lists="$lists addons/cross/firmware_packages.txt" ;;
     fleet) lists="$lists addons/live/packages.txt addons/fleet/packages.txt" ;;
     *) lists="$lists addons/$name/packages.txt" ;;
   esac

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/export/c_folder.hpp"
 #include "spoolflow/export/cpp/overwriting.hpp"
 #include "spoolflow/export/cpp_folder.hpp"
 #include "spoolflow/export/embedded_parts.hpp"
@@ -37,6 +39,7 @@ struct ExportArguments {
   std::string fmi;        ///< "2", "3"; empty: 2
   std::string direction;  ///< empty: all that the model has
   std::string sensors;    ///< of parameters: "observer", "condensed"; empty: both
+  std::string target;     ///< of c: a core's name
 };
 
 /// What is asked for of the model. Throws ModelError where it does not know that direction.
@@ -49,10 +52,26 @@ model::Model asked_model(const ExportArguments& arguments) {
       arguments.direction, model.valve.name, model.valve.direction));
 }
 
+exports::ImageContents image_contents() {
+  return {tool_version(), static_cast<std::uint64_t>(model::creation_seconds())};
+}
+
+std::vector<exports::ExportedFile> exported_folder(const ExportArguments& arguments, const model::Model& model) {
+  if (arguments.kind == "cpp") return exports::cpp_folder(model);
+  const std::optional<exports::FirmwareTarget> target = exports::firmware_target(arguments.target);
+  if (!target) {
+    std::string all;
+    for (const exports::FirmwareTarget& each : exports::firmware_targets()) all += fmt::format(" {}", each.name);
+    throw std::invalid_argument(
+        fmt::format("--target '{}': name the core that the library is for:{}", arguments.target, all));
+  }
+  return exports::c_folder(model, *target, image_contents());
+}
+
 /// All files are written before the first one gets its name.
-void export_cpp(const ExportArguments& arguments) {
+void export_folder(const ExportArguments& arguments) {
   const model::Model model = asked_model(arguments);
-  const std::vector<exports::ExportedFile> files = exports::cpp_folder(model);
+  const std::vector<exports::ExportedFile> files = exported_folder(arguments, model);
   const fs::path folder(arguments.output);
   if (folder.empty() || folder == "-") throw OutputError("an export needs a folder: name one after -o");
   const std::string refused = exports::why_not_to_overwrite(folder, files);
@@ -108,7 +127,7 @@ void export_fmu(const ExportArguments& arguments) {
 
 void export_parameters(const ExportArguments& arguments) {
   const model::Model model = asked_model(arguments);
-  exports::ImageContents contents{tool_version(), static_cast<std::uint64_t>(model::creation_seconds())};
+  exports::ImageContents contents = image_contents();
   contents.condensed = arguments.sensors != "observer";
   contents.observer = arguments.sensors != "condensed";
   OutputFile output(arguments.output, {arguments.model});
@@ -132,8 +151,10 @@ void export_asked(const ExportArguments& arguments) {
     throw std::invalid_argument(fmt::format("--sensors {}: of parameters alone; leave it away", arguments.sensors));
   if (!arguments.fmi.empty() && arguments.kind != "fmu")
     throw std::invalid_argument(fmt::format("--fmi {}: of FMUs alone; leave it away", arguments.fmi));
+  if (!arguments.target.empty() && arguments.kind != "c")
+    throw std::invalid_argument(fmt::format("--target {}: of c alone; leave it away", arguments.target));
   if (arguments.kind == "fmu") return export_fmu(arguments);
-  if (arguments.kind == "cpp") return export_cpp(arguments);
+  if (arguments.kind == "cpp" || arguments.kind == "c") return export_folder(arguments);
   export_parameters(arguments);
 }
 
@@ -233,18 +254,22 @@ void add_export_command(CLI::App& program) {
        "cpp: a folder "
        "with the sensor's headers, the model as constexpr numbers in single precision, an "
        "example and a self-test; files of an earlier export are replaced, all else in the folder stays. "
+       "c: a folder with a static library for one core, its header in C99, a flash page, examples and a self-test. "
        "parameters: one file of bytes for a flash page, which firmware checks and reads where it lies; "
        "SOURCE_DATE_EPOCH "
        "sets the time in it",
        {"spoolflow export fmu valve_a.json -o sensor.fmu --fmi 3", "spoolflow export fmu size_6 -o valve.fmu --fmi 3",
-        "spoolflow export cpp valve_a.json -o valve_a_cpp", "spoolflow export parameters valve_a.json -o valve.bin"}});
-  command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp: for firmware; parameters: a flash page")
+        "spoolflow export cpp valve_a.json -o valve_a_cpp",
+        "spoolflow export c valve_a.json --target cortex-m4f -o valve_a_c",
+        "spoolflow export parameters valve_a.json -o valve.bin"}});
+  command
+      ->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp, c: for firmware; parameters: a flash page")
       ->required()
-      ->check(CLI::IsMember({"fmu", "cpp", "parameters"}));
+      ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "file (fmu, parameters; - for standard output) or folder (cpp) to write")
+                   "file (fmu, parameters; - for standard output) or folder (cpp, c) to write")
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))
@@ -255,6 +280,8 @@ void add_export_command(CLI::App& program) {
       ->check(CLI::IsMember({"a", "b"}));
   command->add_option("--sensors", arguments->sensors, "of parameters: observer or condensed alone; without it both")
       ->check(CLI::IsMember({"observer", "condensed"}));
+  command->add_option("--target", arguments->target,
+                      "of c: the core: cortex-m4f, cortex-m7, cortex-m33, cortex-m3 or cortex-m0plus");
   command->callback([arguments] { export_asked(*arguments); });
 }
 

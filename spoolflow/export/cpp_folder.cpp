@@ -324,11 +324,15 @@ std::vector<ExportedFile> cpp_folder(const model::Model& model) {
   for (const EmbeddedFile& header : sensor_headers()) {
     files.push_back({fmt::format("spoolflow/sensor/{}", header.name), std::string(header.bytes)});
   }
+  files.push_back(record_of(files));
+  return files;
+}
+
+ExportedFile record_of(const std::vector<ExportedFile>& files) {
   std::string record;
   for (const ExportedFile& file : files)
     record += fmt::format("{}  {}\n", model::sha256_of_text(file.content), file.name);
-  files.push_back({std::string(cpp_record_name), std::move(record)});
-  return files;
+  return {std::string(cpp_record_name), std::move(record)};
 }
 
 }  // namespace spoolflow::exports

@@ -23,5 +23,7 @@ inline constexpr std::string_view cpp_model_mark = "// Made by `spoolflow export
 
 /// Throws std::invalid_argument where a number of the model does not fit into single precision.
 [[nodiscard]] std::vector<ExportedFile> cpp_folder(const model::Model& model);
+/// The file named cpp_record_name, of those files.
+[[nodiscard]] ExportedFile record_of(const std::vector<ExportedFile>& files);
 
 }  // namespace spoolflow::exports

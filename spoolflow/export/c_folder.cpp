@@ -1,0 +1,78 @@
+#include "spoolflow/export/c_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "spoolflow/export/cpp_texts.hpp"
+
+namespace spoolflow::exports {
+namespace {
+
+constexpr std::array<FirmwareTarget, 5> targets{{
+    {"cortex-m4f", "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16"},
+    {"cortex-m7", "-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"},
+    {"cortex-m33", "-mcpu=cortex-m33 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"},
+    {"cortex-m3", "-mcpu=cortex-m3 -mthumb -mfloat-abi=soft"},
+    {"cortex-m0plus", "-mcpu=cortex-m0plus -mthumb -mfloat-abi=soft"},
+}};
+
+constexpr std::string_view prefix = "cortex-";
+
+std::string with_places(std::string text, const model::Model& model, const FirmwareTarget& target) {
+  const auto put = [&text](const std::string& place, std::string_view content) {
+    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + content.size()))
+      text.replace(at, place.size(), content);
+  };
+  put("@VALVE@", model.valve.name);
+  put("@TARGET@", target.name);
+  put("@OPTIONS@", target.options);
+  return text;
+}
+
+bool is_for_c(const ExportedFile& file) {
+  return file.name == "valve_sensor.h" || file.name == "example.c";
+}
+
+}  // namespace
+
+std::span<const FirmwareTarget> firmware_targets() {
+  return targets;
+}
+
+std::optional<FirmwareTarget> firmware_target(std::string_view name) {
+  const auto found = std::find_if(targets.begin(), targets.end(), [name](const FirmwareTarget& each) {
+    return each.name == name || each.name.substr(prefix.size()) == name;
+  });
+  return found == targets.end() ? std::nullopt : std::optional(*found);
+}
+
+FirmwareCompiler& firmware_compiler() {
+  static FirmwareCompiler of_the_program;
+  return of_the_program;
+}
+
+std::vector<ExportedFile> c_folder(const model::Model& model, const FirmwareTarget& target,
+                                   const ImageContents& contents) {
+  if (!firmware_compiler()) {
+    throw std::runtime_error(
+        "export c needs the add-on 'cross', which this program is built without; in the sources `./run export c` "
+        "builds it, or take `export cpp`, which needs a C++ compiler for the core");
+  }
+  const std::vector<ExportedFile> sources = cpp_folder(model);
+  std::vector<ExportedFile> files;
+  std::copy_if(sources.begin(), sources.end(), std::back_inserter(files), is_for_c);
+  files.push_back({"libvalve_sensor.a", firmware_compiler()(sources, target)});
+  files.push_back({"valve_page.bin", parameter_image(model, contents)});
+  for (const EmbeddedFile& each : cpp_texts()) {
+    if (each.name == "example_pages.c.in") files.push_back({"example_pages.c", std::string(each.bytes)});
+    if (each.name == "c_README.md.in")
+      files.push_back({"README.md", with_places(std::string(each.bytes), model, target)});
+  }
+  files.push_back(record_of(files));
+  return files;
+}
+
+}  // namespace spoolflow::exports
