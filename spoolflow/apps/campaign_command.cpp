@@ -33,7 +33,9 @@ void store(const std::filesystem::path& folder, const rig::CampaignItem& item, c
 
 void campaign(const CampaignArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
-  const rig::ValveAndCampaign asked = rig::read_valve_and_campaign(arguments.valve);
+  rig::ValveAndCampaign asked = rig::read_valve_and_campaign(arguments.valve);
+  if (!arguments.bench.empty())
+    asked.campaign.bench = arguments.bench == "flow" ? rig::CampaignBench::flow : rig::CampaignBench::force;
   const auto items = arguments.calibration_only ? rig::calibration_items(asked.valve, asked.campaign)
                                                 : rig::campaign_items(asked.valve, asked.campaign);
   make_output_folder(folder);
@@ -61,12 +63,18 @@ void add_campaign_command(CLI::App& program) {
                          "both directions "
                          "whole_size_6, whole_differential",
                 .writes = "a folder: bench tests, operating runs and campaign.toml, which spoolflow calibrate reads",
-                .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign"}});
+                .examples = {"spoolflow campaign examples/valves/size_6.toml -o campaign",
+                             "spoolflow campaign size_10 --bench flow -o flow_bench"}});
   auto arguments = std::make_shared<CampaignArguments>();
   command->add_option("valve", arguments->valve, "valve file or name of a built-in valve")
       ->type_name("VALVE.toml")
       ->required();
   command->add_option("-o,--output", arguments->folder, "folder for the recordings")->type_name("DIR")->required();
+  command
+      ->add_option("--bench", arguments->bench,
+                   "force: solenoid and axial-force rigs; flow: a flow bench alone, no force sensor")
+      ->type_name("BENCH")
+      ->check(CLI::IsMember({"force", "flow"}));
   command->add_flag("--calibration-only", arguments->calibration_only, "leave out the validation runs");
   command->add_flag("--truth", arguments->with_truth, "write flow, pressure and each force of every run to DIR/truth");
   add_quiet(*command, arguments->quiet);

@@ -15,8 +15,9 @@ struct SimulateArguments {
 void simulate(const SimulateArguments& arguments);
 
 struct CampaignArguments {
-  std::string valve;   ///< valve file or preset
-  std::string folder;  ///< to write
+  std::string valve;       ///< valve file or preset
+  std::string folder;      ///< to write
+  std::string bench = {};  ///< "force" or "flow"; empty: as the valve file says, else force
   bool calibration_only = false;
   bool with_truth = false;
   bool quiet = false;

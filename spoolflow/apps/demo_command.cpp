@@ -80,7 +80,9 @@ void demo(const DemoArguments& arguments) {
       "  spoolflow simulate {0}/duty_cycle.toml -o {1}\n"
       "  spoolflow calibrate {0}/campaign/campaign.toml -o {0}/model.json\n"
       "  spoolflow estimate {0}/model.json {1} -o {0}/estimate.csv\n"
-      "  spoolflow validate {0}/model.json {2} {1} --report {0}/report.html --json {0}/metrics.json\n\n{3}\n",
+      "  spoolflow validate {0}/model.json {2} {1} --report {0}/report.html --json {0}/metrics.json\n"
+      "Without force sensors, from a flow bench alone, the first step is\n"
+      "  spoolflow campaign {0}/valve.toml --bench flow -o {0}/campaign --calibration-only\n\n{3}\n",
       folder.string(), runs.back(), runs.front(), in_folder("report.html"));
 }
 

@@ -4,22 +4,6 @@
 
 namespace spoolflow::rig {
 
-namespace {
-
-LoadKind load_kind(BenchEdges edges) {
-  switch (edges) {
-    case BenchEdges::inlet:
-      return LoadKind::held_difference;
-    case BenchEdges::path:
-      return LoadKind::held_path;
-    case BenchEdges::outlet:
-      return LoadKind::held_return;
-  }
-  return LoadKind::held_difference;
-}
-
-}  // namespace
-
 AxialForceProtocol spring_protocol() {
   return {.pressure_differences_bar = {0}, .oil_temperature_C = 25};
 }
@@ -29,7 +13,7 @@ BenchRun plan(const AxialForceProtocol& protocol, double stroke_m) {
   BenchRun run;
   run.arrangement = Arrangement::axial_force_bench;
   run.coil_feed = CoilFeed::none;
-  if (protocol.edges) run.load = load_kind(*protocol.edges);
+  if (protocol.edges) run.load = load_of(*protocol.edges);
   const double rate_m_per_s = stroke_m * protocol.rate_percent_per_s / 100;
   for (const double level_bar : protocol.pressure_differences_bar) {
     const double from_s = run.motion_m.duration_s();

@@ -9,13 +9,6 @@
 
 namespace spoolflow::rig {
 
-/// Which of the edges that x > 0 opens the bench feeds.
-enum class BenchEdges {
-  inlet,   ///< P to B; A, B and T drain to the back pressure
-  path,    ///< P to B and A to T, one behind the other: A and B are joined
-  outlet,  ///< A to T: port A is fed instead of P
-};
-
 struct AxialForceProtocol {
   std::vector<double> pressure_differences_bar{5, 10, 20, 30, 40, 50, 60, 70};
   double oil_temperature_C = 50.0;

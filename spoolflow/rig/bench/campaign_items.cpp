@@ -13,6 +13,12 @@ std::uint64_t seed_of(const ValveUnderTest& valve, std::string_view file) {
 
 }  // namespace
 
+std::vector<FedEdges> fed_edges(const CampaignSettings& settings, const std::string& direction) {
+  if (!settings.one_edge_at_a_time) return {{"", BenchEdges::path}};
+  if (direction == "b") return {{"PB", BenchEdges::inlet}, {"AT", BenchEdges::outlet}};
+  return {{"PA", BenchEdges::inlet}, {"BT", BenchEdges::outlet}};
+}
+
 CampaignItems::CampaignItems(const ValveUnderTest& valve) : valve_(as_built(valve)) {}
 
 void CampaignItems::add(std::string file, std::string protocol, Protocol settings) {

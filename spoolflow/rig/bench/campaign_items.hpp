@@ -9,6 +9,12 @@
 
 namespace spoolflow::rig {
 
+/// On what a campaign measures for calibration.
+enum class CampaignBench {
+  force,  ///< solenoid and axial-force rigs
+  flow    ///< a flow bench alone
+};
+
 /// What the campaign measures; the table [campaign] of a valve file.
 struct CampaignSettings {
   std::vector<double> oil_temperatures_C{30, 50, 70};
@@ -24,13 +30,14 @@ struct CampaignSettings {
   double dither_frequency_Hz = 160.0;
   double dithered_duty_s = 40.0;
   double overrunning_pressure_bar = 50.0;
+  CampaignBench bench = CampaignBench::force;  ///< key `bench`: "force" or "flow"
   bool one_edge_at_a_time = false;  ///< key `edges`, of a whole valve: "joined" (A and B), or "one_at_a_time"
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit(Parameter{"oil_temperatures_C", "degC", -20, 100, "one axial-force map each"}, self.oil_temperatures_C);
-    visit(Parameter{"pressure_differences_bar", "bar", 0.5, 350, "levels of each axial-force map"},
-          self.pressure_differences_bar);
+    visit(Parameter{"oil_temperatures_C", "degC", -20, 100, "one axial-force map, or metering recording, each"},
+          self.oil_temperatures_C);
+    visit(Parameter{"pressure_differences_bar", "bar", 0.5, 350, "levels of each"}, self.pressure_differences_bar);
     visit(Parameter{"ramp_pressure_bar", "bar", 0.5, 350, "of the run that goes into campaign.toml"},
           self.ramp_pressure_bar);
     visit(Parameter{"ramp_rate_percent_per_s", "%/s", 0.1, 1000, "of that run's set position; 5 %/s in the paper"},
@@ -63,6 +70,14 @@ struct CampaignItem {
   ValveUnderTest valve;  ///< as built
   std::uint64_t seed;
 };
+
+/// What a bench feeds at once, and its name in campaign.toml: empty where A and B are joined.
+struct FedEdges {
+  std::string edge;
+  BenchEdges edges;
+};
+/// Of that direction of a whole valve, in turn.
+[[nodiscard]] std::vector<FedEdges> fed_edges(const CampaignSettings& settings, const std::string& direction);
 
 /// The recordings of one campaign, one after the other.
 class CampaignItems {

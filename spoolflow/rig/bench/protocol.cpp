@@ -59,6 +59,10 @@ const std::vector<NamedProtocol>& protocols() {
       {"solenoid_dynamic", "current loops, sines and voltage steps at held positions", SolenoidDynamicProtocol{}},
       {"axial_force_map", "an external drive opens and closes the spool at each pressure difference",
        AxialForceProtocol{}},
+      {"unpressurised_strokes", "two slow strokes and a fast one by the valve's own solenoid, pump off",
+       unpressurised_protocol()},
+      {"metering", "a slow stroke by the valve's own solenoid at each pressure difference, beside a flow meter",
+       FlowBenchProtocol{}},
       {"ramps", "triangles with holds, one for each pressure difference", RampsProtocol{}},
       {"temperature_sweep", "triangles while the oil warms", temperature_sweep()},
       {"steps", "set positions one after the other", StepsProtocol{}},
@@ -82,7 +86,8 @@ Protocol protocol_named(std::string_view name) {
 bool is_bench_test(const Protocol& protocol) {
   return std::holds_alternative<AxialForceProtocol>(protocol) ||
          std::holds_alternative<SolenoidForceMapProtocol>(protocol) ||
-         std::holds_alternative<SolenoidDynamicProtocol>(protocol);
+         std::holds_alternative<SolenoidDynamicProtocol>(protocol) ||
+         std::holds_alternative<FlowBenchProtocol>(protocol);
 }
 
 BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64_t seed) {
@@ -99,6 +104,10 @@ BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64
     BenchRun operator()(const SolenoidDynamicProtocol& settings) const {
       return plan(settings, solenoid_rating(valve));
     }
+    BenchRun operator()(FlowBenchProtocol settings) const {
+      if (valve.whole && !settings.edges) settings.edges = BenchEdges::path;
+      return plan(settings);
+    }
     BenchRun operator()(const RampsProtocol& settings) const { return plan(settings); }
     BenchRun operator()(const StepsProtocol& settings) const { return plan(settings); }
     BenchRun operator()(const SineProtocol& settings) const { return plan(settings); }
@@ -106,7 +115,7 @@ BenchRun plan(const Protocol& protocol, const ValveUnderTest& valve, std::uint64
     BenchRun operator()(const PressureStepsProtocol& settings) const { return plan(settings); }
   };
   BenchRun run = std::visit(Plan{valve, seed}, protocol);
-  if (valve.whole && run.arrangement == Arrangement::valve) make_whole(run);
+  if (valve.whole && !is_bench_test(protocol)) make_whole(run);
   return run;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spoolflow/rig/bench/axial_force_protocol.hpp"
+#include "spoolflow/rig/bench/flow_bench_protocol.hpp"
 #include "spoolflow/rig/bench/operation_protocols.hpp"
 #include "spoolflow/rig/bench/solenoid_protocols.hpp"
 #include "spoolflow/rig/bench/valve_under_test.hpp"
@@ -13,8 +14,8 @@
 namespace spoolflow::rig {
 
 /// The settings of one protocol.
-using Protocol = std::variant<AxialForceProtocol, SolenoidForceMapProtocol, SolenoidDynamicProtocol, RampsProtocol,
-                              StepsProtocol, SineProtocol, DutyCycleProtocol, PressureStepsProtocol>;
+using Protocol = std::variant<AxialForceProtocol, SolenoidForceMapProtocol, SolenoidDynamicProtocol, FlowBenchProtocol,
+                              RampsProtocol, StepsProtocol, SineProtocol, DutyCycleProtocol, PressureStepsProtocol>;
 
 struct NamedProtocol {
   std::string_view name;

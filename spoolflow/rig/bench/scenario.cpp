@@ -61,16 +61,20 @@ void take(const BenchChoices& choices, const std::string& file, Scenario& scenar
                     file));
   }
   if (!choices.edge) return;
-  AxialForceProtocol* axial = std::get_if<AxialForceProtocol>(&scenario.protocol);
-  if (axial == nullptr) {
-    throw SettingsError(fmt::format("{}: edge is of the protocols axial_force_map and spring; remove it here", file));
+  std::optional<BenchEdges>* fed = nullptr;
+  if (auto* axial = std::get_if<AxialForceProtocol>(&scenario.protocol)) fed = &axial->edges;
+  if (auto* bench = std::get_if<FlowBenchProtocol>(&scenario.protocol)) fed = &bench->edges;
+  if (fed == nullptr) {
+    throw SettingsError(fmt::format(
+        "{}: edge is of the protocols axial_force_map, spring, metering and unpressurised_strokes; remove it here",
+        file));
   }
   const NamedEdge& edge = edges[*choices.edge];
   if (edge.direction_a && choices.direction_given && *edge.direction_a != scenario.direction_a) {
     throw SettingsError(fmt::format("{}: edge = \"{}\" opens in direction {}; correct direction or remove it", file,
                                     edge.name, *edge.direction_a ? "a" : "b"));
   }
-  axial->edges = edge.edges;
+  *fed = edge.edges;
   if (edge.direction_a) scenario.direction_a = *edge.direction_a;
 }
 

@@ -10,6 +10,7 @@
 
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/rig/bench/campaign_loads.hpp"
+#include "spoolflow/rig/bench/flow_bench_campaign.hpp"
 #include "spoolflow/rig/bench/whole_campaign.hpp"
 #include "spoolflow/rig/plants/plant_group.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -17,7 +18,18 @@
 namespace spoolflow::rig {
 namespace {
 
+std::string ramp_file(const CampaignSettings& settings) {
+  return fmt::format("ramp_{:g}bar.csv", settings.ramp_pressure_bar);
+}
+
+RampsProtocol ramp(const CampaignSettings& settings) {
+  return {.conditions = {},
+          .pressure_differences_bar = {settings.ramp_pressure_bar},
+          .rate_percent_per_s = settings.ramp_rate_percent_per_s};
+}
+
 void add_calibration(CampaignItems& items, const CampaignSettings& settings) {
+  if (settings.bench == CampaignBench::flow) return add_flow_bench(items, settings);
   if (items.valve().whole) return add_whole_calibration(items, settings);
   items.add("spring.csv", "spring", protocol_named("spring"));
   items.add("solenoid_map.csv", "solenoid_force_map", protocol_named("solenoid_force_map"));
@@ -27,10 +39,7 @@ void add_calibration(CampaignItems& items, const CampaignSettings& settings) {
               AxialForceProtocol{.pressure_differences_bar = settings.pressure_differences_bar,
                                  .oil_temperature_C = temperature_C});
   }
-  items.add(fmt::format("ramp_{:g}bar.csv", settings.ramp_pressure_bar), "operation",
-            RampsProtocol{.conditions = {},
-                          .pressure_differences_bar = {settings.ramp_pressure_bar},
-                          .rate_percent_per_s = settings.ramp_rate_percent_per_s});
+  items.add(ramp_file(settings), "operation", ramp(settings));
 }
 
 /// One dithered duty cycle under each kind of load.
@@ -67,6 +76,8 @@ ValveAndCampaign read_valve_and_campaign(const std::string& valve) {
   ValveAndCampaign asked;
   Settings campaign;
   campaign.add("campaign", asked.campaign);
+  campaign.add_choice("campaign.bench", {"force", "flow"},
+                      [&](std::size_t choice) { asked.campaign.bench = static_cast<CampaignBench>(choice); });
   campaign.add_choice("campaign.edges", {"joined", "one_at_a_time"},
                       [&](std::size_t choice) { asked.campaign.one_edge_at_a_time = choice == 1; });
   asked.valve = valve.ends_with(".toml") ? read_valve(valve, campaign) : valve_preset(valve, campaign);
@@ -86,6 +97,7 @@ std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const Camp
     add_whole_validation(items, settings);
     return items.take();
   }
+  if (settings.bench == CampaignBench::flow) items.add(ramp_file(settings), "", ramp(settings));
   const auto& ramps_bar = settings.ramps_pressures_bar;
   items.add(fmt::format("ramps_{:g}_to_{:g}bar.csv", ramps_bar.front(), ramps_bar.back()), "",
             RampsProtocol{.conditions = {.position_faults_per_s = settings.ramps_position_faults_per_s},
@@ -99,10 +111,7 @@ std::vector<CampaignItem> campaign_items(const ValveUnderTest& valve, const Camp
             SineProtocol{.conditions = {},
                          .frequency_end_Hz = settings.sweep_frequency_Hz,
                          .pressure_difference_bar = settings.sweep_pressure_bar});
-  items.add_with(dithered(items.valve(), settings), "dither.csv", "",
-                 RampsProtocol{.conditions = {},
-                               .pressure_differences_bar = {settings.ramp_pressure_bar},
-                               .rate_percent_per_s = settings.ramp_rate_percent_per_s});
+  items.add_with(dithered(items.valve(), settings), "dither.csv", "", ramp(settings));
   items.add("fast_motion.csv", "", protocol_named("fast_motion"));
   add_dithered_duty(items, settings);
   return items.take();

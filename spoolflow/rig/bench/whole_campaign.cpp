@@ -16,14 +16,7 @@ OperationConditions at_work() {
 }
 
 void add_axial_force_maps(CampaignItems& items, const CampaignSettings& settings, const std::string& direction) {
-  struct Fed {
-    std::string edge;
-    BenchEdges edges;
-  };
-  std::vector<Fed> all{{"", BenchEdges::path}};
-  if (settings.one_edge_at_a_time && direction == "b") all = {{"PB", BenchEdges::inlet}, {"AT", BenchEdges::outlet}};
-  if (settings.one_edge_at_a_time && direction == "a") all = {{"PA", BenchEdges::inlet}, {"BT", BenchEdges::outlet}};
-  for (const Fed& fed : all) {
+  for (const FedEdges& fed : fed_edges(settings, direction)) {
     for (const double temperature_C : settings.oil_temperatures_C) {
       items.add_bench_test(
           fmt::format("axial_force_map_{:g}_{}.csv", temperature_C, fed.edge.empty() ? direction : fed.edge),

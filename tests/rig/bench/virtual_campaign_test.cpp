@@ -1,6 +1,7 @@
 /// A campaign's files are laid out as those of a real bench.
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -103,6 +104,69 @@ TEST(VirtualCampaign, OfAWholeValveNamesItsCylinderAndTheEdgesMeasuredOneAtATime
     EXPECT_THAT(text, testing::HasSubstr(std::string("direction = \"") + direction + "\"\nedge = \"" + edge +
                                          "\"\nfile = \"axial_force_map_50_" + edge + ".csv\""));
   }
+}
+
+TEST(VirtualCampaign, OnAFlowBenchMovesTheValveByItsOwnSolenoidAlone) {
+  const CampaignSettings settings{.bench = CampaignBench::flow};
+  const std::vector<CampaignItem> items = calibration_items(valve_preset("size_6"), settings);
+  std::vector<std::string> files;
+  for (const CampaignItem& item : items) {
+    files.push_back(item.file);
+    EXPECT_EQ(header_of(item),
+              "time_s,position_set_percent,position_mm,current_A,voltage_V,oil_temperature_C,pressure_difference_bar,"
+              "flow_reference_L_min")
+        << item.file;
+  }
+  EXPECT_THAT(files, testing::ElementsAre("unpressurised.csv", "metering_30.csv", "metering_50.csv", "metering_70.csv",
+                                          "random_moves.csv"));
+  const std::vector<CampaignItem> all = campaign_items(valve_preset("size_6"), settings);
+  EXPECT_TRUE(std::ranges::any_of(all, [](const CampaignItem& item) { return item.file == "ramp_60bar.csv"; }))
+      << "the ramp judges";
+}
+
+TEST(VirtualCampaign, OnAFlowBenchStrokesBothWaysAtEachPressureDifference) {
+  const ValveUnderTest valve = as_built(valve_preset("size_6"));
+  FlowBenchProtocol protocol{.pressure_differences_bar = {0, 40}, .rate_percent_per_s = 80, .hold_s = 0.3};
+  const Protocol settings = protocol;
+  const recording::Recording recording = simulate(valve, plan(settings, valve, 1), 1).recording;
+  using recording::Channel;
+  double widest_m[2] = {}, largest_flow[2] = {};
+  for (std::size_t k = 0; k < recording.size(); ++k) {
+    const int level = 2 * k < recording.size() ? 0 : 1;
+    widest_m[level] = std::max(widest_m[level], recording[Channel::position][k]);
+    largest_flow[level] = std::max(largest_flow[level], recording[Channel::flow_reference][k]);
+  }
+  for (const double widest : widest_m) EXPECT_NEAR(widest, 2.4e-3, 0.05e-3);
+  EXPECT_LT(largest_flow[0] * 6e4, 1) << "the pump is off";
+  EXPECT_GT(largest_flow[1] * 6e4, 40);
+  EXPECT_NEAR(recording[Channel::pressure_difference].front() / 1e5, 0, 0.5);
+  EXPECT_NEAR(recording[Channel::pressure_difference].back() / 1e5, 40, 1);
+}
+
+TEST(VirtualCampaign, OfAWholeValveOnAFlowBenchMeasuresEachDirectionWithItsOwnSolenoid) {
+  ValveAndCampaign whole = read_valve_and_campaign("whole_size_6");
+  whole.campaign.bench = CampaignBench::flow;
+  whole.campaign.oil_temperatures_C = {50};
+  std::vector<std::string> files;
+  for (const CampaignItem& item : calibration_items(whole.valve, whole.campaign)) {
+    files.push_back(item.file);
+    if (item.file != "metering_50_a.csv") continue;
+    FlowBenchProtocol fast = std::get<FlowBenchProtocol>(item.settings);
+    fast.pressure_differences_bar = {50};
+    fast.rate_percent_per_s = 80;
+    fast.hold_s = 0.2;
+    const recording::Recording run =
+        simulate(item.valve, plan(Protocol(fast), item.valve, item.seed), item.seed).recording;
+    const auto largest = [&](recording::Channel channel) { return *std::ranges::max_element(run.column(channel)); };
+    EXPECT_NEAR(largest(recording::Channel::position), 2.4e-3, 0.05e-3) << "opening counts > 0 either way";
+    EXPECT_GT(largest(recording::Channel::current), 0.8);
+    EXPECT_GT(largest(recording::Channel::flow_reference) * 6e4, 35);
+  }
+  EXPECT_THAT(files, testing::ElementsAre("unpressurised_b.csv", "metering_50_b.csv", "unpressurised_a.csv",
+                                          "metering_50_a.csv", "both_random_moves.csv"));
+  whole.campaign.one_edge_at_a_time = true;
+  const std::string text = campaign_text(whole.valve, calibration_items(whole.valve, whole.campaign));
+  EXPECT_THAT(text, testing::HasSubstr("protocol = \"metering\"\ndirection = \"b\"\nedge = \"AT\""));
 }
 
 /// Two short recordings with different noise.

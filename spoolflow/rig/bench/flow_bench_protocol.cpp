@@ -1,0 +1,42 @@
+#include "spoolflow/rig/bench/flow_bench_protocol.hpp"
+
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::rig {
+
+FlowBenchProtocol unpressurised_protocol() {
+  return {.pressure_differences_bar = {0, 0}, .fast_rate_percent_per_s = 50, .sample_rate_Hz = 1000};
+}
+
+BenchRun plan(const FlowBenchProtocol& protocol) {
+  using recording::Channel;
+  BenchRun run;
+  if (protocol.edges) run.load = load_of(*protocol.edges);
+  const auto stroke = [&](double level_bar, double rate_percent_per_s) {
+    const double from_s = run.position_set.duration_s(), rate_per_s = rate_percent_per_s / 100;
+    run.position_set.hold(protocol.hold_s)
+        .ramp_at(1, rate_per_s)
+        .hold(protocol.hold_s)
+        .ramp_at(0, rate_per_s)
+        .hold(protocol.hold_s);
+    run.pressure_difference_Pa.step_to(units::Pa_from_bar(level_bar)).hold(run.position_set.duration_s() - from_s);
+  };
+  for (const double level_bar : protocol.pressure_differences_bar) stroke(level_bar, protocol.rate_percent_per_s);
+  if (protocol.fast_rate_percent_per_s > 0)
+    stroke(protocol.pressure_differences_bar.back(), protocol.fast_rate_percent_per_s);
+  const double end_s = run.position_set.duration_s();
+  run.oil_temperature_C = Course(protocol.oil_temperature_C);
+  run.oil_temperature_C.ramp_for(protocol.oil_temperature_C + protocol.temperature_rise_K, end_s);
+  run.sample_rate_Hz = {{end_s, protocol.sample_rate_Hz}};
+  run.channels = {Channel::time,
+                  Channel::position_set,
+                  Channel::position,
+                  Channel::current,
+                  Channel::voltage,
+                  Channel::oil_temperature,
+                  Channel::pressure_difference,
+                  Channel::flow_reference};
+  return run;
+}
+
+}  // namespace spoolflow::rig
