@@ -1,6 +1,6 @@
 #!/bin/sh
-# firmware_in_c.sh SPOOLFLOW MODEL FIRMWARE: what `export c` writes for each core links by a C compiler alone, asks for no other
-# library than the compiler's, and on the emulated boards of three cores its examples end with status 0, the self-test among
+# firmware_in_c.sh SPOOLFLOW MODEL FIRMWARE TARGET...: what `export c` writes for each core links by a C compiler alone, asks for no other
+# library than the compiler's, and on emulated boards its examples end with status 0, the self-test among
 # them; a damaged library fails it. FIRMWARE: the folder with board.ld.
 set -eu
 spoolflow=$(readlink -f "$1") model=$(readlink -f "$2") board=$(readlink -f "$3")/board.ld start=$(dirname "$(readlink -f "$0")")/start.c
@@ -9,7 +9,8 @@ trap 'rm -rf "$folder"' EXIT
 run() { # MACHINE IMAGE
   qemu-system-arm -M "$1" -display none -serial none -monitor none -semihosting-config enable=on,target=native -kernel "$2" </dev/null
 }
-for target in cortex-m4f cortex-m7 m33 m3 cortex-m0plus; do
+shift 3
+for target in "$@"; do
   "$spoolflow" export c "$model" --target $target -o "$folder/$target"
   cd "$folder/$target"
   sha256sum --quiet -c exported.sha256
