@@ -72,8 +72,8 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
   const double slope_N_per_Pa = edge.flow_force_per_pressure_N_Pa;
   const double share = valve.band.coverage_factor * deviation_per_half_width(Distribution::normal);
   PressureBelief::Parts parts{
-      .deviation_Pa =
-          share * state.pressure.band_factor * sensor::unobserved_change_Pa(state.pressure, valve.band.unobserved_factor),
+      .deviation_Pa = share * state.pressure.band_factor *
+                      sensor::unobserved_change_Pa(state.pressure, valve.band.unobserved_factor),
       .below_Pa = unbounded,
       .above_Pa = unbounded,
       .pressure_difference_Pa = believed_Pa,
@@ -86,8 +86,8 @@ PressureBelief pressure_belief(const sensor::ObserverParameters<double>& valve,
     parts.deviation_Pa = std::sqrt(parts.deviation_Pa * parts.deviation_Pa +
                                    0.5 * valve.pressure.sliding_drift_Pa_per_sqrt_s * noise_Pa_sqrt_s);
   } else if (!sensor::has(answer.status, sensor::Status::closed)) {
-    const double reach_N = sensor::presliding_half_width_N(valve.friction, valve.position_sensor,
-                                                 sensor::presliding_deadband_m(valve.position_sensor.noise_m, step_s));
+    const double reach_N = sensor::presliding_half_width_N(
+        valve.friction, valve.position_sensor, sensor::presliding_deadband_m(valve.position_sensor.noise_m, step_s));
     const double apparent_N = answer.magnetic_force_N - answer.spring_force_N - answer.flow_force_N;
     // The estimate's error is (friction - apparent)/slope, friction within its half-width by pre-sliding.
     parts.above_Pa = (state.friction.presliding_N + reach_N - apparent_N) / slope_N_per_Pa;

@@ -95,8 +95,8 @@ inline CanFrame estimated_flow_frame(const FlowAnswer& answer, const AuxiliaryVa
   return out;
 }
 
-/// A J1939 NAME (64 bits) announced as the owner of an address: PGN 60928 to all, priority 6. Source address 254: it could
-/// get none.
+/// A J1939 NAME (64 bits) announced as the owner of an address: PGN 60928 to all, priority 6. Source address 254: it
+/// could get none.
 inline CanFrame address_claimed_frame(std::uint64_t name, std::uint8_t source_address) {
   CanFrame out;
   out.extended = true;
