@@ -2,6 +2,7 @@
 /// The answer while no force shows the pressure difference: what is known of it ages, and the band takes in all that
 /// may flow.
 #include "spoolflow/sensor/band.hpp"
+#include "spoolflow/sensor/compiler.hpp"
 
 namespace spoolflow::sensor {
 
@@ -44,8 +45,8 @@ struct HeldPosition {
 /// at the position, or without one between nothing and what the edge passes when it is wide open. The flow itself
 /// stays.
 template <class T>
-constexpr void widen_held(const ObserverParameters<T>& valve, const Unobserved<T>& known, const HeldPosition<T>& at,
-                          T time_step_s, Estimate<T>& held) {
+SPOOLFLOW_INLINE constexpr void widen_held(const ObserverParameters<T>& valve, const Unobserved<T>& known,
+                                           const HeldPosition<T>& at, T time_step_s, Estimate<T>& held) {
   const MeteringEdge<T>& edges = valve.edge;
   const T highest_Pa = valve.highest_pressure_difference_Pa();
   drift_unobserved(valve.pressure, known.pressure, smaller(time_step_s, T(longest_step_s)), highest_Pa);
