@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "spoolflow/apps/calibrate_type.hpp"
 #include "spoolflow/apps/calibrate_units.hpp"
 #include "spoolflow/apps/calibrate_work.hpp"
 #include "spoolflow/apps/command.hpp"
@@ -62,11 +63,12 @@ std::vector<CalibrationTask> tasks_of(const CalibrateArguments& arguments) {
 void refuse_contradictions(const CalibrateArguments& arguments) {
   if (arguments.as_type && !arguments.type.empty())
     throw std::invalid_argument("--as-type makes a type's model, --type one of its units: give one of them");
-  if (arguments.as_type && arguments.campaigns.size() > 1)
-    throw std::invalid_argument(fmt::format(
-        "--as-type makes a type of one campaign, and {} are given; give that of the unit nearest to the middle, and "
-        "how units differ as its [tolerances]",
-        arguments.campaigns.size()));
+  if (arguments.as_type && arguments.campaigns.size() == 2)
+    throw std::invalid_argument(
+        "--as-type makes a type of one campaign or of three and more, and 2 are given: two do not tell how far the "
+        "next unit lies; give that of the unit nearest to the middle, and how units differ as its [tolerances]");
+  if (arguments.as_type && arguments.campaigns.size() > 1 && !arguments.report.empty())
+    throw std::invalid_argument("--report shows one campaign's fits: leave it out with --as-type of several");
   if ((arguments.as_type || !arguments.type.empty()) && !arguments.fleet.empty())
     throw std::invalid_argument("types and units are calibrated on this machine: leave out --fleet");
   if (!arguments.type.empty() && !arguments.report.empty())
@@ -77,6 +79,7 @@ void refuse_contradictions(const CalibrateArguments& arguments) {
 
 void calibrate(const CalibrateArguments& arguments) {
   refuse_contradictions(arguments);
+  if (arguments.as_type && arguments.campaigns.size() > 1) return calibrate_type(arguments);
   const std::vector<CalibrationTask> tasks = tasks_of(arguments);
   std::vector<std::exception_ptr> failures;
   const auto attempt = [&](const std::function<void()>& work) {
@@ -113,10 +116,11 @@ void add_calibrate_command(CLI::App& program) {
        "`solenoid_force_map`, `axial_force_map` at one or several oil temperatures; of a whole valve all of them in "
        "each direction, with A and B joined or one edge at a time",
        "the model as JSON: maps, their ranges and residuals, and where they came from; of several campaigns "
-       "DIR/NAME.json each, NAME that of the campaign's folder",
+       "DIR/NAME.json each, NAME that of the campaign's folder; with --as-type one model of all",
        {"spoolflow calibrate valve_a/campaign.toml -o valve_a.json",
         "spoolflow calibrate valve_*/campaign.toml -o models --fleet fleet.toml",
         "spoolflow calibrate valve_a/campaign.toml --as-type -o type_a.json",
+        "spoolflow calibrate valves/*/campaign.toml --as-type -o type_a.json",
         "spoolflow calibrate unit_17/unit.toml --type type_a.json -o unit_17.json"}});
   command->add_option("campaign", arguments->campaigns, "one or several campaign files (TOML)")->required();
   command
@@ -133,7 +137,8 @@ void add_calibrate_command(CLI::App& program) {
   command->add_flag("--despite-doubts", arguments->despite_doubts,
                     "make a model of recordings that contradict each other or physics, too");
   command->add_flag("--as-type", arguments->as_type,
-                    "the model is of every unit of the valve's type:\nits band holds units within [tolerances]");
+                    "the model is of every unit of the valve's type:\nits band holds units within [tolerances], "
+                    "or,\nof three campaigns and more, as these differ");
   command
       ->add_option("--type", arguments->type,
                    "model of the type of which the campaigns are units,\neach known by strokes without pressure "

@@ -76,6 +76,10 @@ void set_spread(model::Model& model, const model::EnvironmentWithoutSpread& envi
 }
 
 model::Model type_model(model::Model valve, const Deviations& tolerances) {
+  return type_model(std::move(valve), tolerances, spread_of(tolerances));
+}
+
+model::Model type_model(model::Model valve, const Deviations& tolerances, const KnownDeviations& units) {
   if (!valve.observer)
     throw CalibrationError(
         "a type needs the full sensor, and the campaign made the condensed one alone; record solenoid_dynamic, and "
@@ -86,9 +90,8 @@ model::Model type_model(model::Model valve, const Deviations& tolerances) {
   if (valve.type) throw CalibrationError("the model is of a type already");
   const sensor::Environment<double>& own = valve.observer->parameters.environment;
   const model::EnvironmentWithoutSpread environment{own.force_N, own.friction_share, own.flow_share};
-  const KnownDeviations known = spread_of(tolerances);
-  valve.type = type_section(valve.valve.name, false, tolerances, known, environment);
-  set_spread(valve, environment, known);
+  valve.type = type_section(valve.valve.name, false, tolerances, units, environment);
+  set_spread(valve, environment, units);
   return valve;
 }
 

@@ -17,6 +17,8 @@ namespace spoolflow::calibration {
 /// A valve's own model as that of its type: the tables stay, the band holds units within these tolerances. Throws
 /// CalibrationError where the model has no observer, is of a whole valve, or is of a type or a unit already.
 [[nodiscard]] model::Model type_model(model::Model valve, const Deviations& tolerances);
+/// The same where `units` says how the next unit lies about the tables, and `tolerances` its standard deviations.
+[[nodiscard]] model::Model type_model(model::Model valve, const Deviations& tolerances, const KnownDeviations& units);
 
 /// What a type's model says of its units. Throws CalibrationError where `model`, from `file`, is no type's, or lacks a
 /// direction of all_variations() or has another.

@@ -1,0 +1,200 @@
+#include "spoolflow/calibration/type/several_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/type/calibrate_unit.hpp"
+#include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/calibration/type/unit_tables.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using Parameters = sensor::ObserverParameters<double>;
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
+  return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
+
+Eigen::VectorXd vector_of(const Deviations& deviations) {
+  return Eigen::Map<const Eigen::VectorXd>(deviations.data(), deviating);
+}
+Deviations deviations_of(const Eigen::VectorXd& values) {
+  Deviations out{};
+  std::copy(values.begin(), values.end(), out.begin());
+  return out;
+}
+
+/// What the tables of one unit say of its deviations from the first: a normal likelihood, as precision and precision
+/// times mean.
+struct Told {
+  Eigen::MatrixXd precision;
+  Eigen::VectorXd weighted;
+};
+
+Told told_by(const TableComparison& comparison, const KnownDeviations& prior) {
+  constexpr int rounds = 6, searching = 3;  // what is left before the search is no misfit
+  const Eigen::MatrixXd prior_precision = inverse(prior.covariance);
+  Eigen::VectorXd x = prior.mean;
+  Told out;
+  for (int round = 0; round < rounds; ++round) {
+    const Eigen::VectorXd left = comparison.rows(deviations_of(x));
+    Eigen::MatrixXd slope(left.size(), deviating);
+    for (Eigen::Index k = 0; k < deviating; ++k) {
+      constexpr double share = 0.1;
+      const double step = share * std::sqrt(prior.covariance(k, k));
+      Eigen::VectorXd turned = x;
+      turned(k) += step;
+      slope.col(k) = (comparison.rows(deviations_of(turned)) - left) / step;
+    }
+    slope.col(static_cast<Eigen::Index>(at(Variation::position_zero))).setZero();
+    const Eigen::VectorXd weights = comparison.weights(round < searching ? Eigen::VectorXd::Zero(left.size()) : left);
+    out.precision = slope.transpose() * weights.asDiagonal() * slope;
+    out.weighted = out.precision * x - slope.transpose() * weights.asDiagonal() * left;
+    x = (out.precision + prior_precision).llt().solve(out.weighted + prior_precision * prior.mean);
+  }
+  return out;
+}
+
+struct Middle {
+  KnownDeviations of;                  ///< mean and covariance of the units
+  Eigen::MatrixXd open;                ///< covariance of that mean
+  std::vector<Eigen::VectorXd> units;  ///< each one's mean
+};
+
+/// Expectation and maximisation. The mean of what no unit tells stays at zero.
+Middle middle_of(const std::vector<Told>& told, const Eigen::MatrixXd& prior) {
+  constexpr int rounds = 60;
+  const auto count = static_cast<double>(told.size());
+  Middle out{{Eigen::VectorXd::Zero(deviating), prior}, {}, {}};
+  for (int round = 0; round < rounds; ++round) {
+    const Eigen::MatrixXd between = inverse(out.of.covariance);
+    Eigen::MatrixXd scatter = tolerances_as_units * prior;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(deviating);
+    out.units.clear();
+    for (const Told& unit : told) {
+      const Eigen::MatrixXd covariance = inverse(unit.precision + between);
+      out.units.emplace_back(covariance * (unit.weighted + between * out.of.mean));
+      mean += out.units.back() / count;
+      scatter += covariance;
+    }
+    out.open.setZero(deviating, deviating);
+    for (const Eigen::VectorXd& unit : out.units)
+      out.open += (unit - mean) * (unit - mean).transpose() / (count * (count - 1));
+    out.of.mean = mean;
+    out.of.covariance = (scatter + count * count * out.open) / (tolerances_as_units + count);
+  }
+  return out;
+}
+
+void require_comparable(const std::vector<model::Model>& units) {
+  if (units.size() < least_units) {
+    throw CalibrationError(fmt::format(
+        "a type of several campaigns needs {} and more, and {} are given: two do not tell how far the next unit lies; "
+        "give one campaign, that of the unit nearest to the middle, and how units differ as its [tolerances]",
+        least_units, units.size()));
+  }
+  const model::Valve& first = units.front().valve;
+  for (const model::Model& unit : units) {
+    if (!unit.observer || unit.whole() || unit.type) {
+      throw CalibrationError(
+          fmt::format("{}: a type is made of one direction's full sensor of each unit, and this is {}", unit.valve.name,
+                      unit.type      ? "a type's or a unit's model already"
+                      : unit.whole() ? "of both directions; make one type of each direction's benches"
+                                     : "the condensed sensor alone; record solenoid_dynamic, and axial_force_map at "
+                                       "two or more oil temperatures"));
+    }
+    constexpr double alike = 1e-6;
+    if (std::abs(unit.valve.stroke_m / first.stroke_m - 1) > alike ||
+        std::abs(unit.valve.rated_flow_m3_per_s / first.rated_flow_m3_per_s - 1) > alike ||
+        unit.valve.direction != first.direction) {
+      throw CalibrationError(fmt::format(
+          "{} and {} differ in stroke, rated flow or direction, which all units of a type have in common; correct "
+          "[valve], or leave out the one that is of another type",
+          first.name, unit.valve.name));
+    }
+  }
+}
+
+/// A unit of another type among them, by name.
+void require_one_type(const std::vector<model::Model>& units, const Middle& middle, const Deviations& tolerances) {
+  for (std::size_t unit = 0; unit < units.size(); ++unit) {
+    for (std::size_t k = 0; k < variations; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      double others = 0;  // a unit far out draws the mean towards itself
+      for (std::size_t other = 0; other < units.size(); ++other)
+        others += other == unit ? 0 : middle.units[other](row) / static_cast<double>(units.size() - 1);
+      const double off = (middle.units[unit](row) - others) / tolerances[k];
+      if (std::abs(off) <= foreign_deviations) continue;
+      throw CalibrationError(fmt::format(
+          "{} is not of one type with the others: its {} ({}) lies {:.1f} standard deviations from theirs, at most "
+          "{:g}; leave it out, or give the first campaign wider [tolerances] where such units are made",
+          units[unit].valve.name, all_variations()[k].name, all_variations()[k].meaning, std::abs(off),
+          foreign_deviations));
+    }
+  }
+}
+
+/// The unit nearest to the middle, in what units differ by.
+std::size_t nearest_to(const Middle& middle) {
+  const Eigen::MatrixXd between = inverse(middle.of.covariance);
+  std::size_t out = 0;
+  double nearest = INFINITY;
+  for (std::size_t k = 0; k < middle.units.size(); ++k) {
+    const Eigen::VectorXd off = middle.units[k] - middle.of.mean;
+    const double distance = off.dot(between * off);
+    if (distance < nearest) out = k;
+    nearest = std::min(nearest, distance);
+  }
+  return out;
+}
+
+}  // namespace
+
+SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviations& tolerances) {
+  require_comparable(units);
+  const KnownDeviations prior = spread_of(tolerances);
+  const auto beside = [&](std::size_t base) {
+    std::vector<Told> told;
+    for (const model::Model& unit : units)
+      told.push_back(told_by({units[base].observer->parameters, unit.observer->parameters}, prior));
+    return middle_of(told, prior.covariance);
+  };
+  Middle middle = beside(0);
+  require_one_type(units, middle, tolerances);
+  SeveralUnits out{nearest_to(middle), {}, {}, {}};
+  if (out.nearest != 0) middle = beside(out.nearest);
+  out.middle = deviations_of(middle.of.mean);
+  out.next.mean = Eigen::VectorXd::Zero(deviating);
+  out.next.covariance = middle.of.covariance + middle.open;
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    const TableComparison comparison{units[out.nearest].observer->parameters, units[k].observer->parameters};
+    out.units.push_back({units[k].valve.name, deviations_of(middle.units[k] - vector_of(out.middle)),
+                         comparison.force_left_N(deviations_of(middle.units[k]))});
+  }
+  return out;
+}
+
+model::Model type_of(const std::vector<model::Model>& units, const SeveralUnits& compared) {
+  Deviations spread{};
+  for (std::size_t k = 0; k < variations; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    spread[k] = std::sqrt(compared.next.covariance(row, row));
+  }
+  model::Model out = units[compared.nearest];
+  out.valve.name = units.front().valve.name;
+  out.observer->parameters = unit_parameters(out.observer->parameters, compared.middle);
+  out.condensed.parameters = unit_parameters(out.condensed.parameters, compared.middle);
+  for (const model::Model& unit : units) {
+    if (&unit == &units[compared.nearest]) continue;
+    const auto campaign = std::ranges::find(unit.provenance.inputs, "campaign", &model::InputFile::protocol);
+    if (campaign != unit.provenance.inputs.end()) out.provenance.inputs.push_back(*campaign);
+  }
+  return type_model(std::move(out), spread, compared.next);
+}
+
+}  // namespace spoolflow::calibration
