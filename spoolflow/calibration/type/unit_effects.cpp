@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "spoolflow/calibration/type/map_estimate.hpp"
+#include "spoolflow/numerics/crossing.hpp"
 
 namespace spoolflow::calibration {
 
@@ -20,13 +21,10 @@ UnitEffects effects_at(const sensor::ObserverParameters<double>& unit, const Ope
 OperatingPoint balanced_point(const sensor::ObserverParameters<double>& unit, double position_m, double pressure_Pa) {
   const double wanted_N = unit.spring.at(position_m).value +
                           unit.edge.at(unit.edge.temperature_K.at(1), pressure_Pa, position_m).flow_force_N;
-  double low_A = 0, high_A = unit.largest_current_A;
-  constexpr int halvings = 30;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle_A = 0.5 * (low_A + high_A);
-    (unit.actuator.magnetic_force.at(middle_A, position_m).value < wanted_N ? low_A : high_A) = middle_A;
-  }
-  return {position_m, pressure_Pa, low_A};
+  const double current_A = numerics::crossing({0, unit.largest_current_A}, wanted_N, [&](double candidate_A) {
+    return unit.actuator.magnetic_force.at(candidate_A, position_m).value;
+  });
+  return {position_m, pressure_Pa, current_A};
 }
 
 std::vector<OperatingPoint> operating_points(const sensor::ObserverParameters<double>& unit) {
