@@ -53,7 +53,7 @@ def make_certificates(folder):
 
 
 def tls_of_nats(folder):
-    return f'tls {{ cert_file: "{folder}/server.pem", key_file: "{folder}/server.key" }}\n'
+    return f'tls {{ cert_file: "{folder}/server.pem", key_file: "{folder}/server.key", timeout: 60 }}\n'
 
 
 PASSWORDS = {f"PASSWORD_{user}": user for user in ("worker", "hall", "yard", "system")}

@@ -154,7 +154,7 @@ std::string site_json(const Engine& engine) {
   for (std::size_t k = 0; k < signs.size(); ++k)
     with_sign[std::string(monitor::name(static_cast<monitor::Ne107>(k)))] = signs[k];
   const UdpCounters udp = engine.udp_counters();
-  const Engine::StoreView store = engine.store_view();
+  const StoreView store = engine.store_view();
   return written(
       Json{{"valves", engine.size()},
            {"stalled", stalled},
@@ -193,7 +193,7 @@ std::string alarm_metrics(const Engine& engine) {
 /// Nothing where there is no store.
 std::string store_metrics(const Engine& engine) {
   if (engine.site().store.empty()) return {};
-  const Engine::StoreView store = engine.store_view();
+  const StoreView store = engine.store_view();
   return fmt::format(
       "# HELP spoolflow_store_failing 1 where nothing is kept at present.\n# TYPE spoolflow_store_failing gauge\n"
       "spoolflow_store_failing {}\n# HELP spoolflow_store_mended_total Times that the store's file was deleted or "
