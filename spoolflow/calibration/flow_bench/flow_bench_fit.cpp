@@ -151,6 +151,21 @@ void fit_with_actuator(FlowBenchFit& out, ForcePriors priors, const ActuatorFit&
   out.forces = solve_forces(out.layout, priors, out.magnetic_force, forces, out.coil_sizes, {});
 }
 
+/// Throws CalibrationError where the coil's voltage told no force.
+void require_force(const FlowBenchFit& fit, const std::string& file) {
+  constexpr double least_N = 1;
+  const ForceLayout& layout = fit.layout;
+  double largest_N = 0;
+  for (int share = 1; share < 8; ++share)
+    largest_N = std::max(largest_N, fit.magnetic_force.at(layout.largest_current_A, layout.stroke_m * share / 8).value);
+  if (largest_N > least_N) return;
+  throw CalibrationError(
+      fmt::format("{}: flux linkage from current and voltage gives {:.2g} N at {:.2g} A, a solenoid pulls with more; "
+                  "stroke without "
+                  "dither, and record current and voltage as means over the sample",
+                  file, largest_N, layout.largest_current_A));
+}
+
 /// The coil from its voltage and from motion, in turn.
 void fit_with_coil(FlowBenchFit& out, ForcePriors priors, const std::vector<TrackedRun>& runs) {
   const double largest_A = out.layout.largest_current_A;
@@ -208,6 +223,7 @@ FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const Measure
     fit_with_actuator(out, priors, *measured.actuator, runs);
   } else {
     fit_with_coil(out, priors, runs);
+    require_force(out, runs.front().coil.file);
   }
   return out;
 }

@@ -73,7 +73,8 @@ struct BenchRun {
   Course current_A;              ///< bench amplifier
   Course voltage_V;              ///< bench amplifier, in the spans below where it holds the voltage
   std::vector<Span<bool>> voltage_held;
-  Dither dither;  ///< on the bench amplifier's current; the valve's electronics have their own
+  Dither dither;              ///< on the bench amplifier's current; the valve's electronics have their own
+  bool valve_dithers = true;  ///< false: the electronics' own is switched off
   Course pressure_difference_Pa;
   Course supply_pressure_Pa{100e5};        ///< loads orifice, cylinder and motor
   bool supply_follows_difference = false;  ///< then it is the course of the difference above the tank's pressure

@@ -1,6 +1,6 @@
 #pragma once
 /// The flow bench: the valve strokes both ways by its own electronics at each held pressure difference, beside a flow
-/// meter. With the pump off it is the test of springs and friction.
+/// meter, its dither switched off. With the pump off it is the test of springs and friction.
 #include <optional>
 #include <vector>
 

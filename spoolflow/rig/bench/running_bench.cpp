@@ -83,6 +83,7 @@ void hand_over(const SimulationOptions& options, const BenchRun& run, double tim
 ValveUnderTest on_bench(ValveUnderTest valve, const BenchRun& run) {
   valve.plant.arrangement = run.arrangement;
   if (run.load) valve.plant.load.kind = *run.load;
+  if (!run.valve_dithers) valve.electronics.dither.amplitude_A = 0;
   return valve;
 }
 
