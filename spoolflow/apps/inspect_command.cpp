@@ -1,6 +1,7 @@
 /// `spoolflow inspect`: what a recording holds, and a channel map for foreign column names.
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@
 #include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/work/folder_text.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"
 #include "spoolflow/apps/work/protocol_text.hpp"
 #include "spoolflow/recording/inspection.hpp"
@@ -34,7 +36,24 @@ recording::Protocol protocol_named(const std::string& written) {
                             [](recording::Protocol protocol) { return recording::name(protocol); });
 }
 
+/// Of a folder: what its recordings are, and what is missing for which model.
+void inspect_folder(const InspectArguments& arguments) {
+  if (!arguments.protocol.empty() || !arguments.channels.empty() || arguments.stroke_mm > 0) {
+    throw std::invalid_argument(
+        fmt::format("{} is a folder: --protocol, --channels and --stroke-mm are of one recording; leave them out, or "
+                    "write a campaign.toml that has them",
+                    arguments.file));
+  }
+  std::vector<FolderEntry> entries;
+  {
+    Progress progress("reading the folder", arguments.quiet);
+    entries = folder_entries(arguments.file);
+  }
+  print_text(arguments.json ? folder_json(entries) : folder_text(arguments.file, entries));
+}
+
 void inspect(const InspectArguments& arguments) {
+  if (std::error_code failure; std::filesystem::is_directory(arguments.file, failure)) return inspect_folder(arguments);
   if (arguments.protocol.empty() && inspect_image(arguments.file, arguments.json)) return;
   if (!arguments.protocol.empty() && arguments.file == "-") {
     throw std::invalid_argument(
@@ -77,16 +96,20 @@ void add_inspect_command(CLI::App& program) {
   CLI::App* command = add_command(
       program,
       {"inspect",
-       "show what a recording, or a flash page of parameters, holds",
+       "show what a recording, a folder of them, or a flash page of parameters holds",
        "a recording: CSV (comma, semicolon or tab; decimal comma; - for CSV from standard input), MATLAB v5 or v7.3, "
-       "HDF5, TDMS, MDF 4, Excel (.xlsx); or parameters from `spoolflow export parameters`",
+       "HDF5, TDMS, MDF 4, Excel (.xlsx); a folder of them, or with a campaign.toml; or parameters from `spoolflow "
+       "export parameters`",
        "on standard output: channels, units, rate, gaps, clipping, what each column could be by its name and its "
-       "numbers, what is missing, and a channel map to paste. Of parameters: valve, model, versions, tables, whether "
+       "numbers, what is missing, and a channel map to paste. Of a folder: the protocol of each recording, and what is "
+       "missing for which kind of model, in minutes on the bench. Of parameters: valve, model, versions, tables, "
+       "whether "
        "the "
        "sensor takes them; where it does not, the exit status is 2",
        {"spoolflow inspect run.csv", "spoolflow inspect rig.mat --channels map.toml",
-        "spoolflow inspect spring.csv --protocol spring", "spoolflow inspect valve.bin"}});
-  command->add_option("file", arguments->file, "recording, or parameters")->required();
+        "spoolflow inspect spring.csv --protocol spring", "spoolflow inspect campaign",
+        "spoolflow inspect valve.bin"}});
+  command->add_option("file", arguments->file, "recording, folder of recordings, or parameters")->required();
   command
       ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
       ->type_name("MAP.toml");

@@ -50,6 +50,25 @@ TEST_F(Inspect, NamesWhatIsNotRead) {
   EXPECT_THAT(run("inspect --json rig.tdms").output, HasSubstr(std::string("\"unread\": [\"") + words));
 }
 
+TEST_F(Inspect, OfAFolderSaysWhatIsMissingForWhichModelInMinutes) {
+  std::string dry = "time_s,position_mm,current_A,voltage_V,pressure_difference_bar\n";
+  for (int k = 0; k <= 400; ++k)
+    dry += fmt::format("{},{},{},3,0.1\n", 0.06 * k, 2.4 * (1 - std::abs(k / 200.0 - 1)), 0.6 + 0.001 * k);
+  std::filesystem::create_directory(folder / "bench");
+  write("bench/dry.csv", dry);
+  write("bench/foreign.csv", "a;b\n1;2\n2;3\n");
+  const Answer answer = run("inspect bench");
+  EXPECT_EQ(answer.status, 0) << answer.message;
+  EXPECT_THAT(answer.output, HasSubstr("unpressurised_strokes"));
+  EXPECT_THAT(answer.output, HasSubstr("foreign.csv                      serves no test: "));
+  EXPECT_THAT(answer.output, HasSubstr("Model from flow bench: missing, 4 min on the bench:\n  metering"));
+  EXPECT_THAT(answer.output, HasSubstr("Model from unit of a type: everything needed is there"));
+  EXPECT_THAT(run("inspect --json bench").output, HasSubstr("{\"kind\": \"unit of a type\", \"complete\": true"));
+  const Answer refused = run("inspect bench --protocol spring");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.message, HasSubstr("bench is a folder"));
+}
+
 /// Names that say nothing: time, position 12 ms after the current, voltage, oil temperature, current, a spare input.
 std::string nameless_run() {
   std::string out = "n;A1;A2;A3;A4;A5\n";
