@@ -100,10 +100,11 @@ function(spoolflow_folder name)
   endif()
 endfunction()
 
-# spoolflow_tests(FOLDER [RECKONS] [LINKS target…]): *_test.cpp of tests/FOLDER and its rooms become one program, its tests found
-# by ctest. RECKONS: the tests themselves do, with headers of the sensor, too. The others are not optimised at all.
+# spoolflow_tests(FOLDER [RECKONS] [APART] [LINKS target…]): *_test.cpp of tests/FOLDER and its rooms become one program, which
+# ctest runs once: what several tests need (a campaign of the rig, a model) is made once. APART: each test is one of ctest's, in
+# a process of its own. RECKONS: the tests themselves do, with headers of the sensor, too. The others are not optimised at all.
 function(spoolflow_tests folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "RECKONS" "" "LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "RECKONS;APART" "" "LINKS")
   spoolflow_link_names(arg_LINKS)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   if(NOT sources)
@@ -119,7 +120,12 @@ function(spoolflow_tests folder)
   else()
     target_compile_options(${folder}_test PRIVATE -O0)
   endif()
-  gtest_discover_tests(${folder}_test TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit TIMEOUT 300)
+  if(arg_APART)
+    gtest_discover_tests(${folder}_test TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit TIMEOUT 300)
+  else()
+    add_test(NAME ${folder}.tests COMMAND ${folder}_test --gtest_brief=1)
+    set_tests_properties(${folder}.tests PROPERTIES LABELS unit TIMEOUT 900 COST 300)
+  endif()
 endfunction()
 
 # spoolflow_sanitized_tests(FOLDER [WITHOUT filter]): the same program of the build with sanitizers, the whole of it as one test,
