@@ -75,7 +75,7 @@ void print_figures(const model::Model& model, const validation::Validation& vali
       print_row(run.name, result.estimator, result.metrics->all, percent);
     }
   }
-  if (validation.runs.size() < 2) return;
+  if (!validation::pools_several_runs(validation)) return;
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (pooled.metrics) print_row("all runs", pooled.estimator, pooled.metrics->all, percent);
   }

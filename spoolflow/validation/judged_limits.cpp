@@ -131,6 +131,13 @@ class Judge {
 
 }  // namespace
 
+Requirements default_requirements() {
+  Requirements out;
+  out.limits.push_back({.place = {}, .figure = Figure::p95, .at_most = 5.0});
+  out.limits.push_back({.place = {}, .figure = Figure::band_coverage, .unit = LimitUnit::percent, .at_least = 93.0});
+  return out;
+}
+
 std::vector<JudgedLimit> judge(const Requirements& requirements, const Validation& validation,
                                double full_scale_m3_per_s) {
   const Judge judge_of(validation, full_scale_m3_per_s);

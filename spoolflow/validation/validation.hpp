@@ -42,4 +42,16 @@ struct Validation {
   bool held_out = true;             ///< there is a run that the calibration did not know; else all are pooled
 };
 
+/// Whether pooled figures hold the run: it has a reference flow, and the calibration did not know it (or knew all).
+[[nodiscard]] inline bool is_pooled(const RunResult& run, const Validation& validation) {
+  const bool judged = !run.results.empty() && run.results.back().metrics.has_value();
+  return judged && (!run.calibrated_with || !validation.held_out);
+}
+/// Figures of one pooled run are those of the run itself.
+[[nodiscard]] inline bool pools_several_runs(const Validation& validation) {
+  std::size_t out = 0;
+  for (const RunResult& run : validation.runs) out += is_pooled(run, validation) ? 1 : 0;
+  return out > 1;
+}
+
 }  // namespace spoolflow::validation

@@ -31,7 +31,10 @@ function addControls(): void {
     others.className = 'hint';
     others.textContent = 'Other figures, tables and print keep the units that the page was made in (--units).';
     plots.append(others);
-    controls.append(plots);
+    const below = document.createElement('div');
+    below.className = 'controls';
+    below.append(plots);
+    figures[0].before(below); // where the plots are that they are for
   }
   document.querySelector('header')?.append(controls);
 }

@@ -139,6 +139,7 @@ void write_analysis_report(std::ostream& out, const model::Model& model, const A
   HtmlPage page("spoolflow analysis report",
                 "Uncertainty of the flow rate of " + model.valve.name + ", f" + std::string(flow_name(model)).substr(1),
                 origin_of(model), units);
+  page.headline(headline_of(model));
   show_verdict(page, analysis_verdict(model, analysis));
   show_budget(page, model, analysis);
   show_maps(page, model, analysis);

@@ -112,6 +112,10 @@ std::string origin_of(const model::Model& model) {
   return fmt::format("Model of {}, {}", model.provenance.created, model.provenance.tool_version);
 }
 
+Text headline_of(const model::Model& model) {
+  return phrase("full scale {}", three_digits(units::flow(model.valve.rated_flow_m3_per_s)));
+}
+
 const char* flow_name(const model::Model& model) {
   return model.valve.direction == "a" ? "Flow P to A" : "Flow P to B";
 }

@@ -8,6 +8,8 @@ namespace spoolflow::report {
 
 /// When and by what the model was made; the line below a page's title.
 [[nodiscard]] std::string origin_of(const model::Model& model);
+/// What a page on the model says beside its title: full scale.
+[[nodiscard]] Text headline_of(const model::Model& model);
 /// "Flow P to B" or "Flow P to A", of a model of one direction.
 [[nodiscard]] const char* flow_name(const model::Model& model);
 /// Valve and oil; what was calibrated beside what the runs used.

@@ -116,6 +116,7 @@ void write_monitor_report(std::ostream& out, const model::Model& model, const mo
                           const std::vector<MonitoredRun>& runs, const std::vector<TrendPoint>& trend,
                           const ReaderUnits& units) {
   HtmlPage page("spoolflow monitor report", "Condition of " + model.valve.name, origin_of(model), units);
+  page.headline(headline_of(model));
   page.html(fmt::format("<p class=\"verdict\">{}</p>\n<ul class=\"limits\">", html_text(sentence(watch.condition()))));
   for (const monitor::Cause& cause : watch.causes()) {
     page.html(

@@ -22,6 +22,10 @@ constexpr const char* nothing_from_outside =
 HtmlPage::HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units)
     : kind_(std::move(kind)), title_(std::move(title)), origin_(std::move(origin)), units_(units) {}
 
+void HtmlPage::headline(const Text& facts) {
+  headline_ = fmt::format("<p class=\"facts\">{}</p>\n", html_text(facts.in(units_)));
+}
+
 void HtmlPage::part(std::string_view heading) {
   end_part();
   section(heading);
@@ -79,16 +83,18 @@ void HtmlPage::pair(const std::vector<CaptionedFigure>& figures) {
 }
 
 std::string HtmlPage::str() const {
+  const std::string contents = "<nav aria-label=\"Contents\">" + contents_ + "</nav>";
+  const std::string body =
+      contents_at_ ? body_.substr(0, *contents_at_) + contents + "\n" + body_.substr(*contents_at_) : body_;
   return fmt::format(
              "<!doctype html>\n<html lang=\"en\"{6}><head><meta charset=\"utf-8\">"
              "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
              "<meta http-equiv=\"Content-Security-Policy\" content=\"{0}\">"
              "<title>{1}: {2}</title><style>{3}</style></head>\n<body><main>\n"
-             "<header><p class=\"kicker\">{1}</p><h1>{2}</h1><p class=\"kicker\">{4}</p>\n"
-             "<nav aria-label=\"Contents\">{5}</nav></header>\n",
-             nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_), contents_,
-             units_.attributes()) +
-         body_ + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
+             "<header><p class=\"kicker\">{1}</p><h1>{2}</h1>{7}<p class=\"kicker\">{4}</p>\n{5}</header>\n",
+             nothing_from_outside, html_text(kind_), html_text(title_), page_style(), html_text(origin_),
+             contents_at_ ? "" : contents, units_.attributes(), headline_) +
+         body + "</main>\n<script>" + std::string(page_script()) + "</script></body></html>\n";
 }
 
 }  // namespace spoolflow::report

@@ -1,6 +1,7 @@
 #pragma once
 /// One self-contained page: style sheet and script inside, no network. Without script it shows the same, standing
 /// still. Texts, tables and figures are written out in the reader's units here; markup made outside asks `units()`.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,10 @@ class HtmlPage {
   /// `kind` stands above the title, `origin` below it: where and when the page was made.
   HtmlPage(std::string kind, std::string title, std::string origin, ReaderUnits units = {});
 
+  /// What stands beside the title: "full scale 80 L/min".
+  void headline(const Text& facts);
+  /// The contents stand here; else below the title.
+  void contents() { contents_at_ = body_.size(); }
   void section(std::string_view heading);  ///< appears in the contents
   void subsection(const Text& heading);    ///< does not
   /// A section; until end_part() the sections that follow stand in it, as subsections.
@@ -54,6 +59,8 @@ class HtmlPage {
   ReaderUnits units_;
   std::string body_;
   std::string contents_;
+  std::optional<std::size_t> contents_at_;  ///< place in the body
+  std::string headline_;                    ///< markup
   int sections_ = 0;
   bool in_part_ = false;
   int figures_ = 0;

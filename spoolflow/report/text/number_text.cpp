@@ -11,6 +11,16 @@ namespace {
 constexpr const char* minus = "\u2212";
 constexpr const char* unknown = "\u2013";
 
+/// Decimals that leave two significant digits of the value as it is rounded: 0.996 is 1.0. Below a thousandth three.
+int decimals_of_two_digits(double value) {
+  constexpr int most = 3;
+  for (int decimals = 0; decimals < most; ++decimals) {
+    const double shown = std::round(std::abs(value) * std::pow(10.0, decimals)) / std::pow(10.0, decimals);
+    if (shown >= 10.0 * std::pow(10.0, -decimals)) return decimals;
+  }
+  return most;
+}
+
 }  // namespace
 
 std::string fixed(double value, int decimals) {
@@ -24,6 +34,14 @@ std::string signed_fixed(double value, int decimals) {
   const std::string text = fixed(value, decimals);
   const bool zero = text.find_first_not_of("0.") == std::string::npos;
   return std::isfinite(value) && value > 0 && !zero ? "+" + text : text;
+}
+
+std::string two_digits(double value) {
+  return value == 0 ? "0.0" : fixed(value, decimals_of_two_digits(value));
+}
+
+std::string signed_two_digits(double value) {
+  return value == 0 ? "0.0" : signed_fixed(value, decimals_of_two_digits(value));
 }
 
 std::string three_digits(double value) {

@@ -10,4 +10,9 @@ namespace spoolflow::report {
 /// About three digits, without an exponent where that reads better.
 [[nodiscard]] std::string three_digits(double value);
 
+/// Two significant digits, as an uncertainty is stated (JCGM 100, 7.2.6): "0.29", "3.4", "12". Above 99 whole numbers.
+[[nodiscard]] std::string two_digits(double value);
+/// With its sign always.
+[[nodiscard]] std::string signed_two_digits(double value);
+
 }  // namespace spoolflow::report

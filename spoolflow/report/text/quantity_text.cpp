@@ -17,6 +17,8 @@ std::string in_usual_unit(const QuantityText& text) {
       return fixed(value, text.decimals);
     case Digits::signed_fixed:
       return signed_fixed(value, text.decimals);
+    case Digits::two:
+      return two_digits(value);
     case Digits::three:
       return three_digits(value);
     case Digits::general:

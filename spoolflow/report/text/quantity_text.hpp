@@ -9,7 +9,7 @@
 namespace spoolflow::report {
 
 /// See number_text.hpp; `general`: up to six digits, as people write a limit ("15", "0.5").
-enum class Digits { fixed, signed_fixed, three, general };
+enum class Digits { fixed, signed_fixed, two, three, general };
 
 struct QuantityText {
   units::Quantity quantity;
@@ -25,6 +25,9 @@ struct QuantityText {
 }
 [[nodiscard]] constexpr QuantityText signed_fixed(units::Quantity quantity, int decimals) {
   return {quantity, Digits::signed_fixed, decimals};
+}
+[[nodiscard]] constexpr QuantityText two_digits(units::Quantity quantity) {
+  return {quantity, Digits::two};
 }
 [[nodiscard]] constexpr QuantityText three_digits(units::Quantity quantity) {
   return {quantity, Digits::three};

@@ -7,6 +7,7 @@
 #include "spoolflow/report/text/html_text.hpp"
 #include "spoolflow/report/text/number_text.hpp"
 #include "spoolflow/units/conversion.hpp"
+#include "spoolflow/validation/judged_limits.hpp"
 
 namespace spoolflow::report {
 namespace {
@@ -98,14 +99,38 @@ Text value_text(const JudgedLimit& judged) {
   return fixed(*judged.value, 2) + " " + std::string(name_of(validation::limit_unit_names, judged.limit.unit));
 }
 
-void show_requirements(HtmlPage& page, const validation::Validation& validation) {
-  if (validation.limits.empty()) return;
-  const bool all = std::all_of(validation.limits.begin(), validation.limits.end(), [](auto& each) { return each.met; });
-  page.html(fmt::format("<p class=\"requirements\"><b class=\"badge {}\">{}</b> {}</p>\n", all ? "pass" : "fail",
-                        all ? "pass" : "fail", html_text(requirements_sentence(validation))));
+std::vector<JudgedLimit> shown_limits(const validation::Validation& validation, double full_scale_m3_per_s) {
+  if (!validation.limits.empty()) return validation.limits;
+  if (validation.pooled.empty() || !validation.pooled.back().metrics) return {};
+  return validation::judge(validation::default_requirements(), validation, full_scale_m3_per_s);
+}
+
+void show_requirements(HtmlPage& page, const validation::Validation& validation,
+                       const std::vector<JudgedLimit>& limits) {
+  if (limits.empty()) return;
+  const bool asked = !validation.limits.empty();
+  const bool judged =
+      asked || std::ranges::all_of(limits, [](const JudgedLimit& each) { return each.value.has_value(); });
+  const char* said = !judged ? "not judged" : std::ranges::all_of(limits, &JudgedLimit::met) ? "pass" : "fail";
+  page.html(fmt::format("<p class=\"requirements\"><b class=\"badge {}\">{}</b> ", judged ? said : "open", said));
+  if (asked) {
+    page.html(html_text(requirements_sentence(validation)));
+  } else {
+    page.html("By default limits: ");
+    for (const JudgedLimit& each : limits) {
+      page.html(
+          html_text(fmt::format("{}{}", &each == &limits.front() ? "" : "; ", limit_text(each).in(page.units()))));
+    }
+    page.html(". Yours: <code>--requirements</code>.");
+  }
+  page.html("</p>\n");
+}
+
+void show_limits(HtmlPage& page, const std::vector<JudgedLimit>& limits) {
+  if (limits.empty()) return;
   HtmlTable table({{"", Set::text}, {"What was asked", Set::sentence}, {"Run", Set::text}, {"limit"}, {"figure"}});
-  for (const JudgedLimit& judged : validation.limits) {
-    table.row({fmt::format("<b class=\"badge {}\">{}</b>", judged.met ? "pass" : "fail",
+  for (const JudgedLimit& judged : limits) {
+    table.row({fmt::format("<b class=\"badge {}\">{}</b>", judged.met ? "pass" : (judged.value ? "fail" : "open"),
                            judged.met ? "pass" : (judged.value ? "fail" : "not judged")),
                html_text(figure_text(judged) + when_text(judged.limit.when)), html_text(judged.run),
                bounds_text(judged.limit), judged.value ? value_text(judged) : "\u2013"});

@@ -28,31 +28,31 @@ double largest_p95(const validation::Validation& validation) {
 }
 
 /// The number with a bar whose full length is `longest`.
-std::string bar_cell(double value, double longest, int decimals, std::string_view tone) {
+std::string bar_cell(double value, double longest, std::string_view tone) {
   constexpr double full_px = 90;
   return fmt::format(R"(<i class="bar {}" style="width:{:.0f}px"></i>{})", tone,
-                     longest > 0 ? full_px * value / longest : 0.0, fixed(value, decimals));
+                     longest > 0 ? full_px * value / longest : 0.0, two_digits(value));
 }
 
 /// A figure where there were samples for it.
-std::string figure_cell(const validation::ErrorFigures& figures, double value, int decimals) {
-  return figures.samples == 0 ? "\u2013" : fixed(value, decimals);
+std::string figure_cell(const validation::ErrorFigures& figures, double value) {
+  return figures.samples == 0 ? "\u2013" : two_digits(value);
 }
 
 std::vector<HtmlTable::Cell> result_cells(const std::string& run, estimation::Estimator estimator, const Metrics& m,
                                           double percent, double longest) {
   return {run,
           estimator_cell(estimator),
-          bar_cell(m.all.error.p95 * percent, longest * percent, 2, estimation::name(estimator)),
-          figure_cell(m.moving.error, m.moving.error.p95 * percent, 2),
-          figure_cell(m.rest.error, m.rest.error.p95 * percent, 2),
-          figure_cell(m.reversal.error, m.reversal.error.p95 * percent, 2),
-          fixed(m.all.error.rms * percent, 2),
-          fixed(m.all.error.largest * percent, 1),
-          signed_fixed(m.all.error.bias * percent, 2),
-          figure_cell(m.share_of_reading, 100 * m.share_of_reading.p95, 1),
+          bar_cell(m.all.error.p95 * percent, longest * percent, estimation::name(estimator)),
+          figure_cell(m.moving.error, m.moving.error.p95 * percent),
+          figure_cell(m.rest.error, m.rest.error.p95 * percent),
+          figure_cell(m.reversal.error, m.reversal.error.p95 * percent),
+          two_digits(m.all.error.rms * percent),
+          two_digits(m.all.error.largest * percent),
+          signed_two_digits(m.all.error.bias * percent),
+          figure_cell(m.share_of_reading, 100 * m.share_of_reading.p95),
           fixed(100 * m.all.band_coverage, 1),
-          fixed(m.all.band_mean_width_m3_per_s * percent, 1)};
+          two_digits(m.all.band_mean_width_m3_per_s * percent)};
 }
 
 void add_all_figures(HtmlTable& table, const std::string& run, const std::string& estimator, const Metrics& metrics,
@@ -110,7 +110,7 @@ HtmlTable results_table(const validation::Validation& validation, double full_sc
       first = false;
     }
   }
-  if (validation.runs.size() < 2) return table;
+  if (!validation::pools_several_runs(validation)) return table;
   bool first = true;
   for (const validation::PooledResult& pooled : validation.pooled) {
     if (!pooled.metrics) continue;
@@ -149,7 +149,7 @@ HtmlTable all_figures_table(const validation::Validation& validation, double ful
     }
   }
   for (const validation::PooledResult& pooled : validation.pooled) {
-    if (!pooled.metrics || validation.runs.size() < 2) continue;
+    if (!pooled.metrics || !validation::pools_several_runs(validation)) continue;
     add_all_figures(table, "<b>all runs</b>", estimator_cell(pooled.estimator), *pooled.metrics, percent);
     if (!pooled.by_sample) continue;
     add_all_figures(table, "all samples", estimator_cell(pooled.estimator), *pooled.by_sample, percent);

@@ -81,6 +81,17 @@ Panel status_panel(const validation::EstimatorResult& result) {
 
 }  // namespace
 
+CaptionedFigure run_flow_figure(const validation::RunResult& run) {
+  return {{.description = "Measured and estimated flow rate with its 95 % band over time, run " + run.name,
+           .x_title = "Time",
+           .x_quantity = units::Kind::time,
+           .panels = {flow_panel(run)}},
+          fmt::format("Run {}{}. Its own section below has plots that zoom, the error and the forces.", run.name,
+                      run.results.back().worst ? ", which has the largest error" : ""),
+          {},
+          {}};
+}
+
 CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m3_per_s) {
   const validation::EstimatorResult& leading = run.results.back();
   CaptionedFigure out{{.description = "Measured and estimated flow rate, error and status over time, run " + run.name,

@@ -8,6 +8,8 @@ namespace spoolflow::report {
 /// Measured and estimated flow with its band, error, pressure difference, position and status over time (paper Figs 9
 /// and 10).
 [[nodiscard]] CaptionedFigure run_figure(const validation::RunResult& run, double full_scale_m3_per_s);
+/// Its flow alone: measured and estimated, with the band.
+[[nodiscard]] CaptionedFigure run_flow_figure(const validation::RunResult& run);
 /// The leading estimator's forces over time.
 [[nodiscard]] CaptionedFigure force_figure(const validation::RunResult& run);
 /// The seconds around the leading estimator's largest error. Needs its `worst`.

@@ -1,6 +1,8 @@
 #include "spoolflow/report/validation/validation_report.hpp"
 
+#include <algorithm>
 #include <ostream>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -22,12 +24,35 @@
 namespace spoolflow::report {
 namespace {
 
-void show_verdict(HtmlPage& page, const Verdict& verdict) {
-  page.html("<p class=\"verdict\">" + html_text(verdict.sentence.in(page.units())) + "</p>\n");
-  if (verdict.limits.empty()) return;
+void show_texts(HtmlPage& page, std::span<const Text> texts) {
+  if (texts.empty()) return;
   page.html("<ul class=\"limits\">");
-  for (const Text& limit : verdict.limits) page.html("<li>" + html_text(limit.in(page.units())) + "</li>");
+  for (const Text& text : texts) page.html("<li>" + html_text(text.in(page.units())) + "</li>");
   page.html("</ul>\n");
+}
+
+void show_sentence(HtmlPage& page, const Verdict& verdict) {
+  page.html("<p class=\"verdict\">" + html_text(verdict.sentence.in(page.units())) + "</p>\n");
+}
+
+/// What the words of the verdict mean, where they first stand.
+void show_terms(HtmlPage& page, const validation::Validation& validation) {
+  std::string text;
+  for (const validation::PooledResult& pooled : validation.pooled) {
+    text +=
+        pooled.estimator == estimation::Estimator::condensed
+            ? "Condensed: the sensor of the paper, two maps averaged over both directions of motion. "
+            : "Observer: the full sensor, which follows friction, hysteresis, dynamics and oil temperature sample by "
+              "sample. ";
+  }
+  page.note(text + "Errors are estimate less reference meter; the band is stated to hold 95 % of them.");
+}
+
+/// The run of the largest error, else the first: flow, band and meter.
+void show_first_run(HtmlPage& page, const validation::Validation& validation) {
+  const validation::RunResult* run = run_of_largest_error(validation);
+  if (run == nullptr && !validation.runs.empty()) run = &validation.runs.front();
+  if (run != nullptr && run->samples > 0) page.figure(run_flow_figure(*run));
 }
 
 void tile(HtmlPage& page, const std::string& value, const std::string& meaning) {
@@ -40,14 +65,15 @@ void show_tiles(HtmlPage& page, const validation::Validation& validation, double
   page.html("<div class=\"tiles\">");
   for (std::size_t e = validation.pooled.size(); e-- > 0;) {
     const validation::PooledResult& pooled = validation.pooled[e];
-    tile(page, fixed(pooled.metrics->all.error.p95 * percent, 1) + " % FS",
-         fmt::format("95 % of the {}'s errors below, mean over runs", sensor_name(pooled.estimator)));
+    tile(page, two_digits(pooled.metrics->all.error.p95 * percent) + " % FS",
+         fmt::format("95 % of the {}'s errors below{}", sensor_name(pooled.estimator),
+                     validation::pools_several_runs(validation) ? ", mean over runs" : ""));
   }
-  tile(page, fixed(leading.metrics->all.error.largest * percent, 0) + " % FS",
+  tile(page, two_digits(leading.metrics->all.error.largest * percent) + " % FS",
        fmt::format("largest error of the {}", sensor_name(leading.estimator)));
   tile(page, fixed(100 * leading.metrics->all.band_coverage, 1) + " %",
        fmt::format("of the samples inside its 95 % band, {} % FS wide on average",
-                   fixed(leading.metrics->all.band_mean_width_m3_per_s * percent, 1)));
+                   two_digits(leading.metrics->all.band_mean_width_m3_per_s * percent)));
   page.html("</div>\n");
 }
 
@@ -158,16 +184,30 @@ void show_calibration(HtmlPage& page, const model::Model& model) {
   show_blindness(page, model, {});
 }
 
+/// Verdict, one plot, then tables.
+void show_opening(HtmlPage& page, const Verdict& said, const validation::Validation& validation, double full_scale) {
+  const std::vector<validation::JudgedLimit> limits = shown_limits(validation, full_scale);
+  const std::span<const Text> remarks(said.limits);
+  show_sentence(page, said);
+  show_requirements(page, validation, limits);
+  show_texts(page, remarks.first(std::min(said.doubts, remarks.size())));
+  show_terms(page, validation);
+  show_first_run(page, validation);
+  show_texts(page, remarks.subspan(std::min(said.doubts, remarks.size())));
+  show_tiles(page, validation, 100 / full_scale);
+  page.table(results_table(validation, full_scale));
+  show_limits(page, limits);
+  page.contents();
+}
+
 }  // namespace
 
 void write_validation_report(std::ostream& out, const model::Model& model, const validation::Validation& validation,
                              const std::vector<ComparedValidation>& others, const ReaderUnits& units) {
   const double full_scale = model.valve.rated_flow_m3_per_s;
   HtmlPage page("spoolflow validation report", "Flow rate of " + model.valve.name, origin_of(model), units);
-  show_verdict(page, verdict(model, validation));
-  show_tiles(page, validation, 100 / full_scale);
-  show_requirements(page, validation);
-  page.table(results_table(validation, full_scale));
+  page.headline(headline_of(model));
+  show_opening(page, verdict(model, validation), validation, full_scale);
   show_valve(page, model, validation.runs);
   show_envelope(page, model, validation.runs);
   if (!model.whole()) show_maps(page, model);
@@ -200,7 +240,10 @@ void write_validation_report(std::ostream& out, const model::Model& model, const
 
 void write_calibration_report(std::ostream& out, const model::Model& model, const ReaderUnits& units) {
   HtmlPage page("spoolflow calibration report", model.valve.name, origin_of(model), units);
-  show_verdict(page, calibration_verdict(model));
+  page.headline(headline_of(model));
+  const Verdict said = calibration_verdict(model);
+  show_sentence(page, said);
+  show_texts(page, said.limits);
   show_valve(page, model, {});
   if (model.whole()) {
     for (const char* direction : {"b", "a"}) {

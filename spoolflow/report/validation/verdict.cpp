@@ -47,13 +47,9 @@ class Judge {
   [[nodiscard]] std::vector<Text> limits() const;
 
  private:
-  [[nodiscard]] std::string percent(double flow_m3_per_s) const { return fixed(flow_m3_per_s * percent_, 1) + " %"; }
+  [[nodiscard]] std::string percent(double flow_m3_per_s) const { return two_digits(flow_m3_per_s * percent_) + " %"; }
   [[nodiscard]] const validation::PooledResult& leading() const { return validation_.pooled.back(); }
   [[nodiscard]] std::string leading_name() const { return std::string(estimation::name(leading().estimator)); }
-  [[nodiscard]] const validation::RunResult* run_of_largest_error() const;
-  [[nodiscard]] bool counts(const validation::RunResult& run) const {
-    return !run.calibrated_with || !validation_.held_out;
-  }
   void add_phases(std::vector<Remark>& out) const;
   void add_sign(std::vector<Remark>& out) const;
   void add_worst_bins(std::vector<Remark>& out) const;
@@ -67,19 +63,6 @@ class Judge {
   double percent_;
 };
 
-const validation::RunResult* Judge::run_of_largest_error() const {
-  const validation::RunResult* out = nullptr;
-  double largest = -1;
-  for (const validation::RunResult& run : validation_.runs) {
-    if (!counts(run)) continue;
-    const auto& worst = run.results.back().worst;
-    if (!worst) continue;
-    const double error = std::abs(worst->error_m3_per_s);
-    if (error > largest || (error == largest && run.name < out->name)) largest = error, out = &run;
-  }
-  return out;
-}
-
 Text Judge::sentence() const {
   if (!leading().metrics) {
     return fmt::format("The {} was run over {} recording{}; none has a reference flow, so its error is not known.",
@@ -89,18 +72,16 @@ Text Judge::sentence() const {
   Text out =
       phrase("{}95 % of the {}'s errors lie within {} of full scale ({})",
              validation_.held_out ? "" : "No independent test, the calibration knows every run: ", leading_name(),
-             percent(error.p95), fixed(units::flow(error.p95), 1));
+             percent(error.p95), two_digits(units::flow(error.p95)));
   if (validation_.pooled.size() > 1) {
     out += fmt::format(", those of the {} sensor within {}", estimation::name(validation_.pooled.front().estimator),
                        percent(validation_.pooled.front().metrics->all.error.p95));
   }
-  const auto counted = std::ranges::count_if(
-      validation_.runs, [&](const validation::RunResult& run) { return counts(run) && run.results.back().metrics; });
-  if (counted > 1 && leading().by_sample) {
+  if (validation::pools_several_runs(validation_) && leading().by_sample) {
     out +=
         fmt::format("; this is the mean over runs, {} over all samples", percent(leading().by_sample->all.error.p95));
   }
-  const validation::RunResult* run = run_of_largest_error();
+  const validation::RunResult* run = run_of_largest_error(validation_);
   out += fmt::format(". The largest error is {}{}.", percent(error.largest),
                      validation_.runs.size() > 1 && run != nullptr ? ", in " + run->name : "");
   return out;
@@ -210,7 +191,7 @@ void Judge::add_references(std::vector<Remark>& out) const {
          fmt::format("{}: the reference reads {} \u00b1 {} times the estimate {} {} \u00b1 {} FS (95 %). Look "
                      "at the meter's factor and zero; nothing of it was applied.",
                      run.name, fixed(found.scale, 3), fixed(2 * found.scale_uncertainty, 3),
-                     offset < 0 ? "less" : "plus", fixed(100 * std::abs(offset), 1),
+                     offset < 0 ? "less" : "plus", two_digits(100 * std::abs(offset)),
                      percent(2 * found.offset_uncertainty_m3_per_s))});
   }
 }
@@ -223,7 +204,7 @@ void Judge::add_band(std::vector<Remark>& out) const {
   out.push_back(
       {all.band_coverage < 0.93 ? Severity::narrow_band : Severity::wide_band, 1,
        fmt::format("The 95 % band holds {} % of the samples, {} % FS wide on average: {}.",
-                   fixed(100 * all.band_coverage, 1), fixed(all.band_mean_width_m3_per_s * percent_, 1), judgement)});
+                   fixed(100 * all.band_coverage, 1), two_digits(all.band_mean_width_m3_per_s * percent_), judgement)});
   add_bands_of_runs(out);
 }
 
@@ -292,7 +273,22 @@ std::vector<Text> Judge::limits() const {
 
 Verdict verdict(const model::Model& model, const validation::Validation& validation) {
   const Judge judge(model, validation);
-  return {judge.sentence(), judge.limits()};
+  std::size_t doubts = 0;
+  for (const validation::RunResult& run : validation.runs) doubts += run.doubts.size();
+  return {judge.sentence(), judge.limits(), doubts};
+}
+
+const validation::RunResult* run_of_largest_error(const validation::Validation& validation) {
+  const validation::RunResult* out = nullptr;
+  double largest = -1;
+  for (const validation::RunResult& run : validation.runs) {
+    if (!validation::is_pooled(run, validation)) continue;
+    const auto& worst = run.results.back().worst;
+    if (!worst) continue;
+    const double error = std::abs(worst->error_m3_per_s);
+    if (error > largest || (error == largest && run.name < out->name)) largest = error, out = &run;
+  }
+  return out;
 }
 
 std::string reference_meter_text(const validation::RunResult& run) {

@@ -10,10 +10,13 @@ namespace spoolflow::report {
 
 struct Verdict {
   Text sentence;             ///< the figures
-  std::vector<Text> limits;  ///< what limits them, doubts about runs before all, then the most telling, at most seven
+  std::vector<Text> limits;  ///< what limits them, doubts about runs before all, then the most telling, at most eight
+  std::size_t doubts = 0;    ///< so many of the limits, the first, are doubts about runs
 };
 
 [[nodiscard]] Verdict verdict(const model::Model& model, const validation::Validation& validation);
+/// Among the runs that are pooled; null where none has a reference flow.
+[[nodiscard]] const validation::RunResult* run_of_largest_error(const validation::Validation& validation);
 /// The same of a model alone: what was calibrated and how well the maps hold.
 [[nodiscard]] Verdict calibration_verdict(const model::Model& model);
 

@@ -37,12 +37,14 @@ TEST(RequirementsTable, NamesFigureBoundAndVerdict) {
 
 TEST(RequirementsTable, ShowsWhatCouldNotBeJudgedAsSuch) {
   HtmlPage page("kind", "title", "origin");
-  show_requirements(page, asked(false));
+  show_requirements(page, asked(false), asked(false).limits);
+  show_limits(page, asked(false).limits);
   EXPECT_EQ(unbalanced_markup(page.str()), "");
   EXPECT_THAT(page.str(), HasSubstr("not judged"));
   EXPECT_THAT(page.str(), HasSubstr("ramp &lt;1&gt;"));
   HtmlPage bare("kind", "title", "origin");
-  show_requirements(bare, {});
+  show_requirements(bare, {}, {});
+  show_limits(bare, {});
   EXPECT_THAT(bare.str(), Not(HasSubstr("class=\"requirements\"")));
 }
 

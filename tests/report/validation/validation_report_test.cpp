@@ -138,6 +138,51 @@ TEST(ValidationReport, InOtherUnitsTurnsItsFiguresAndNoName) {
   EXPECT_THAT(page, Not(ContainsRegex("(\\[|[0-9] )(bar|L/min)")));
 }
 
+/// Where each of the texts stands, which must all stand there in this order.
+void expect_in_order(const std::string& page, const std::vector<std::string>& texts) {
+  std::size_t from = 0;
+  for (const std::string& text : texts) {
+    const std::size_t at = page.find(text, from);
+    ASSERT_NE(at, std::string::npos) << text << " is missing, or stands further up";
+    from = at + text.size();
+  }
+}
+
+TEST(ValidationReport, BeginsWithFullScaleVerdictAndOnePlotAndTablesAndContentsFollow) {
+  expect_in_order(page_of(one_run(1000, 5)),
+                  {"<h1>Flow rate of", "full scale 80.0 L/min", "class=\"verdict\"", "class=\"badge fail\">fail</b>",
+                   "Condensed: the sensor of the paper", "<figure>", "<svg", "Run run_1, which has the largest error",
+                   "class=\"tiles\"", "<table", "<nav", "<h2"});
+}
+
+TEST(ValidationReport, JudgesByStatedDefaultLimitsWhereNoneAreGiven) {
+  EXPECT_THAT(page_of(one_run(1000, 5)), HasSubstr("By default limits: 95th percentile of the condensed's error: at "
+                                                   "most 5 % FS; share of the samples inside"));
+  EXPECT_THAT(page_of(one_run(1000, 1)), HasSubstr("badge pass\">pass</b> By default limits"));
+  EXPECT_THAT(page_of(one_run(1000, 1, false)), Not(HasSubstr("By default limits")));
+  validation::Validation known = one_run(1000, 1);
+  known.runs.front().calibrated_with = true;
+  known.held_out = false;
+  EXPECT_THAT(page_of(known), HasSubstr("badge open\">not judged</b> By default limits"));
+}
+
+TEST(ValidationReport, GivesOneRunThatCountsOneRow) {
+  validation::Validation validation = one_run(1000, 5);
+  validation.pooled.front().by_sample = validation.pooled.front().metrics;
+  validation.runs.push_back(validation.runs.front());
+  EXPECT_THAT(page_of(validation), HasSubstr(">all runs<"));
+  validation.runs.back().calibrated_with = true;
+  EXPECT_THAT(page_of(validation), Not(HasSubstr(">all runs<")));
+  EXPECT_THAT(page_of(validation), Not(HasSubstr(">all samples<")));
+}
+
+TEST(ValidationReport, RoundsTextAndTilesAlike) {
+  const std::string page = page_of(one_run(1000, 5));  // 6.25 % of full scale
+  EXPECT_THAT(page, HasSubstr("within 6.2 % of full scale"));
+  EXPECT_THAT(page, HasSubstr("<b>6.2 % FS</b><span>95 % of the condensed sensor"));
+  EXPECT_THAT(page, HasSubstr("<b>6.2 % FS</b><span>largest error"));
+}
+
 TEST(Verdict, GivesTheFigureAndNamesRestWhereRestLimitsIt) {
   const Verdict said = verdict(small_model(), one_run(1000, 5));
   EXPECT_THAT(said.sentence.str(), HasSubstr("within 6.2 % of full scale (5.0 L/min)"));
