@@ -82,7 +82,7 @@ void demo(const DemoArguments& arguments) {
       "  spoolflow estimate {0}/model.json {1} -o {0}/estimate.csv\n"
       "  spoolflow validate {0}/model.json {2} {1} --report {0}/report.html --json {0}/metrics.json\n"
       "Without force sensors, from a flow bench alone, the first step is\n"
-      "  spoolflow campaign {0}/valve.toml --bench flow -o {0}/campaign --calibration-only\n\n{3}\n",
+      "  spoolflow campaign {0}/valve.toml --bench flow -o {0}/flow_bench --calibration-only\n\n{3}\n",
       folder.string(), runs.back(), runs.front(), in_folder("report.html"));
 }
 

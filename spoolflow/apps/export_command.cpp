@@ -263,7 +263,7 @@ void add_export_command(CLI::App& program) {
         "spoolflow export c valve_a.json --target cortex-m4f -o valve_a_c",
         "spoolflow export parameters valve_a.json -o valve.bin"}});
   command
-      ->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp, c: for firmware; parameters: a flash page")
+      ->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page")
       ->required()
       ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
@@ -281,7 +281,7 @@ void add_export_command(CLI::App& program) {
   command->add_option("--sensors", arguments->sensors, "of parameters: observer or condensed alone; without it both")
       ->check(CLI::IsMember({"observer", "condensed"}));
   command->add_option("--target", arguments->target,
-                      "of c: the core: cortex-m4f, cortex-m7, cortex-m33, cortex-m3 or cortex-m0plus");
+                      "core of c: cortex-m4f, cortex-m7, cortex-m33, cortex-m3, cortex-m0plus");
   command->callback([arguments] { export_asked(*arguments); });
 }
 

@@ -188,15 +188,18 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
   return widths;
 }
 
+/// No valve bears a pressure difference beyond this multiple of the highest that is answered.
+inline constexpr double capped_pressure_reach = 10;
+
 /// The pressure difference to answer with, from 0 to the highest that is answered, and what `widths` leave open of it.
-/// Where the estimate stands at that highest one, nothing says how far above the truth lies.
+/// Where the estimate stands at that highest one, the truth may lie above it, up to what no valve bears.
 template <class T>
 SPOOLFLOW_INLINE constexpr PressureBand<T> pressure_band(const PressureState<T>& pressure,
                                                          const PressureHalfWidths<T>& widths, T highest_Pa) {
   const T estimate_Pa = pressure.pressure_difference_Pa;
-  const T above_Pa = estimate_Pa + widths.above_Pa;
+  const T reach = is_capped(pressure, highest_Pa) ? T(capped_pressure_reach) : T(1 + ripple_share);
   return {larger(estimate_Pa - widths.below_Pa, T(0)), limited(estimate_Pa + widths.bias_Pa, T(0), highest_Pa),
-          is_capped(pressure, highest_Pa) ? above_Pa : smaller(above_Pa, T(1 + ripple_share) * highest_Pa)};
+          smaller(estimate_Pa + widths.above_Pa, reach * highest_Pa)};
 }
 
 /// The band of the flow rate [m3/s]: what the pressure difference leaves open of it, from `least` to `most`, and the
