@@ -262,8 +262,7 @@ void add_export_command(CLI::App& program) {
         "spoolflow export cpp valve_a.json -o valve_a_cpp",
         "spoolflow export c valve_a.json --target cortex-m4f -o valve_a_c",
         "spoolflow export parameters valve_a.json -o valve.bin"}});
-  command
-      ->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page")
+  command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page")
       ->required()
       ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();

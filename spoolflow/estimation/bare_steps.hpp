@@ -3,7 +3,7 @@
 /// its state, without what a running sensor adds about times and before its first complete sample.
 #include <vector>
 
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"
 
 namespace spoolflow::estimation {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace spoolflow::estimation {
 

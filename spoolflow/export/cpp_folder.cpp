@@ -270,7 +270,7 @@ std::string golden_header(const model::Model& model, const std::vector<GoldenPoi
       "  std::uint32_t best_status;\n"
       "}};\n\n"
       "inline constexpr float missing = std::numeric_limits<float>::quiet_NaN();\n\n",
-      model.whole() ? "whole_valve/whole_valve_sample.hpp" : "sample.hpp", namespace_begin(model),
+      model.whole() ? "whole_valve/whole_valve_sample.hpp" : "basis/sample.hpp", namespace_begin(model),
       type_names(model).sample);
   out += fmt::format(
       "/// In the order of time: time step s, {}, position m, oil temperature K; flow rates, band, status.\n"

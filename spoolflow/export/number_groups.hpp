@@ -8,7 +8,7 @@
 
 #include "spoolflow/model/parameter.hpp"
 #include "spoolflow/numerics/single_precision.hpp"
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::exports {
 

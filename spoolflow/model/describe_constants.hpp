@@ -200,6 +200,11 @@ void describe_rest_band_constants(Visitor& visitor) {
                     .meaning = "how far the band reaches beyond the highest calibrated pressure difference, as a share "
                                "of it"},
                    sensor::ripple_share);
+  visitor.constant({.name = "capped_pressure_reach",
+                    .unit = "1",
+                    .meaning = "multiple of the highest pressure difference that no valve bears: there the band ends "
+                               "where the answer is capped"},
+                   sensor::capped_pressure_reach);
   visitor.constant({.name = "slip_widening", .unit = "1", .meaning = "factor on the band while the spool slips"},
                    sensor::slip_widening);
   visitor.constant(

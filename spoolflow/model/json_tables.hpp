@@ -12,7 +12,7 @@
 
 #include "spoolflow/model/json_node.hpp"
 #include "spoolflow/model/parameter.hpp"
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::model {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "spoolflow/model/parameter.hpp"
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::model {
 

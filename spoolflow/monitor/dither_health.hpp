@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "spoolflow/sensor/dither.hpp"
+#include "spoolflow/sensor/signals/dither.hpp"
 
 namespace spoolflow::monitor {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "spoolflow/monitor/condition.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace spoolflow::monitor {
 

@@ -43,7 +43,7 @@ struct Dual {
   friend constexpr bool operator<=(const Dual& a, const Dual& b) { return a.value <= b.value; }
   friend constexpr bool operator>=(const Dual& a, const Dual& b) { return a.value >= b.value; }
 
-  // What the sensor asks of every scalar (spoolflow/sensor/scalar.hpp).
+  // What the sensor asks of every scalar (spoolflow/sensor/basis/scalar.hpp).
   friend constexpr int table_index(const Dual& a) { return static_cast<int>(a.value); }
   /// The slope at zero, infinite in truth, is taken as zero.
   friend Dual sqrt(const Dual& a) {

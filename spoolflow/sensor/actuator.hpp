@@ -3,12 +3,12 @@
 /// coil's diagnosis and does not enter the force.
 #include <type_traits>
 
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/due.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/coil.hpp"
 #include "spoolflow/sensor/coil_resistance.hpp"
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/due.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
-#include "spoolflow/sensor/sample.hpp"
 
 namespace spoolflow::sensor {
 

@@ -4,7 +4,7 @@
 ///
 /// What the machine around the valve leaves open (Environment) is common to many samples: no filter averages it away,
 /// so that it enters the band and not the filter.
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 
 namespace spoolflow::sensor {

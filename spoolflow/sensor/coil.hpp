@@ -2,9 +2,9 @@
 /// From coil current to magnetising current: hysteresis and eddy currents taken off.
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 #include "spoolflow/sensor/magnetic_hysteresis.hpp"
-#include "spoolflow/sensor/table.hpp"
 
 namespace spoolflow::sensor {
 

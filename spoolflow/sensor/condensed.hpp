@@ -3,9 +3,9 @@
 #include <array>
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/condensed_tables.hpp"
-#include "spoolflow/sensor/sample.hpp"
 
 namespace spoolflow::sensor {
 

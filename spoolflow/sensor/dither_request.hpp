@@ -10,7 +10,7 @@
 /// before it ends.
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::sensor {

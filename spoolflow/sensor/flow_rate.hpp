@@ -1,5 +1,5 @@
 #pragma once
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::sensor {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The forces on spool and armature at the estimated pressure difference: what they leave is friction, and what
 /// friction cannot be is the innovation of the pressure difference. Paper (1) and section 3.
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::sensor {

@@ -1,6 +1,6 @@
 #pragma once
 /// Forces that tables hold: the solenoid's and the springs'.
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::sensor {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/due.hpp"
-#include "spoolflow/sensor/position_track.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/due.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
+#include "spoolflow/sensor/signals/position_track.hpp"
 
 namespace spoolflow::sensor {
 

@@ -2,7 +2,7 @@
 /// The answer while no force shows the pressure difference: what is known of it ages, and the band takes in all that
 /// may flow.
 #include "spoolflow/sensor/band.hpp"
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 
 namespace spoolflow::sensor {
 

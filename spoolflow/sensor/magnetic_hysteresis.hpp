@@ -2,8 +2,8 @@
 #include <array>
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

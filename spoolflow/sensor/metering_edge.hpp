@@ -1,8 +1,8 @@
 #pragma once
 #include <cmath>
 
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::sensor {
 

@@ -3,7 +3,7 @@
 /// metering edge by temperature, with the pressure difference as the hidden state. Each stage has its own part of the
 /// state; only this file sees it whole.
 #include "spoolflow/sensor/band.hpp"
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 #include "spoolflow/sensor/held_answer.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"

@@ -3,15 +3,15 @@
 #include <type_traits>
 
 #include "spoolflow/sensor/actuator.hpp"
-#include "spoolflow/sensor/current_guard.hpp"
-#include "spoolflow/sensor/dither.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/force_maps.hpp"
 #include "spoolflow/sensor/friction.hpp"
 #include "spoolflow/sensor/metering_edge.hpp"
-#include "spoolflow/sensor/oil_temperature.hpp"
-#include "spoolflow/sensor/position_track.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/signals/current_guard.hpp"
+#include "spoolflow/sensor/signals/dither.hpp"
+#include "spoolflow/sensor/signals/oil_temperature.hpp"
+#include "spoolflow/sensor/signals/position_track.hpp"
 
 namespace spoolflow::sensor {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// A model of one direction knows nothing of the other, where as much may flow as through its own edge.
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
 
 namespace spoolflow::sensor {

@@ -7,8 +7,8 @@
 /// gives.
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

@@ -1,9 +1,9 @@
 #pragma once
 /// One sample of the hidden pressure difference: prediction, then the evidence of a spool that slides, breaks away or
 /// rests; where it covers the edge there is none.
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/breakaway_evidence.hpp"
 #include "spoolflow/sensor/closed_evidence.hpp"
-#include "spoolflow/sensor/compiler.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 #include "spoolflow/sensor/rest_evidence.hpp"
 #include "spoolflow/sensor/sliding_evidence.hpp"

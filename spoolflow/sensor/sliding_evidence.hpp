@@ -2,7 +2,7 @@
 /// While the spool slides friction has its full size and the sign of the velocity: each sample measures the pressure
 /// difference, and in both directions of motion friction in operation over the bench's. How well samples agree sets the
 /// width of the band, and how far the pressure difference was found to have moved sets the process noise.
-#include "spoolflow/sensor/due.hpp"
+#include "spoolflow/sensor/basis/due.hpp"
 #include "spoolflow/sensor/force_balance.hpp"
 #include "spoolflow/sensor/pressure_difference.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "spoolflow/plausibility/run_means.hpp"
 #include "spoolflow/recording/reader.hpp"
-#include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace spoolflow::validation {
 

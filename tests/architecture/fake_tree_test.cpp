@@ -237,12 +237,12 @@ TEST_F(FakeTree, FindsOutputsOpenedOutsideApps) {
 
 TEST_F(FakeTree, FindsExtensionsOfCompilersInTheSensor) {
   const std::string extension = "[[gnu::noinline]] int f();\n";
-  write("spoolflow/sensor/compiler.hpp", "#pragma once\n" + extension);
+  write("spoolflow/sensor/basis/compiler.hpp", "#pragma once\n" + extension);
   write("spoolflow/rig/oil.cpp", extension);
   EXPECT_THAT(file_violations(root), IsEmpty());
   write("spoolflow/sensor/edge.hpp", "#pragma once\n" + extension);
   EXPECT_THAT(file_violations(root),
-              ElementsAre("spoolflow/sensor/edge.hpp:2: extensions of compilers stand in sensor/compiler.hpp"));
+              ElementsAre("spoolflow/sensor/edge.hpp:2: extensions of compilers stand in sensor/basis/compiler.hpp"));
 }
 
 TEST_F(FakeTree, FindsUnfinishedWork) {

@@ -38,7 +38,7 @@ void check_content(const fs::path& file, const fs::path& place, std::vector<std:
   static const std::regex opens_output(R"(\b(std::ofstream|std::fstream|fopen)\b)");
   const std::string name = place.generic_string();
   static const std::regex extension(R"(gnu::|__attribute__|__builtin|__asm|#\s*pragma\s+(GCC|clang))");
-  const bool standard = name.starts_with("spoolflow/sensor/") && name != "spoolflow/sensor/compiler.hpp";
+  const bool standard = name.starts_with("spoolflow/sensor/") && name != "spoolflow/sensor/basis/compiler.hpp";
   const bool may_open = !name.starts_with("spoolflow/") || name.starts_with("spoolflow/apps/");
   std::ifstream in(file);
   int lines = 0;
@@ -51,7 +51,8 @@ void check_content(const fs::path& file, const fs::path& place, std::vector<std:
       violations.push_back(fmt::format("{}:{}: only apps opens output files", name, lines));
     }
     if (standard && std::regex_search(line, extension)) {
-      violations.push_back(fmt::format("{}:{}: extensions of compilers stand in sensor/compiler.hpp", name, lines));
+      violations.push_back(
+          fmt::format("{}:{}: extensions of compilers stand in sensor/basis/compiler.hpp", name, lines));
     }
   }
   if (file.extension() == ".hpp" && !once) violations.push_back(fmt::format("{}: no #pragma once", name));

@@ -14,7 +14,7 @@
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/recording/channels/channel.hpp"
 #include "spoolflow/recording/channels/channel_unit.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 #include "tests/docs/markdown.hpp"
 #include "tests/docs/tuning_evidence.hpp"
 
@@ -76,7 +76,7 @@ TEST(Site, TheIndexNamesEveryPage) {
   EXPECT_THAT(missing, IsEmpty());
 }
 
-/// Files of this project that the pages name in code, such as `spoolflow/sensor/table.hpp`.
+/// Files of this project that the pages name in code, such as `spoolflow/sensor/basis/table.hpp`.
 std::set<std::string> files_named(const Page& page) {
   static const std::regex file("(spoolflow|tests|bench|examples|ci|cmake|docs|web)/[A-Za-z0-9_./-]*\\.[a-z0-9]+");
   std::set<std::string> out;
@@ -98,12 +98,14 @@ TEST(Site, EveryFileThatIsNamedExists) {
 
 TEST(Physics, NamesEveryEquationsHeaderOfTheSensor) {
   const std::set<std::string> named = files_named(read_page(root / "docs/physics.md"));
-  const std::set<std::string> no_physics{"compiler.hpp", "sample.hpp", "scalar.hpp", "status.hpp"};
+  const std::set<std::string> no_physics{"compiler.hpp", "sample.hpp", "scalar.hpp", "status.hpp", "due.hpp"};
   std::vector<std::string> missing;
-  for (const auto& entry : fs::directory_iterator(root / "spoolflow/sensor")) {
-    const std::string name = entry.path().filename().string();
-    if (entry.path().extension() != ".hpp" || no_physics.count(name) > 0) continue;
-    if (named.count("spoolflow/sensor/" + name) == 0) missing.push_back(name);
+  for (const std::string room : {"spoolflow/sensor/", "spoolflow/sensor/basis/", "spoolflow/sensor/signals/"}) {
+    for (const auto& entry : fs::directory_iterator(root / room)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.path().extension() != ".hpp" || no_physics.count(name) > 0) continue;
+      if (named.count(room + name) == 0) missing.push_back(room + name);
+    }
   }
   EXPECT_THAT(missing, IsEmpty());
 }

@@ -16,7 +16,7 @@
 #include "spoolflow/model/describe_observer.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/model/parameter.hpp"
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
 
 namespace spoolflow::estimation {
 

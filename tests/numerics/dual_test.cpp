@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::numerics {
 namespace {

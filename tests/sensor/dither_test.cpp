@@ -1,5 +1,5 @@
 /// Dither found from the current, and what it tells of friction.
-#include "spoolflow/sensor/dither.hpp"
+#include "spoolflow/sensor/signals/dither.hpp"
 
 #include <cmath>
 #include <functional>

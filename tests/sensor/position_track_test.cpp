@@ -1,5 +1,5 @@
 /// What the spool does, told from a signal with noise, drift and faults, at every sampling rate.
-#include "spoolflow/sensor/position_track.hpp"
+#include "spoolflow/sensor/signals/position_track.hpp"
 
 #include <cmath>
 #include <functional>

@@ -5,7 +5,7 @@
 
 #include "addons/live/http/json_text.hpp"
 #include "addons/live/page/alarm_text.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::fleet {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 
 namespace spoolflow::live {
 

@@ -6,7 +6,7 @@
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/written_tables/table_writer.hpp"
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 
 namespace spoolflow::apps {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "spoolflow/recording/recording.hpp"
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 
 namespace spoolflow::calibration {
 

@@ -5,7 +5,7 @@
 
 #include "spoolflow/calibration/fits/bench_strokes.hpp"
 #include "spoolflow/calibration/fits/position_sensor.hpp"
-#include "spoolflow/sensor/position_track.hpp"
+#include "spoolflow/sensor/signals/position_track.hpp"
 
 namespace spoolflow::calibration {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "spoolflow/export/c_interface/spoolflow.h"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace {
 

@@ -2,11 +2,11 @@
 /// What a machine does to a valve at work that no bench does; all off unless a scenario's [machine] says otherwise.
 /// Oil, leakage, tank pressure, wear of friction and errors of position sensor and thermometer are figures of plant and
 /// instruments, and scenarios set them there.
-#include "spoolflow/rig/bench/vibration.hpp"
 #include "spoolflow/rig/hydraulics/actuator_end.hpp"
 #include "spoolflow/rig/hydraulics/pump_ripple.hpp"
 #include "spoolflow/rig/instruments/current_spikes.hpp"
 #include "spoolflow/rig/instruments/pwm_ripple.hpp"
+#include "spoolflow/rig/instruments/vibration.hpp"
 
 namespace spoolflow::rig {
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <cstdint>
 
-#include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace spoolflow::sensor {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// An image of parameters looked at from its first byte to its last, at once or in slices between samples: the same
 /// code checks a page before it is used and watches it afterwards.
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/parameter_image/image_header.hpp"
 #include "spoolflow/sensor/parameter_image/image_refusal.hpp"
 

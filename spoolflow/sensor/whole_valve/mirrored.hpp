@@ -1,8 +1,8 @@
 #pragma once
 /// The same valve seen from its other end: what opens to one side closes to the other.
+#include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/friction.hpp"
-#include "spoolflow/sensor/position_track.hpp"
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/signals/position_track.hpp"
 
 namespace spoolflow::sensor {
 

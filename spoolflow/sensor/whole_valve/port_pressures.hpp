@@ -4,8 +4,8 @@
 /// do.
 #include <limits>
 
+#include "spoolflow/sensor/basis/scalar.hpp"
 #include "spoolflow/sensor/observer_parameters.hpp"
-#include "spoolflow/sensor/scalar.hpp"
 
 namespace spoolflow::sensor {
 

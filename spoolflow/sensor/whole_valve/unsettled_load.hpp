@@ -2,8 +2,8 @@
 /// A load that passes other flows over both edges only once it has settled: behind a cylinder of unequal areas the
 /// drops stand in the calibrated proportion when pressures in its chambers have become steady. Until then the force,
 /// which is made by their sum, says less of the flow.
-#include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The paper's condensed sensor of a whole valve: that of the direction into which the spool stands.
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/condensed.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve_sample.hpp"

@@ -4,7 +4,7 @@
 /// both solenoids; what is known of the other path waits, and grows uncertain, until the spool comes back.
 #include <utility>
 
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 #include "spoolflow/sensor/observer.hpp"
 #include "spoolflow/sensor/whole_valve/measured_answer.hpp"
 #include "spoolflow/sensor/whole_valve/mirrored.hpp"

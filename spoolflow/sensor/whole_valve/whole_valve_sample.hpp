@@ -1,6 +1,6 @@
 #pragma once
 /// What the electronics of a whole 4/3 valve have, each sample.
-#include "spoolflow/sensor/sample.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
 #include "spoolflow/sensor/whole_valve/port_pressures.hpp"
 
 namespace spoolflow::sensor {

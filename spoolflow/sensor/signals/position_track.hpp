@@ -1,10 +1,10 @@
 #pragma once
 /// What the spool does, from a position signal with noise, drift and acquisition faults.
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/dither.hpp"
-#include "spoolflow/sensor/position_state.hpp"
-#include "spoolflow/sensor/sample.hpp"
-#include "spoolflow/sensor/table.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/sample.hpp"
+#include "spoolflow/sensor/basis/table.hpp"
+#include "spoolflow/sensor/signals/dither.hpp"
+#include "spoolflow/sensor/signals/position_state.hpp"
 
 namespace spoolflow::sensor {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
 
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "a missing input is a NaN: compile without -ffast-math and -ffinite-math-only"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

@@ -2,8 +2,8 @@
 /// The oil temperature, from a signal that is noisy, may be missing and may break.
 #include <type_traits>
 
-#include "spoolflow/sensor/due.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/due.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

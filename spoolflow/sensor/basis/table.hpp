@@ -4,8 +4,8 @@
 /// inside.
 #include <array>
 
-#include "spoolflow/sensor/scalar.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace spoolflow::sensor {
 

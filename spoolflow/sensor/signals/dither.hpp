@@ -8,8 +8,8 @@
 /// limit. So friction is measured by the middle of its swing, and its limits are nearer by half the swing.
 #include <type_traits>
 
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

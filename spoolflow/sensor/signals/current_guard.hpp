@@ -1,7 +1,7 @@
 #pragma once
 /// A coil current that leaps as the coil's equation allows none is a fault of its measurement, not of the coil.
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/scalar.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
 
 namespace spoolflow::sensor {
 

@@ -2,9 +2,9 @@
 /// What goes into the sensor and what comes out, each sample.
 #include <limits>
 
-#include "spoolflow/sensor/compiler.hpp"
-#include "spoolflow/sensor/scalar.hpp"
-#include "spoolflow/sensor/status.hpp"
+#include "spoolflow/sensor/basis/compiler.hpp"
+#include "spoolflow/sensor/basis/scalar.hpp"
+#include "spoolflow/sensor/basis/status.hpp"
 
 namespace spoolflow::sensor {
 
