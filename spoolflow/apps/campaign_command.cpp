@@ -70,9 +70,7 @@ void add_campaign_command(CLI::App& program) {
       ->type_name("VALVE.toml")
       ->required();
   command->add_option("-o,--output", arguments->folder, "folder for the recordings")->type_name("DIR")->required();
-  command
-      ->add_option("--bench", arguments->bench,
-                   "force: solenoid and axial-force rigs; flow: a flow bench alone, no force sensor")
+  command->add_option("--bench", arguments->bench, "force: solenoid and axial-force rigs; flow: a flow bench alone")
       ->type_name("BENCH")
       ->check(CLI::IsMember({"force", "flow"}));
   command->add_flag("--calibration-only", arguments->calibration_only, "leave out the validation runs");

@@ -96,7 +96,7 @@ void add_inspect_command(CLI::App& program) {
   CLI::App* command = add_command(
       program,
       {"inspect",
-       "show what a recording, a folder of them, or a flash page of parameters holds",
+       "show what a recording, a folder, or a flash page of parameters holds",
        "a recording: CSV (comma, semicolon or tab; decimal comma; - for CSV from standard input), MATLAB v5 or v7.3, "
        "HDF5, TDMS, MDF 4, Excel (.xlsx); a folder of them, or with a campaign.toml; or parameters from `spoolflow "
        "export parameters`",
