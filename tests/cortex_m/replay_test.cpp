@@ -82,7 +82,7 @@ class SoftFloat : public CortexM {};
 TEST_P(SoftFloat, DISABLED_BothSensorsAnswerAsTheHostWithoutAFloatingPointUnit) {
   const bool m0plus = GetParam().name == std::string("Cortex-M0+");
   expect_fit_for_a_valve(replay(model, Estimator::observer, minute, GetParam()),
-                         {m0plus ? 51500U : 27600U, 9, 0, 620, 98304});
+                         {m0plus ? 57000U : 31200U, 9, 0, 690, 98304});
   expect_fit_for_a_valve(replay(model, Estimator::condensed, minute, GetParam()),
                          {m0plus ? 5500U : 3100U, 4, 0, 120, 98304});
 }
