@@ -14,7 +14,7 @@ constexpr double forces_noise_N = 0.7;
 constexpr double sampled_s = 1e-3;
 constexpr double prior_Pa = 60e5, prior_deviation_Pa = 2e5;
 
-ObserverParameters<double> valve() {
+ObserverParameters<double> updated_valve() {
   ObserverParameters<double> out{};
   out.edge.pressure_difference_Pa = {0, 10e5, 1 / 10e5};  // up to 80 bar
   out.pressure = {.sliding_drift_Pa_per_sqrt_s = 2e5,
@@ -35,7 +35,7 @@ ObserverParameters<double> valve() {
 
 PressureState<double> prior() {
   PressureState<double> out{};
-  begin(valve().pressure, out, 80e5, 1.0, 2.0);
+  begin(updated_valve().pressure, out, 80e5, 1.0, 2.0);
   out.pressure_difference_Pa = prior_Pa;
   out.variance_Pa2 = squared(prior_deviation_Pa);
   return out;
@@ -62,7 +62,7 @@ TEST(PressureUpdate, OfASlidingSpoolAtAKnownFrictionRatioIsTheScalarKalmanFilter
   state.ratio_variance = 0;
   double mean_Pa = prior_Pa, variance_Pa2 = squared(prior_deviation_Pa);
   for (const double innovation_N : {0.5, -0.3, 0.4}) {
-    EXPECT_EQ(update(valve(), state, balance_of(true, innovation_N), timing), 0);
+    EXPECT_EQ(update(updated_valve(), state, balance_of(true, innovation_N), timing), 0);
     // Two samples share one piece of evidence. The posterior weighs prior and measurement by one over their variances.
     variance_Pa2 += squared(2e5) * sampled_s;
     const double measured_variance_Pa2 = 2 * squared(forces_noise_N / force_slope_N_per_Pa);
@@ -78,7 +78,7 @@ TEST(PressureUpdate, OfASlidingSpoolAtAKnownFrictionRatioIsTheScalarKalmanFilter
 TEST(PressureUpdate, OfASlidingSpoolDividesAnInnovationBetweenPressureAndFrictionAsTheirVariancesAre) {
   PressureState<double> state = prior();
   constexpr double innovation_N = 0.5;
-  update(valve(), state, balance_of(true, innovation_N), timing);
+  update(updated_valve(), state, balance_of(true, innovation_N), timing);
   const double of_pressure_N2 =
       squared(force_slope_N_per_Pa) * (squared(prior_deviation_Pa) + squared(2e5) * sampled_s);
   const double of_ratio_N2 = squared(spool_slides_N * 0.05);
@@ -100,9 +100,10 @@ TEST(PressureUpdate, OfABreakawayIsOneMeasurementAsSureAsBreakawayForcesRepeat) 
   ForceBalance<double> breaks = balance_of(false, 0);
   breaks.resting.breakaway_N = limit_N + excess_N;
   breaks.resting.rested_s = rested_s;
-  update(valve(), state, breaks, timing);
-  const double prior_N2 = squared(force_slope_N_per_Pa) *
-                          (squared(prior_deviation_Pa) + valve().pressure.first_process_noise * 1e12 * sampled_s);
+  update(updated_valve(), state, breaks, timing);
+  const double prior_N2 =
+      squared(force_slope_N_per_Pa) *
+      (squared(prior_deviation_Pa) + updated_valve().pressure.first_process_noise * 1e12 * sampled_s);
   const double gain = prior_N2 / (prior_N2 + squared(forces_noise_N) + squared(0.12 * limit_N));
   EXPECT_NEAR(force_slope_N_per_Pa * (state.pressure_difference_Pa - prior_Pa), gain * excess_N, 1e-9);
   EXPECT_NEAR(squared(force_slope_N_per_Pa) * state.variance_Pa2, prior_N2 * (1 - gain), 1e-9);
@@ -112,11 +113,12 @@ TEST(PressureUpdate, OfABreakawayIsOneMeasurementAsSureAsBreakawayForcesRepeat) 
 TEST(PressureUpdate, AtRestDividesWhatFrictionCannotHoldBetweenPressureAndFriction) {
   for (const double beyond_N : {2.0, -2.0}) {
     PressureState<double> state = prior();
-    const double to_friction_N = update(valve(), state, balance_of(false, beyond_N), timing);
-    const double prior_N2 = squared(force_slope_N_per_Pa) *
-                            (squared(prior_deviation_Pa) + valve().pressure.first_process_noise * 1e12 * sampled_s);
-    const double share = prior_N2 / (prior_N2 + squared(valve().friction.tolerance_N));
-    const double now_N = beyond_N * sampled_s / valve().pressure.constrained_correction_s;
+    const double to_friction_N = update(updated_valve(), state, balance_of(false, beyond_N), timing);
+    const double prior_N2 =
+        squared(force_slope_N_per_Pa) *
+        (squared(prior_deviation_Pa) + updated_valve().pressure.first_process_noise * 1e12 * sampled_s);
+    const double share = prior_N2 / (prior_N2 + squared(updated_valve().friction.tolerance_N));
+    const double now_N = beyond_N * sampled_s / updated_valve().pressure.constrained_correction_s;
     EXPECT_NEAR(force_slope_N_per_Pa * (state.pressure_difference_Pa - prior_Pa), share * now_N, 1e-9);
     EXPECT_NEAR(to_friction_N, (1 - share) * now_N, 1e-9);
     EXPECT_EQ(state.variance_Pa2, squared(prior_deviation_Pa) + 0.1 * (squared(1e6) * sampled_s));  // it says no more
@@ -129,9 +131,9 @@ TEST(PressureUpdate, WithinFrictionsBoundsOrBehindAClosedEdgeMovesNothingAndGrow
     state.process_noise = 0.001;  // of a steady supply
     ForceBalance<double> rests = balance_of(false, closed ? 3 : 0);
     rests.closed = closed;
-    EXPECT_EQ(update(valve(), state, rests, timing), 0);
+    EXPECT_EQ(update(updated_valve(), state, rests, timing), 0);
     EXPECT_EQ(state.pressure_difference_Pa, prior_Pa);
-    const double process_noise = closed ? valve().pressure.first_process_noise : 0.001;
+    const double process_noise = closed ? updated_valve().pressure.first_process_noise : 0.001;
     EXPECT_DOUBLE_EQ(state.process_noise, process_noise);
     EXPECT_DOUBLE_EQ(state.variance_Pa2, squared(prior_deviation_Pa) + process_noise * squared(1e6) * sampled_s);
   }
@@ -140,7 +142,7 @@ TEST(PressureUpdate, WithinFrictionsBoundsOrBehindAClosedEdgeMovesNothingAndGrow
 TEST(PressureUpdate, BeginsAgainWhereForcesLeaveNoVariance) {
   PressureState<double> state = prior();
   state.variance_Pa2 = NAN;
-  update(valve(), state, balance_of(false, 0), timing);
+  update(updated_valve(), state, balance_of(false, 0), timing);
   EXPECT_DOUBLE_EQ(state.pressure_difference_Pa, first_pressure_share * 80e5);
   EXPECT_DOUBLE_EQ(state.variance_Pa2, squared(first_deviation_share * 80e5));
 }
