@@ -17,6 +17,8 @@ import pathlib
 import subprocess
 import sys
 
+from judging_set import option
+
 
 def run(*command):
     done = subprocess.run([str(part) for part in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
@@ -31,15 +33,6 @@ def made(spoolflow, valve, out):
         if failure:
             return failure
     return None if model.exists() else run(spoolflow, "calibrate", "-q", bench / "campaign.toml", "-o", model)
-
-
-def option(arguments, name, otherwise):
-    if name not in arguments:
-        return otherwise
-    at = arguments.index(name)
-    value = arguments[at + 1]
-    del arguments[at:at + 2]
-    return value
 
 
 def main(arguments):

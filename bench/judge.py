@@ -272,17 +272,6 @@ def report(results, environment, before):
     return groups
 
 
-def option(arguments, name, otherwise=None):
-    if name not in arguments:
-        return otherwise
-    at = arguments.index(name)
-    if at + 1 == len(arguments):
-        fail(f"{name} needs a value")
-    value = arguments[at + 1]
-    del arguments[at:at + 2]
-    return value
-
-
 def flag(arguments, name):
     if name not in arguments:
         return False
@@ -291,10 +280,10 @@ def flag(arguments, name):
 
 
 def main(arguments):
-    environment, to_json = option(arguments, "--environment"), option(arguments, "--json")
-    only, shared = option(arguments, "--only"), option(arguments, "--shared")
-    spoolflow = option(arguments, "--spoolflow", "build/release/bin/spoolflow")
-    before, models = option(arguments, "--before"), option(arguments, "--calibrate")
+    environment, to_json = judging_set.option(arguments, "--environment"), judging_set.option(arguments, "--json")
+    only, shared = judging_set.option(arguments, "--only"), judging_set.option(arguments, "--shared")
+    spoolflow = judging_set.option(arguments, "--spoolflow", "build/release/bin/spoolflow")
+    before, models = judging_set.option(arguments, "--before"), judging_set.option(arguments, "--calibrate")
     if before is not None:
         rows = json.loads(pathlib.Path(before).read_text(encoding="utf-8"))["runs"]
         before = {tuple(row[key] for key in RUN): row for row in rows}

@@ -257,6 +257,8 @@ def option(arguments, name, otherwise=None):
     if name not in arguments:
         return otherwise
     at = arguments.index(name)
+    if at + 1 == len(arguments):
+        sys.exit(f"{pathlib.Path(sys.argv[0]).stem}: {name} needs a value")
     value = arguments[at + 1]
     del arguments[at:at + 2]
     return value
