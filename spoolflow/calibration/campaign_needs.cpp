@@ -124,7 +124,7 @@ class OfDirection {
   [[nodiscard]] NeededRecording needed(Protocol protocol, std::string why) const {
     return {protocol, direction_, std::move(why), minutes_of(protocol)};
   }
-  /// Metering that tells the magnetic force as well.
+  /// Metering that shows the magnetic force as well.
   [[nodiscard]] bool meters_with_voltage() const {
     return std::ranges::any_of(of_, [](const Recorded* each) {
       return each->protocol == Protocol::metering && each->voltage && each->levels >= least_levels;

@@ -28,7 +28,7 @@ struct Recorded {
 struct NeededRecording {
   recording::Protocol protocol;
   std::string direction;
-  std::string why;  ///< what it tells, or what that which is there lacks
+  std::string why;  ///< what it shows, or what the recording that is there lacks
   double minutes;   ///< on the bench, without rebuilding it or warming the oil
 };
 

@@ -1,5 +1,5 @@
 /// Hours and days of a valve: what the store gives of them, and how they are asked for.
-#include <chrono>
+#include <ctime>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -78,12 +78,11 @@ TEST_F(Days, AMinuteIsReadWithoutTheDaysAroundIt) {
           "INSERT INTO second_of_valve(valve, wall_ms, samples, flow_mean, status) SELECT 1 + k % 2, 1000 * k, 1, "
           "1e-3, 0 "
           "FROM row");
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
+  const std::clock_t begin = std::clock();  // what other programs do does not count
   EXPECT_GT(read_flow(path("s.sqlite"), "a", {0, begin_ms}).size(), 0U);
-  const auto between = Clock::now();
-  for (int k = 0; k < 2; ++k) EXPECT_EQ(read_flow(path("s.sqlite"), "a", {1000, 61'000}).size(), 30U);
-  EXPECT_LT(Clock::now() - between, between - begin);  // two minutes take less time than all days
+  const std::clock_t between = std::clock();
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(read_flow(path("s.sqlite"), "a", {1000, 61'000}).size(), 30U);
+  EXPECT_LT(std::clock() - between, between - begin);  // twenty minutes take less work than all days
 }
 
 TEST_F(Days, AreAskedForByInstants) {

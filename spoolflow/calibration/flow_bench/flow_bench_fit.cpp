@@ -151,7 +151,7 @@ void fit_with_actuator(FlowBenchFit& out, ForcePriors priors, const ActuatorFit&
   out.forces = solve_forces(out.layout, priors, out.magnetic_force, forces, out.coil_sizes, {});
 }
 
-/// Throws CalibrationError where the coil's voltage told no force.
+/// Throws CalibrationError where the coil's voltage shows no force.
 void require_force(const FlowBenchFit& fit, const std::string& file) {
   constexpr double least_N = 1;
   const ForceLayout& layout = fit.layout;

@@ -31,16 +31,16 @@ Deviations deviations_of(const Eigen::VectorXd& values) {
 
 /// What the tables of one unit say of its deviations from the first: a normal likelihood, as precision and precision
 /// times mean.
-struct UnitDeviations {
+struct UnitLikelihood {
   Eigen::MatrixXd precision;
   Eigen::VectorXd weighted;
 };
 
-UnitDeviations deviations_of(const TableComparison& comparison, const KnownDeviations& prior) {
+UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDeviations& prior) {
   constexpr int rounds = 6, searching = 3;  // what is left before the search is no misfit
   const Eigen::MatrixXd prior_precision = inverse(prior.covariance);
   Eigen::VectorXd x = prior.mean;
-  UnitDeviations out;
+  UnitLikelihood out;
   for (int round = 0; round < rounds; ++round) {
     const Eigen::VectorXd left = comparison.rows(deviations_of(x));
     Eigen::MatrixXd slope(left.size(), deviating);
@@ -66,17 +66,17 @@ struct Middle {
   std::vector<Eigen::VectorXd> units;  ///< each one's mean
 };
 
-/// Expectation and maximisation. The mean of what no unit tells stays at zero.
-Middle middle_of(const std::vector<UnitDeviations>& units_deviations, const Eigen::MatrixXd& prior) {
+/// Expectation and maximisation. The mean of what no unit shows stays at zero.
+Middle middle_of(const std::vector<UnitLikelihood>& likelihoods, const Eigen::MatrixXd& prior) {
   constexpr int rounds = 60;
-  const auto count = static_cast<double>(units_deviations.size());
+  const auto count = static_cast<double>(likelihoods.size());
   Middle out{{Eigen::VectorXd::Zero(deviating), prior}, {}, {}};
   for (int round = 0; round < rounds; ++round) {
     const Eigen::MatrixXd between = inverse(out.of.covariance);
     Eigen::MatrixXd scatter = tolerances_as_units * prior;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(deviating);
     out.units.clear();
-    for (const UnitDeviations& unit : units_deviations) {
+    for (const UnitLikelihood& unit : likelihoods) {
       const Eigen::MatrixXd covariance = inverse(unit.precision + between);
       out.units.emplace_back(covariance * (unit.weighted + between * out.of.mean));
       mean += out.units.back() / count;
@@ -159,10 +159,10 @@ SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviati
   require_comparable(units);
   const KnownDeviations prior = spread_of(tolerances);
   const auto beside = [&](std::size_t base) {
-    std::vector<UnitDeviations> units_deviations;
+    std::vector<UnitLikelihood> likelihoods;
     for (const model::Model& unit : units)
-      units_deviations.push_back(deviations_of({units[base].observer->parameters, unit.observer->parameters}, prior));
-    return middle_of(units_deviations, prior.covariance);
+      likelihoods.push_back(likelihood_of({units[base].observer->parameters, unit.observer->parameters}, prior));
+    return middle_of(likelihoods, prior.covariance);
   };
   Middle middle = beside(0);
   require_one_type(units, middle, tolerances);

@@ -8,7 +8,7 @@
 
 namespace spoolflow::calibration {
 
-/// Fewer units tell nothing of how far the next one lies.
+/// Fewer units do not show how far the next one lies.
 inline constexpr std::size_t least_units = 3;
 /// [tolerances] weigh as much as so many units that were measured.
 inline constexpr double tolerances_as_units = 4;
@@ -30,7 +30,7 @@ struct SeveralUnits {
 /// Mean and covariance of the deviations by empirical Bayes: each unit's tables of force, flux, flow and friction are
 /// fitted by unit_parameters() of one of them; expectation and maximisation find middle and spread, the spread with
 /// `tolerances` for prior (inverse Wishart). Rows of one table count as a few, for a bench errs alike at neighbouring
-/// points. Position zero is not told by tables and keeps its tolerance. Throws CalibrationError by name: fewer than
+/// points. Tables do not show position zero, which keeps its tolerance. Throws CalibrationError by name: fewer than
 /// `least_units`, models without the full sensor or of a whole valve or of types, of another stroke or rated flow, or
 /// a unit further from the others than `foreign_deviations` of the tolerances.
 [[nodiscard]] SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviations& tolerances);
