@@ -1,6 +1,6 @@
 /// Hours and days of a valve: what the store gives of them, and how they are asked for.
-#include <ctime>
 #include <cmath>
+#include <ctime>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
