@@ -208,6 +208,15 @@ void describe_rest_band_constants(Visitor& visitor) {
   visitor.constant({.name = "slip_widening", .unit = "1", .meaning = "factor on the band while the spool slips"},
                    sensor::slip_widening);
   visitor.constant(
+      {.name = "interval_share",
+       .unit = "1",
+       .meaning = "half the width to one side that friction's interval at rest leaves, over what it leaves "
+                  "to that side times its share of the interval"},
+      sensor::interval_share);
+  visitor.constant(
+      {.name = "least_interval_N", .unit = "N", .meaning = "no interval of friction at rest counts as shorter"},
+      sensor::least_interval_N);
+  visitor.constant(
       {.name = "unobserved_room_share",
        .unit = "1",
        .meaning =

@@ -83,7 +83,12 @@ inline constexpr double displaced_friction_factor = 2;
 /// Half the width that an innovation takes while the spool slides, over the innovation.
 inline constexpr double innovation_factor = 1.5;
 /// While the spool slips the pressure difference may move with it: the band is so many times wider.
-inline constexpr double slip_widening = 3.1;
+inline constexpr double slip_widening = 1.8;
+/// Friction at rest seldom lies at an end of its interval: half the width that the interval leaves to a side, over what
+/// it leaves to that side times that side's share of the interval.
+inline constexpr double interval_share = 0.75;
+/// No interval of friction counts as shorter [N]: its parts are divided by it.
+inline constexpr double least_interval_N = 1e-6;
 /// A supply that moved while the spool rested, as friction at its bound showed, may go on unobserved: by as much as it
 /// was seen to move, but by no more than this share of what friction's other bound leaves.
 inline constexpr double unobserved_room_share = 0.25;
@@ -148,7 +153,8 @@ SPOOLFLOW_INLINE constexpr T within_both_Pa(const EdgePoint<T>& edge, T per_open
 }
 
 /// After the update of the pressure difference; `displaced_ratio` as below `motion_deviation_N`. At rest both what is
-/// open and how far friction's bounds and their uncertainty lie limit the error: each side lies below either.
+/// open and how far friction's interval and the uncertainty of its bounds reach limit the error: each side lies below
+/// either.
 template <class T>
 SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const BandParameters<T>& band,
                                                                       const PressureState<T>& pressure,
@@ -170,12 +176,16 @@ SPOOLFLOW_INLINE constexpr PressureHalfWidths<T> pressure_half_widths(const Band
     open_N2 += squared(T(constrained_correction_factor) * slope * pressure.constrained_correction_Pa);
     const T bounds_N = band.force_share * balance.noise_N + bounds_deviation_N(band, rest_s);
     const T certain_N = band.coverage_factor * sqrt(squared(bounds_N) + squared(environment_N));
-    const T to_upper_N = larger(balance.resting.upper_N - balance.residual_force_N, T(0)) + certain_N;
-    const T to_lower_N = larger(balance.residual_force_N - balance.resting.lower_N, T(0)) + certain_N;
+    const T upper_N = larger(balance.resting.upper_N - balance.residual_force_N, T(0));
+    const T lower_N = larger(balance.residual_force_N - balance.resting.lower_N, T(0));
     const T per_open_1_N2 = T(1) / open_N2;
-    widths.below_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_upper_N);
-    widths.above_Pa = within_both_Pa(balance.edge, per_open_1_N2, to_lower_N);
-    widths.bias_Pa = T(asymmetry_share) * (widths.above_Pa - widths.below_Pa);
+    widths.bias_Pa = T(asymmetry_share) * (within_both_Pa(balance.edge, per_open_1_N2, lower_N + certain_N) -
+                                           within_both_Pa(balance.edge, per_open_1_N2, upper_N + certain_N));
+    const T per_interval = T(interval_share) / larger(upper_N + lower_N, T(least_interval_N));
+    const T below_N = per_interval * squared(upper_N) + certain_N;
+    const T above_N = per_interval * squared(lower_N) + certain_N;
+    widths.below_Pa = within_both_Pa(balance.edge, per_open_1_N2, below_N);
+    widths.above_Pa = within_both_Pa(balance.edge, per_open_1_N2, above_N);
     // Friction may have held what was corrected: the pressure difference may be back where it was.
     const T corrected_Pa = pressure.constrained_correction_Pa;
     const T usual_Pa = band.coverage_factor * unobserved_change_Pa(pressure, band.unobserved_factor);

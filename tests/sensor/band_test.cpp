@@ -87,15 +87,24 @@ struct RestingSpool {
   double environment_N = 0;
 };
 
-TEST(Band, AtRestEndsWhereFrictionWouldLieBeyondItsBounds) {
+TEST(Band, AtRestReachesFurtherToTheSideOfTheLongerPartOfFrictionsInterval) {
   RestingSpool spool;
   const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
   const double uncertain_N = 2 * bounds_deviation_N(spool.parameters.band, 3.0);
-  EXPECT_NEAR(40e5 - spool.band().least_Pa, (1 + uncertain_N) / slope, 0.01e5);
-  EXPECT_NEAR(spool.band().most_Pa - 40e5, (3 + uncertain_N) / slope, 0.01e5);
+  EXPECT_NEAR(40e5 - spool.band().least_Pa, (interval_share * 1 / 4 + uncertain_N) / slope, 0.01e5);
+  EXPECT_NEAR(spool.band().most_Pa - 40e5, (interval_share * 9 / 4 + uncertain_N) / slope, 0.01e5);
   spool.balance.sliding = true;
   EXPECT_EQ(spool.band().least_Pa, 0);
   EXPECT_DOUBLE_EQ(spool.band().most_Pa, (1 + ripple_share) * 1000e5);
+}
+
+TEST(Band, AtRestOnAKnownFrictionIsAsWideAsTheUncertaintyOfItsBounds) {
+  RestingSpool spool;
+  spool.balance.resting = {0.5, 0.5, 0, 0};
+  const double uncertain_Pa =
+      2 * bounds_deviation_N(spool.parameters.band, 3.0) / ClosedFormValve::flow_force_per_pressure(1.2e-3);
+  EXPECT_NEAR(40e5 - spool.band().least_Pa, uncertain_Pa, 0.01e5);
+  EXPECT_NEAR(spool.band().most_Pa - 40e5, uncertain_Pa, 0.01e5);
 }
 
 TEST(Band, AtTheHighestCalibratedPressureDifferenceHoldsTheRippleOfTheSupply) {

@@ -28,7 +28,7 @@ double force_error_ratio(const sensor::ObserverParameters<double>& parameters, c
 void scale_band(sensor::ObserverParameters<double>& parameters, double force_error_ratio) {
   // One proportion for all valves, found on the runs of five of them together (docs/accuracy.md).
   constexpr double sliding = 1.08;
-  constexpr double resting = 1.3;
+  constexpr double resting = 1.43;
   constexpr double tolerance = 0.55;
   parameters.band.force_share = sliding * force_error_ratio;
   parameters.band.rest_share = resting * force_error_ratio;

@@ -58,7 +58,7 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   for (const OperatingRun& run : runs) out.meters.push_back(run.meter);
   const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
   if (!rests) assume_rest(parameters);
-  scale_band(parameters, 0.7);  // as wide as most valves need, for the search
+  scale_band(parameters, 1.1);  // wider than most valves need: the search must not pay for a narrow band with friction
   // The recording's supply may be steady. Friction must be found so that the pressure is found again where it is not.
   const sensor::PressureParameters<double> given_supply = parameters.pressure;
   constexpr double restless = 0.3;
