@@ -65,7 +65,7 @@ void refuse_contradictions(const CalibrateArguments& arguments) {
     throw std::invalid_argument("--as-type makes a type's model, --type one of its units: give one of them");
   if (arguments.as_type && arguments.campaigns.size() == 2)
     throw std::invalid_argument(
-        "--as-type makes a type of one campaign or of three and more, and 2 are given: two do not tell how far the "
+        "--as-type makes a type of one campaign or of three and more, and 2 are given: two do not show how far the "
         "next unit lies; give that of the unit nearest to the middle, and how units differ as its [tolerances]");
   if (arguments.as_type && arguments.campaigns.size() > 1 && !arguments.report.empty())
     throw std::invalid_argument("--report shows one campaign's fits: leave it out with --as-type of several");

@@ -24,7 +24,7 @@
 namespace spoolflow::apps {
 namespace {
 
-void tell(const recording::ReadNotes& notes, const std::string& file) {
+void report(const recording::ReadNotes& notes, const std::string& file) {
   for (const std::string& line : notes_text(notes, file)) say("{}\n", line);
 }
 
@@ -70,11 +70,11 @@ std::vector<validation::EstimateSummary> estimate_all(const EstimateTask& task,
 }
 
 /// What the user should know of the recordings; with --strict a fault or a doubt fails.
-void tell(const std::vector<validation::EstimateSummary>& summaries, const EstimateTask& task,
-          const EstimateArguments& arguments) {
+void report(const std::vector<validation::EstimateSummary>& summaries, const EstimateTask& task,
+            const EstimateArguments& arguments) {
   bool sound = true;
   for (const validation::EstimateSummary& summary : summaries) {
-    tell(summary.notes, summary.file);
+    report(summary.notes, summary.file);
     if (!arguments.quiet) say("{}\n", summary.sentence(task.model.valve.rated_flow_m3_per_s));
     for (const std::string& doubt : summary.doubts) say("spoolflow: doubt: {}\n", doubt);
     sound = sound && summary.doubts.empty() && summary.with_fault == 0;
@@ -119,7 +119,7 @@ void estimate(const EstimateArguments& arguments) {
     report::write_estimate_summary(summary_file->stream(), summaries);
     summary_file->commit();
   }
-  tell(summaries, task, arguments);
+  report(summaries, task, arguments);
 }
 
 void add_estimate_command(CLI::App& program) {

@@ -127,25 +127,25 @@ int run_and_report(void (*add_commands)(CLI::App&), int argc, char** argv) {
   program.require_subcommand(0, 1);
   program.parse_complete_callback([&program] { interruption_speaker(speaker(program)); });
   add_commands(program);
-  const auto tell = [&program](const std::string& message) { say("{}: {}\n", speaker(program), message); };
+  const auto report = [&program](const std::string& message) { say("{}: {}\n", speaker(program), message); };
   try {
     return run(program, argc, argv);
   } catch (const ReaderGone&) {
     end_by_sigpipe();
   } catch (const SeveralFailures& failures) {
-    for (const std::string& message : failures.messages) tell(message);
+    for (const std::string& message : failures.messages) report(message);
     return failures.of_the_work ? work_failed : wrong_usage;
   } catch (const std::invalid_argument& error) {
-    tell(error.what());
+    report(error.what());
     return wrong_usage;
   } catch (const std::filesystem::filesystem_error& error) {  // a name that leads nowhere, such as a loop of links
-    tell(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+    report(fmt::format("{}: {}", error.path1().string(), error.code().message()));
     return wrong_usage;
   } catch (const std::bad_alloc&) {
-    tell("out of memory; try a shorter recording or a machine with more");
+    report("out of memory; try a shorter recording or a machine with more");
     return work_failed;
   } catch (const std::exception& error) {
-    tell(error.what());
+    report(error.what());
     return work_failed;
   }
 }

@@ -44,7 +44,7 @@ model::Direction calibrate_benches(const CampaignRecordings& recordings, const m
 }
 
 /// The ratio of edges that were measured together, from runs.
-void tell_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& operation, const model::Valve& valve) {
+void narrow_edges(CampaignRecordings& benches, const std::vector<RunsOfPath>& operation, const model::Valve& valve) {
   AxialForceMaps& maps = benches.axial_force_maps;
   if (maps.edges_are_unknown()) maps.edge_ratio = edge_ratio_in_operation(benches, operation, valve);
 }
@@ -137,7 +137,7 @@ std::vector<std::string> flow_bench_contradictions(const ReadCampaign& recording
 model::Model calibrate_valve(CampaignRecordings recordings, const model::Valve& valve,
                              const CalibrationProgress& progress) {
   progress("condensed model and benches", 0);
-  tell_edges(recordings, {{recordings.operation, 1}}, valve);
+  narrow_edges(recordings, {{recordings.operation, 1}}, valve);
   model::Direction fitted = calibrate_benches(recordings, valve);
   constexpr double bench_share = 0.3;
   std::vector<OperatingRun> runs;
@@ -157,8 +157,8 @@ model::Model calibrate_whole_valve(CampaignRecordings p_to_b, CampaignRecordings
                                    const Recordings& through_centre, const model::Valve& valve,
                                    const CalibrationProgress& progress) {
   progress("benches of flow P to B", 0);
-  tell_edges(p_to_b, {{p_to_b.operation, 1}, {through_centre, 1}}, valve);
-  tell_edges(p_to_a, {{p_to_a.operation, 1}, {through_centre, -1}}, valve);
+  narrow_edges(p_to_b, {{p_to_b.operation, 1}, {through_centre, 1}}, valve);
+  narrow_edges(p_to_a, {{p_to_a.operation, 1}, {through_centre, -1}}, valve);
   model::Direction b = calibrate_benches(p_to_b, valve);
   constexpr double bench_share = 0.15;
   progress("benches of flow P to A", bench_share);

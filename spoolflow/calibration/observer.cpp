@@ -16,9 +16,9 @@
 #include "spoolflow/calibration/fits/spring_fit.hpp"
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
+#include "spoolflow/calibration/operation/identifiable_dials.hpp"
 #include "spoolflow/calibration/operation/operation.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
-#include "spoolflow/calibration/operation/told_dials.hpp"
 #include "spoolflow/model/residual_of.hpp"
 
 namespace spoolflow::calibration {
@@ -287,7 +287,7 @@ void calibrate_in_operation(model::Observer& observer, const std::vector<Operati
     }
     require_agreement(fit, used);
     observer.fits.push_back(fit.known);
-    observer.defaults = fit.not_told;
+    observer.defaults = fit.not_identifiable;
     observer.residuals.push_back({of_operation, "m3/s", fit.flow_m3_per_s.rms(), fit.flow_m3_per_s.largest});
   } else {
     assume_operation(observer);

@@ -52,17 +52,17 @@ double beyond(double value, double spread, double deviation) {
 
 /// One score for each chart that a window, or a reading, concerns.
 void follow_charts(const DirectionReference& reference, const Limits& limits, DirectionState& state,
-                   const Evidence& evidence, bool shape_tells) {
+                   const Evidence& evidence, bool shape_shows) {
   const DirectionBaseline& base = reference.baseline;
   double against = 0;
   bool judged = false;
   for (std::size_t f = 0; f < isolated_faults; ++f) {
-    if (!shape_tells && f != static_cast<std::size_t>(Fault::friction)) continue;
+    if (!shape_shows && f != static_cast<std::size_t>(Fault::friction)) continue;
     const Score found = score(evidence, base.centre, base.spread, static_cast<Fault>(f));
     if (!std::isfinite(found.deviation)) continue;
     const double spread = base.spread[index(first_magnitude[f])];
     if (found.deviation < usual_deviation) follow(state.course[f], state.watched_s / 3600, found.value);
-    const double most = shape_tells ? limits.single + 1 : share_of_unsteady * limits.sum + cusum_allowance;
+    const double most = shape_shows ? limits.single + 1 : share_of_unsteady * limits.sum + cusum_allowance;
     const double above = std::min(beyond(found.value, spread, found.deviation), most);
     follow(state.chart[f], above, cusum_allowance, limits.sum, limits.single);
     const double below = beyond(-found.value, spread, found.deviation);
@@ -70,7 +70,7 @@ void follow_charts(const DirectionReference& reference, const Limits& limits, Di
       follow(state.chart[zero_below], below, cusum_allowance, limits.sum, limits.single);
     } else if (f != static_cast<std::size_t>(Fault::friction)) {  // faster strokes have less of it than calibrated
       against = std::max(against, below);
-      judged = shape_tells;
+      judged = shape_shows;
     }
   }
   if (judged) follow(state.chart[against_faults], against, 2 * cusum_allowance, limits.sum);
@@ -108,10 +108,10 @@ void close(const DirectionReference& reference, const Limits& limits, DirectionS
   ++state.windows;
   state.pressure_Pa = result->pressure_difference_Pa;
   learn(state.contacts, result->contact);
-  learn(result->shape_tells ? state.learnt.shape : state.learnt.friction,
+  learn(result->shape_shows ? state.learnt.shape : state.learnt.friction,
         with_friction_unknown(result->evidence, result->friction_unknown));
   const std::array<Cusum, charts> before = state.chart;
-  follow_charts(reference, limits, state, result->evidence, result->shape_tells);
+  follow_charts(reference, limits, state, result->evidence, result->shape_shows);
   keep_explained(reference, before, state);
   raise_explained(reference, limits, state);
 }

@@ -258,10 +258,10 @@ std::optional<WindowResult> fit_window(const sensor::ObserverParameters<double>&
   out.misfit = misfit_of(equations, factor, out.evidence);
   const bool settled = std::abs(error_Pa) < unsettled_share * highest_Pa;
   if (!settled || out.misfit > largest_shape_misfit || pressure_Pa < least_shape_pressure_share * highest_Pa)
-    out.shape_tells = false;
+    out.shape_shows = false;
   if (out.misfit > largest_misfit) return {};
   if (settled && kind < steady_kinds) out.contact = read_contacts(valve, stroke_m, window, pressure_Pa);
-  if (!out.shape_tells) out.evidence = friction_only(out.evidence);
+  if (!out.shape_shows) out.evidence = friction_only(out.evidence);
   const SpeedEffect by_speed = friction_by_speed(window, stroke_m);
   out.friction_unknown = by_speed.unknown;
   for (std::size_t k = 0; k < magnitudes; ++k)

@@ -26,7 +26,7 @@ struct WindowResult {
   Evidence evidence;
   double pressure_difference_Pa;
   double misfit;     ///< mean squared residual over what is expected: 1 where the model holds
-  bool shape_tells;  ///< the pressure difference was steady enough for all magnitudes, else for friction alone
+  bool shape_shows;  ///< the pressure difference was steady enough for all magnitudes, else for friction alone
   std::size_t events;
   double friction_unknown = 0;  ///< by what the strokes' speed makes of it, one standard deviation [usual_fault]
   ContactReading contact{};     ///< where the pressure difference was steady

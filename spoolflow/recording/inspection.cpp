@@ -249,8 +249,8 @@ Inspection inspect(const std::filesystem::path& file, const ReadOptions& options
   ReadOptions channels = options;
   channels.infinite_is_missing = true;
   const OwnNames own = own_names(out.contents, proposal, several_clocks);
-  const bool tells = own.suffice && own.of_a_unit && (own.of_time || even);
-  if (options.channels.sources.empty() && !tells) {  // names alone do not, but with units of their own they may
+  const bool maps_itself = own.suffice && own.of_a_unit && (own.of_time || even);
+  if (options.channels.sources.empty() && !maps_itself) {  // names alone do not, but with units of their own they may
     channels.channels = known_units(out.proposal);
     const bool timed = even || channels.channels.sources.contains(Channel::time);
     if (!timed || channels.channels.sources.size() < 2) return out;

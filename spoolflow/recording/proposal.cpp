@@ -118,12 +118,12 @@ std::string without_inputs(std::string_view name) {
   return letters_of(out).empty() ? std::string(name) : out;
 }
 
-NameParts parts_of(const std::string& name, const std::string& told_unit) {
+NameParts parts_of(const std::string& name, const std::string& given_unit) {
   const NameAndUnit split = split_unit(name);
   std::string stem(split.stem.substr(0, split.stem.find_first_of("[(")));
   const std::size_t last = stem.find_last_of("./");  // the last part of a struct or group path
   if (last != std::string::npos && last + 1 < stem.size()) stem.erase(0, last + 1);
-  NameParts out{"", told_unit.empty() ? std::string(split.unit) : told_unit,
+  NameParts out{"", given_unit.empty() ? std::string(split.unit) : given_unit,
                 !stem.empty() && std::isupper(static_cast<unsigned char>(stem.front())) != 0};
   for (std::size_t at = stem.find('_'); at != std::string::npos && out.unit.empty(); at = stem.find('_', at + 1)) {
     for (const std::size_t end : {stem.size(), stem.find('_', at + 1)}) {
@@ -219,7 +219,7 @@ std::string written(const ChannelMap& map, const std::map<Channel, std::string>&
     if (raw_signal) out += ", scale = 1.0, offset = 0.0, to = \"?\"";
     out += " }";
     std::string remark;
-    if (const auto told = remarks.find(channel); told != remarks.end()) remark = told->second;
+    if (const auto found = remarks.find(channel); found != remarks.end()) remark = found->second;
     if (source.unit.empty() && channel != Channel::test) {
       remark += fmt::format("{}fill in the unit: {}", remark.empty() ? "" : "; ", listed(unit_names(channel)));
     }

@@ -237,7 +237,7 @@ OneClock on_one_clock(std::unique_ptr<SampleTable> table, const std::vector<Boun
   const TimeScale scale{bound.front().gain, bound.front().offset};
   const ClockSpan own = span_of(*open(), clocks.own(), scale, file);
   std::vector<ResampledTable::Followed> followed;
-  std::vector<Resampling> told;
+  std::vector<Resampling> resampled;
   for (Group group : clocks.groups()) {
     group.span = span_of(*open(), group.clock, group.scale, file);
     std::vector<std::string> names;
@@ -248,14 +248,14 @@ OneClock on_one_clock(std::unique_ptr<SampleTable> table, const std::vector<Boun
     const bool late = group.span.begin_s > own.begin_s + own.step_s / 2;
     const bool early = group.span.end_s < own.end_s - own.step_s / 2;
     const auto rate = [](const ClockSpan& span) { return span.step_s > 0 ? 1 / span.step_s : 0.0; };
-    told.push_back({names, rate(group.span), rate(own), mean, group.span.begin_s, group.span.end_s, late, early});
+    resampled.push_back({names, rate(group.span), rate(own), mean, group.span.begin_s, group.span.end_s, late, early});
     auto follower = std::make_unique<ClockFollower>(open(), group.columns, group.clock, group.scale, group.span,
                                                     mean ? own.step_s : 0.0);
     followed.push_back({group.columns, std::move(follower)});
   }
   auto out = std::make_unique<ResampledTable>(std::move(table), clocks.own(), scale, bound.front().column,
                                               std::move(followed));
-  return {std::move(out), sentence(told, leading->name)};
+  return {std::move(out), sentence(resampled, leading->name)};
 }
 
 }  // namespace spoolflow::recording

@@ -48,7 +48,7 @@ WindowState triangle(const Magnitudes& magnitudes_there, double pressure_Pa, int
 TEST(Window, FindsThePressureDifferenceThatNobodyMeasures) {
   const auto result = fit_window(valve(), example().valve.stroke_m, triangle({}, 50e5));
   ASSERT_TRUE(result);
-  EXPECT_TRUE(result->shape_tells);
+  EXPECT_TRUE(result->shape_shows);
   EXPECT_NEAR(result->pressure_difference_Pa, 50e5, 1e5);
 }
 
@@ -119,7 +119,7 @@ TEST(Window, WhatRestAddsToFrictionIsNotTakenForAFault) {
   }
   const auto result = fit_window(valve(), example().valve.stroke_m, window);
   ASSERT_TRUE(result);
-  EXPECT_TRUE(result->shape_tells);
+  EXPECT_TRUE(result->shape_shows);
   const Isolation found = isolate(result->evidence, {}, healthy_spread);
   for (const bool there : found.likeliest) EXPECT_FALSE(there);
 }
@@ -207,7 +207,7 @@ TEST(Side, AWindowOfWanderingPressureDecidesNothingAlone) {
   }
   const auto result = fit_window(valve(), example().valve.stroke_m, window);
   ASSERT_TRUE(result);
-  ASSERT_FALSE(result->shape_tells);
+  ASSERT_FALSE(result->shape_shows);
   DirectionReference reference{.valve = &valve(), .stroke_m = example().valve.stroke_m, .whole = false, .baseline = {}};
   DirectionState state;
   const Limits limits = limits_for(1);

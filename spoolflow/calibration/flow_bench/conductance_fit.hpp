@@ -25,7 +25,7 @@ struct ConductanceFit {
   std::vector<ConductanceLevel> levels;  ///< rising
 };
 
-/// Needs `position`, `flow_reference` and a pressure difference; `pressure_difference_set` helps to tell the levels
+/// Needs `position`, `flow_reference` and a pressure difference; `pressure_difference_set` helps to separate the levels
 /// apart. Throws CalibrationError where there are fewer than three levels with strokes both ways.
 [[nodiscard]] ConductanceFit fit_conductance(const recording::Recording& recording, double stroke_m);
 

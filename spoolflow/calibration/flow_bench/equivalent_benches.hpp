@@ -25,7 +25,7 @@ struct EquivalentBenches {
   std::vector<std::string> inferred;  ///< what was not measured, with its uncertainty, a sentence each
 };
 
-/// Forces and flow are known no better than the flow bench left of what it told instead of force benches.
+/// Forces and flow are as uncertain as the flow bench, in place of force benches, leaves them.
 void widen(std::vector<model::Residual>& residuals, const EquivalentBenches& flow_bench);
 
 /// Throws CalibrationError as fit_flow_bench and fit_conductance do.

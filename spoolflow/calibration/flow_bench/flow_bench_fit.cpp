@@ -83,7 +83,7 @@ FluxLinkageFit flux_linkage_of(const std::vector<TrackedRun>& runs, const std::v
   FluxLinkageFit out = fit_flux_linkage(evidence, axes);
   if (out.measured) return out;
   throw CalibrationError(
-      fmt::format("{}: without the coil's voltage nothing on a flow bench tells the magnetic force; give \"voltage\" "
+      fmt::format("{}: without the coil's voltage nothing on a flow bench shows the magnetic force; give \"voltage\" "
                   "in the file or "
                   "in a channel map, or record protocol \"solenoid_force_map\"",
                   runs.front().coil.file));
@@ -124,10 +124,11 @@ void require_sliding(const std::vector<TrackedRun>& runs) {
   std::size_t samples = 0;
   for (const TrackedRun& run : runs) samples += run.sliding.size();
   if (samples >= least_samples) return;
-  throw CalibrationError(fmt::format(
-      "{}: on the flow bench the spool slides evenly in {} samples only, {} are needed to tell the forces; stroke the "
-      "valve over its whole stroke both ways, at 5 %/s or faster",
-      runs.empty() ? std::string("the campaign") : runs.front().coil.file, samples, least_samples));
+  throw CalibrationError(
+      fmt::format("{}: on the flow bench the spool slides evenly in {} samples only, {} are needed to identify the "
+                  "forces; stroke the "
+                  "valve over its whole stroke both ways, at 5 %/s or faster",
+                  runs.empty() ? std::string("the campaign") : runs.front().coil.file, samples, least_samples));
 }
 
 /// The coil as a force bench measured it.

@@ -1,7 +1,7 @@
 #pragma once
 /// All forces of a valve from its flow bench alone: current, voltage, position, oil temperature, pressure difference.
 /// The coil's voltage gives the flux linkage, its coenergy the size and the shape of the magnetic force
-/// (coenergy.hpp); what slides tells the rest (force_equations.hpp).
+/// (coenergy.hpp); sliding samples give the rest (force_equations.hpp).
 #include "spoolflow/calibration/flow_bench/flow_bench_recordings.hpp"
 #include "spoolflow/calibration/flow_bench/force_equations.hpp"
 
@@ -18,7 +18,7 @@ struct FlowBenchFit {
 };
 
 /// What was measured stays as it was, and narrows the rest. Throws CalibrationError where no recording has a voltage
-/// and no force map tells the magnetic force, or where the spool slides too little.
+/// and no force map gives the magnetic force, or where the spool slides too little.
 [[nodiscard]] FlowBenchFit fit_flow_bench(const FlowBenchRecordings& recordings, const MeasuredForces& measured,
                                           double stroke_m);
 

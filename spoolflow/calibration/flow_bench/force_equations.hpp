@@ -1,5 +1,5 @@
 #pragma once
-/// What the valve's own solenoid tells of all forces while the spool slides on the flow bench:
+/// What the valve's own solenoid shows of all forces while the spool slides on the flow bench:
 ///
 ///     F_mag(i_m, x) - F_spring(x) - dp g(x, T) - s (a(x, T) + dp b(x, T)) - m dv/dt = 0
 ///

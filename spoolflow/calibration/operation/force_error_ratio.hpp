@@ -18,8 +18,8 @@ inline constexpr double least_force_error_ratio = 0.4;
 /// where no recording shows such a rest.
 inline constexpr double least_dithered_force_error_ratio = 1;
 
-/// Forces that no force bench measured were fitted to runs like the one that tells: dither or a faster spool show what
-/// their hysteresis and friction are wrong by, each within the other.
+/// Forces that no force bench measured were fitted to runs like the one that this ratio is found on. Dither or a faster
+/// spool show errors of hysteresis and friction that hide each other in such runs.
 inline constexpr double least_inferred_force_error_ratio = 0.7;
 
 /// RMS error of the flow at rest over what one standard deviation of the forces makes of it, the meter's lag and noise

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
+#include "spoolflow/calibration/operation/identifiable_dials.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
-#include "spoolflow/calibration/operation/told_dials.hpp"
 
 namespace spoolflow::calibration {
 namespace {
@@ -40,10 +40,11 @@ void search(const std::vector<Dial>& dials, const std::function<double()>& cost,
 }
 
 /// Names of those of all parameters that are not identifiable.
-std::vector<std::string> not_told(sensor::ObserverParameters<double>& parameters, const std::vector<Dial>& told) {
+std::vector<std::string> not_identifiable(sensor::ObserverParameters<double>& parameters,
+                                          const std::vector<Dial>& identifiable) {
   std::vector<std::string> out;
   for (const Dial& dial : operation_dials(parameters)) {
-    if (std::ranges::none_of(told, [&](const Dial& each) { return each.value == dial.value; }))
+    if (std::ranges::none_of(identifiable, [&](const Dial& each) { return each.value == dial.value; }))
       out.emplace_back(dial.name);
   }
   return out;
@@ -67,8 +68,8 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   // Dither that hardly frees the spool shows of friction, and the search must not pass it by.
   const double given_freeing_share = parameters.friction.freeing_share;
   parameters.friction.freeing_share = 1;
-  const std::vector<Dial> all = told_dials(parameters, runs, full_scale_m3_per_s);
-  out.not_told = not_told(parameters, all);
+  const std::vector<Dial> all = identifiable_dials(parameters, runs, full_scale_m3_per_s);
+  out.not_identifiable = not_identifiable(parameters, all);
   std::vector<double> prior;
   for (const Dial& dial : all) prior.push_back(*dial.value);
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.

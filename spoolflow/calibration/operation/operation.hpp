@@ -22,11 +22,12 @@ struct OperationFit {
   double score;
   std::vector<numerics::MeterLag> meters;  ///< of the recordings, as they show it
   model::Fit known;                        ///< of the parameters that were searched, see operation_uncertainty.hpp
-  std::vector<std::string> not_told;       ///< parameters that these recordings do not identify, see told_dials.hpp
-  FitResidual flow_m3_per_s;               ///< estimate less reference, with the fitted parameters
-  double force_error_ratio;                ///< see force_error_ratio.hpp; the band is scaled by it
-  double band_coverage;                    ///< share of the samples with the reference inside the band
-  std::size_t samples;                     ///< that were used: see replay.hpp
+  std::vector<std::string>
+      not_identifiable;       ///< parameters that these recordings do not identify, see identifiable_dials.hpp
+  FitResidual flow_m3_per_s;  ///< estimate less reference, with the fitted parameters
+  double force_error_ratio;   ///< see force_error_ratio.hpp; the band is scaled by it
+  double band_coverage;       ///< share of the samples with the reference inside the band
+  std::size_t samples;        ///< that were used: see replay.hpp
 };
 
 /// Pattern search of the smallest score, each parameter on a logarithmic scale inside its stated range, with a weak

@@ -76,9 +76,9 @@ Eigen::MatrixXd covariance_from(Curvature score, double pull) {
   const Eigen::MatrixXd scatter =
       stretches / std::max(1.0, stretches - 1) * score.slopes.transpose().lazyProduct(score.slopes);
   const Eigen::MatrixXd inverse = inverse_of(std::move(score.curvature), 2 * pull);
-  const Eigen::MatrixXd told =
+  const Eigen::MatrixXd information =
       scatter + std::pow(2 * pull * pulled_to_deviation, 2) * Eigen::MatrixXd::Identity(scatter.rows(), scatter.cols());
-  return inverse.lazyProduct(told).eval().lazyProduct(inverse);
+  return inverse.lazyProduct(information).eval().lazyProduct(inverse);
 }
 
 }  // namespace

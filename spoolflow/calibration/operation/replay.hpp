@@ -85,8 +85,8 @@ void replay(const sensor::ObserverParameters<double>& parameters, const std::vec
     estimation::RunningSensor sensor = operating_sensor(parameters, run);
     LaggedAnswer lagged(meter.lag_s);
     std::size_t late = 0;
-    estimation::run(sensor, used, [&](std::size_t k, const sensor::Estimate<double>& told) {
-      const Shown& shown = lagged.show(told, used.time_s[k]);
+    estimation::run(sensor, used, [&](std::size_t k, const sensor::Estimate<double>& estimate) {
+      const Shown& shown = lagged.show(estimate, used.time_s[k]);
       late = std::max(late, k);
       while (late + 1 < used.size() && used.time_s[late] < used.time_s[k] + meter.dead_time_s) ++late;
       if (!std::isfinite(reference_m3_per_s[late])) return;

@@ -154,14 +154,14 @@ class ValveComponent : public Component {
   void write_outputs(std::span<double> values, const rig::PlantInput& input, double time_s) {
     ValveMemory& memory = *memory_;
     const auto conversions = static_cast<double>(std::max<std::int64_t>(1, memory.conversions));
-    const auto tell_coil = [&](rig::CoilPanel& coil, std::uint32_t current, std::uint32_t voltage) {
+    const auto set_coil = [&](rig::CoilPanel& coil, std::uint32_t current, std::uint32_t voltage) {
       coil.end_period(conversions);
       values[current] = coil.current_A();
       values[voltage] = coil.voltage_V();
     };
-    tell_coil(memory.active, valve_current, valve_voltage);
-    tell_coil(memory.coil_a, valve_current_a, valve_voltage_a);
-    tell_coil(memory.coil_b, valve_current_b, valve_voltage_b);
+    set_coil(memory.active, valve_current, valve_voltage);
+    set_coil(memory.coil_a, valve_current_a, valve_voltage_a);
+    set_coil(memory.coil_b, valve_current_b, valve_voltage_b);
     memory.conversions = 0;
     values[valve_position] = memory.lvdt.acquired_m(time_s);
     values[valve_oil_temperature] = units::K_from_degC(memory.thermometer.reading());

@@ -48,7 +48,7 @@ class Groups {
     }
     find_times();
     if (out_.groups.empty() && out_.unread.empty())
-      tell("", "no group of it holds records of numbers; record it again");
+      note("", "no group of it holds records of numbers; record it again");
     return std::move(out_);
   }
 
@@ -118,7 +118,7 @@ class Groups {
     group.name = read_text(file_, block.link(2));
     if (group.name.empty()) group.name = fmt::format("group {}", groups_);
     if ((flags & bus) != 0) {
-      tell("", fmt::format("group '{}' holds messages of a bus, which are not read; export it with its signals (by the "
+      note("", fmt::format("group '{}' holds messages of a bus, which are not read; export it with its signals (by the "
                            "bus's database)",
                            group.name));
       return;
@@ -126,7 +126,7 @@ class Groups {
     constexpr std::size_t master_link = 6;
     if ((flags & remote_master) != 0) group.master = block.link(master_link);
     if (group.count > 0 && group.record_bytes + group.apart_bytes + records->number_bytes == 0) {
-      tell("", fmt::format("group '{}' has {} records without a byte, which are not read", group.name, group.count));
+      note("", fmt::format("group '{}' has {} records without a byte, which are not read", group.name, group.count));
       return;
     }
     check_count(block, group);
@@ -155,7 +155,7 @@ class Groups {
       if (members && depth < deepest) {
         channels(group, inside, name + ".", depth + 1);
       } else if (inside != 0) {
-        tell_channel(name, "an array");
+        note_channel(name, "an array");
       } else {
         channel(group, block, name);
       }
@@ -191,7 +191,7 @@ class Groups {
     }
     constexpr std::uint32_t all_invalid = 1, may_be_invalid = 2;
     if ((flags & all_invalid) != 0) why = "nothing but invalid samples";
-    if (!why.empty()) return tell_channel(name, why);
+    if (!why.empty()) return note_channel(name, why);
     if (block.link(6) != 0) out.unit = read_text(file_, block.link(6));
     if ((flags & may_be_invalid) != 0) invalid_from(group, block, invalid_bit, out.sample);
     out.is_time = (kind == master || kind == virtual_master) && measure == time;
@@ -208,10 +208,10 @@ class Groups {
     sample.invalid_bit = 8 * data_bytes_ + bit;
   }
 
-  void tell_channel(const std::string& name, const std::string& why) {
-    tell(name, fmt::format("channel '{}' holds {}, which is not read; write it as numbers in its unit", name, why));
+  void note_channel(const std::string& name, const std::string& why) {
+    note(name, fmt::format("channel '{}' holds {}, which is not read; write it as numbers in its unit", name, why));
   }
-  void tell(const std::string& channel, const std::string& what) { keep(out_.unread, {channel, what}); }
+  void note(const std::string& channel, const std::string& what) { keep(out_.unread, {channel, what}); }
 
   const FileBytes& file_;
   DeclaredSize declared_;

@@ -75,7 +75,7 @@ class Hdf5Writer final : public TableWriter {
     }
     put_words(columns_.back().id(), "flag_masks", masks);
     put_text(columns_.back().id(), "flag_meanings", meanings);
-    tell_failure();
+    report_failure();
   }
 
   ~Hdf5Writer() override {
@@ -91,7 +91,7 @@ class Hdf5Writer final : public TableWriter {
       append(columns_[k].id(), H5T_NATIVE_DOUBLE, rows.numbers[k].data(), rows.count());
     append(columns_.back().id(), H5T_NATIVE_UINT32, rows.flags.data(), rows.count());
     rows_ += rows.count();
-    tell_failure();
+    report_failure();
   }
 
   void finish() override {
@@ -99,19 +99,19 @@ class Hdf5Writer final : public TableWriter {
     checked(H5Fflush(file_.id(), H5F_SCOPE_LOCAL), "write the file");
     columns_.clear();
     file_ = {};
-    tell_failure();
+    report_failure();
   }
 
  private:
   void append(hid_t column, hid_t type, const void* values, hsize_t count) const {
     const hsize_t from = rows_, to = rows_ + count;
     checked(H5Dset_extent(column, &to), "lengthen a dataset");
-    const Hdf5Handle there(checked(H5Dget_space(column), "tell a dataset's size"), H5Sclose);
+    const Hdf5Handle there(checked(H5Dget_space(column), "read a dataset's size"), H5Sclose);
     checked(H5Sselect_hyperslab(there.id(), H5S_SELECT_SET, &from, nullptr, &count, nullptr), "choose rows");
     const Hdf5Handle here(checked(H5Screate_simple(1, &count, nullptr), "make a vector"), H5Sclose);
     checked(H5Dwrite(column, type, here.id(), there.id(), H5P_DEFAULT, values), "write a dataset");
   }
-  void tell_failure() const {
+  void report_failure() const {
     if (place_.failure) std::rethrow_exception(place_.failure);
   }
 

@@ -7,7 +7,7 @@
 namespace spoolflow::rig {
 namespace {
 
-/// Short random moves and rests at some pressure differences: they tell eddy currents, moving mass and how friction
+/// Short random moves and rests at some pressure differences: they show eddy currents, moving mass and how friction
 /// grows at rest.
 DutyCycleProtocol random_moves(const CampaignSettings& settings) {
   const double highest_bar =

@@ -50,7 +50,7 @@ struct ManufacturingSpread {
     visit(Parameter{"sensor_zero_m", "m", 0, 3e-5, "after setting"}, self.sensor_zero_m);
     visit(Parameter{"sensor_drift", "1", 0, 0.5, "of the zero's drift"}, self.sensor_drift);
     visit(Parameter{"ageing_time", "1", 1, 10,
-                    "how many times faster or slower stiction grows at rest, at most: no data sheet tells it"},
+                    "how many times faster or slower stiction grows at rest, at most: no data sheet states it"},
           self.ageing_time);
   }
 };

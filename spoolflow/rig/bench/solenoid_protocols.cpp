@@ -16,7 +16,7 @@ BenchRun on_solenoid_bench(double ambient_temperature_C) {
   return run;
 }
 
-/// Keeps the plan's parts in step: whatever is not told to move holds until now.
+/// Keeps the plan's parts in step: what no command moves holds until now.
 class DynamicPlan {
  public:
   DynamicPlan(BenchRun& run, const SolenoidRating& rating) : run_(run), rating_(rating) {}

@@ -45,7 +45,7 @@ struct SolenoidForceMapProtocol {
 };
 [[nodiscard]] BenchRun plan(const SolenoidForceMapProtocol& protocol, const SolenoidRating& rating);
 
-/// Six tests at each held position, told apart by the column `test`: 1 slow major current loop, 2 loops to lower peaks,
+/// Six tests at each held position, separated by the column `test`: 1 slow major current loop, 2 loops to lower peaks,
 /// 3 shrinking minor loops, 4 current sines of growing frequency, 5 voltage steps, 6 demagnetising ramp.
 struct SolenoidDynamicProtocol {
   std::vector<double> positions_percent{12.5, 50, 87.5};

@@ -14,7 +14,7 @@ namespace spoolflow::rig {
 
 class CoilPanel {
  public:
-  /// `coil` tells the noise of several apart; empty for the only one.
+  /// `coil` gives each of several its own noise; empty for the only one.
   CoilPanel(const Instruments& instruments, std::uint64_t seed, std::string_view coil, const PwmRipple& pwm = {},
             const CurrentSpikes& spikes = {})
       : pwm_(pwm),

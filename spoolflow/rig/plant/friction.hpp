@@ -45,7 +45,7 @@ struct FrictionOf {
     visit(Parameter{"ageing_gain", "1", 0, 8, "what long rest adds to that ratio (oil squeezed out, silting)"},
           self.ageing_gain);
     visit(Parameter{"ageing_time_s", "s", 0.1, 1000,
-                    "time constant of that growth; seconds to minutes at fine clearance. No data sheet tells it: the "
+                    "time constant of that growth; seconds to minutes at fine clearance. No data sheet states it: the "
                     "presets' are drawn at random between 1 and 20 s"},
           self.ageing_time_s);
     visit(Parameter{"ageing_distance_m", "m", 1e-6, 1e-3, "sliding that renews the film: some asperity lengths"},
@@ -155,7 +155,8 @@ struct FrictionForceOf {
 };
 using FrictionForce = FrictionForceOf<double>;
 
-/// Force after a monotone displacement from the state; the velocity tells which elements at their limit go on slipping.
+/// Force after a monotone displacement from the state; the velocity decides which elements at their limit go on
+/// slipping.
 template <class Scalar>
 inline FrictionForceOf<Scalar> friction_force(const FrictionConstantsOf<Scalar>& friction,
                                               const FrictionStateOf<Scalar>& state, Scalar displacement_m,

@@ -123,8 +123,8 @@ inline std::int16_t canopen_flow(float flow_m3_per_s, const FlowAnswer& answer) 
 inline constexpr std::uint16_t canopen_active = 0x000F, canopen_fault_hold = 0x0003;
 
 inline std::uint16_t canopen_status_word(const FlowAnswer& answer) {
-  const bool is_told = canopen_flow(answer.flow_m3_per_s, answer) != canopen_not_known;
-  return is_told && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
+  const bool is_known = canopen_flow(answer.flow_m3_per_s, answer) != canopen_not_known;
+  return is_known && !is_faulty(answer) ? canopen_active : canopen_fault_hold;
 }
 
 /// The identifier of a frame for a node that CANopen does not have: reserved, and of the lowest priority.

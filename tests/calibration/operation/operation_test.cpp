@@ -92,7 +92,7 @@ TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
   };
   const OperationFit blind = fitted(only(dithered)), both = fitted({{.recording = &dithered}, {.recording = &plain}});
   const auto tells = [](const OperationFit& fit, const char* name) {
-    return std::ranges::find(fit.not_told, name) == fit.not_told.end();
+    return std::ranges::find(fit.not_identifiable, name) == fit.not_identifiable.end();
   };
   for (const char* of_rest : {"friction_ageing_ratio", "friction_tolerance_N", "position_backlash_m"}) {
     EXPECT_FALSE(tells(blind, of_rest)) << of_rest;
@@ -122,7 +122,7 @@ TEST(Operation, LeavesTheMassWhereNothingTellsIt) {
   const double mass_kg = parameters.moving_mass_kg;
   const OperationFit fit = fit_operation(parameters, only(plain), valve.full_scale_m3_per_s(), [](double) {});
   EXPECT_EQ(parameters.moving_mass_kg, mass_kg);
-  EXPECT_NE(std::ranges::find(fit.not_told, "moving_mass_kg"), fit.not_told.end());
+  EXPECT_NE(std::ranges::find(fit.not_identifiable, "moving_mass_kg"), fit.not_identifiable.end());
 }
 
 /// 24 s of a valve in closed form at a steady pressure difference: slides, and rests under the friction they ended

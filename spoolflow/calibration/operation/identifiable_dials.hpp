@@ -21,7 +21,7 @@ inline constexpr double telling_score_share = 0.01;
 void assume_rest(sensor::ObserverParameters<double>& parameters);
 
 /// Those of all parameters that these recordings identify.
-[[nodiscard]] std::vector<Dial> told_dials(sensor::ObserverParameters<double>& parameters,
-                                           const std::vector<OperatingRun>& runs, double full_scale_m3_per_s);
+[[nodiscard]] std::vector<Dial> identifiable_dials(sensor::ObserverParameters<double>& parameters,
+                                                   const std::vector<OperatingRun>& runs, double full_scale_m3_per_s);
 
 }  // namespace spoolflow::calibration

@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/operation/told_dials.hpp"
+#include "spoolflow/calibration/operation/identifiable_dials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +27,9 @@ double undithered_rest_s(const sensor::ObserverParameters<double>& parameters, c
   double sum_s = 0, before_s = INFINITY;
   replay(parameters, runs, [&](const ReplayedSample& sample) {
     const sensor::ObserverState<double>& state = sample.state;
-    const bool told = state.position.motion == sensor::Motion::rest &&
-                      !sensor::has(state.last.status, sensor::Status::closed | sensor::Status::dithered);
-    if (told) sum_s += std::max(0.0, sample.time_s - before_s);
+    const bool counts = state.position.motion == sensor::Motion::rest &&
+                        !sensor::has(state.last.status, sensor::Status::closed | sensor::Status::dithered);
+    if (counts) sum_s += std::max(0.0, sample.time_s - before_s);
     before_s = sample.time_s;
   });
   return sum_s;
@@ -42,15 +42,16 @@ void assume_rest(sensor::ObserverParameters<double>& parameters) {
   parameters.position_sensor.backlash_m = unknown_backlash_m;
 }
 
-std::vector<Dial> told_dials(sensor::ObserverParameters<double>& parameters, const std::vector<OperatingRun>& runs,
-                             double full_scale_m3_per_s) {
+std::vector<Dial> identifiable_dials(sensor::ObserverParameters<double>& parameters,
+                                     const std::vector<OperatingRun>& runs, double full_scale_m3_per_s) {
   const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
   std::vector<Dial> out;
   for (const Dial& dial : operation_dials(parameters)) {
-    const bool told = dial.shown_by == ShownBy::any_run || (dial.shown_by == ShownBy::undithered_rest && rests) ||
-                      (dial.shown_by == ShownBy::score &&
-                       telling(dial, parameters, runs, full_scale_m3_per_s) >= telling_score_share);
-    if (told) out.push_back(dial);
+    const bool identifiable = dial.shown_by == ShownBy::any_run ||
+                              (dial.shown_by == ShownBy::undithered_rest && rests) ||
+                              (dial.shown_by == ShownBy::score &&
+                               telling(dial, parameters, runs, full_scale_m3_per_s) >= telling_score_share);
+    if (identifiable) out.push_back(dial);
   }
   // The spool's friction on the benches of the other direction may be another share of that in operation.
   const auto other = std::ranges::find_if(runs, [](const OperatingRun& run) { return run.other != nullptr; });
