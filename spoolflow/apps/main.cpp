@@ -1,6 +1,4 @@
 /// The spoolflow command.
-#include <CLI/CLI.hpp>
-
 #include "spoolflow/apps/addon_programs.hpp"
 #include "spoolflow/apps/commands.hpp"
 #include "spoolflow/apps/program.hpp"

@@ -103,11 +103,21 @@ int levels_of(std::vector<double> strokes_Pa) {
   return out;
 }
 
-Protocol by_own_solenoid(const Recording& recording) {
+/// Zero where nothing strokes by a current.
+int stroke_levels(const Recording& recording) {
+  const bool strokes = recording.has(Channel::position) && recording.has(Channel::current);
+  return strokes ? levels_of(slow_strokes_Pa(recording)) : 0;
+}
+
+Recorded recorded_with(const Recording& recording, Protocol protocol, int levels) {
+  return {protocol, "b", mean_oil_temperature_K(recording), levels, recording.has(Channel::voltage)};
+}
+
+Protocol by_own_solenoid(const Recording& recording, int levels) {
   const std::vector<double> pressure_Pa = pressure_difference_Pa(recording);
   if (pressure_Pa.empty() && !recording.has(Channel::flow_reference)) return Protocol::unpressurised_strokes;
   if (!pressure_Pa.empty() && largest(pressure_Pa) < pump_off_Pa) return Protocol::unpressurised_strokes;
-  return levels_of(slow_strokes_Pa(recording)) >= least_levels ? Protocol::metering : Protocol::operation;
+  return levels >= least_levels ? Protocol::metering : Protocol::operation;
 }
 
 /// What the recordings of one direction have.
@@ -186,10 +196,7 @@ void add_flow_bench(ModelNeeds& to, const OfDirection& of) {
 }  // namespace
 
 Recorded recorded_by(const Recording& recording, Protocol protocol) {
-  return {
-      protocol, "b", mean_oil_temperature_K(recording),
-      recording.has(Channel::position) && recording.has(Channel::current) ? levels_of(slow_strokes_Pa(recording)) : 0,
-      recording.has(Channel::voltage)};
+  return recorded_with(recording, protocol, stroke_levels(recording));
 }
 
 Recorded recognised(const Recording& recording) {
@@ -213,7 +220,8 @@ Recorded recognised(const Recording& recording) {
     throw CalibrationError(fmt::format("{}: has neither current nor a force, without which it serves no test",
                                        recording.file.filename().string()));
   }
-  return recorded_by(recording, by_own_solenoid(recording));
+  const int levels = stroke_levels(recording);
+  return recorded_with(recording, by_own_solenoid(recording, levels), levels);
 }
 
 double ModelNeeds::missing_minutes() const {

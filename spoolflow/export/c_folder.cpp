@@ -4,9 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "spoolflow/export/cpp_texts.hpp"
+#include "spoolflow/export/cpp/exported_text.hpp"
 
 namespace spoolflow::exports {
 namespace {
@@ -20,17 +18,6 @@ constexpr std::array<FirmwareTarget, 5> targets{{
 }};
 
 constexpr std::string_view prefix = "cortex-";
-
-std::string with_places(std::string text, const model::Model& model, const FirmwareTarget& target) {
-  const auto put = [&text](const std::string& place, std::string_view content) {
-    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + content.size()))
-      text.replace(at, place.size(), content);
-  };
-  put("@VALVE@", model.valve.name);
-  put("@TARGET@", target.name);
-  put("@OPTIONS@", target.options);
-  return text;
-}
 
 bool is_for_c(const ExportedFile& file) {
   return file.name == "valve_sensor.h" || file.name == "example.c";
@@ -66,11 +53,10 @@ std::vector<ExportedFile> c_folder(const model::Model& model, const FirmwareTarg
   std::copy_if(sources.begin(), sources.end(), std::back_inserter(files), is_for_c);
   files.push_back({"libvalve_sensor.a", firmware_compiler()(sources, target)});
   files.push_back({"valve_page.bin", parameter_image(model, contents)});
-  for (const EmbeddedFile& each : cpp_texts()) {
-    if (each.name == "example_pages.c.in") files.push_back({"example_pages.c", std::string(each.bytes)});
-    if (each.name == "c_README.md.in")
-      files.push_back({"README.md", with_places(std::string(each.bytes), model, target)});
-  }
+  files.push_back({"example_pages.c", exported_text("example_pages.c.in")});
+  files.push_back({"README.md", exported_text("c_README.md.in", {{"@VALVE@", model.valve.name},
+                                                                 {"@TARGET@", std::string(target.name)},
+                                                                 {"@OPTIONS@", std::string(target.options)}})});
   files.push_back(record_of(files));
   return files;
 }

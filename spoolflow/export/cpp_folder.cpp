@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "spoolflow/export/cpp/c_header.hpp"
 #include "spoolflow/export/cpp/cell_sums.hpp"
-#include "spoolflow/export/cpp_texts.hpp"
+#include "spoolflow/export/cpp/exported_text.hpp"
 #include "spoolflow/export/golden_points.hpp"
 #include "spoolflow/export/number_groups.hpp"
 #include "spoolflow/export/parameters/single_tables.hpp"
@@ -22,13 +21,6 @@
 
 namespace spoolflow::exports {
 namespace {
-
-std::string text(std::string_view name) {
-  for (const EmbeddedFile& file : cpp_texts()) {
-    if (file.name == name) return std::string(file.bytes);
-  }
-  throw std::logic_error(fmt::format("no text {} in the program", name));
-}
 
 /// As it may stand in a comment: nothing in it ends or continues a line.
 std::string in_a_comment(const std::string& name) {
@@ -88,7 +80,7 @@ std::vector<std::string> definition_names(const model::Model& model) {
 /// Functions with which firmware proves its flash: for each sensor those of its own tables, since a table that is
 /// looked at is kept by the linker.
 std::string table_check(const model::Model& model) {
-  std::string out = text("table_check.hpp.in");
+  std::string out = exported_text("table_check.hpp.in");
   const auto add = [&](const std::string& sensor, const std::string& function) {
     std::string all;
     for (const std::string& name : definition_names(model)) {
@@ -292,14 +284,9 @@ std::string readme(const model::Model& model, const SinglePrecisionError& error)
   } else {
     sensors += ". **The model is not calibrated for the observer**, so it is not here";
   }
-  std::string out = text("README.md.in");
-  const auto put = [&out](const std::string& place, const std::string& content) {
-    out.replace(out.find(place), place.size(), content);
-  };
-  put("@VALVE@", model.valve.name);
-  put("@SENSORS@", sensors);
-  put("@SIGNS@", model.whole() ? text("whole_signs.md.in") : std::string());
-  return out;
+  return exported_text("README.md.in", {{"@VALVE@", model.valve.name},
+                                        {"@SENSORS@", sensors},
+                                        {"@SIGNS@", model.whole() ? exported_text("whole_signs.md.in") : ""}});
 }
 
 /// What depends on the form of the samples: the points of the self-test, and how far single precision strays there.
@@ -314,12 +301,12 @@ std::vector<ExportedFile> proof(const model::Model& model, const std::vector<Gol
 std::vector<ExportedFile> cpp_folder(const model::Model& model) {
   std::vector<ExportedFile> files =
       model.whole() ? proof(model, whole_golden_points(model)) : proof(model, golden_points(model));
-  files.push_back({"example.cpp", text(model.whole() ? "whole_example.cpp.in" : "example.cpp.in")});
-  files.push_back({"valve_sensor.h", c_header(text("valve_sensor.h.in"), model)});
-  files.push_back({"valve_sensor.cpp", text("valve_sensor.cpp.in")});
-  files.push_back({"example.c", text("example.c.in")});
-  files.push_back({"self_test.cpp", text("self_test.cpp.in")});
-  files.push_back({"cell_sums.hpp", text("cell_sums.hpp")});
+  files.push_back({"example.cpp", exported_text(model.whole() ? "whole_example.cpp.in" : "example.cpp.in")});
+  files.push_back({"valve_sensor.h", c_header(model)});
+  files.push_back({"valve_sensor.cpp", exported_text("valve_sensor.cpp.in")});
+  files.push_back({"example.c", exported_text("example.c.in")});
+  files.push_back({"self_test.cpp", exported_text("self_test.cpp.in")});
+  files.push_back({"cell_sums.hpp", exported_text("cell_sums.hpp")});
   files.push_back({std::string(cpp_model_name), model_header(model)});
   for (const EmbeddedFile& header : sensor_headers()) {
     files.push_back({fmt::format("spoolflow/sensor/{}", header.name), std::string(header.bytes)});

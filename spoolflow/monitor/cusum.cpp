@@ -4,6 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "spoolflow/numerics/crossing.hpp"
+
 namespace spoolflow::monitor {
 namespace {
 
@@ -44,23 +46,13 @@ double average_run_length(double allowance, double limit, double mean, int state
 }
 
 double single_limit_for(double run_length) {
-  double low = 0;
-  double high = 12;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (normal_below(-middle) * run_length > 1 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return numerics::crossing({0, 12}, run_length, [](double limit) { return 1 / normal_below(-limit); });
 }
 
 double limit_for(double allowance, double run_length) {
-  double low = 0.1;
-  double high = 30;
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (low + high);
-    (average_run_length(allowance, middle) < run_length ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  constexpr int halvings = 40;  // each solves a chain
+  const auto length = [allowance](double limit) { return average_run_length(allowance, limit); };
+  return numerics::crossing({0.1, 30}, run_length, length, halvings);
 }
 
 }  // namespace spoolflow::monitor

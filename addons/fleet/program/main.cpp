@@ -2,8 +2,6 @@
 /// what sends samples to it. `spoolflow` finds it beside itself.
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "addons/fleet/pieces/work_by_fleet.hpp"
 #include "addons/fleet/program/fleet_commands.hpp"
 #include "addons/fleet/publisher.hpp"

@@ -1,6 +1,4 @@
 /// spoolflow-live: the commands of valves at work, which `spoolflow` finds beside itself.
-#include <CLI/CLI.hpp>
-
 #include "addons/live/program/live_commands.hpp"
 #include "spoolflow/apps/program.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/numerics/interpolation.hpp"
+#include "spoolflow/numerics/crossing.hpp"
 #include "spoolflow/numerics/median.hpp"
 #include "spoolflow/sensor/band.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -82,13 +83,8 @@ double inlet_share(const EdgeAtPosition& inlet, const EdgeAtPosition& outlet, do
     return outlet_flow_ratio * inlet.flow_m3_per_s(share * path_Pa) - outlet.flow_m3_per_s((1 - share) * path_Pa);
   };
   if (excess(1) <= 0 && excess(0) >= 0) return 0.5;  // both closed
-  double low = 0, high = 1;
-  constexpr int halvings = 24;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = 0.5 * (low + high);
-    (excess(middle) < 0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  constexpr int halvings = 24;                       // no pressure sensor sees more
+  return numerics::crossing({0, 1}, 0, excess, halvings);
 }
 
 /// Up to which pressure difference of the path neither edge has more than it was measured at, over the open half of the

@@ -9,4 +9,7 @@ namespace spoolflow::calibration {
 /// flat, after scaling to a diagonal of ones, to within rounding.
 [[nodiscard]] std::optional<Eigen::MatrixXd> inverse_of_definite(const Eigen::MatrixXd& matrix);
 
+/// Precision of a covariance, or the reverse. Throws CalibrationError where a direction is flat.
+[[nodiscard]] Eigen::MatrixXd inverse_of_covariance(const Eigen::MatrixXd& matrix);
+
 }  // namespace spoolflow::calibration

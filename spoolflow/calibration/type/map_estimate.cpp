@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "spoolflow/calibration/numerics/definite_matrix.hpp"
 #include "spoolflow/numerics/median.hpp"
 
 namespace spoolflow::calibration {
@@ -43,8 +44,7 @@ struct Prior {
     deviation.head(deviating) = known.covariance.diagonal().cwiseSqrt();
     deviation(deviating) = meter_gain_uncertainty;
     deviation(deviating + 1) = ageing_uncertainty;
-    precision.topLeftCorner(deviating, deviating) =
-        known.covariance.llt().solve(Eigen::MatrixXd::Identity(deviating, deviating));
+    precision.topLeftCorner(deviating, deviating) = inverse_of_covariance(known.covariance);
     for (Eigen::Index k = deviating; k < unknowns; ++k) precision(k, k) = 1 / (deviation(k) * deviation(k));
   }
   [[nodiscard]] double loss_of(const Eigen::VectorXd& x) const { return (x - mean).dot(precision * (x - mean)); }
@@ -109,7 +109,7 @@ UnitFit most_likely_unit(const UnitEvidence& evidence, const KnownDeviations& kn
     if (better) here = next;
     if (over) break;
   }
-  const Eigen::MatrixXd covariance = precision.llt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  const Eigen::MatrixXd covariance = inverse_of_covariance(precision);
   UnitFit out{{x.head(deviating), covariance.topLeftCorner(deviating, deviating)}, x(deviating), rows, 0};
   std::vector<double> sizes;
   for (Eigen::Index k = 0; k < rows.size(); ++k) {

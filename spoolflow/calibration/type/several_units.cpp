@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/numerics/definite_matrix.hpp"
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_tables.hpp"
@@ -15,10 +16,6 @@ namespace spoolflow::calibration {
 namespace {
 
 using Parameters = sensor::ObserverParameters<double>;
-
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
-  return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
-}
 
 Eigen::VectorXd vector_of(const Deviations& deviations) {
   return Eigen::Map<const Eigen::VectorXd>(deviations.data(), deviating);
@@ -38,7 +35,7 @@ struct UnitLikelihood {
 
 UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDeviations& prior) {
   constexpr int rounds = 6, searching = 3;  // what is left before the search is no misfit
-  const Eigen::MatrixXd prior_precision = inverse(prior.covariance);
+  const Eigen::MatrixXd prior_precision = inverse_of_covariance(prior.covariance);
   Eigen::VectorXd x = prior.mean;
   UnitLikelihood out;
   for (int round = 0; round < rounds; ++round) {
@@ -72,12 +69,12 @@ Middle middle_of(const std::vector<UnitLikelihood>& likelihoods, const Eigen::Ma
   const auto count = static_cast<double>(likelihoods.size());
   Middle out{{Eigen::VectorXd::Zero(deviating), prior}, {}, {}};
   for (int round = 0; round < rounds; ++round) {
-    const Eigen::MatrixXd between = inverse(out.of.covariance);
+    const Eigen::MatrixXd between = inverse_of_covariance(out.of.covariance);
     Eigen::MatrixXd scatter = tolerances_as_units * prior;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(deviating);
     out.units.clear();
     for (const UnitLikelihood& unit : likelihoods) {
-      const Eigen::MatrixXd covariance = inverse(unit.precision + between);
+      const Eigen::MatrixXd covariance = inverse_of_covariance(unit.precision + between);
       out.units.emplace_back(covariance * (unit.weighted + between * out.of.mean));
       mean += out.units.back() / count;
       scatter += covariance;
@@ -141,7 +138,7 @@ void require_one_type(const std::vector<model::Model>& units, const Middle& midd
 
 /// The unit nearest to the middle, in what units differ by.
 std::size_t nearest_to(const Middle& middle) {
-  const Eigen::MatrixXd between = inverse(middle.of.covariance);
+  const Eigen::MatrixXd between = inverse_of_covariance(middle.of.covariance);
   std::size_t out = 0;
   double nearest = INFINITY;
   for (std::size_t k = 0; k < middle.units.size(); ++k) {

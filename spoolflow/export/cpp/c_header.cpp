@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "spoolflow/export/cpp/exported_text.hpp"
 #include "spoolflow/sensor/whole_valve/whole_condensed.hpp"
 #include "spoolflow/sensor/whole_valve/whole_valve.hpp"
 
@@ -38,18 +39,15 @@ std::string in_a_c_comment(const std::string& name) {
 
 }  // namespace
 
-std::string c_header(std::string text, const model::Model& model) {
+std::string c_header(const model::Model& model) {
   const bool observer = model.has_observer();
-  const auto put = [&text](const std::string& place, const std::string& content) {
-    text.replace(text.find(place), place.size(), content);
-  };
-  put("@VALVE@", in_a_c_comment(model.valve.name));
-  put("@WHOLE@", model.whole() ? "1" : "0");
-  put("@OBSERVER@", observer ? "1" : "0");
-  put("@STATUS@", status_bits());
-  put("@FAULTS@", fmt::format("{:X}", sensor::fault_bits));
-  put("@STATE_BYTES@", fmt::format("{}", state_bytes(model.whole(), observer)));
-  return text;
+  return exported_text("valve_sensor.h.in",
+                       {{"@VALVE@", in_a_c_comment(model.valve.name)},
+                        {"@WHOLE@", model.whole() ? "1" : "0"},
+                        {"@OBSERVER@", observer ? "1" : "0"},
+                        {"@STATUS@", status_bits()},
+                        {"@FAULTS@", fmt::format("{:X}", sensor::fault_bits)},
+                        {"@STATE_BYTES@", fmt::format("{}", state_bytes(model.whole(), observer))}});
 }
 
 }  // namespace spoolflow::exports

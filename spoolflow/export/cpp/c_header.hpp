@@ -6,7 +6,7 @@
 
 namespace spoolflow::exports {
 
-/// `text`: of cpp/valve_sensor.h.in, whose open places are filled for the best sensor of the model.
-[[nodiscard]] std::string c_header(std::string text, const model::Model& model);
+/// Of the best sensor of the model.
+[[nodiscard]] std::string c_header(const model::Model& model);
 
 }  // namespace spoolflow::exports

@@ -20,10 +20,10 @@ BenchRun plan(const AxialForceProtocol& protocol, double stroke_m) {
     run.motion_m.ramp_at(stroke_m, rate_m_per_s).hold(protocol.hold_s).ramp_at(0, rate_m_per_s).hold(protocol.hold_s);
     run.pressure_difference_Pa.step_to(units::Pa_from_bar(level_bar)).hold(run.motion_m.duration_s() - from_s);
   }
-  const double end_s = run.motion_m.duration_s();
-  run.oil_temperature_C = Course(protocol.oil_temperature_C);
-  run.oil_temperature_C.ramp_for(protocol.oil_temperature_C + protocol.temperature_rise_K, end_s);
-  run.sample_rate_Hz = {{end_s, protocol.sample_rate_Hz}};
+  run.last_for({.duration_s = run.motion_m.duration_s(),
+                .sample_rate_Hz = protocol.sample_rate_Hz,
+                .oil_temperature_start_C = protocol.oil_temperature_C,
+                .oil_temperature_end_C = protocol.oil_temperature_C + protocol.temperature_rise_K});
   run.channels = {Channel::time,
                   Channel::pressure_difference_set,
                   Channel::pressure_upstream,

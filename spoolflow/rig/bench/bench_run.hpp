@@ -63,6 +63,24 @@ class SpanReader {
   std::size_t index_ = 0;
 };
 
+/// What a bench with a flow meter stores of a valve that strokes by its own electronics, in the order of the columns.
+[[nodiscard]] inline std::vector<recording::Channel> metered_channels() {
+  using recording::Channel;
+  return {Channel::time,
+          Channel::position_set,
+          Channel::position,
+          Channel::current,
+          Channel::voltage,
+          Channel::oil_temperature,
+          Channel::pressure_difference,
+          Channel::flow_reference};
+}
+
+/// How long a run lasts, how often it is sampled, from which oil temperature to which.
+struct RunSpan {
+  double duration_s, sample_rate_Hz, oil_temperature_start_C, oil_temperature_end_C;
+};
+
 struct BenchRun {
   Arrangement arrangement = Arrangement::valve;
   CoilFeed coil_feed = CoilFeed::valve_electronics;
@@ -86,6 +104,11 @@ struct BenchRun {
   Machine machine;                           ///< round the valve at work
   double position_faults_per_s = 0;          ///< acquisition faults beside those of the LVDT's own figures
 
+  void last_for(const RunSpan& span) {
+    oil_temperature_C = Course(span.oil_temperature_start_C);
+    oil_temperature_C.ramp_for(span.oil_temperature_end_C, span.duration_s);
+    sample_rate_Hz = {{span.duration_s, span.sample_rate_Hz}};
+  }
   [[nodiscard]] double duration_s() const { return sample_rate_Hz.empty() ? 0 : sample_rate_Hz.back().until_s; }
 };
 

@@ -9,7 +9,6 @@ FlowBenchProtocol unpressurised_protocol() {
 }
 
 BenchRun plan(const FlowBenchProtocol& protocol) {
-  using recording::Channel;
   BenchRun run;
   run.valve_dithers = false;  // strokes are sampled too slowly to resolve it
   if (protocol.edges) run.load = load_of(*protocol.edges);
@@ -25,18 +24,11 @@ BenchRun plan(const FlowBenchProtocol& protocol) {
   for (const double level_bar : protocol.pressure_differences_bar) stroke(level_bar, protocol.rate_percent_per_s);
   if (protocol.fast_rate_percent_per_s > 0)
     stroke(protocol.pressure_differences_bar.back(), protocol.fast_rate_percent_per_s);
-  const double end_s = run.position_set.duration_s();
-  run.oil_temperature_C = Course(protocol.oil_temperature_C);
-  run.oil_temperature_C.ramp_for(protocol.oil_temperature_C + protocol.temperature_rise_K, end_s);
-  run.sample_rate_Hz = {{end_s, protocol.sample_rate_Hz}};
-  run.channels = {Channel::time,
-                  Channel::position_set,
-                  Channel::position,
-                  Channel::current,
-                  Channel::voltage,
-                  Channel::oil_temperature,
-                  Channel::pressure_difference,
-                  Channel::flow_reference};
+  run.last_for({.duration_s = run.position_set.duration_s(),
+                .sample_rate_Hz = protocol.sample_rate_Hz,
+                .oil_temperature_start_C = protocol.oil_temperature_C,
+                .oil_temperature_end_C = protocol.oil_temperature_C + protocol.temperature_rise_K});
+  run.channels = metered_channels();
   return run;
 }
 

@@ -11,28 +11,25 @@ namespace {
 
 using recording::Channel;
 
-/// Completes a run whose position course is planned: as long as that course, under those conditions.
-BenchRun under(const OperationConditions& conditions, BenchRun run) {
-  const double duration_s = run.position_set.duration_s();
-  run.oil_temperature_C = Course(conditions.oil_temperature_start_C);
-  run.oil_temperature_C.ramp_for(conditions.oil_temperature_end_C, duration_s);
+/// Completes a run whose courses are planned, under those conditions.
+BenchRun under(const OperationConditions& conditions, BenchRun run, double duration_s) {
+  run.last_for(
+      {duration_s, conditions.sample_rate_Hz, conditions.oil_temperature_start_C, conditions.oil_temperature_end_C});
   run.supply_pressure_Pa = Course(units::Pa_from_bar(conditions.supply_pressure_bar));
   run.supply_follows_difference = conditions.supply_follows_difference;
   run.position_faults_per_s = conditions.position_faults_per_s;
-  run.sample_rate_Hz = {{duration_s, conditions.sample_rate_Hz}};
-  run.channels = {Channel::time,
-                  Channel::position_set,
-                  Channel::position,
-                  Channel::current,
-                  Channel::voltage,
-                  Channel::oil_temperature,
-                  Channel::pressure_difference,
-                  Channel::flow_reference};
+  run.channels = metered_channels();
   if (conditions.port_pressures) {
     run.channels.insert(run.channels.end(),
                         {Channel::pressure_p, Channel::pressure_a, Channel::pressure_b, Channel::pressure_t});
   }
   return run;
+}
+
+/// As long as its position course.
+BenchRun under(const OperationConditions& conditions, BenchRun run) {
+  const double duration_s = run.position_set.duration_s();
+  return under(conditions, std::move(run), duration_s);
 }
 
 double share(double percent) {
@@ -114,11 +111,7 @@ BenchRun plan(const DutyCycleProtocol& protocol, std::uint64_t seed) {
       run.load_force_N.hold(loads.uniform(0.1 * protocol.longest_pressure_hold_s, protocol.longest_pressure_hold_s));
     }
   }
-  run = under(protocol.conditions, std::move(run));
-  run.sample_rate_Hz = {{protocol.duration_s, protocol.conditions.sample_rate_Hz}};
-  run.oil_temperature_C = Course(protocol.conditions.oil_temperature_start_C);
-  run.oil_temperature_C.ramp_for(protocol.conditions.oil_temperature_end_C, protocol.duration_s);
-  return run;
+  return under(protocol.conditions, std::move(run), protocol.duration_s);
 }
 
 BenchRun plan(const PressureStepsProtocol& protocol) {
