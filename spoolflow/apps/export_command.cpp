@@ -23,6 +23,7 @@
 #include "spoolflow/export/parameters/image_summary.hpp"
 #include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
+#include "spoolflow/export/st_program.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -146,6 +147,12 @@ void export_parameters(const ExportArguments& arguments) {
   }
 }
 
+void export_st(const ExportArguments& arguments) {
+  OutputFile output(arguments.output, {arguments.model});
+  output.stream() << exports::st_program(asked_model(arguments));
+  output.commit();
+}
+
 void export_asked(const ExportArguments& arguments) {
   if (!arguments.sensors.empty() && arguments.kind != "parameters")
     throw std::invalid_argument(fmt::format("--sensors {}: of parameters alone; leave it away", arguments.sensors));
@@ -155,6 +162,7 @@ void export_asked(const ExportArguments& arguments) {
     throw std::invalid_argument(fmt::format("--target {}: of c alone; leave it away", arguments.target));
   if (arguments.kind == "fmu") return export_fmu(arguments);
   if (arguments.kind == "cpp" || arguments.kind == "c") return export_folder(arguments);
+  if (arguments.kind == "st") return export_st(arguments);
   export_parameters(arguments);
 }
 
@@ -257,18 +265,21 @@ void add_export_command(CLI::App& program) {
        "c: a folder with a static library for one core, its header in C99, a flash page, examples and a self-test. "
        "parameters: one file of bytes for a flash page, which firmware checks and reads where it lies; "
        "SOURCE_DATE_EPOCH "
-       "sets the time in it",
+       "sets the time in it. "
+       "st: one file of IEC 61131-3 Structured Text, the condensed sensor as a function block with its tables",
        {"spoolflow export fmu valve_a.json -o sensor.fmu --fmi 3", "spoolflow export fmu size_6 -o valve.fmu --fmi 3",
         "spoolflow export cpp valve_a.json -o valve_a_cpp",
         "spoolflow export c valve_a.json --target cortex-m4f -o valve_a_c",
-        "spoolflow export parameters valve_a.json -o valve.bin"}});
-  command->add_option("kind", arguments->kind, "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page")
+        "spoolflow export parameters valve_a.json -o valve.bin", "spoolflow export st valve_a.json -o valve.st"}});
+  command
+      ->add_option("kind", arguments->kind,
+                   "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page; st: PLCs")
       ->required()
-      ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters"}));
+      ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters", "st"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "file (fmu, parameters; - for standard output) or folder (cpp, c) to write")
+                   "file (fmu, parameters, st; - for standard output) or folder (cpp, c) to write")
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))
