@@ -113,7 +113,7 @@ Series compare_series(const model::Model& type, const std::string& file, std::ve
     of_type.push_back(&unit);
     likelihoods.push_back(beyond(known, unit.known));
   }
-  if (of_type.size() >= 2) out.population = population_of(likelihoods, known.covariance);
+  if (of_type.size() >= 2) out.population = population_of(likelihoods, known.covariance, tolerances_as_units);
   for (std::size_t k = 0; k < variations; ++k) out.parameters.push_back(parameter_of(out, of_type, k, known));
   return out;
 }

@@ -54,8 +54,9 @@ struct Series {
 /// known_of_type().
 [[nodiscard]] Series compare_series(const model::Model& type, const std::string& file, std::vector<SeriesUnit> units);
 
-/// The type as these units are: tables of their middle, their spread, with the type's own as that of
-/// `tolerances_as_units` units. Throws CalibrationError where fewer than `least_in_series` are of the type.
+/// The type as these units are: tables of their middle, their spread, with the type's own middle and
+/// spread as those of `tolerances_as_units` units. Throws CalibrationError where fewer than `least_in_series` are of
+/// the type.
 [[nodiscard]] model::Model updated_type(const model::Model& type, const Series& series);
 inline constexpr std::size_t least_in_series = 3;
 

@@ -22,9 +22,11 @@ struct Population {
   std::vector<Eigen::VectorXd> units;  ///< each one's mean
 };
 
-/// Empirical Bayes by expectation and maximisation, the covariance with `prior` for prior (inverse Wishart). The mean
-/// of what no unit shows stays at zero. Two units or more.
-[[nodiscard]] Population population_of(const std::vector<UnitLikelihood>& likelihoods, const Eigen::MatrixXd& prior);
+/// Empirical Bayes by expectation and maximisation, the covariance with `prior` for prior (inverse Wishart). A middle
+/// known before, at zero, weighs as much as `middle_as_units` units: 0 where measurements show each direction well and
+/// zero is an arbitrary one of the units. The mean of what no unit shows stays at zero. Two units or more.
+[[nodiscard]] Population population_of(const std::vector<UnitLikelihood>& likelihoods, const Eigen::MatrixXd& prior,
+                                       double middle_as_units = 0);
 
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& positive_definite);
 

@@ -203,7 +203,7 @@ void write_series_report(std::ostream& out, const Series& series, const std::str
   page.table(spread_table(series));
   page.note(fmt::format(
       "Tolerance, spread: one standard deviation between units, as the type has it and as these units are; what each "
-      "unit's recordings leave open is taken out, and the tolerance counts as {:g} units. Cpk: distance of the mean "
+      "unit's recordings leave open is taken out, and the type counts as {:g} units. Cpk: distance of the mean "
       "from "
       "{:g} tolerances over three spreads; 1 and more is capable. Drift: slope over serial numbers, from {} units on, "
       "marked beyond {:g} standard uncertainties of it. Refused units count in none of these.",
