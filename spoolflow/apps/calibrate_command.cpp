@@ -15,6 +15,7 @@
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
+#include "spoolflow/calibration/type/series.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 
 namespace spoolflow::apps {
@@ -41,19 +42,20 @@ MadeModel calibrate_here(const CalibrateArguments& arguments, const CalibrationT
 std::vector<CalibrationTask> tasks_of(const CalibrateArguments& arguments) {
   if (arguments.campaigns.size() == 1) return {{arguments.campaigns.front(), arguments.model, arguments.report}};
   std::vector<CalibrationTask> out;
+  const std::string pages = arguments.type.empty() ? arguments.report : "";  // of units there is one of them all
   const auto in = [](const std::string& folder, const std::filesystem::path& name, const char* ending) {
     return folder.empty() ? folder : (std::filesystem::path(folder) / name).concat(ending).string();
   };
   for (const std::string& campaign : arguments.campaigns) {
     const std::filesystem::path name = std::filesystem::absolute(campaign).lexically_normal().parent_path().filename();
-    out.push_back({campaign, in(arguments.model, name, ".json"), in(arguments.report, name, ".html")});
+    out.push_back({campaign, in(arguments.model, name, ".json"), in(pages, name, ".html")});
     for (std::size_t k = 0; k + 1 < out.size(); ++k) {
       if (out[k].model != out.back().model) continue;
       throw OutputError(fmt::format("the models of {} and {} would both be {}; calibrate them into different folders",
                                     out[k].campaign, campaign, out[k].model));
     }
   }
-  for (const std::string& folder : {arguments.model, arguments.report}) {
+  for (const std::string& folder : {arguments.model, pages}) {
     if (folder == "-") throw OutputError("models of several campaigns are written to a folder, not to -");
     if (!folder.empty()) make_output_folder(folder);
   }
@@ -71,8 +73,13 @@ void refuse_contradictions(const CalibrateArguments& arguments) {
     throw std::invalid_argument("--report shows one campaign's fits: leave it out with --as-type of several");
   if ((arguments.as_type || !arguments.type.empty()) && !arguments.fleet.empty())
     throw std::invalid_argument("types and units are calibrated on this machine: leave out --fleet");
-  if (!arguments.type.empty() && !arguments.report.empty())
-    throw std::invalid_argument("--report shows a campaign's fits, and a unit has none: leave it out with --type");
+  if (arguments.type.empty() && !arguments.updated_type.empty())
+    throw std::invalid_argument("--update-type is of the units of a type: give their type by --type");
+  const bool of_series = !arguments.type.empty() && !(arguments.report.empty() && arguments.updated_type.empty());
+  if (of_series && arguments.campaigns.size() < calibration::least_in_series)
+    throw std::invalid_argument(
+        fmt::format("with --type, --report and --update-type are of a series of {} units and more, and {} are given",
+                    calibration::least_in_series, arguments.campaigns.size()));
 }
 
 }  // namespace
@@ -121,7 +128,8 @@ void add_calibrate_command(CLI::App& program) {
         "spoolflow calibrate valve_*/campaign.toml -o models --fleet fleet.toml",
         "spoolflow calibrate valve_a/campaign.toml --as-type -o type_a.json",
         "spoolflow calibrate valves/*/campaign.toml --as-type -o type_a.json",
-        "spoolflow calibrate unit_17/unit.toml --type type_a.json -o unit_17.json"}});
+        "spoolflow calibrate unit_17/unit.toml --type type_a.json -o unit_17.json",
+        "spoolflow calibrate units/*/unit.toml --type type_a.json -o models --report series.html"}});
   command->add_option("campaign", arguments->campaigns, "one or several campaign files (TOML)")->required();
   command
       ->add_option("-o,--output", arguments->model,
@@ -130,7 +138,8 @@ void add_calibrate_command(CLI::App& program) {
       ->required();
   command
       ->add_option("--report", arguments->report,
-                   "HTML page to write about the calibration; a folder for several campaigns")
+                   "HTML page to write about the calibration; a folder for several campaigns; with --type the page of "
+                   "the series")
       ->type_name("PAGE.html");
   command->add_flag("--allow-outside", arguments->allow_outside,
                     "read recordings that the campaign names outside its own folder, too");
@@ -143,6 +152,10 @@ void add_calibrate_command(CLI::App& program) {
       ->add_option("--type", arguments->type,
                    "model of the type of which the campaigns are units,\neach known by strokes without pressure "
                    "and\nwhat operation was recorded")
+      ->type_name("TYPE.json");
+  command
+      ->add_option("--update-type", arguments->updated_type,
+                   "with --type, of three units and more: the type as\nthese units are, to write")
       ->type_name("TYPE.json");
   add_fleet_option(*command, arguments->fleet, "on the campaigns");
   add_units(*command, arguments->units);

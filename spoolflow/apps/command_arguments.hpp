@@ -35,6 +35,7 @@ struct CalibrateArguments {
   bool quiet = false;
   bool as_type = false;   ///< the model is to serve every unit of the valve's type
   std::string type = {};  ///< model of the type of which the campaigns are units; empty: each is a valve of its own
+  std::string updated_type = {};  ///< the type as these units are, to write; empty: none
 };
 void calibrate(const CalibrateArguments& arguments);
 

@@ -27,6 +27,7 @@ void add_core_commands(CLI::App& program) {
   add_monitor_command(program);
   add_simulate_command(program);
   add_campaign_command(program);
+  add_plan_command(program);
   add_analyse_command(program);
   add_export_command(program);
 }

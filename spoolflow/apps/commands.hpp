@@ -35,6 +35,7 @@ void add_validate_command(CLI::App& program);
 void add_monitor_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
+void add_plan_command(CLI::App& program);
 void add_analyse_command(CLI::App& program);
 void add_export_command(CLI::App& program);
 /// All of the above, in the order of the work, which is the order of the overview.

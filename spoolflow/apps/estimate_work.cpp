@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/apps/ahead.hpp"
+#include "spoolflow/apps/terminal/ahead.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/tool_version.hpp"

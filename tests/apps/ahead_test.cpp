@@ -1,5 +1,5 @@
 /// Producing ahead gives what producing one by one would.
-#include "spoolflow/apps/ahead.hpp"
+#include "spoolflow/apps/terminal/ahead.hpp"
 
 #include <atomic>
 #include <stdexcept>

@@ -59,23 +59,23 @@ std::string worst_of(std::vector<UnitParameter> parameters) {
   return out;
 }
 
-void require_of_type(const UnitCalibration& unit, const std::string& file, const std::string& type) {
+/// Why the unit is not of the type; empty: it is.
+std::string refusal_of(const UnitCalibration& unit, const std::string& file, const std::string& type) {
   const bool far = std::ranges::any_of(unit.parameters, [](const UnitParameter& parameter) {
     return std::abs(parameter.deviations) > foreign_deviations;
   });
   if (far || unit.chi_square > foreign_chi_square) {
-    throw CalibrationError(fmt::format(
+    return fmt::format(
         "{}: the unit is not of the type {}: {}; a unit of the type lies within {:g} standard deviations in each; "
-        "check "
-        "that recordings and type belong together, or give the type wider [tolerances] where such units are made",
-        file, type, worst_of(unit.parameters), foreign_deviations));
+        "check that recordings and type belong together, or give the type wider [tolerances] where such units are made",
+        file, type, worst_of(unit.parameters), foreign_deviations);
   }
-  if (unit.misfit <= largest_misfit) return;
-  throw CalibrationError(fmt::format(
+  if (unit.misfit <= largest_misfit) return {};
+  return fmt::format(
       "{}: no unit of the type {} explains the recordings: their forces and flows are off by {:.1f} times what is "
       "expected, at most {:g}; nearest is {}; check signs, units and instruments of the recordings, or calibrate the "
       "unit by a campaign of its own",
-      file, type, unit.misfit, largest_misfit, worst_of(unit.parameters)));
+      file, type, unit.misfit, largest_misfit, worst_of(unit.parameters));
 }
 
 void require_evidence(const UnitEvidence& evidence, const std::string& file) {
@@ -121,11 +121,12 @@ UnitCalibration calibrate_unit(const model::Model& type, const std::string& type
   const UnitFit fit = most_likely_unit(evidence, prior);
   Deviations tolerances{};
   for (std::size_t k = 0; k < variations; ++k) tolerances[k] = type.type->deviations[k].tolerance;
-  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit};
+  UnitCalibration out{type, compared(fit, prior, tolerances), 0, fit.misfit, fit.known, {}};
   for (const UnitParameter& parameter : out.parameters) out.chi_square += parameter.deviations * parameter.deviations;
-  require_of_type(out, unit.file.string(), type.type->name);
-  const Deviations deviations = deviations_from(fit.known.mean);
   out.model.valve.name = unit.valve.name;
+  out.refusal = refusal_of(out, unit.file.string(), type.type->name);
+  if (!out.refusal.empty()) throw ForeignUnit(std::move(out));
+  const Deviations deviations = deviations_from(fit.known.mean);
   out.model.provenance = std::move(provenance);
   out.model.observer->parameters = unit_parameters(type.observer->parameters, deviations);
   out.model.condensed.parameters = unit_parameters(type.condensed.parameters, deviations);

@@ -1,9 +1,11 @@
 #pragma once
 /// From a type's model and a minute of a unit's recordings to the unit's own model.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spoolflow/calibration/calibrate.hpp"
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/map_estimate.hpp"
 #include "spoolflow/model/model.hpp"
 #include "spoolflow/recording/campaign.hpp"
@@ -35,14 +37,23 @@ struct UnitCalibration {
   std::vector<UnitParameter> parameters;
   double chi_square;
   double misfit;  ///< see UnitFit
+  KnownDeviations known;
+  std::string refusal;  ///< why it is not of the type; empty: it is
+};
+
+/// A unit that is not of its type, with what its recordings say nonetheless; its `model` is the type's under the unit's
+/// name.
+struct ForeignUnit : CalibrationError {
+  explicit ForeignUnit(UnitCalibration foreign) : CalibrationError(foreign.refusal), unit(std::move(foreign)) {}
+  UnitCalibration unit;
 };
 
 /// The name of a unit's protocol in provenance that stands for its type's model.
 inline constexpr const char* type_protocol = "type";
 
 /// Reads the unit's recordings and fits them. `type_file` is the file of `type`, for provenance and messages. Throws
-/// RecordingError or CalibrationError: recordings that cannot serve, that show nothing of any direction, or a unit
-/// that is not of the type, with the directions by name and by how many standard deviations.
+/// RecordingError or CalibrationError: recordings that cannot serve, or that show nothing of any direction;
+/// ForeignUnit: it is not of the type, with the directions by name and by how many standard deviations.
 [[nodiscard]] UnitCalibration calibrate_unit(const model::Model& type, const std::string& type_file,
                                              const recording::Campaign& unit, const std::string& tool_version,
                                              const CalibrationProgress& progress);

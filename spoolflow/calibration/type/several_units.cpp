@@ -10,6 +10,7 @@
 #include "spoolflow/calibration/numerics/definite_matrix.hpp"
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
+#include "spoolflow/calibration/type/unit_population.hpp"
 #include "spoolflow/calibration/type/unit_tables.hpp"
 
 namespace spoolflow::calibration {
@@ -26,13 +27,7 @@ Deviations deviations_of(const Eigen::VectorXd& values) {
   return out;
 }
 
-/// What the tables of one unit say of its deviations from the first: a normal likelihood, as precision and precision
-/// times mean.
-struct UnitLikelihood {
-  Eigen::MatrixXd precision;
-  Eigen::VectorXd weighted;
-};
-
+/// What the tables of one unit say of its deviations from the first.
 UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDeviations& prior) {
   constexpr int rounds = 6, searching = 3;  // what is left before the search is no misfit
   const Eigen::MatrixXd prior_precision = inverse_of_covariance(prior.covariance);
@@ -53,37 +48,6 @@ UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDevia
     out.precision = slope.transpose() * weights.asDiagonal() * slope;
     out.weighted = out.precision * x - slope.transpose() * weights.asDiagonal() * left;
     x = (out.precision + prior_precision).llt().solve(out.weighted + prior_precision * prior.mean);
-  }
-  return out;
-}
-
-struct Middle {
-  KnownDeviations of;                  ///< mean and covariance of the units
-  Eigen::MatrixXd open;                ///< covariance of that mean
-  std::vector<Eigen::VectorXd> units;  ///< each one's mean
-};
-
-/// Expectation and maximisation. The mean of what no unit shows stays at zero.
-Middle middle_of(const std::vector<UnitLikelihood>& likelihoods, const Eigen::MatrixXd& prior) {
-  constexpr int rounds = 60;
-  const auto count = static_cast<double>(likelihoods.size());
-  Middle out{{Eigen::VectorXd::Zero(deviating), prior}, {}, {}};
-  for (int round = 0; round < rounds; ++round) {
-    const Eigen::MatrixXd between = inverse_of_covariance(out.of.covariance);
-    Eigen::MatrixXd scatter = tolerances_as_units * prior;
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(deviating);
-    out.units.clear();
-    for (const UnitLikelihood& unit : likelihoods) {
-      const Eigen::MatrixXd covariance = inverse_of_covariance(unit.precision + between);
-      out.units.emplace_back(covariance * (unit.weighted + between * out.of.mean));
-      mean += out.units.back() / count;
-      scatter += covariance;
-    }
-    out.open.setZero(deviating, deviating);
-    for (const Eigen::VectorXd& unit : out.units)
-      out.open += (unit - mean) * (unit - mean).transpose() / (count * (count - 1));
-    out.of.mean = mean;
-    out.of.covariance = (scatter + count * count * out.open) / (tolerances_as_units + count);
   }
   return out;
 }
@@ -118,7 +82,7 @@ void require_comparable(const std::vector<model::Model>& units) {
 }
 
 /// A unit of another type among them, by name.
-void require_one_type(const std::vector<model::Model>& units, const Middle& middle, const Deviations& tolerances) {
+void require_one_type(const std::vector<model::Model>& units, const Population& middle, const Deviations& tolerances) {
   for (std::size_t unit = 0; unit < units.size(); ++unit) {
     for (std::size_t k = 0; k < variations; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
@@ -137,7 +101,7 @@ void require_one_type(const std::vector<model::Model>& units, const Middle& midd
 }
 
 /// The unit nearest to the middle, in what units differ by.
-std::size_t nearest_to(const Middle& middle) {
+std::size_t nearest_to(const Population& middle) {
   const Eigen::MatrixXd between = inverse_of_covariance(middle.of.covariance);
   std::size_t out = 0;
   double nearest = INFINITY;
@@ -159,9 +123,9 @@ SeveralUnits compare_units(const std::vector<model::Model>& units, const Deviati
     std::vector<UnitLikelihood> likelihoods;
     for (const model::Model& unit : units)
       likelihoods.push_back(likelihood_of({units[base].observer->parameters, unit.observer->parameters}, prior));
-    return middle_of(likelihoods, prior.covariance);
+    return population_of(likelihoods, prior.covariance);
   };
-  Middle middle = beside(0);
+  Population middle = beside(0);
   require_one_type(units, middle, tolerances);
   SeveralUnits out{nearest_to(middle), {}, {}, {}};
   if (out.nearest != 0) middle = beside(out.nearest);

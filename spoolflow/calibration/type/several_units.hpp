@@ -10,8 +10,6 @@ namespace spoolflow::calibration {
 
 /// Fewer units do not show how far the next one lies.
 inline constexpr std::size_t least_units = 3;
-/// [tolerances] weigh as much as so many units that were measured.
-inline constexpr double tolerances_as_units = 4;
 
 /// One of the units beside the type's middle.
 struct MeasuredUnit {

@@ -13,20 +13,12 @@ namespace {
 
 using recording::Channel;
 
-constexpr double row_travel_m = 1e-4;
-constexpr double row_time_s = 0.5;
 /// Of even motion one way until friction has its full size [m].
 constexpr double settling_travel_m = 4e-5;
 /// A shorter rest [s] is part of a motion.
 constexpr double least_rest_s = 0.05;
-constexpr double fastest_sliding_m_per_s = 0.03;
-/// So close to either end [share of the stroke] stops may carry force.
-constexpr double end_share = 0.015;
-/// Flow rows of a spool that moves faster [m/s] show the meter's lag rather than the edge.
-constexpr double fastest_metered_m_per_s = 2e-3;
 /// Of the force at which a spool breaks away, beside that of forces [N].
 constexpr double breakaway_uncertainty_N = 0.5;
-constexpr double resistance_uncertainty_share = 0.01;  ///< of copper whose temperature nobody knows
 
 double value_or(const recording::Recording& recording, Channel channel, std::size_t k, double otherwise) {
   if (!recording.has(channel)) return otherwise;
@@ -58,10 +50,11 @@ class SpoolTrack {
     position_m_ = position_m;
     const double speed_m_per_s = std::abs(state.position.velocity_m_per_s), stroke_m = type_.valve.stroke_m;
     Doing out{now, false, false, 0};
-    out.slides = now != 0 && travelled_m_ > settling_travel_m && speed_m_per_s < fastest_sliding_m_per_s &&
-                 position_m > end_share * stroke_m && position_m < (1 - end_share) * stroke_m;
-    out.metered =
-        usable && speed_m_per_s < fastest_metered_m_per_s && position_m > type_.observer->parameters.closed_below_m;
+    const bool between_ends = position_m > end_share * stroke_m && position_m < (1 - end_share) * stroke_m;
+    out.slides =
+        now != 0 && travelled_m_ > settling_travel_m && speed_m_per_s < fastest_sliding_m_per_s && between_ends;
+    out.metered = usable && speed_m_per_s < fastest_metered_m_per_s && between_ends &&
+                  position_m > type_.observer->parameters.closed_below_m;
     if (usable && rested_s_ > least_rest_s && motion != sensor::Motion::rest) out.broke_after_s = rested_s_;
     rested_s_ = motion == sensor::Motion::rest ? state.friction.rest_s : 0;
     return out;
@@ -74,6 +67,16 @@ class SpoolTrack {
 };
 
 }  // namespace
+
+double force_row_uncertainty_N(const model::Model& type) {
+  const sensor::ObserverParameters<double>& parameters = type.observer->parameters;
+  return std::hypot(unit_force_residual_N, parameters.band.force_residual_N, parameters.actuator.force_uncertainty_N);
+}
+
+double flow_row_uncertainty_m3_per_s(const model::Model& type) {
+  return std::hypot(type.observer->parameters.band.flow_residual_m3_per_s,
+                    meter_uncertainty_share * type.valve.rated_flow_m3_per_s);
+}
 
 UnitEvidence::UnitEvidence(const model::Model& type, std::vector<UnitRun> runs) : type_(type) {
   for (const UnitRun& run : runs) {
@@ -159,11 +162,7 @@ void UnitEvidence::add_breakaway(Run& run, std::size_t sample, double rested_s, 
 
 /// Numbers the rows, one after the other.
 void UnitEvidence::find_rows(Run& run) {
-  const sensor::ObserverParameters<double>& type = type_.observer->parameters;
-  const double force_N =
-      std::hypot(unit_force_residual_N, type.band.force_residual_N, type.actuator.force_uncertainty_N);
-  const double flow_m3_per_s =
-      std::hypot(type.band.flow_residual_m3_per_s, meter_uncertainty_share * type_.valve.rated_flow_m3_per_s);
+  const double force_N = force_row_uncertainty_N(type_), flow_m3_per_s = flow_row_uncertainty_m3_per_s(type_);
   const auto number = [&](int Sample::*row, EvidenceOf kind, double deviation) {
     int open = -1, direction = 0;
     double from_m = 0, lasted_s = 0;
@@ -190,7 +189,9 @@ void UnitEvidence::find_rows(Run& run) {
     }
   };
   const bool forces_tell = !run.pressurised || run.has_pressure || run.has_flow;
+  const double highest_Pa = type_.observer->parameters.edge.highest_pressure_difference_Pa();
   for (Sample& sample : run.samples) {
+    if (sample.pressure_Pa > (1 + sensor::ripple_share) * highest_Pa) sample.force_row = sample.flow_row = -1;
     if (!forces_tell || (run.has_pressure && std::isnan(sample.pressure_Pa))) sample.force_row = -1;
     if (!run.has_pressure || std::isnan(sample.flow_m3_per_s)) sample.flow_row = -1;
     if (!run.has_pressure && run.pressurised && !(sample.flow_m3_per_s > 0.01 * type_.valve.rated_flow_m3_per_s))

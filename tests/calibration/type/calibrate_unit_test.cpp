@@ -1,5 +1,6 @@
 #include "spoolflow/calibration/type/calibrate_unit.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -36,8 +37,8 @@ class UnitFolder {
               "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n" +
                   channels_left_out) {
     const sensor::ObserverParameters<double> unit = unit_parameters(type().observer->parameters, deviations);
-    write_strokes(file_.folder() / "dry.csv", unit, 0, type().valve.stroke_m);
-    write_strokes(file_.folder() / "wet.csv", unit, 40, type().valve.stroke_m);
+    write_strokes(file_.folder() / "dry.csv", unit, {0, 0}, type().valve.stroke_m);
+    write_strokes(file_.folder() / "wet.csv", unit, {40, 40}, type().valve.stroke_m);
     std::ofstream out(file_.folder() / "type.json");
     model::write_model(out, type());
   }
@@ -93,7 +94,7 @@ TEST(CalibrateUnit, FindsAUnitsFlowWithinAHundredthWhereItsTypeErrsByMore) {
 TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
   const recording::TemporaryFile file("unit.toml",
                                       "[[recording]]\nprotocol = \"unpressurised_strokes\"\nfile = \"dry.csv\"\n");
-  write_strokes(file.folder() / "dry.csv", type().observer->parameters, 0, type().valve.stroke_m);
+  write_strokes(file.folder() / "dry.csv", type().observer->parameters, {0, 0}, type().valve.stroke_m);
   std::ofstream(file.folder() / "type.json") << "{}";
   const UnitCalibration unit = calibrate_unit(type(), (file.folder() / "type.json").string(),
                                               recording::read_unit_campaign(file.path(), valve_of_type(type())), "test",
@@ -109,6 +110,17 @@ TEST(CalibrateUnit, WhatNoRecordingShowsStaysAtTheTypesSpreadAndIsNamed) {
       EXPECT_TRUE(parameter.seen) << parameter.name;
     }
   }
+}
+
+TEST(CalibrateUnit, ASpoolThatOvershootsItsStrokeHasNoOtherPositionSensorForThat) {
+  const recording::TemporaryFile file("unit.toml", "[[recording]]\nprotocol = \"operation\"\nfile = \"wet.csv\"\n");
+  constexpr double overshoots = 1.05;
+  write_strokes(file.folder() / "wet.csv", type().observer->parameters, {60, 60}, overshoots * type().valve.stroke_m);
+  std::ofstream(file.folder() / "type.json") << "{}";
+  const UnitCalibration unit = calibrate_unit(type(), (file.folder() / "type.json").string(),
+                                              recording::read_unit_campaign(file.path(), valve_of_type(type())), "test",
+                                              [](const std::string&, double) {});
+  for (const UnitParameter& parameter : unit.parameters) EXPECT_LT(std::abs(parameter.deviations), 1) << parameter.name;
 }
 
 TEST(CalibrateUnit, AnotherSpringIsNoUnitOfTheTypeAndIsNamedByStandardDeviations) {

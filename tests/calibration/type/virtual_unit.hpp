@@ -1,9 +1,11 @@
 #pragma once
 /// Recordings of a unit as the sensor's own functions have it, in closed form: for how a fit behaves, not for how well
 /// it does on a valve.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "spoolflow/calibration/type/unit_parameters.hpp"
 #include "spoolflow/model/model.hpp"
@@ -27,19 +29,22 @@ inline double balancing_current_A(const sensor::ObserverParameters<double>& unit
   return low_A;
 }
 
-/// Two slow strokes at a held pressure difference, from rest at the closed end, as CSV.
+/// A slow stroke at each pressure difference, from rest at the closed end, as CSV.
 inline void write_strokes(const std::filesystem::path& file, const sensor::ObserverParameters<double>& unit,
-                          double pressure_bar, double full_stroke_m) {
+                          const std::vector<double>& pressures_bar, double full_stroke_m, double way_s = 6) {
   std::ofstream out(file);
   out.precision(9);
   out << "time_s,position_mm,current_A,oil_temperature_C,pressure_difference_bar,flow_reference_L_min\n";
   sensor::ActuatorState<double> actuator{};
-  constexpr double rest_s = 0.5, way_s = 6, turn_s = 0.2;
+  constexpr double rest_s = 0.5, turn_s = 0.2;
+  const double stroke_s = 2 * (way_s + turn_s), end_s = rest_s + stroke_s * static_cast<double>(pressures_bar.size());
   const double read_zero_m = unit.spring.curve.axis.first;  // where the closed end reads
   double time_s = 0, before_m = read_zero_m;
-  for (bool first = true; time_s < rest_s + 4 * way_s + 4 * turn_s; time_s += virtual_step_s) {
+  for (bool first = true; time_s < end_s; time_s += virtual_step_s) {
     const double moving_s = std::max(0.0, time_s - rest_s);
-    const double phase = std::fmod(moving_s, 2 * (way_s + turn_s));
+    const double phase = std::fmod(moving_s, stroke_s);
+    const auto stroke = static_cast<std::size_t>(moving_s / stroke_s);
+    const double pressure_bar = pressures_bar[std::min(stroke, pressures_bar.size() - 1)];
     const double share = phase < way_s            ? phase / way_s
                          : phase < way_s + turn_s ? 1
                                                   : std::max(0.0, 1 - (phase - way_s - turn_s) / way_s);
@@ -54,8 +59,10 @@ inline void write_strokes(const std::filesystem::path& file, const sensor::Obser
         time_s < rest_s ? 0 : balancing_current_A(unit, actuator, position_m, wanted_N, ratio * direction);
     sensor::step(unit.actuator, actuator, sensor::Sample<double>{virtual_step_s, current_A, {}, position_m, {}}, first);
     first = false;
+    const double last_m = unit.edge.position_m.at(sensor::edge_positions - 1);
+    const double opens_on = std::max(1.0, position_m / last_m);  // an edge does beyond its table
     out << time_s << ',' << 1e3 * position_m << ',' << current_A << ",50," << pressure_bar << ','
-        << 6e4 * edge.conductance * std::sqrt(pressure_bar * 1e5) << '\n';
+        << 6e4 * opens_on * edge.conductance * std::sqrt(pressure_bar * 1e5) << '\n';
   }
 }
 

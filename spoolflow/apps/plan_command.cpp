@@ -1,0 +1,106 @@
+/// `spoolflow plan`: the strokes that tell most of a unit in the time that there is.
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/suggestion.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/work/expected_band.hpp"
+#include "spoolflow/calibration/type/plan_minute.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+struct PlanArguments {
+  std::string type, table, scenario;
+  std::string valve = "size_6";
+  double seconds = 60;
+  bool quiet = false;
+};
+
+constexpr double per_cent = 100;
+
+void write_table(std::ostream& out, const calibration::PlannedMinute& minute) {
+  out << "time_s,position_set_percent,pressure_difference_set_bar,dither_A\n";
+  for (const calibration::PlannedCorner& corner : minute.corners()) {
+    out << fmt::format("{:.2f},{:g},{:.2f},0\n", corner.time_s, per_cent * corner.position_share,
+                       units::bar_from_Pa(corner.pressure_Pa));
+  }
+}
+
+std::string pressures_bar(const calibration::PlannedMinute& minute) {
+  std::string out;
+  for (const double pressure_Pa : minute.pressures_Pa)
+    out += fmt::format("{}{:.2f}", out.empty() ? "" : ", ", units::bar_from_Pa(pressure_Pa));
+  return out;
+}
+
+void write_scenario(std::ostream& out, const calibration::PlannedMinute& minute, const std::string& valve) {
+  out << fmt::format(
+      "# The planned strokes of a unit, for the virtual rig.\nprotocol = \"ramps\"\nvalve = \"{}\"\n\n[run]\n"
+      "pressure_differences_bar = [{}]\nrate_percent_per_s = {:g}\nhold_s = {:g}\npause_s = {:g}\n",
+      valve, pressures_bar(minute), per_cent * minute.rate_per_s, calibration::planned_hold_s,
+      calibration::planned_pause_s);
+}
+
+void print_plan(const model::Model& type, const calibration::PlannedMinute& minute) {
+  say("{} strokes at {:g} %/s, {:.1f} s, at {} bar\n", minute.pressures_Pa.size(), per_cent * minute.rate_per_s,
+      minute.corners().back().time_s, pressures_bar(minute));
+  constexpr double deviations_of_95 = 1.96;
+  say("  {:<52} {:>7} {:>7}\n", "95 %, of the rated flow, sliding, mean over the range", "before", "after");
+  say("  {:<52} {:>6.2f}% {:>6.2f}%\n", "what units of the type differ by",
+      per_cent * deviations_of_95 * minute.before_share, per_cent * deviations_of_95 * minute.after_share);
+  say("  {:<52} {:>6.2f}% {:>6.2f}%\n", "the sensor's band", per_cent * expected_half_width(type),
+      per_cent * expected_half_width(calibration::planned_unit(type, minute)));
+}
+
+void plan(const PlanArguments& arguments) {
+  apps::refuse_other_kinds("plan", {{arguments.type, FileKind::model}});
+  OutputFile table(arguments.table, {arguments.type, arguments.scenario});
+  std::unique_ptr<OutputFile> scenario;
+  if (!arguments.scenario.empty())
+    scenario = std::make_unique<OutputFile>(arguments.scenario,
+                                            std::vector<std::filesystem::path>{arguments.type, arguments.table});
+  const model::Model type = model::read_model(arguments.type);
+  const calibration::PlannedMinute minute = calibration::plan_minute(type, arguments.type, arguments.seconds);
+  write_table(table.stream(), minute);
+  if (scenario) write_scenario(scenario->stream(), minute, arguments.valve);
+  commit_together({&table, scenario.get()});
+  if (!arguments.quiet) print_plan(type, minute);
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& program) {
+  CLI::App* command = add_command(
+      program,
+      {.name = "plan",
+       .purpose = "plan the strokes that tell most of a unit of a type",
+       .reads = "a type's model, as `calibrate --as-type` writes it",
+       .writes = "a table of corners (CSV), straight lines between: time, set position, pressure difference and "
+                 "dither; and on request a scenario of the same for the virtual rig",
+       .examples = {"spoolflow plan type_a.json --seconds 60 -o plan.csv",
+                    "spoolflow plan type_a.json -o plan.csv --scenario plan.toml --valve size_6"}});
+  auto arguments = std::make_shared<PlanArguments>();
+  command->add_option("type", arguments->type, "model of a type")->type_name("TYPE.json")->required();
+  command->add_option("-o,--output", arguments->table, "table to write, - for standard output")
+      ->type_name("PLAN.csv")
+      ->required();
+  command->add_option("--seconds", arguments->seconds, "of recording at most, 60 unless given")
+      ->type_name("S")
+      ->check(CLI::Range(1.0, 3600.0));
+  command->add_option("--scenario", arguments->scenario, "the same as a scenario for `spoolflow simulate`")
+      ->type_name("SCENARIO.toml");
+  command->add_option("--valve", arguments->valve, "of the scenario: built-in valve or file, size_6 unless given")
+      ->type_name("VALVE");
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { plan(*arguments); });
+}
+
+}  // namespace spoolflow::apps
