@@ -24,8 +24,8 @@ namespace spoolflow::python {
 namespace {
 
 namespace py = pybind11;
-using Numbers = py::array_t<double, py::array::c_style>;
-using Numbered = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+using GivenNumbers = py::array_t<double, py::array::c_style>;
+using SampleNumbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 /// A column by its name; without numbers where it holds something else.
 struct GivenColumn {
@@ -68,13 +68,13 @@ class MemoryTable final : public recording::VectorTable {
 std::shared_ptr<ReadRecording> as_recording(const py::list& columns, const std::string& name,
                                             const std::optional<std::filesystem::path>& channels,
                                             const std::optional<double>& stroke_m) {
-  std::vector<Numbers> kept;
+  std::vector<GivenNumbers> kept;
   std::vector<GivenColumn> given;
   for (const py::handle each : columns) {
     const auto column = each.cast<py::tuple>();
     GivenColumn out{column[0].cast<std::string>(), {}, column[2].cast<std::size_t>()};
     if (!column[1].is_none()) {
-      kept.push_back(column[1].cast<Numbers>());
+      kept.push_back(column[1].cast<GivenNumbers>());
       out.numbers = {kept.back().data(), static_cast<std::size_t>(kept.back().size())};
     }
     given.push_back(std::move(out));
@@ -120,7 +120,7 @@ void write_recording(const ReadRecording& read, const std::filesystem::path& fil
 }
 
 /// These samples, by their numbers from 0 on, which must be there.
-std::shared_ptr<ReadRecording> picked(const ReadRecording& read, const Numbered& samples) {
+std::shared_ptr<ReadRecording> picked(const ReadRecording& read, const SampleNumbers& samples) {
   auto out = std::make_shared<ReadRecording>(ReadRecording{{}, read.notes});
   out->recording.file = read.recording.file;
   out->recording.resampled = read.recording.resampled;

@@ -11,7 +11,7 @@ from . import _native, apart, settings
 from .errors import FileMissing, naming_missing
 from .files import PathLike, write_whole
 from .models import Model
-from .runs import as_recording, is_path
+from .runs import as_recording, is_path, several_of
 from .work import AnyModel, StepProgress, _units
 
 #: campaign.toml, or a dict that says the same, whose recordings may be in memory: `{"valve": {"name": "A", "rated_flow_L_min":
@@ -90,7 +90,7 @@ def calibrate(campaign: Union[Campaign, Iterable[Campaign]], *, allow_outside: b
     What is only unusual about the recordings is warned of. Raises Error, naming the campaign's line, the file, the
     channel and the likely cause.
     """
-    several = [campaign] if is_path(campaign) or isinstance(campaign, Mapping) else list(campaign)
+    several = several_of(campaign)
     _refuse_contradictions(len(several), as_type, type, report)
     with contextlib.ExitStack() as kept_files:
         kept_files.enter_context(naming_missing(*several, type))

@@ -37,7 +37,7 @@ def _seconds(array: NDArray[Any]) -> NDArray[Any]:
     since = array - array[~missing][:1] if array.dtype.kind == "M" and not missing.all() else array
     if since.dtype.kind != "m":
         return np.full(array.shape, np.nan)
-    out = since.astype("timedelta64[ns]").astype(np.int64) / 1e9
+    out: NDArray[Any] = since.astype("timedelta64[ns]").astype(np.int64) / 1e9
     out[missing] = np.nan
     return out
 

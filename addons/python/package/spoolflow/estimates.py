@@ -148,7 +148,7 @@ class Estimate:
         return float(np.mean((self.status & int(status)) != 0)) if len(self) else 0.0
 
     def _readable(self) -> "dict[str, Any]":
-        """Every column, with the units of ESTIMATE.csv."""
+        """The columns of ESTIMATE.csv in its units, and what it leaves out."""
         return {
             "time_s": self.time_s,
             "flow_L_min": self.flow_L_min,
@@ -156,10 +156,10 @@ class Estimate:
             "flow_upper_L_min": self.flow_upper_L_min,
             "pressure_difference_bar": self.pressure_difference_bar,
             "magnetic_force_N": self.magnetic_force_N,
-            "spring_force_N": self.spring_force_N,
             "flow_force_N": self.flow_force_N,
             "friction_force_N": self.friction_force_N,
             "status": np.array(self.status_texts, dtype=object),
+            "spring_force_N": self.spring_force_N,
             "faulty": self.faulty,
         }
 

@@ -36,7 +36,9 @@ class Figures(Mapping[str, Any]):
         return [*super().__dir__(), *self._members]
 
     def __eq__(self, other: object) -> bool:
-        return self.to_dict() == other.to_dict() if isinstance(other, Figures) else NotImplemented
+        if not isinstance(other, Figures):
+            return NotImplemented
+        return self.to_dict() == other.to_dict()
 
     __hash__ = None  # type: ignore[assignment]
 

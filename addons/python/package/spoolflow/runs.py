@@ -31,6 +31,11 @@ def is_run(run: Any) -> bool:
     return is_path(run) or hasattr(run, "keys") or getattr(getattr(run, "dtype", None), "names", None) is not None
 
 
+def several_of(runs: Any) -> List[Any]:
+    """One run as a list of it."""
+    return [runs] if is_run(runs) else list(runs)
+
+
 def columns_of(run: Any) -> Dict[str, Any]:
     """The columns by their names; an index of instants or times is `time_s`, one with the name of a column is that."""
     if getattr(getattr(run, "dtype", None), "names", None) is not None:  # a structured array
@@ -93,7 +98,7 @@ def _stem(run: Any, k: int) -> str:
 def as_files(runs: Union[Run, Iterable[Run]], channels: Optional[Channels] = None) -> Iterator[Files]:
     """The runs as files while they are needed: those in memory are written down with every digit, in SI units. What refuses
     one of them calls it as it was given."""
-    several = [runs] if is_run(runs) else list(runs)
+    several = several_of(runs)
     if not several:
         raise _native.Error("no recording is given; name one at least")
     paths: List[str] = []

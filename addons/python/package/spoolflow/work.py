@@ -19,7 +19,7 @@ from .figures import JudgedFigures, flat
 from .files import PathLike, write_whole
 from .models import Model, load_model
 from .recordings import Recording
-from .runs import Files, Run, as_files, index_of, is_run
+from .runs import Files, Run, as_files, index_of, several_of
 from .samples import sample_columns
 
 if TYPE_CHECKING:
@@ -38,11 +38,6 @@ Runs = Union[Run, Iterable[Run]]
 def as_model(model: AnyModel) -> Model:
     """A model, read where its file is given."""
     return model if isinstance(model, Model) else load_model(model)
-
-
-def _named(runs: Any) -> List[Any]:
-    """Those that are files."""
-    return [runs] if is_run(runs) else list(runs)
 
 
 def _path(file: Optional[PathLike]) -> Optional[str]:
@@ -120,7 +115,8 @@ def validate(model: AnyModel, recordings: Runs, *, channels: Optional[Channels] 
     known = as_model(model)
     if environment is not None:
         known = known.in_environment(environment)
-    with naming_missing(*_named(recordings), requirements, *others, channels), as_files(recordings, channels) as files:
+    runs = several_of(recordings)
+    with naming_missing(*runs, requirements, *others, channels), as_files(runs, channels) as files:
         figures, page, _ = apart.call(
             "validate", files.paths, known._kept, files.paths, files.channels, estimator, _path(requirements),
             reference_lag_s, apply_reference_lag, others, _units(report, units), telling=progress)
@@ -173,7 +169,8 @@ def monitor(model: AnyModel, recordings: Runs, *, baseline: Optional[PathLike] =
     if not 1e-6 <= false_alarms_per_year <= 1e4:
         raise _native.Error(f"false_alarms_per_year: Value {false_alarms_per_year} not in range 1e-06 to 10000")
     known = as_model(model)
-    with naming_missing(*_named(recordings), baseline, channels), as_files(recordings, channels) as files:
+    runs = several_of(recordings)
+    with naming_missing(*runs, baseline, channels), as_files(runs, channels) as files:
         figures, page, corrected = apart.call(
             "monitor", files.paths, known._kept, files.paths, files.channels, _path(baseline) or "",
             false_alarms_per_year, adapt is not None, _units(report, units), telling=progress)
