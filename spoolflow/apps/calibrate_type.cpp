@@ -10,27 +10,11 @@
 #include "spoolflow/apps/terminal/progress.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
-#include "spoolflow/calibration/numerics/calibration_error.hpp"
 #include "spoolflow/calibration/type/several_units.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 
 namespace spoolflow::apps {
 namespace {
-
-/// [tolerances] of the first campaign that has them. Throws CalibrationError where another's differ.
-calibration::Deviations tolerances_of(const std::vector<recording::Campaign>& campaigns) {
-  const recording::CampaignTolerances* written = nullptr;
-  for (const recording::Campaign& campaign : campaigns) {
-    if (campaign.tolerances.values.empty()) continue;
-    if (written != nullptr && written->values != campaign.tolerances.values) {
-      throw calibration::CalibrationError(
-          fmt::format("{} and {}: [tolerances] differ, and are of the type that both belong to; state them once",
-                      written->place, campaign.tolerances.place));
-    }
-    written = &campaign.tolerances;
-  }
-  return calibration::tolerances_from(written == nullptr ? recording::CampaignTolerances{} : *written);
-}
 
 /// How far apart units of the type lie beside what was taken before.
 void print_type(const calibration::SeveralUnits& compared, const calibration::Deviations& tolerances) {
@@ -59,7 +43,7 @@ void calibrate_type(const CalibrateArguments& arguments) {
     campaigns.push_back(read_campaign(arguments, file));
     std::ranges::copy(files_of(campaigns.back()), std::back_inserter(inputs));
   }
-  const calibration::Deviations tolerances = tolerances_of(campaigns);
+  const calibration::Deviations tolerances = calibration::tolerances_of(campaigns);
   OutputFile output(arguments.model, inputs);
   Progress progress("calibrating", arguments.quiet);
   std::vector<model::Model> units;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spoolflow/monitor/alarm_limits.hpp"
 #include "spoolflow/monitor/correction.hpp"
 #include "spoolflow/monitor/dense.hpp"
 
@@ -15,16 +16,10 @@ constexpr double usual_resistance_ratio = 1.04;
 constexpr double resistance_spread = 0.035;
 constexpr double learnt_resistance_spread = 0.025;
 
-/// So many spreads of healthy valves are no change.
-constexpr double tolerated_spreads = 1.5;
-
 /// A window that identifies a magnitude worse than this [usual faults] is no point of its course.
 constexpr double usual_deviation = 1;
 
-/// A winding is no warmer than this over calibration, or over what the valve itself showed [K]; with copper's 0.39 %
-/// per kelvin (IEC 60028) more resistance is a plug or a strand that fails. Falls below this share of the excess.
-constexpr double hottest_over_calibration_K = 100;
-constexpr double hottest_over_baseline_K = 60;
+/// A resistance that was too high is so no more below this share of the excess.
 constexpr double falls_share = 0.9;
 constexpr double least_winding_windows = 3;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "spoolflow/estimation/running_sensor.hpp"
+#include "spoolflow/monitor/alarm_limits.hpp"
 
 namespace spoolflow::monitor {
 namespace {
@@ -51,6 +52,24 @@ Trend trend_of(const DirectionReference& reference, const DirectionState& side, 
           time.expected_h,
           time.latest_h};
 }
+
+}  // namespace
+
+AlarmLimits alarm_limits(const Indicator& indicator) {
+  for (const InItsUnit& each : in_its_unit) {
+    if (indicator.name != each.names.b && indicator.name != each.names.a) continue;
+    const std::size_t k = index(each.magnitude);
+    const double unit = each.factor * usual_fault[k], tolerated = unit * tolerated_spreads * healthy_spread[k];
+    const double beyond = indicator.baseline + tolerated;
+    if (each.magnitude == Magnitude::position_zero) return {indicator.baseline - tolerated, beyond};
+    return unit > 0 ? AlarmLimits{unknown, beyond} : AlarmLimits{beyond, unknown};
+  }
+  if (indicator.name.starts_with("coil_resistance"))
+    return {unknown, indicator.baseline * (1 + copper_per_K * hottest_over_calibration_K)};
+  return {unknown, unknown};
+}
+
+namespace {
 
 void add_magnitudes(const DirectionReference& reference, const DirectionState& side, bool a,
                     std::vector<Indicator>& out) {

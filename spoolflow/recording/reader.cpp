@@ -9,6 +9,7 @@
 #include "spoolflow/recording/channel_binding.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/memory_reader.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/plausibility.hpp"
 #include "spoolflow/recording/resampled_table.hpp"
@@ -25,8 +26,9 @@ std::size_t index(Channel channel) {
 /// Raw numbers of any table, brought to SI and watched.
 class ChannelReader final : public Reader {
  public:
-  ChannelReader(std::unique_ptr<SampleTable> table, const ReadOptions& options, std::string file)
+  ChannelReader(std::unique_ptr<SampleTable> table, const ReadOptions& options, std::string file, OpenAgain open)
       : file_(std::move(file)),
+        open_again_(std::move(open)),
         bound_(bind_channels(*table, options, file_)),
         plausibility_(file_, bound_, options.stroke_m),
         runs_on_(options.runs_on),
@@ -143,12 +145,13 @@ class ChannelReader final : public Reader {
   }
 
   [[nodiscard]] std::unique_ptr<SampleTable> open_again() const {
-    std::unique_ptr<SampleTable> out = open_sample_table(file_).table;
+    std::unique_ptr<SampleTable> out = open_again_();
     if (infinite_is_missing_) out->let_infinite_pass();
     return out;
   }
 
   std::string file_;
+  OpenAgain open_again_;
   std::unique_ptr<SampleTable> table_;
   std::vector<BoundColumn> bound_;
   std::vector<std::size_t> source_of_;  ///< for each bound column, which of the chosen columns
@@ -185,7 +188,12 @@ std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const Rea
 std::unique_ptr<Reader> open_reader(std::unique_ptr<InputBytes> input, const ReadOptions& options) {
   const CsvTable::Text text = options.runs_on ? CsvTable::Text::left_out : CsvTable::Text::refused;
   const std::string name = input->name();
-  return std::make_unique<ChannelReader>(open_sample_table(std::move(input), text).table, options, name);
+  return std::make_unique<ChannelReader>(open_sample_table(std::move(input), text).table, options, name,
+                                         [name] { return open_sample_table(name).table; });
+}
+
+std::unique_ptr<Reader> open_reader(const OpenAgain& open, const ReadOptions& options, const std::string& name) {
+  return std::make_unique<ChannelReader>(open(), options, name, open);
 }
 
 Recording read_recording(const std::filesystem::path& file, const ReadOptions& options) {

@@ -1,5 +1,6 @@
 #include "spoolflow/monitor/monitor.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -8,6 +9,7 @@
 
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
+#include "spoolflow/monitor/alarm_limits.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
 #include "tests/monitor/example.hpp"
 
@@ -56,6 +58,21 @@ TEST(Monitor, AHealthyValveRaisesNothing) {
     EXPECT_EQ(watch.condition(), Ne107::good) << name;
     EXPECT_TRUE(watch.causes().empty()) << name;
   }
+}
+
+TEST(Monitor, CountsTowardsAnAlarmOnTheSideOfTheFaultAlone) {
+  const std::vector<Indicator> indicators = Monitor(example()).indicators();
+  const AlarmLimits friction = alarm_limits(named(indicators, "friction_ratio"));
+  EXPECT_NEAR(friction.above, 1.12, 1e-9);
+  EXPECT_TRUE(std::isnan(friction.below));  // less friction is no fault
+  const AlarmLimits preload = alarm_limits(named(indicators, "spring_preload_ratio"));
+  EXPECT_LT(preload.below, 1);
+  EXPECT_TRUE(std::isnan(preload.above));
+  const AlarmLimits zero = alarm_limits(named(indicators, "position_zero"));
+  EXPECT_EQ(zero.below, -zero.above);
+  const Indicator& coil = named(indicators, "coil_resistance");
+  EXPECT_NEAR(alarm_limits(coil).above / coil.baseline, 1.393, 1e-3);  // copper, 100 K warmer
+  EXPECT_TRUE(std::isnan(alarm_limits(named(indicators, "strokes")).above));
 }
 
 TEST(Monitor, TellsWhatTheValveDid) {

@@ -144,12 +144,28 @@ test('the overview shows every valve with flow, band, sign and what is worst', a
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 4);
   await page.waitForFunction(() => [...document.querySelectorAll('.card[data-stalled=false] .flow')].filter((each) =>
     /^\d+\.\d\d L\/min$/.test(each.textContent)).length >= 3, undefined, { timeout: 20000 });
+  assert.deepEqual((await page.locator('.card .name').allTextContents()).sort(), ['clamp_torn_cable', 'feed_udp', 'press_1', 'press_2']);
+  // Problems come first by themselves: behind the last card that is not good are good ones alone.
+  await page.waitForFunction(() => {
+    const signs = [...document.querySelectorAll('.card .sign')].map((each) => each.dataset.sign !== 'good');
+    return signs.includes(true) && !signs.slice(signs.indexOf(false)).includes(true);
+  }, undefined, { timeout: 60000 });
+  await page.locator('label:has-text("problems first") input').uncheck();
   assert.deepEqual(await page.locator('.card .name').allTextContents(), ['press_1', 'press_2', 'clamp_torn_cable', 'feed_udp']);
+  assert.deepEqual(await page.locator('.card').first().locator('.axis span').allTextContents(), ['\u22122 min', '\u22121 min', 'now']);
   for (const text of await page.locator('.card .band').allTextContents()) assert.match(text, /^(−?\d+\.\d\d|–) to (\d+\.\d\d|–)$/);
   assert.match(await page.locator('#totals').textContent(), /^4 valves, \d not good(, \d without samples)?; .* L\/min, .* kW hydraulic$/);
-  const line = () => page.locator('.card .spark path').first().getAttribute('d');
+  const line = () => page.locator('.card .spark .line').first().getAttribute('d');
   const before = await line();
-  await page.waitForFunction((was) => document.querySelector('.card .spark path').getAttribute('d') !== was, before);
+  await page.waitForFunction((was) => document.querySelector('.card .spark .line').getAttribute('d') !== was, before);
+  assert.match(await page.locator('.card .spark .area').first().getAttribute('d'), /^M.*Z$/);  // the band
+  // A page that is opened later begins with what was before it.
+  await page.waitForTimeout(4000);
+  const points = (of) => of.locator('.card').first().locator('.line').getAttribute('d').then((d) => d.split(/[ML]/).length - 1);
+  const second = await opened();
+  await second.page.waitForFunction(() => (document.querySelector('.card .spark .line')?.getAttribute('d') ?? '').split(/[ML]/).length > 5,
+                                    undefined, { timeout: 3000 });
+  assert.ok(await points(second.page) >= 4);
   await page.fill('input[type=search]', 'press');
   assert.equal(await page.locator('.card').count(), 2);
   assert.deepEqual(complaints, []);
@@ -168,6 +184,10 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   assert.match(await quiet.locator('.worst').textContent(), /^no samples for \d+ s/);
   assert.match(await page.locator('#totals').textContent(), /, 1 without samples;/);
   assert.equal(await page.locator('#news[role=status]').count(), 1);
+  const said = page.locator('.alarm:has-text("feed_udp")').first();
+  assert.equal(await said.locator('.meaning').textContent(), 'No samples arrive: the figures shown are the last ones.');
+  assert.match(await said.locator('.remedy').textContent(), /^Check the valve/);
+  assert.match(await said.locator('.growth').textContent(), /^For \d+ s/);
   await picture(page, 'overview_with_alarms');
   const count = Number(await page.locator('#alarm-count').textContent());
   assert.ok(count >= 2);
@@ -207,6 +227,11 @@ test('a valve’s plot moves 20 to 50 times a second, goes stale with the progra
   console.log(`${rate.toFixed(1)} frames a second`);
   if (socket !== null) assert.ok(rate > 10 && rate < 50, `${rate} frames a second`);
   await page.waitForFunction(() => document.querySelectorAll('figure.history').length >= 2, undefined, { timeout: 60000 });
+  // Counters stand apart; what is judged has its alarm limit.
+  assert.ok(await page.locator('.counters dt:has-text("strokes")').count() === 1);
+  assert.ok((await page.locator('.indicators').first().locator('tbody tr').count()) <= 12);
+  assert.match(await page.locator('.indicators tr:has-text("friction ratio")').first().textContent(), /> 1\.12/);
+  assert.match(await page.locator('canvas.plot').getAttribute('aria-label'), /^flow rate, position and current of the last 30 seconds; status: /);
   const first = page.locator('figure.history').first();
   await first.press('+');
   const shown = Number(await first.getAttribute('data-shown'));
@@ -262,18 +287,20 @@ test('a recording that has ended leaves old figures, and its card says so', asyn
 test('the keyboard goes from card to card, into a valve and back', async () => {
   const { page } = await opened();
   await page.waitForFunction(() => document.querySelectorAll('.card').length === 4);
+  await page.locator('label:has-text("problems first") input').uncheck();  // places stay
   await page.locator('.card').first().focus();
   const focused = () => page.evaluate(() => document.activeElement.querySelector('.name')?.textContent);
+  const names = await page.locator('.card .name').allTextContents();
   await page.keyboard.press('ArrowRight');
-  assert.equal(await focused(), 'press_2');
+  assert.equal(await focused(), names[1]);
   await page.keyboard.press('End');
-  assert.equal(await focused(), 'feed_udp');
+  assert.equal(await focused(), names[3]);
   await page.keyboard.press('Home');
   await page.waitForTimeout(1200);  // a second's figures do not take the focus away
-  assert.equal(await focused(), 'press_1');
+  assert.equal(await focused(), names[0]);
   await page.keyboard.press('Enter');
   await page.waitForSelector('canvas.plot');
-  assert.equal(await page.title(), 'press_1 – spoolflow live');
+  assert.equal(await page.title(), `${names[0]} – spoolflow live`);
   await page.keyboard.press('Escape');
   await page.waitForSelector('.card');
   for (const [role, name] of [['link', /^Alarms/], ['link', 'Site'], ['region', 'valves']]) {

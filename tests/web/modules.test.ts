@@ -4,6 +4,8 @@ import { numberText } from './src/number_text';
 import { mapOf, rowsOf } from './src/playground/channel_map';
 import { channelOf, missing, type PackedNumbers } from './src/packed_numbers';
 import { tickTexts } from './src/plot_options';
+import { grouped, trendText, type Indicator } from './src/live/api';
+import { sparkOf } from './src/live/overview';
 import { choices, ReadersUnits } from './src/readers_units';
 import { SampleTimes } from './src/sample_times';
 import { drawnEdge, drawnLine, drawnRange, drawnTimes } from './src/thinning';
@@ -169,4 +171,30 @@ test('a channel map is the same as rows and as text, and its comments stay', () 
   assert.equal(mapOf(rows, text), text.replace('"ms"', '"s"') + 'current = { column = "I [mA]" }\n');
   assert.deepEqual(rowsOf("current = { column = 'I', unit = \"?\" } # a guess\n")[0], { channel: 'current', column: 'I', unit: '?', scale: '', offset: '', to: '' });
   assert.equal(mapOf([]), '[channels]\n');
+});
+
+const seen = (name: string, state: string, more: object = {}): Indicator =>
+  ({ name, value: 1, unit: '1', uncertainty_95: 0.1, baseline: 1, state, ...more });
+
+test('of indicators raised ones come first, then those that tell most, and counters stand apart', () => {
+  const found = grouped([seen('strokes', 'counts'), seen('dither_frequency', 'good'), seen('position_zero', 'good'), seen('friction_ratio', 'good'),
+                         seen('dither_frees', 'raised'), seen('friction_ratio_a', 'good')]);
+  assert.deepEqual(found.shown.map((one) => one.name), ['dither_frees', 'friction_ratio', 'friction_ratio_a', 'position_zero']);
+  assert.deepEqual(found.more.map((one) => one.name), ['dither_frequency']);
+  assert.deepEqual(found.counters.map((one) => one.name), ['strokes']);
+});
+
+test('a trend tells how fast and when its limit is reached, in the indicator’s unit', () => {
+  const trend = { per_hour: 0.5e-6, uncertainty_95: 1e-7, limit: 80e-6, hours_to_limit: 100, hours_to_limit_95: [80, 130] as [number, number] };
+  assert.equal(trendText(seen('edge_rounding', 'good', { unit: 'm', trend })), '+12 µm a day; reaches its limit 80 µm in about 4 days at work');
+  assert.equal(trendText(seen('edge_rounding', 'good', { unit: 'm', trend: { ...trend, hours_to_limit: null } })), '+12 µm a day');
+  assert.equal(trendText(seen('edge_rounding', 'good', { trend: null })), '');
+});
+
+test('a card’s line and band break where no samples came', () => {
+  const one = (flow: number | null) => ({ flow, lower: flow === null ? null : flow - 1, upper: flow === null ? null : flow + 1 });
+  const { line, band } = sparkOf([one(1), one(2), one(null), one(3)], 80);
+  assert.equal(line.split('M').length - 1, 2);
+  assert.equal(band.split('Z').length - 1, 2);
+  assert.match(line, /^M116 \S+L117 \S+M119 \S+$/);  // the newest at the right of 120
 });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "addons/live/page/alarm_words.hpp"
 #include "addons/live/page/api_text.hpp"
 
 namespace spoolflow::live {
@@ -16,6 +17,10 @@ Json json_of(const Alarm& alarm) {
                           {"baseline", then.baseline},
                           {"state", then.state}});
   }
+  const AlarmWords* const words = words_for(alarm.cause);
+  const auto said = [&](std::string_view AlarmWords::*member) {
+    return words == nullptr || (words->*member).empty() ? Json(nullptr) : Json(words->*member);
+  };
   return {{"id", alarm.id},
           {"valve", alarm.valve},
           {"cause", alarm.cause},
@@ -28,6 +33,9 @@ Json json_of(const Alarm& alarm) {
           {"acknowledged_by", alarm.acknowledged_by.empty() ? Json(nullptr) : Json(alarm.acknowledged_by)},
           {"time_s", rounded(alarm.time_s, 6)},
           {"text", alarm.text},
+          {"meaning", said(&AlarmWords::meaning)},
+          {"remedy", said(&AlarmWords::remedy)},
+          {"indicator", said(&AlarmWords::indicator)},
           {"recording", alarm.recording == 0 ? Json(nullptr) : Json(alarm.recording)},
           {"indicators", std::move(indicators)}};
 }

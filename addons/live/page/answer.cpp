@@ -113,6 +113,23 @@ PageAnswer flow_days(const Engine& engine, std::size_t valve, const Span& span, 
   return {200, json, flow_days_json(id, span, points)};
 }
 
+constexpr std::string_view recent_path = "/api/v1/recent";
+
+/// Of every valve what the store has of the last seconds; where that takes too long, of those that were read until
+/// then.
+PageAnswer recent_flows(const Engine& engine, const std::stop_token& stop) {
+  const auto end = std::chrono::steady_clock::now() + longest_reading;
+  const std::int64_t to_ms = wall_ms() / 1000 * 1000, from_ms = to_ms - 1000 * recent_seconds;
+  const std::string& store = engine.site().store;
+  std::vector<RecentFlow> out;
+  for (std::size_t k = 0; k < engine.size() && !store.empty(); ++k) {
+    if (stop.stop_requested() || std::chrono::steady_clock::now() > end) break;
+    const std::string& id = engine.valve(k).id();
+    out.push_back({id, read_flow(store, id, {from_ms, to_ms, recent_seconds, least_flow_width_ms})});
+  }
+  return {200, json, recent_json(from_ms, out)};
+}
+
 /// /api/v1/valves/ID/indicators and /api/v1/valves/ID/history; nothing where it is neither.
 std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, std::string_view target,
                                   const std::stop_token& stop) {
@@ -128,7 +145,8 @@ std::optional<PageAnswer> days_of(const Engine& engine, std::string_view path, s
 
 /// What reads the store.
 bool is_long(std::string_view path) {
-  return valve_asked(path, "indicators") || valve_asked(path, "history") || path.starts_with("/api/v1/recordings");
+  return valve_asked(path, "indicators") || valve_asked(path, "history") || path.starts_with("/api/v1/recordings") ||
+         path == recent_path;
 }
 
 }  // namespace
@@ -138,6 +156,7 @@ PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_
   if (method != "GET" && method != "HEAD") return {405, plain, "only GET is answered\n"};
   const std::string_view path = target.substr(0, target.find('?'));
   try {
+    if (path == recent_path) return recent_flows(engine, stop);
     if (auto days = days_of(engine, path, target, stop)) return std::move(*days);
     return found(engine, path);
   } catch (const StoreError& error) {
@@ -147,11 +166,24 @@ PageAnswer answer_to(const Engine& engine, std::string_view method, std::string_
 
 namespace {
 
+/// The valve of /api/v1/valves/ID, whether there is one or not.
+std::optional<std::string_view> valve_alone(std::string_view path) {
+  constexpr std::string_view before = "/api/v1/valves/";
+  if (!path.starts_with(before) || path.size() == before.size()) return std::nullopt;
+  path.remove_prefix(before.size());
+  return path.find('/') == std::string_view::npos ? std::optional(path) : std::nullopt;
+}
+
 PageAnswer found(const Engine& engine, std::string_view path) {
   if (path == "/") return {200, "text/html; charset=utf-8", page_file("live.html")};
   if (path == "/live.js") return {200, "text/javascript; charset=utf-8", page_file("live.js")};
   if (path == "/live.css") return {200, "text/css; charset=utf-8", page_file("live.css")};
   if (path == "/api/v1/valves") return {200, json, valves_json(engine)};
+  if (const auto id = valve_alone(path)) {
+    const auto valve = place_of(engine, *id);
+    if (!valve) return {404, plain, "there is no valve of this name\n"};
+    return {200, json, valve_json(engine, *valve)};
+  }
   if (path == "/api/v1/events") return {200, json, events_json(engine)};
   if (path == "/api/v1/alarms") return {200, json, alarms_json(engine)};
   if (path == "/api/v1/recordings") return {200, json, recordings_json(engine)};

@@ -8,6 +8,8 @@ namespace spoolflow::live {
 
 /// JSON of /api/v1/valves: {"valves": [...]}.
 [[nodiscard]] std::string valves_json(const Engine& engine);
+/// JSON of /api/v1/valves/ID: one of them.
+[[nodiscard]] std::string valve_json(const Engine& engine, std::size_t valve);
 /// JSON of /api/v1/events: {"events": [...]}, newest first.
 [[nodiscard]] std::string events_json(const Engine& engine);
 /// JSON of /api/v1/alarms: {"alarms": [...]}, newest first; those cleared long ago are left out.

@@ -60,6 +60,27 @@ std::string indicator_days_json(const std::string& valve, const Span& span,
       Json{{"valve", valve}, {"from", utc(span.from_ms)}, {"to", utc(span.to_ms)}, {"indicators", std::move(out)}});
 }
 
+std::string recent_json(std::int64_t from_ms, const std::vector<RecentFlow>& valves) {
+  Json out = Json::array();
+  for (const RecentFlow& valve : valves) {
+    std::vector<const FlowPoint*> seconds(static_cast<std::size_t>(recent_seconds), nullptr);
+    for (const FlowPoint& point : valve.points) {
+      const std::int64_t second = (point.wall_ms - from_ms) / 1000;
+      if (second >= 0 && second < recent_seconds) seconds[static_cast<std::size_t>(second)] = &point;
+    }
+    const auto flows = [&](double FlowPoint::*member) {
+      return column(seconds, [&](const FlowPoint* point) {
+        return point == nullptr ? Json(nullptr) : six_digits(point->*member * units::litre_per_minute_per_m3_per_s);
+      });
+    };
+    out.push_back({{"id", valve.valve},
+                   {"flow_L_min", flows(&FlowPoint::mean_m3_per_s)},
+                   {"flow_lower_L_min", flows(&FlowPoint::lower_m3_per_s)},
+                   {"flow_upper_L_min", flows(&FlowPoint::upper_m3_per_s)}});
+  }
+  return written(Json{{"step_s", 1}, {"from", utc(from_ms)}, {"valves", std::move(out)}});
+}
+
 std::string flow_days_json(const std::string& valve, const Span& span, const std::vector<FlowPoint>& points) {
   using Point = FlowPoint;
   const auto flow = [](double m3_per_s) { return six_digits(m3_per_s * units::litre_per_minute_per_m3_per_s); };

@@ -83,6 +83,14 @@ TEST_F(PageTest, ValvesAreAsTheInterfaceSays) {
   EXPECT_THAT(answer_to(engine, "GET", "/metrics").body, HasSubstr("spoolflow_stalled{valve=\"a\"} 1\n"));
 }
 
+TEST_F(PageTest, OneValveIsTheSameAsAmongAll) {
+  const auto all = nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/valves").body)["valves"];
+  const auto one = nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/valves/b").body);
+  EXPECT_EQ(one["id"], "b");
+  EXPECT_EQ(one["indicators"], all[1]["indicators"]);
+  EXPECT_EQ(answer_to(engine, "GET", "/api/v1/valves/c").status, 404U);
+}
+
 TEST_F(PageTest, MetricsStateNoFlowBeforeTheFirstSample) {
   const std::string metrics = answer_to(engine, "GET", "/metrics").body;
   for (const char* name : {"flow_cubic_metres_per_second", "flow_lower_cubic_metres_per_second",

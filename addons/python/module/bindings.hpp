@@ -8,6 +8,8 @@ namespace spoolflow::python {
 void add_errors(pybind11::module_& module);
 /// Recordings from files and of the virtual rig.
 void add_recordings(pybind11::module_& module);
+/// Columns in memory as recordings, and recordings as files.
+void add_memory(pybind11::module_& module);
 /// What a file holds, before anything is made of it.
 void add_inspections(pybind11::module_& module);
 /// Estimates as files.
@@ -16,7 +18,9 @@ void add_tables(pybind11::module_& module);
 void add_sensors(pybind11::module_& module);
 /// Many valves at once.
 void add_batches(pybind11::module_& module);
-/// What commands do: calibrate, validate, monitor, analyse.
+/// From campaigns to models: of valves, of types and of their units; models in their machines.
+void add_calibrations(pybind11::module_& module);
+/// What commands do with a model: validate, monitor, analyse.
 void add_work(pybind11::module_& module);
 /// Whole measuring campaigns of the virtual rig.
 void add_campaigns(pybind11::module_& module);

@@ -20,7 +20,8 @@ namespace py = pybind11;
 using recording::Channel;
 using recording::Recording;
 
-/// As arguments and attributes are called: name and SI unit.
+}  // namespace
+
 std::string column_name(Channel channel) {
   std::string name(recording::name(channel));
   switch (recording::dimension(channel)) {
@@ -45,32 +46,13 @@ std::string column_name(Channel channel) {
   }
 }
 
+namespace {
+
 std::shared_ptr<ReadRecording> read(const std::filesystem::path& file,
                                     const std::optional<std::filesystem::path>& channels,
                                     const std::optional<double>& stroke_m) {
   return at_work([&](SignalCheck& check) {
-    recording::ReadOptions options;
-    if (channels) options.channels = recording::read_channel_map(*channels);
-    options.required = {Channel::time};
-    for (const Channel channel : recording::all_channels()) {
-      if (channel != Channel::time) options.optional.push_back(channel);
-    }
-    options.stroke_m = stroke_m;
-    const auto reader = recording::open_reader(file, options);
-    auto out = std::make_shared<ReadRecording>();
-    out->recording.file = file;
-    recording::SampleBlock block;
-    while (reader->next(block)) {
-      check();
-      for (const Channel channel : recording::all_channels()) {
-        const std::vector<double>& rows = block.column(channel);
-        std::vector<double>& column = out->recording.column(channel);
-        column.insert(column.end(), rows.begin(), rows.end());
-      }
-    }
-    out->notes = reader->notes();
-    out->recording.resampled = out->notes.resampled;
-    return out;
+    return read_whole(*recording::open_reader(file, every_channel(channels, stroke_m)), file, check);
   });
 }
 
@@ -134,6 +116,36 @@ std::shared_ptr<ReadRecording> unpacked(const py::tuple& state) {
 
 }  // namespace
 
+recording::ReadOptions every_channel(const std::optional<std::filesystem::path>& channels,
+                                     const std::optional<double>& stroke_m) {
+  recording::ReadOptions options;
+  if (channels) options.channels = recording::read_channel_map(*channels);
+  options.required = {Channel::time};
+  for (const Channel channel : recording::all_channels()) {
+    if (channel != Channel::time) options.optional.push_back(channel);
+  }
+  options.stroke_m = stroke_m;
+  return options;
+}
+
+std::shared_ptr<ReadRecording> read_whole(recording::Reader& reader, const std::filesystem::path& file,
+                                          SignalCheck& check) {
+  auto out = std::make_shared<ReadRecording>();
+  out->recording.file = file;
+  recording::SampleBlock block;
+  while (reader.next(block)) {
+    check();
+    for (const Channel channel : recording::all_channels()) {
+      const std::vector<double>& rows = block.column(channel);
+      std::vector<double>& column = out->recording.column(channel);
+      column.insert(column.end(), rows.begin(), rows.end());
+    }
+  }
+  out->notes = reader.notes();
+  out->recording.resampled = out->notes.resampled;
+  return out;
+}
+
 py::tuple simulated_objects(const rig::Simulation& simulation, const std::filesystem::path& file) {
   auto out = std::make_shared<ReadRecording>();
   out->recording = simulation.recording;
@@ -157,6 +169,9 @@ void add_recordings(py::module_& module) {
   py::list channels;
   for (const Channel channel : recording::all_channels()) channels.append(std::string(recording::name(channel)));
   module.attr("channels") = channels;
+  py::list columns;
+  for (const Channel channel : recording::all_channels()) columns.append(column_name(channel));
+  module.attr("columns") = columns;
   module.def("read_recording", &read);
   module.def("simulate", &simulate);
   module.def("takes_a_process", [](const std::vector<std::filesystem::path>& files) {

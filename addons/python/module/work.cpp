@@ -6,6 +6,7 @@
 
 #include "addons/python/module/bindings.hpp"
 #include "addons/python/module/models.hpp"
+#include "addons/python/module/page_text.hpp"
 #include "addons/python/module/signal_check.hpp"
 #include "spoolflow/analysis/analysis.hpp"
 #include "spoolflow/analysis/dither_study.hpp"
@@ -13,7 +14,6 @@
 #include "spoolflow/apps/work/corrected_model.hpp"
 #include "spoolflow/apps/work/monitored_recording.hpp"
 #include "spoolflow/apps/work/readable_model.hpp"
-#include "spoolflow/calibration/calibrate.hpp"
 #include "spoolflow/parallel/for_each.hpp"
 #include "spoolflow/report/analysis/analysis_report.hpp"
 #include "spoolflow/report/analysis/dither_report.hpp"
@@ -31,25 +31,6 @@ namespace {
 namespace py = pybind11;
 using Path = std::filesystem::path;
 
-/// What is wanted of a page, and in which units.
-using PageUnits = std::optional<std::vector<std::string>>;
-
-/// What `write` writes.
-template <class Write>
-std::string text_of(const Write& write) {
-  std::ostringstream out;
-  write(out);
-  return std::move(out).str();
-}
-
-/// The page where it is wanted.
-template <class Write>
-std::optional<std::string> page_of(const PageUnits& units, const Write& write) {
-  if (!units) return std::nullopt;
-  const report::ReaderUnits in(*units);
-  return text_of([&](std::ostream& out) { write(out, in); });
-}
-
 /// Figures as the command writes them as JSON, the page, and what else was asked for.
 struct Judgement {
   std::string figures;
@@ -60,32 +41,6 @@ struct Judgement {
 
 recording::ChannelMap channel_map(const std::optional<Path>& file) {
   return file ? recording::read_channel_map(*file) : recording::ChannelMap{};
-}
-
-py::tuple calibrate(const Path& file, bool allow_outside, bool despite_doubts, const PageUnits& units,
-                    const py::object& tell) {
-  struct Made {
-    SharedModel model;
-    std::optional<std::string> page;
-    std::vector<std::string> notes;
-  };
-  const Made made = at_work([&](SignalCheck& check) {
-    const recording::Campaign campaign = recording::read_campaign(
-        file, allow_outside ? recording::OutsideFiles::allowed : recording::OutsideFiles::refused);
-    const model::Model model = calibration::calibrate(
-        campaign, SPOOLFLOW_VERSION, [&](const std::string& step, double share) { check(tell, step, share); },
-        despite_doubts ? calibration::Contradictions::noted : calibration::Contradictions::refused);
-    Made out;
-    for (const model::InputFile& input : model.provenance.inputs) {
-      if (!input.resampled.empty()) out.notes.push_back(input.file + ": " + input.resampled);
-    }
-    out.page = page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
-      report::write_calibration_report(page, model, in);
-    });
-    out.model = std::make_shared<KeptModel>(apps::readable_text(model, "the model"), "the model");
-    return out;
-  });
-  return py::make_tuple(made.model, made.page, made.notes);
 }
 
 std::vector<estimation::Estimator> chosen(const std::string& name, const model::Model& model) {
@@ -239,14 +194,6 @@ py::tuple dither(const SharedModel& kept, const AnalysisRequest& asked, const st
 }  // namespace
 
 void add_work(py::module_& module) {
-  module.def("calibrate", &calibrate);
-  module.def("campaign_files", [](const Path& file) {
-    std::vector<Path> out;
-    for (const recording::CampaignRecording& each :
-         recording::read_campaign(file, recording::OutsideFiles::allowed).recordings)
-      out.push_back(each.file);
-    return out;
-  });
   module.def("validate", &validate);
   module.def("monitor", &monitor_recordings);
   module.def("analyse", [](const SharedModel& model, const std::optional<Path>& scenario,

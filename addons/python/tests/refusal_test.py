@@ -105,10 +105,37 @@ class Refusal(examples.InAFolder):
             with self.assertRaisesRegex(spoolflow.Error, "^" + words):
                 sensor.step(**sample)
 
-    def test_of_recordings_in_memory_asks_for_their_files(self):
-        for recordings in (examples.ramp(), [examples.ramp()]):
-            with self.assertRaisesRegex(spoolflow.Error, "recordings are given by their files here"):
-                spoolflow.validate(examples.model(), recordings)
+    def test_of_a_missing_file_is_also_that_of_python(self):
+        gone = self.folder / "gone"
+        campaign = {"valve": {"name": "A", "rated_flow_L_min": 80, "stroke_mm": 2.4},
+                    "recording": [{"protocol": "spring", "file": gone}]}
+        for work in (lambda: spoolflow.read_recording(gone), lambda: spoolflow.load_model(gone), lambda: spoolflow.inspect(gone),
+                     lambda: spoolflow.validate(examples.model(), gone), lambda: spoolflow.validate(gone, examples.RAMP),
+                     lambda: spoolflow.validate(examples.model(), examples.RAMP, requirements=gone),
+                     lambda: spoolflow.monitor(examples.model(), [examples.RAMP, gone]),
+                     lambda: spoolflow.monitor(examples.model(), examples.RAMP, baseline=gone),
+                     lambda: spoolflow.read_recording(examples.RAMP, gone), lambda: spoolflow.simulate(gone),
+                     lambda: spoolflow.calibrate(gone), lambda: spoolflow.calibrate(campaign),
+                     lambda: examples.model().in_environment(gone)):
+            with self.assertRaises(FileNotFoundError) as caught:
+                work()
+            self.assertIsInstance(caught.exception, spoolflow.Error)
+            self.assertEqual(caught.exception.filename, str(gone))
+            self.assertIn("gone", str(caught.exception))
+
+    def test_is_never_without_words(self):
+        model, ramp = examples.model(), examples.ramp()
+        for work in (lambda: spoolflow.load_model(""), lambda: spoolflow.read_recording(""), lambda: spoolflow.calibrate(""),
+                     lambda: spoolflow.calibrate([]), lambda: spoolflow.calibrate({}), lambda: spoolflow.validate(model, {}),
+                     lambda: spoolflow.validate(model, []), lambda: spoolflow.validate(model, [""]), lambda: spoolflow.monitor(model, 7),
+                     lambda: spoolflow.inspect(""), lambda: spoolflow.simulate(""), lambda: model.estimate(),
+                     lambda: model.estimate({}), lambda: model.estimate(7), lambda: model.save(""), lambda: ramp[[10**9]],
+                     lambda: model.estimate(ramp, estimator=""), lambda: spoolflow.validate("", examples.RAMP),
+                     lambda: model.in_environment(wind=3), lambda: model.in_environment({"vibration_g": -1}),
+                     lambda: spoolflow.validate(model, ramp, report=""), lambda: spoolflow.campaign("", self.folder)):
+            with self.assertRaises(Exception) as caught:
+                work()
+            self.assertGreater(len(str(caught.exception).strip()), 10, repr(caught.exception))
 
     def test_of_a_channel_that_is_not_there_lists_those_that_are(self):
         with self.assertRaisesRegex(KeyError, "curent_A: no such channel; the recording has time_s, current_A"):

@@ -50,6 +50,20 @@ Deviations tolerances_from(const recording::CampaignTolerances& written) {
   return out;
 }
 
+Deviations tolerances_of(const std::vector<recording::Campaign>& campaigns) {
+  const recording::CampaignTolerances* written = nullptr;
+  for (const recording::Campaign& campaign : campaigns) {
+    if (campaign.tolerances.values.empty()) continue;
+    if (written != nullptr && written->values != campaign.tolerances.values) {
+      throw CalibrationError(
+          fmt::format("{} and {}: [tolerances] differ, and are of the type that both belong to; state them once",
+                      written->place, campaign.tolerances.place));
+    }
+    written = &campaign.tolerances;
+  }
+  return tolerances_from(written == nullptr ? recording::CampaignTolerances{} : *written);
+}
+
 model::TypeSection type_section(const std::string& type_name, bool unit, const Deviations& tolerances,
                                 const KnownDeviations& known, const model::EnvironmentWithoutSpread& environment) {
   std::vector<std::string> names;

@@ -1,6 +1,7 @@
 #pragma once
 /// A model that serves every unit of a type, with the spread that manufacturing leaves between them.
 #include <string>
+#include <vector>
 
 #include "spoolflow/calibration/type/map_estimate.hpp"
 #include "spoolflow/calibration/type/variation.hpp"
@@ -13,6 +14,9 @@ namespace spoolflow::calibration {
 /// campaign, where lengths are in micrometres: `edge_position_um`, `position_zero_um`. Throws CalibrationError with the
 /// line where a key is none of them or a value is beyond what unit_parameters() is for.
 [[nodiscard]] Deviations tolerances_from(const recording::CampaignTolerances& written);
+
+/// The same of the first campaign that has [tolerances]. Throws CalibrationError where another's differ.
+[[nodiscard]] Deviations tolerances_of(const std::vector<recording::Campaign>& campaigns);
 
 /// A valve's own model as that of its type: the tables stay, the band holds units within these tolerances. Throws
 /// CalibrationError where the model has no observer, is of a whole valve, or is of a type or a unit already.

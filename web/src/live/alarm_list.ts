@@ -1,5 +1,7 @@
 /** Alarms with what was seen when they were raised, raw samples, and a button for those who may acknowledge. */
-import { acknowledge, clock, inUnit, keyOf, scaled, severity, short, signs, words, type Alarm } from './api';
+import {
+  acknowledge, clock, duration, inUnit, keyOf, scaled, severity, short, signs, trendText, words, type Alarm, type Valve,
+} from './api';
 import { element, row, setText } from './element';
 import { visitor } from './visitor';
 
@@ -18,6 +20,9 @@ class Entry {
   readonly place = element('li', 'alarm');
   private readonly sign = element('span', 'sign');
   private readonly state = element('span', 'state');
+  private readonly meaning = element('p', 'meaning');
+  private readonly remedy = element('p', 'remedy');
+  private readonly growth = element('p', 'growth');
   private readonly when = element('p', 'when');
   private readonly links = element('p', 'links');
   private readonly button = element('button', 'acknowledge', 'Acknowledge');
@@ -31,10 +36,25 @@ class Entry {
     this.button.setAttribute('aria-label', `Acknowledge alarm ${alarm.id}: ${words(alarm.cause)} of ${alarm.valve}`);
     this.button.addEventListener('click', () => void this.acknowledge(keyOf(alarm)));
     const head = element('p', 'what', this.sign, ' ', valve, ' ', element('b', '', words(alarm.cause)), ' ', this.state);
-    this.place.append(head, this.button, this.when);
+    this.place.append(head, this.button, this.meaning, this.growth, this.remedy, this.when);
     if (alarm.indicators.length > 0) this.place.append(this.indicators(alarm));
     this.place.append(this.links, this.trouble);
     this.trouble.hidden = true;
+  }
+
+  /** Figures that go on: how long it stands, and what its indicator shows beside then. */
+  follow(alarm: Alarm, valve: Valve | undefined): void {
+    const ended = alarm.gone === null ? Date.now() : Date.parse(alarm.gone);
+    const since = `${alarm.gone === null ? 'For' : 'Stood for'} ${duration(Math.max(0, ended - Date.parse(alarm.raised)) / 1000)}`;
+    const named = (one: { name: string }): boolean => one.name === alarm.indicator || one.name === `${alarm.indicator ?? ''}_a`;
+    const lines = (valve?.indicators ?? []).filter((one) => named(one) && one.value !== null).map((one) => {
+      const { factor, unit } = inUnit(one), then = alarm.indicators.find((each) => each.name === one.name);
+      const value = (each: number | null | undefined): string => short(scaled(each ?? null, factor));
+      return `${words(one.name)} ${value(one.value)} ± ${value(one.uncertainty_95)}${unit === '' ? '' : ` ${unit}`}` +
+        `${then === undefined ? '' : ` (${value(then.value)} when it was raised)`}, usual ${value(one.baseline)}` +
+        `${one.trend == null ? '' : `; ${trendText(one)}`}`;
+    });
+    setText(this.growth, [since, ...lines].join('; '));
   }
 
   show(alarm: Alarm): void {
@@ -46,6 +66,10 @@ class Entry {
     setText(this.sign, signs[alarm.ne107]);
     this.sign.dataset['sign'] = alarm.ne107;
     setText(this.state, states[alarm.state]);
+    setText(this.meaning, alarm.meaning ?? '');
+    setText(this.remedy, alarm.remedy ?? '');
+    this.meaning.hidden = alarm.meaning == null;
+    this.remedy.hidden = alarm.remedy == null;
     setText(this.when, `${alarm.text}; since ${clock(alarm.raised)}${alarm.times > 1 ? `, ${alarm.times} times` : ''}` +
       `${alarm.gone === null ? '' : `, gone ${clock(alarm.gone)}`}` +
       `${alarm.acknowledged === null ? '' : `, acknowledged by ${alarm.acknowledged_by} ${clock(alarm.acknowledged)}`}`);
@@ -99,11 +123,17 @@ export class AlarmList {
   private readonly entries = new Map<string, Entry>();
   private readonly nothing = element('li', 'soft', 'none');
   private readonly more = element('li', 'soft');
+  private valves: readonly Valve[] = [];
 
   /** `says`: that there are none, where there are none. */
   constructor(private readonly wanted: (alarm: Alarm) => boolean, private readonly most = 100, private readonly says = false) {
     this.place.setAttribute('aria-label', 'alarms');
     this.place.tabIndex = -1;
+  }
+
+  /** Whose figures the alarms shown from now on go on with. */
+  follow(valves: readonly Valve[]): void {
+    this.valves = valves;
   }
 
   show(alarms: readonly Alarm[]): void {
@@ -120,6 +150,7 @@ export class AlarmList {
         this.entries.set(keyOf(alarm), entry);
       }
       entry.show(alarm);
+      entry.follow(alarm, this.valves.find((valve) => valve.id === alarm.valve));
       return entry.place;
     });
     if (all.length > shown.length) {

@@ -5,7 +5,20 @@ export interface Indicator {
   unit: string;
   uncertainty_95: number | null;
   baseline: number | null;
+  /** Values beyond count towards an alarm; null: none is judged on that side. Not in alarms. */
+  alarm_below?: number | null;
+  alarm_above?: number | null;
+  trend?: Trend | null;
   state: string;
+}
+
+/** Where the slope is beyond chance. */
+export interface Trend {
+  per_hour: number;
+  uncertainty_95: number;
+  limit: number;
+  hours_to_limit: number | null;
+  hours_to_limit_95: [number | null, number | null];
 }
 
 export interface Valve {
@@ -53,6 +66,11 @@ export interface Alarm {
   acknowledged: string | null;
   acknowledged_by: string | null;
   text: string;
+  /** In words; null where the cause has none. */
+  meaning?: string | null;
+  remedy?: string | null;
+  /** Whose course shows how fast it grows. */
+  indicator?: string | null;
   recording: number | null;
   indicators: Indicator[];
 }
@@ -72,6 +90,8 @@ export interface Site {
   store: string;
   store_trouble: string;
   store_mended: { time: string; text: string } | null;
+  /** Of the status word. */
+  status_bits: Record<string, number>;
   udp: { port: number; datagrams: number; unreadable: number; unknown_valve: number; not_allowed: number };
 }
 
@@ -135,6 +155,14 @@ export async function readAll(): Promise<Told> {
     read<{ alarms: Alarm[] }>('/api/v1/alarms'), read<Site>('/api/v1/site')]);
   return { valves: valves.valves, events: events.events, alarms: alarms.alarms, site };
 }
+/** Of a valve in each of the last seconds, the oldest first. */
+export interface Recent {
+  id: string;
+  flow_L_min: Column;
+  flow_lower_L_min: Column;
+  flow_upper_L_min: Column;
+}
+export const readRecent = async (): Promise<Recent[]> => (await read<{ valves: Recent[] }>('/api/v1/recent')).valves;
 export const readRecordings = async (): Promise<Recording[]> =>
   (await read<{ recordings: Recording[] }>('/api/v1/recordings')).recordings;
 export const readSession = (): Promise<Session> => read<Session>('/api/v1/session');
@@ -176,6 +204,32 @@ export function duration(seconds: number): string {
   if (seconds < 120) return `${seconds.toFixed(0)} s`;
   if (seconds < 7200) return `${(seconds / 60).toFixed(0)} min`;
   return seconds < 172800 ? `${(seconds / 3600).toFixed(0)} h` : `${(seconds / 86400).toFixed(0)} days`;
+}
+
+/** Of indicators those that tell most of a valve, in their order; those of solenoid a count with those of b. */
+const first = ['friction_ratio', 'edge_rounding', 'spring_preload_ratio', 'spring_rate_ratio', 'shorted_turns', 'position_zero',
+  'coil_resistance', 'breakaway_force', 'hysteresis_width', 'stick_slip_share', 'response_time', 'winding_warmer_than_reference'];
+
+/** Raised ones first of all, then the twelve that tell most, what else is judged or learnt, and counters apart. */
+export function grouped(indicators: readonly Indicator[]): { shown: Indicator[]; more: Indicator[]; counters: Indicator[] } {
+  const rank = (one: Indicator): number => {
+    const at = first.indexOf(one.name.replace(/_a$/, ''));
+    return one.state === 'raised' ? -1 : at < 0 ? first.length : at;
+  };
+  const judged = indicators.filter((one) => one.state !== 'counts');
+  const shown = judged.filter((one) => rank(one) < first.length).sort((a, b) => rank(a) - rank(b));
+  return { shown, more: judged.filter((one) => rank(one) === first.length), counters: indicators.filter((one) => one.state === 'counts') };
+}
+
+/** How an indicator changes, and when it reaches its limit; empty where it has no trend. */
+export function trendText(one: Indicator): string {
+  if (one.trend == null) return '';
+  const { factor, unit } = inUnit(one), { per_hour, limit, hours_to_limit } = one.trend;
+  const days = Math.abs(per_hour * 24 * factor) < 1000;
+  const rate = `${per_hour * factor > 0 ? '+' : ''}${short(per_hour * factor * (days ? 24 : 1))}${unit === '' ? '' : ` ${unit}`} a ${days ? 'day' : 'hour'}`;
+  const reach = hours_to_limit === null ? '' : hours_to_limit <= 0 ? `; it is beyond its limit ${short(limit * factor)}`
+    : `; reaches its limit ${short(limit * factor)}${unit === '' ? '' : ` ${unit}`} in about ${duration(3600 * hours_to_limit)} at work`;
+  return `${rate}${reach}`;
 }
 
 /** Four digits that matter, for figures of any size. */

@@ -17,6 +17,9 @@ export interface Curve {
   /** What is usual; null where there is no such thing. */
   usual: Column | null;
   raised: boolean[];
+  /** What lies beyond counts towards an alarm; null: nothing on that side. */
+  alarmBelow: number | null;
+  alarmAbove: number | null;
 }
 
 const tall = 150;
@@ -132,7 +135,7 @@ export class HistoryPlot {
       height: tall,
       padding: [8, 12, 0, 0],
       legend: { show: false },
-      scales: { x: { time: true }, y: { range: (_plot, lowest, highest) => HistoryPlot.heightOf(lowest, highest) } },
+      scales: { x: { time: true }, y: { range: (_plot, lowest, highest) => this.heightOf(lowest, highest) } },
       axes: [{ ...axis, space: 70, values: clockTexts }, { ...axis, size: 58, space: 18, values: (_plot, splits, _axis, _space, step) => tickTexts(splits, step) }],
       cursor: { y: false, drag: { x: true, y: false }, sync: { key: this.group } },
       series: [
@@ -143,12 +146,15 @@ export class HistoryPlot {
         { ...none, stroke: () => colour('soft'), width: 1, dash: [5, 4] },
       ],
       bands: [{ series: [1, 2], fill: () => paleColour('observer', 0.2) }],
-      hooks: { draw: [(plot) => this.markRaised(plot)], setCursor: [(plot) => this.read(plot)] },
+      hooks: { draw: [(plot) => this.markRaised(plot), (plot) => this.markLimits(plot)], setCursor: [(plot) => this.read(plot)] },
     }, data, this.room);
   }
 
-  private static heightOf(lowest: number | null, highest: number | null): [number, number] {
+  /** With room for the limits of alarms. */
+  private heightOf(lowest: number | null, highest: number | null): [number, number] {
     if (lowest === null || highest === null) return [0, 1];
+    lowest = Math.min(lowest, this.curve?.alarmBelow ?? lowest);
+    highest = Math.max(highest, this.curve?.alarmAbove ?? highest);
     const margin = Math.max(0.08 * (highest - lowest), 1e-9 + 0.01 * Math.abs(highest));
     return [lowest - margin, highest + margin];
   }
@@ -164,6 +170,25 @@ export class HistoryPlot {
       const to = k + 1 < times.length ? plot.valToPos(times[k + 1]!, 'x', true) : from + 3;
       const begin = Math.max(left, from), end = Math.min(left + width, Math.max(to, from + 2));
       if (end > begin) plot.ctx.fillRect(begin, top, end - begin, 4 * devicePixelRatio);
+    }
+    plot.ctx.restore();
+  }
+
+  private markLimits(plot: uPlot): void {
+    const { left, width, top, height } = plot.bbox;
+    plot.ctx.save();
+    plot.ctx.strokeStyle = colour('fault');
+    plot.ctx.fillStyle = paleColour('fault', 0.08);
+    plot.ctx.lineWidth = devicePixelRatio;
+    plot.ctx.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
+    for (const [limit, above] of [[this.curve?.alarmAbove, true], [this.curve?.alarmBelow, false]] as const) {
+      if (limit == null) continue;
+      const y = Math.min(Math.max(plot.valToPos(limit, 'y', true), top), top + height);
+      plot.ctx.fillRect(left, above ? top : y, width, above ? y - top : top + height - y);
+      plot.ctx.beginPath();
+      plot.ctx.moveTo(left, y);
+      plot.ctx.lineTo(left + width, y);
+      plot.ctx.stroke();
     }
     plot.ctx.restore();
   }

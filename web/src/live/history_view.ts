@@ -1,5 +1,5 @@
 /** Flow, power and indicators of a valve over hours and days, from the store. */
-import { inUnit, readFlow, readIndicators, Refusal, scaled, words, type FlowHistory, type IndicatorHistory } from './api';
+import { grouped, inUnit, readFlow, readIndicators, Refusal, scaled, words, type FlowHistory, type Indicator, type IndicatorHistory } from './api';
 import { element, setText } from './element';
 import { HistoryPlot, withGaps, type Curve } from './history_plot';
 
@@ -8,7 +8,7 @@ const refresh_ms = 30000;
 /** As the program thins them (addons/live/history/long_history.hpp). */
 const mostPoints = 600;
 
-function curveOf(one: IndicatorHistory): Curve {
+function curveOf(one: IndicatorHistory, now: Indicator | undefined): Curve {
   const { factor, unit } = inUnit(one);
   const about = (sign: number): (number | null)[] => one.value.map((value, k) =>
     value === null ? null : factor * (value + sign * (one.uncertainty_95[k] ?? 0)));
@@ -20,6 +20,8 @@ function curveOf(one: IndicatorHistory): Curve {
     upper: about(1),
     usual: one.baseline.map((value) => scaled(value, factor)),
     raised: one.raised,
+    alarmBelow: scaled(now?.alarm_below ?? null, factor),
+    alarmAbove: scaled(now?.alarm_above ?? null, factor),
   };
 }
 
@@ -28,7 +30,7 @@ function flowCurve(flow: FlowHistory): Curve {
     title: 'mean flow [L/min]',
     times: flow.time_ms.map((time) => time / 1000),
     middle: flow.flow_mean_L_min, lower: flow.flow_lower_L_min, upper: flow.flow_upper_L_min,
-    usual: null, raised: flow.time_ms.map(() => false),
+    usual: null, raised: flow.time_ms.map(() => false), alarmBelow: null, alarmAbove: null,
   };
 }
 
@@ -37,7 +39,7 @@ function powerCurve(flow: FlowHistory): Curve {
     title: 'hydraulic power through the edge [W]',
     times: flow.time_ms.map((time) => time / 1000),
     middle: flow.power_W, lower: flow.power_W, upper: flow.power_W,
-    usual: null, raised: flow.time_ms.map(() => false),
+    usual: null, raised: flow.time_ms.map(() => false), alarmBelow: null, alarmAbove: null,
   };
 }
 
@@ -50,6 +52,8 @@ export class HistoryView {
   private asked = -Infinity;
   private waiting = 0;  // for answers
   private closed = false;
+  /** As they are now, with their limits. */
+  private indicators: readonly Indicator[] = [];
   /** Whether the span is the reader's, or was found to fit. */
   private chosen = false;
 
@@ -64,7 +68,8 @@ export class HistoryView {
   }
 
   /** Asks again now and then. */
-  follow(): void {
+  follow(indicators: readonly Indicator[] = []): void {
+    this.indicators = indicators;
     if (this.waiting === 0 && performance.now() - this.asked > refresh_ms) void this.ask();
   }
   resize(): void {
@@ -107,10 +112,13 @@ export class HistoryView {
     const from = Math.max(now - seconds, Math.min(now - 120, oldest - 0.02 * (now - oldest)));
     const curves: [string, Curve, number][] = [];
     if (flow.time_ms.length > 0) curves.push(['flow', flowCurve(flow), 1], ['power', powerCurve(flow), 1]);
-    for (const one of indicators) {
-      if (one.value.some((value) => value !== null)) curves.push([one.name, curveOf(one), 60]);
+    const { shown, more } = grouped(this.indicators), order = [...shown, ...more].map((one) => one.name);
+    const place = (name: string): number => (order.indexOf(name) + order.length + 1) % (order.length + 1);
+    for (const one of [...indicators].sort((a, b) => place(a.name) - place(b.name))) {
+      const now = this.indicators.find((each) => each.name === one.name);
+      if (one.value.some((value) => value !== null)) curves.push([one.name, curveOf(one, now), 60]);
     }
-    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red: raised. Drag to zoom, double click to come back; by keyboard plus, minus, arrows and 0.'
+    setText(this.said, curves.length > 0 ? 'Shaded: the 95 % band (of the flow its outermost ends); dashed: baseline; red dots: values beyond count towards an alarm; red bar: raised. Drag to zoom, double click to come back; by keyboard plus, minus, arrows and 0.'
       : 'Nothing is kept of this time. Indicators are kept once a minute where the program has a store.');
     for (const [name, plot] of this.plots) {
       if (curves.some(([own]) => own === name)) continue;

@@ -1,6 +1,8 @@
 /** Every valve of the site on one card: flow, band, sign, the worst indicator, and a line of the last two minutes. */
 import { AlarmList } from './alarm_list';
-import { duration, figure, inUnit, isOld, scaled, severity, short, signs, words, type Indicator, type Told, type Valve } from './api';
+import {
+  duration, figure, inUnit, isOld, readRecent, scaled, severity, short, signs, words, type Indicator, type Recent, type Told, type Valve,
+} from './api';
 import { element, setText } from './element';
 import { EventList } from './event_list';
 
@@ -24,43 +26,81 @@ export function worstOf(valve: Valve): Indicator | undefined {
   return worst;
 }
 
+interface Second {
+  flow: number | null;
+  lower: number | null;
+  upper: number | null;
+}
+
+function svg(name: string, attributes: Record<string, string>): SVGElement {
+  const out = document.createElementNS('http://www.w3.org/2000/svg', name);
+  for (const [key, value] of Object.entries(attributes)) out.setAttribute(key, value);
+  return out;
+}
+
+/** Flow with its band as SVG paths over the last two minutes, the newest second at the right; gaps where nothing is known. */
+export function sparkOf(seconds: readonly Second[], rated: number): { line: string; band: string } {
+  const known = seconds.flatMap((one) => one.flow === null ? [] : [one.flow, one.lower ?? one.flow, one.upper ?? one.flow]);
+  const lowest = Math.min(0, ...known), highest = Math.max(0.02 * rated, ...known);
+  const y = (value: number): string => (23 - 22 * (value - lowest) / (highest - lowest)).toFixed(1);
+  const x = (k: number): number => k + history - seconds.length;
+  let line = '', band = '';
+  for (let from = 0; from < seconds.length;) {
+    if (seconds[from]!.flow === null) {
+      ++from;
+      continue;
+    }
+    let to = from;
+    while (to < seconds.length && seconds[to]!.flow !== null) ++to;
+    const part = seconds.slice(from, to).map((one, k) => ({ x: x(from + k), flow: one.flow!, lower: one.lower ?? one.flow!, upper: one.upper ?? one.flow! }));
+    line += part.map((one, k) => `${k === 0 ? 'M' : 'L'}${one.x} ${y(one.flow)}`).join('');
+    band += `M${part.map((one) => `${one.x} ${y(one.upper)}`).join('L')}L${[...part].reverse().map((one) => `${one.x} ${y(one.lower)}`).join('L')}Z`;
+    from = to;
+  }
+  return { line, band };
+}
+
 class Card {
   readonly link = element('a', 'card');
   private readonly sign = element('span', 'sign');
   private readonly flow = element('strong', 'flow');
   private readonly band = element('span', 'band');
   private readonly worst = element('span', 'worst');
-  private readonly line: SVGPathElement;
+  private readonly line = svg('path', { class: 'line' });
+  private readonly area = svg('path', { class: 'area' });
   /** Once a second; null where no samples came. */
-  private readonly flows: (number | null)[] = [];
+  private seconds: Second[] = [];
 
   constructor(id: string) {
     this.link.href = `#/valve/${encodeURIComponent(id)}`;
-    const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-    picture.setAttribute('viewBox', `0 0 ${history} 24`);
-    picture.setAttribute('preserveAspectRatio', 'none');
-    picture.setAttribute('class', 'spark');
-    picture.setAttribute('aria-hidden', 'true');
-    this.line = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-    picture.append(this.line);
-    this.link.append(element('span', 'top', element('span', 'name', id), this.sign), this.flow, this.band, picture, this.worst);
+    const picture = svg('svg', { viewBox: `0 0 ${history} 24`, preserveAspectRatio: 'none', class: 'spark', 'aria-hidden': 'true' });
+    picture.append(this.area, this.line);
+    const axis = element('span', 'axis', element('span', '', '−2 min'), element('span', '', '−1 min'), element('span', '', 'now'));
+    axis.setAttribute('aria-hidden', 'true');
+    this.link.append(element('span', 'top', element('span', 'name', id), this.sign), this.flow, this.band, picture as unknown as HTMLElement, axis, this.worst);
+  }
+
+  /** What the program saw before the page was opened. */
+  begin(recent: Recent): void {
+    const before = recent.flow_L_min.map((flow, k) => ({ flow, lower: recent.flow_lower_L_min[k] ?? null, upper: recent.flow_upper_L_min[k] ?? null }));
+    this.seconds = [...before.slice(this.seconds.length), ...this.seconds].slice(-history);
   }
 
   show(valve: Valve): void {
     setText(this.sign, signs[valve.ne107]);
     this.sign.dataset['sign'] = valve.ne107;
-    this.link.dataset['stalled'] = String(isOld(valve));
-    setText(this.flow, `${isOld(valve) && valve.flow_L_min !== null ? 'last ' : ''}${figure(valve.flow_L_min, 2)} L/min`);
+    const old = isOld(valve);
+    this.link.dataset['stalled'] = String(old);
+    setText(this.flow, `${old && valve.flow_L_min !== null ? 'last ' : ''}${figure(valve.flow_L_min, 2)} L/min`);
     setText(this.band, `${figure(valve.flow_lower_L_min, 2)} to ${figure(valve.flow_upper_L_min, 2)}`);
     setText(this.worst, this.said(valve));
     this.worst.dataset['raised'] = String(valve.indicators.some((one) => one.state === 'raised'));
-    this.flows.push(isOld(valve) ? null : valve.flow_L_min);
-    if (this.flows.length > history) this.flows.shift();
-    const known = this.flows.filter((flow) => flow !== null);
-    const lowest = Math.min(0, ...known), highest = Math.max(0.02 * valve.rated_flow_L_min, ...known);
-    this.line.setAttribute('d', this.flows.map((flow, k) => flow === null ? '' :
-      `${(this.flows[k - 1] ?? null) === null ? 'M' : 'L'}${k + history - this.flows.length} ` +
-      `${(23 - 22 * (flow - lowest) / (highest - lowest)).toFixed(1)}`).join(''));
+    this.seconds.push(old ? { flow: null, lower: null, upper: null }
+      : { flow: valve.flow_L_min, lower: valve.flow_lower_L_min, upper: valve.flow_upper_L_min });
+    if (this.seconds.length > history) this.seconds.shift();
+    const { line, band } = sparkOf(this.seconds, valve.rated_flow_L_min);
+    this.line.setAttribute('d', line);
+    this.area.setAttribute('d', band);
   }
 
   private said(valve: Valve): string {
@@ -85,17 +125,19 @@ export class Overview {
   private readonly worstFirst = element('input', '');
   private readonly count = element('span', 'count');
   private told: Told | null = null;
+  private asked = false;
 
   constructor() {
     this.grid.setAttribute('aria-label', 'valves');
     this.wanted.type = 'search';
     this.wanted.placeholder = 'name, sign or cause';
     this.worstFirst.type = 'checkbox';
+    this.worstFirst.checked = true;
     this.wanted.addEventListener('input', () => this.arrange());
     this.worstFirst.addEventListener('change', () => this.arrange());
     this.grid.addEventListener('keydown', (event) => this.move(event));
     const tools = element('div', 'tools', element('label', '', 'Show ', this.wanted),
-                          element('label', '', this.worstFirst, ' worst first'), this.count);
+                          element('label', '', this.worstFirst, ' problems first'), this.count);
     this.place.append(this.alarms.place, tools, this.grid, element('h2', '', 'Events'), this.events.place);
   }
 
@@ -109,9 +151,17 @@ export class Overview {
       }
       card.show(valve);
     }
+    if (!this.asked) void this.begin();
     this.arrange();
+    this.alarms.follow(told.valves);
     this.alarms.show(told.alarms);
     this.events.show(told.events);
+  }
+
+  /** The last two minutes, once. */
+  private async begin(): Promise<void> {
+    this.asked = true;
+    for (const recent of await readRecent().catch(() => [])) this.cards.get(recent.id)?.begin(recent);
   }
 
   /** The cards that are asked for, in their order; the page is touched where that changes. */

@@ -1,7 +1,14 @@
-/** The last half minute of a valve on a canvas: flow with its band, position, and where the status had faults or limits. */
+/** The last half minute of a valve on a canvas: flow with its band, position and current over time, and when which status was set. */
 import type { Point } from './stream';
 
-const window_s = 30, faultBits = 0xffff0000;
+const window_s = 30, faultBits = 0xffff0000, rowHeight = 22, mostRows = 4;
+
+/** Of the status word. */
+export interface Bit {
+  name: string;
+  mask: number;
+}
+const isFault = (bit: Bit): boolean => (bit.mask & faultBits) !== 0;
 
 interface Pane {
   title: string;
@@ -31,6 +38,7 @@ export function niceStep(range: number): number {
 
 export class Plot {
   readonly canvas = document.createElement('canvas');
+  bits: readonly Bit[] = [];
 
   constructor() {
     this.canvas.className = 'plot';
@@ -50,14 +58,20 @@ export class Plot {
     paint.font = '12px system-ui, sans-serif';
     const end = points.length > 0 ? points[points.length - 1]!.time : 0;
     const shown = points.filter((point) => point.time >= end - window_s);
-    const heights = [0.5, 0.25, 0.25];
+    const heights = [0.5, 0.25, 0.25], axis = 18;
+    const said = this.said(shown);
+    const strip = said.length === 0 ? 0 : 8 + rowHeight * said.length;
     let top = 0;
     panes.forEach((pane, k) => {
-      const tall = heights[k]! * (height - 20);
-      this.pane(paint, pane, shown, end, { left: 56, top: top + 18, width: width - 64, height: tall - 26 });
+      const tall = heights[k]! * (height - strip);
+      this.pane(paint, pane, shown, end, { left: 56, top: top + 18, width: width - 64, height: tall - 26 - axis });
+      this.times(paint, { left: 56, top: top + tall - axis - 8, width: width - 64, height: axis });
       top += tall;
     });
-    this.strip(paint, shown, end, { left: 56, top: height - 18, width: width - 64, height: 8 });
+    said.forEach((bit, row) => this.strip(paint, bit, shown, end,
+                                          { left: 56, top: height - strip + 8 + rowHeight * row, width: width - 64, height: rowHeight - 4 }));
+    this.canvas.setAttribute('aria-label', `flow rate, position and current of the last ${window_s} seconds` +
+      `${said.length === 0 ? '' : `; status: ${said.map((bit) => bit.name).join(', ')}`}`);
   }
 
   private pane(paint: CanvasRenderingContext2D, pane: Pane, points: readonly Point[], end: number,
@@ -119,13 +133,39 @@ export class Plot {
     paint.fill();
   }
 
-  private strip(paint: CanvasRenderingContext2D, points: readonly Point[], end: number,
+  /** The bits that any of the points has, faults first, as far as there is room for their names. */
+  private said(points: readonly Point[]): Bit[] {
+    let all = 0;
+    for (const point of points) all |= point.status;
+    return this.bits.filter((bit) => (all & bit.mask) !== 0)
+      .sort((a, b) => Number(isFault(b)) - Number(isFault(a)) || a.mask - b.mask).slice(0, mostRows);
+  }
+
+  private times(paint: CanvasRenderingContext2D, box: { left: number; top: number; width: number; height: number }): void {
+    paint.fillStyle = colour('--soft');
+    paint.strokeStyle = colour('--rule');
+    const step = box.width < 420 ? 10 : 5;
+    for (let ago = 0; ago <= window_s; ago += step) {
+      const x = box.left + box.width * (1 - ago / window_s);
+      paint.textAlign = ago === 0 ? 'right' : ago === window_s ? 'left' : 'center';
+      paint.fillText(ago === 0 ? 'now' : `\u2212${ago} s`, x, box.top + 13);
+      paint.beginPath();
+      paint.moveTo(x, box.top - 3);
+      paint.lineTo(x, box.top + 1);
+      paint.stroke();
+    }
+  }
+
+  /** When one bit was set, with its name in front where there is room, else above. */
+  private strip(paint: CanvasRenderingContext2D, bit: Bit, points: readonly Point[], end: number,
                 box: { left: number; top: number; width: number; height: number }): void {
+    paint.fillStyle = colour(isFault(bit) ? '--fault' : '--soft');
+    paint.textAlign = 'left';
+    paint.fillText(bit.name.replace(/_/g, ' '), box.left, box.top + 10);
     for (const point of points) {
-      if (point.status === 0) continue;
-      paint.fillStyle = colour((point.status & faultBits) !== 0 ? '--fault' : '--rule');
-      paint.fillRect(box.left + box.width * (1 - (end - point.time) / window_s), box.top,
-                     Math.max(1, box.width * 0.02 / window_s), box.height);
+      if ((point.status & bit.mask) === 0) continue;
+      paint.fillRect(box.left + box.width * (1 - (end - point.time) / window_s), box.top + 13,
+                     Math.max(1, box.width * 0.02 / window_s), 5);
     }
   }
 }

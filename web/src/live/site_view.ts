@@ -103,7 +103,8 @@ export class AlarmsView {
   constructor() {
     this.place.append(element('h2', '', 'Alarms'), this.open.place, element('h3', '', 'Gone and acknowledged'), this.cleared.place);
   }
-  show({ alarms }: Told): void {
+  show({ alarms, valves }: Told): void {
+    this.open.follow(valves);
     this.open.show(alarms);
     this.cleared.show(alarms);
   }

@@ -1,6 +1,8 @@
 /** One valve: its plot as it comes, what its monitor says, days of it, and how its source fares. */
 import { AlarmList } from './alarm_list';
-import { clock, duration, figure, inUnit, readRecordings, scaled, short, signs, words, type Told, type Valve } from './api';
+import {
+  clock, duration, figure, grouped, inUnit, readRecordings, scaled, short, signs, trendText, words, type Indicator, type Told, type Valve,
+} from './api';
 import { element, row, setText } from './element';
 import { EventList } from './event_list';
 import { HistoryView } from './history_view';
@@ -8,6 +10,19 @@ import { Plot } from './plot';
 import { Stream } from './stream';
 
 const staleAfter_ms = 1500;
+
+/** Each cell has its column's name, which narrow screens show in front of it. */
+function indicatorRow(one: Indicator): HTMLElement {
+  const { factor, unit } = inUnit(one), value = (each: number | null | undefined): string => short(scaled(each ?? null, factor));
+  const ends = [one.alarm_below, one.alarm_above].flatMap((end, k) => end == null ? [] : [`${k === 0 ? '<' : '>'} ${value(end)}`]);
+  const line = row('td', words(one.name), value(one.value), value(one.uncertainty_95), value(one.baseline), ends.join(', '), unit,
+                   one.state, trendText(one));
+  ['', '', '±', 'usual', 'alarm', '', '', ''].forEach((name, k) => {
+    if (name !== '') (line.children[k] as HTMLElement).dataset['name'] = name;
+  });
+  line.dataset['state'] = one.state;
+  return line;
+}
 
 export class ValveView {
   readonly place = element('div', '');
@@ -21,6 +36,8 @@ export class ValveView {
   private readonly age = element('p', 'soft');
   private readonly alarms: AlarmList;
   private readonly indicators = element('tbody', '');
+  private readonly more = element('tbody', '');
+  private readonly counters = element('dl', 'counters');
   private readonly days: HistoryView;
   private readonly source = element('p', 'source');
   private readonly events = new EventList(50);
@@ -34,10 +51,13 @@ export class ValveView {
   constructor(private readonly id: string) {
     this.alarms = new AlarmList((alarm) => alarm.valve === id && alarm.state !== 'cleared');
     this.days = new HistoryView(id);
-    const head = element('thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'unit', 'state'));
+    const table = (body: HTMLElement): HTMLElement => element('div', 'wide', element('table', 'indicators', element(
+      'thead', '', row('th', 'indicator', 'value', '± (95 %)', 'baseline', 'alarm beyond', 'unit', 'state', 'trend')), body));
     this.place.append(element('h2', '', id, ' ', this.sign), this.figures, this.status, this.causes, this.alarms.place, this.stale, this.age,
                       this.plot.canvas, element('h3', '', 'Indicators'),
-                      element('div', 'wide', element('table', '', head, this.indicators)), this.days.place,
+                      table(this.indicators),
+                      element('details', '', element('summary', 'soft', 'more indicators'), table(this.more)),
+                      element('h3', '', 'Counters'), this.counters, this.days.place,
                       element('h3', '', 'Source'), this.source, element('h3', '', 'Raw samples around alarms'), this.recordings,
                       element('h3', '', 'Events'), this.events.place);
     this.stale.hidden = true;
@@ -72,28 +92,30 @@ export class ValveView {
     this.days.redraw();
   }
 
-  show({ valves, events, alarms }: Told): void {
+  show({ valves, events, alarms, site }: Told): void {
     const valve = valves.find((one) => one.id === this.id);
     if (valve === undefined) {
       setText(this.figures, 'There is no valve of this name at this site.');
       return;
     }
     this.showAnswer(valve);
-    this.indicators.replaceChildren(...valve.indicators.map((one) => {
+    this.plot.bits = Object.entries(site.status_bits).map(([name, mask]) => ({ name, mask }));
+    const { shown, more, counters } = grouped(valve.indicators);
+    this.indicators.replaceChildren(...shown.map(indicatorRow));
+    this.more.replaceChildren(...more.map(indicatorRow));
+    this.counters.replaceChildren(...counters.map((one) => {
       const { factor, unit } = inUnit(one);
-      const line = row('td', words(one.name), short(scaled(one.value, factor)), short(scaled(one.uncertainty_95, factor)),
-                       short(scaled(one.baseline, factor)), unit, one.state);
-      line.dataset['state'] = one.state;
-      return line;
+      return element('div', '', element('dt', '', words(one.name)), element('dd', '', `${short(scaled(one.value, factor))} ${unit}`));
     }));
     const of = valve.source;
     this.lastSample = of.age_s === null ? null : performance.now() - 1000 * of.age_s;
     setText(this.source, `${of.kind}${of.port === undefined ? '' : `, port ${of.port}`}: ${of.received} samples received, ` +
       `${of.dropped} dropped, ${of.lost} lost, ${of.repeated} repeated, ${of.unreadable} unreadable lines, ` +
       `${of.connections} connections${of.trouble === '' ? '' : `; ${of.trouble}`}`);
+    this.alarms.follow(valves);
     this.alarms.show(alarms);
     this.events.show(events.filter((event) => event.valve === this.id));
-    this.days.follow();
+    this.days.follow(valve.indicators);
     if (performance.now() - this.asked > 5000) void this.showRecordings();
   }
 

@@ -15,17 +15,19 @@ a value that was not measured. Input that cannot be used raises `spoolflow.Error
 it works, other threads run, and Ctrl-C stops it.
 """
 from ._native import Error, __version__
+from .calibrations import calibrate
 from .campaigns import SimulatedCampaign, campaign, simulate_campaign
+from .errors import FileMissing
 from .estimates import Answer, Estimate, Status
 from .exports import export_cpp, export_fmu, export_parameters
 from .figures import Figures
 from .models import Model, Sensor, load_model
 from .recordings import Recording, inspect, read_recording
-from .work import (Analysis, Condition, DitherAdvice, Simulation, Validation, analyse, calibrate, estimate_many, monitor,
-                   simulate, validate)
+from .work import (Analysis, Condition, DitherAdvice, Simulation, Validation, analyse, estimate_many, monitor, simulate,
+                   validate)
 
 __all__ = [
-    "Analysis", "Answer", "Condition", "DitherAdvice", "Error", "Estimate", "Figures", "Model", "Recording", "Sensor",
+    "Analysis", "Answer", "Condition", "DitherAdvice", "Error", "Estimate", "Figures", "FileMissing", "Model", "Recording", "Sensor",
     "SimulatedCampaign", "Simulation", "Status", "Validation", "__version__", "analyse", "calibrate", "campaign",
     "estimate_many", "export_cpp", "export_fmu", "export_parameters", "inspect", "load_model", "monitor", "read_recording",
     "simulate", "simulate_campaign", "validate",

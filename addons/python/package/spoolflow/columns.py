@@ -22,18 +22,42 @@ STEP_NAMES = (
 )
 
 
+def _of_pandas(values: Any) -> Any:
+    """NumPy's array of it; instants are UTC, and what is missing is NaN."""
+    if getattr(values.dtype, "kind", "") in ("m", "M"):
+        return values.values
+    if values.dtype.kind in "fiub" and not isinstance(values.dtype, np.dtype):
+        return values.to_numpy(dtype=np.float64, na_value=np.nan)
+    return values.to_numpy()
+
+
+def _seconds(array: NDArray[Any]) -> NDArray[Any]:
+    """Times in seconds; instants count from the first."""
+    missing = np.isnat(array)
+    since = array - array[~missing][:1] if array.dtype.kind == "M" and not missing.all() else array
+    if since.dtype.kind != "m":
+        return np.full(array.shape, np.nan)
+    out: NDArray[Any] = since.astype("timedelta64[ns]").astype(np.int64) / 1e9
+    out[missing] = np.nan
+    return out
+
+
 def array_of(name: str, values: Any) -> NDArray[Any]:
     """`values` as one contiguous row of float64: the very array where it is one, else a copy."""
     try:
         if isinstance(values, np.ma.MaskedArray):
             values = np.ma.asarray(values, dtype=np.float64).filled(np.nan)  # type: ignore[no-untyped-call]
+        elif hasattr(values, "isna"):  # a column or an index of pandas
+            values = _of_pandas(values)
         array = np.asarray(values)
+        if array.dtype.kind in "mM":
+            array = _seconds(array)
         if array.dtype.kind not in "fiub":
             if array.dtype.kind != "O":
                 raise TypeError
             array = array.astype(np.float64)
         array = np.ascontiguousarray(array, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, AttributeError):
         raise _native.Error(f"{name}: holds what is no number; give an array of numbers, NaN where one is missing") from None
     if array.ndim != 1:
         raise _native.Error(f"{name}: has {array.ndim} dimensions; give one row of numbers, a number a sample")
@@ -68,17 +92,3 @@ def of_one_coil_or_both(given: Mapping[str, Any], direction: str) -> Dict[str, A
         if name not in out:
             raise _native.Error(f"{name} is missing; the sensor needs time_s, current_A and position_m")
     return out
-
-
-def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str) -> Dict[str, NDArray[Any]]:
-    """The arrays of a run, or of keyword arguments, by the compiled part's names."""
-    if run is not None:
-        also = sorted(name for name, value in given.items() if value is not None)
-        if also:
-            raise _native.Error(f"{also[0]} is given beside a whole recording; give either a recording or arrays")
-        if not hasattr(run, "keys"):
-            raise _native.Error(
-                f"a recording or arrays are estimated, and this is a {type(run).__name__}; read a file by "
-                "spoolflow.read_recording(path), or give time_s=..., current_A=..., position_m=...")
-        given = {name: run[name] for name in SAMPLE_NAMES if name in run}
-    return {name: array_of(name, value) for name, value in of_one_coil_or_both(given, direction).items()}

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from .extras import matplotlib_axes, pandas
+from .extras import dataset, matplotlib_axes, pandas
 from .files import PathLike, make_whole
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
     from matplotlib.axes import Axes
 
 #: What the sensor says about an answer, limits apart from faults (docs/troubleshooting.md tells each). Bits of a word:
@@ -65,6 +66,13 @@ class Answer:
         return f"<Answer at {self.time_s:g} s: {flow:.4g} L/min, 95 % band {lower:.4g} to {upper:.4g} L/min; {said}>"
 
 
+#: Of an estimate beside the time.
+_COLUMNS = (
+    "flow_m3_per_s", "flow_lower_m3_per_s", "flow_upper_m3_per_s", "pressure_difference_Pa", "magnetic_force_N",
+    "spring_force_N", "flow_force_N", "friction_force_N", "status",
+)
+
+
 class Estimate:
     """The flow rate of a run, sample by sample, in arrays of equal length.
 
@@ -83,10 +91,24 @@ class Estimate:
     friction_force_N: NDArray[Any]
     status: NDArray[Any]  #: uint32, bits of `Status`
 
-    def __init__(self, time_s: NDArray[Any], columns: "dict[str, NDArray[Any]]") -> None:
+    def __init__(self, time_s: NDArray[Any], columns: "dict[str, NDArray[Any]]", index: Any = None) -> None:
         self.time_s = time_s
+        #: of pandas, where the run had one of instants or times; else None
+        self.index = index
         for name, column in columns.items():
             setattr(self, name, column)
+
+    def __getitem__(self, samples: Any) -> "Estimate":
+        """The answers to these samples, by a slice, their numbers or a mask: `estimate[estimate.faulty]`."""
+        if not isinstance(samples, (slice, list, np.ndarray)):
+            raise TypeError(f"samples are picked by a slice, numbers or a mask, not by a {type(samples).__name__}; "
+                            "columns are attributes, such as estimate.flow_L_min")
+        index = None if self.index is None else self.index[samples]
+        return Estimate(self.time_s[samples], {name: getattr(self, name)[samples] for name in _COLUMNS}, index)
+
+    def between(self, from_s: float, to_s: float) -> "Estimate":
+        """The answers to the samples of from_s <= time < to_s [s]."""
+        return self[(self.time_s >= from_s) & (self.time_s < to_s)]
 
     @property
     def flow_L_min(self) -> NDArray[Any]:
@@ -125,9 +147,9 @@ class Estimate:
         """Share of the samples, 0 to 1, that say any of these: `estimate.share_with(Status.spool_at_rest)`."""
         return float(np.mean((self.status & int(status)) != 0)) if len(self) else 0.0
 
-    def to_pandas(self) -> "pd.DataFrame":
-        """A table with the columns and units of ESTIMATE.csv (docs/formats/estimate.md). Needs pandas."""
-        return pandas().DataFrame({
+    def _readable(self) -> "dict[str, Any]":
+        """The columns of ESTIMATE.csv in its units, and what it leaves out."""
+        return {
             "time_s": self.time_s,
             "flow_L_min": self.flow_L_min,
             "flow_lower_L_min": self.flow_lower_L_min,
@@ -136,8 +158,19 @@ class Estimate:
             "magnetic_force_N": self.magnetic_force_N,
             "flow_force_N": self.flow_force_N,
             "friction_force_N": self.friction_force_N,
-            "status": self.status_texts,
-        })
+            "status": np.array(self.status_texts, dtype=object),
+            "spring_force_N": self.spring_force_N,
+            "faulty": self.faulty,
+        }
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """A table with every column, in the units of ESTIMATE.csv (docs/formats/estimate.md), and with the index of the run
+        where that was one of instants or times. Needs pandas."""
+        return pandas().DataFrame(self._readable(), index=self.index)
+
+    def to_xarray(self) -> "xr.Dataset":
+        """The same as a Dataset over the coordinate `time_s`; `units` stand with each variable. Needs xarray."""
+        return dataset(self._readable(), {"written_by": f"spoolflow {_native.__version__}"})
 
     def write(self, path: PathLike) -> None:
         """Writes what `spoolflow estimate` writes, as CSV, Parquet, HDF5 or MATLAB by the suffix: .csv, .parquet,

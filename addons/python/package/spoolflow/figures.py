@@ -35,6 +35,13 @@ class Figures(Mapping[str, Any]):
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._members]
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Figures):
+            return NotImplemented
+        return self.to_dict() == other.to_dict()
+
+    __hash__ = None  # type: ignore[assignment]
+
     def to_dict(self) -> Dict[str, Any]:
         """Dictionaries, lists and numbers alone."""
         return {name: _bare(value) for name, value in self._members.items()}
@@ -54,6 +61,17 @@ class JudgedFigures(Figures):
     def save(self, path: PathLike) -> None:
         """Writes the figures as the command's `--json` does."""
         write_whole(path, self._text)
+
+
+def flat(figures: Mapping[str, Any], before: str = "") -> Dict[str, Any]:
+    """Every number and text in one row, under the names that lead to it; rows of numbers stay out."""
+    out: Dict[str, Any] = {}
+    for name, value in figures.items():
+        if isinstance(value, Mapping):
+            out.update(flat(value, f"{before}{name}_"))
+        elif value is None or isinstance(value, (bool, int, float, str)):
+            out[before + name] = value
+    return out
 
 
 def _plain(value: Any) -> Any:

@@ -9,9 +9,13 @@ from typing import Any, Dict, List, Mapping, Optional
 from numpy.typing import NDArray
 
 from . import _native
-from .columns import STEP_NAMES, of_one_coil_or_both, sample_columns
+from .columns import STEP_NAMES, of_one_coil_or_both
+from .environments import Environment, as_environment
+from .errors import naming_missing
 from .estimates import Answer, Estimate
 from .files import PathLike, write_whole
+from .runs import index_of
+from .samples import sample_columns
 
 
 class Sensor:
@@ -50,10 +54,10 @@ class Sensor:
 
     def estimate(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> Estimate:
         """The next samples, as `Model.estimate` takes them; goes on where the sensor is."""
-        return self._estimate(sample_columns(run, samples, self.model.direction))
+        return self._estimate(sample_columns(run, samples, self.model.direction), index_of(run))
 
-    def _estimate(self, columns: Dict[str, NDArray[Any]]) -> Estimate:
-        return Estimate(columns["time_s"], self._sensor.run(columns))
+    def _estimate(self, columns: Dict[str, NDArray[Any]], index: Any) -> Estimate:
+        return Estimate(columns["time_s"], self._sensor.run(columns), index)
 
     @property
     def time_s(self) -> float:
@@ -115,6 +119,18 @@ class Model:
         provenance: Dict[str, Any] = json.loads(self._kept.text)["provenance"]
         return provenance
 
+    @property
+    def type(self) -> Optional[Dict[str, Any]]:
+        """Of the model of a type or of a unit: by what units differ and where this one lies, as in the model file; else None."""
+        section: Optional[Dict[str, Any]] = json.loads(self._kept.text).get("type")
+        return section
+
+    def in_environment(self, environment: Environment = "machine", **keys: float) -> "Model":
+        """The model whose band holds what that machine leaves open (docs/environment.md): "machine", "bench", or a TOML file; or
+        single half-widths: `model.in_environment(vibration_g=1.0, viscosity_percent=50)`."""
+        with as_environment(environment, keys) as known:
+            return Model(_native.in_environment(self._kept, known))
+
     def save(self, path: PathLike) -> None:
         """Writes the model file (JSON, docs/formats/model.md); all commands read it."""
         write_whole(path, self._kept.text)
@@ -127,10 +143,11 @@ class Model:
                  time_s: Any = None, current_A: Any = None, position_m: Any = None, voltage_V: Any = None,
                  oil_temperature_K: Any = None, current_a_A: Any = None, current_b_A: Any = None,
                  voltage_a_V: Any = None, voltage_b_V: Any = None, pressure_p_Pa: Any = None,
-                 pressure_a_Pa: Any = None, pressure_b_Pa: Any = None, pressure_t_Pa: Any = None) -> Estimate:
+                 pressure_a_Pa: Any = None, pressure_b_Pa: Any = None, pressure_t_Pa: Any = None,
+                 environment: Optional[Environment] = None, **columns: Any) -> Estimate:
         """The flow rate of a run with its 95 % band, sample by sample: the numbers of `spoolflow estimate`.
 
-        Give a recording (or any mapping with these names), or arrays of one length, a number a sample:
+        Give a recording, a table of pandas or any mapping with these names, or arrays of one length, a number a sample:
 
         time_s: time [s], rising; a sample whose time repeats or runs back has status `time_fault`.
         current_A: coil current [A], mean over the sample's step; of a whole valve that of the active coil.
@@ -140,19 +157,22 @@ class Model:
         current_a_A, current_b_A, voltage_a_V, voltage_b_V: of a whole valve's coils a and b [A, V].
         pressure_p_Pa, pressure_a_Pa, pressure_b_Pa, pressure_t_Pa: at a whole valve's ports [Pa], where measured.
         estimator: "observer" (where the model has one) or "condensed".
+        environment: what the machine leaves open, as of `in_environment`.
+        columns: the same in other units, under any name that files may have: position_mm, current_mA, oil_temperature_C, ...
+            Such columns are read, and refused, as a file's. An index of instants or times is the time.
 
         NaN is a value that was not measured. Contiguous arrays of float64 are read where they are, without a copy; others
         (float32, slices with steps, lists, columns of pandas) are converted once. Raises Error where a column is missing,
         is no row of numbers, has another length, or is in another unit by all its numbers (mm, mA, degC, ms), as recordings are
         refused; single wild samples have a status.
         """
-        samples = locals()
-        for name in ("self", "run", "estimator"):
+        samples = {**locals(), **columns}
+        for name in ("self", "run", "estimator", "environment", "columns"):
             del samples[name]
-        sensor = Sensor(self, estimator)
-        columns = sample_columns(run, samples, self.direction)
-        _native.check_units(columns)
-        return sensor._estimate(columns)
+        sensor = Sensor(self if environment is None else self.in_environment(environment), estimator)
+        arrays = sample_columns(run, samples, self.direction)
+        _native.check_units(arrays)
+        return sensor._estimate(arrays, index_of(run))
 
     def doubts_about(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> List[str]:
         """What speaks against a run being of this valve, a sentence each, with the usual recording error that explains it (other units, a
@@ -166,6 +186,21 @@ class Model:
     def __repr__(self) -> str:
         return (f"<Model {self.name}: direction {self.direction}, rated flow {self.rated_flow_L_min:g} L/min, "
                 f"stroke {1e3 * self.stroke_m:g} mm, {' and '.join(self.estimators)}>")
+
+    def _content(self) -> str:
+        """All that it says but for the moment at which it was made."""
+        content = json.loads(self._kept.text)
+        content["provenance"].pop("created", None)
+        return json.dumps(content, sort_keys=True)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both say the same of the valve, from the same inputs; when they were made does not count."""
+        if not isinstance(other, Model):
+            return NotImplemented
+        return self._kept.text == other._kept.text or self._content() == other._content()
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.rated_flow_m3_per_s, self.stroke_m, self.direction))
 
     def __reduce__(self) -> Any:
         return (_from_text, (self._kept.text,))
@@ -188,5 +223,7 @@ def _from_text(text: str) -> Model:
 
 
 def load_model(path: PathLike) -> Model:
-    """Reads a model file that `calibrate` wrote. Raises Error with the file and the place in it."""
-    return Model(_native.read_model(os.fsdecode(path)))
+    """Reads a model file that `calibrate` wrote. Raises FileNotFoundError where there is none, else Error with the file and the
+    place in it."""
+    with naming_missing(path):
+        return Model(_native.read_model(os.fsdecode(path)))

@@ -3,18 +3,20 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, apart
 from .channels import Channels, as_file
-from .extras import matplotlib_axes, pandas
+from .errors import naming_missing
+from .extras import dataset, matplotlib_axes, pandas
 from .files import PathLike
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
     from matplotlib.axes import Axes
 
 
@@ -38,11 +40,25 @@ class Recording(Mapping[str, NDArray[Any]]):
         #: which columns had a time of their own, from which rate to which, and how; empty where none
         self.resampled: str = notes["resampled"]
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
+    @overload
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
+
+    @overload
+    def __getitem__(self, name: "Union[slice, List[int], NDArray[Any]]") -> "Recording": ...
+
+    def __getitem__(self, name: Any) -> "Union[NDArray[Any], Recording]":
+        """A channel by its name; samples by a slice, by their numbers or by a mask: `recording[recording.time_s < 10]`."""
+        if isinstance(name, (slice, list, np.ndarray)):
+            samples = np.arange(self.samples, dtype=np.int64)[name]
+            return Recording(_native.picked(self._read, np.ascontiguousarray(samples)), self.file)
         try:
             return self._columns[name]
-        except KeyError:
+        except (KeyError, TypeError):
             raise KeyError(self._without(name)) from None
+
+    def between(self, from_s: float, to_s: float) -> "Recording":
+        """The samples of from_s <= time < to_s [s]."""
+        return self[(self["time_s"] >= from_s) & (self["time_s"] < to_s)]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -71,6 +87,10 @@ class Recording(Mapping[str, NDArray[Any]]):
         """A table with a column a channel, in SI units. Needs pandas."""
         return pandas().DataFrame(dict(self._columns))
 
+    def to_xarray(self) -> "xr.Dataset":
+        """A Dataset with a variable a channel over the coordinate `time_s`, in SI units, which stand in `units`. Needs xarray."""
+        return dataset({name: column for name, column in self._columns.items()}, {"file": self.file})
+
     def plot(self, name: str = "current_A", axes: "Optional[Axes]" = None) -> "Axes":
         """One channel over time. Needs Matplotlib."""
         axes = matplotlib_axes(axes)
@@ -94,10 +114,11 @@ def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
         dict such as `{"current_A": "I_coil [mA]", "position": {"column": "LVDT", "unit": "V", "scale": 0.24, "to": "mm"}}`.
     stroke_m: the valve's stroke [m], > 0, where positions are given in percent.
 
-    Raises Error with file, line and column: text among numbers, times that run back, values implausible for their unit.
+    Raises FileNotFoundError where there is none, else Error with file, line and column: text among numbers, times that run
+    back, values implausible for their unit.
     """
     file = os.fsdecode(path)
-    with as_file(channels) as map_file:
+    with naming_missing(path, channels), as_file(channels) as map_file:
         read = apart.call("read_recording", [file], file, map_file, stroke_m)
     return Recording(read, file)
 
@@ -116,6 +137,6 @@ def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Op
     Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
     """
     file = os.fsdecode(path)
-    with as_file(channels) as map_file:
+    with naming_missing(path, channels), as_file(channels) as map_file:
         seen: Dict[str, Any] = json.loads(apart.call("inspect", [file], file, map_file, stroke_m))
     return seen

@@ -1,6 +1,7 @@
-"""What the commands do, for Python: calibrate, validate, monitor, analyse, simulate."""
+"""What the commands do with a model, for Python: validate, monitor, analyse; and simulate."""
 from __future__ import annotations
 
+import contextlib
 import os
 import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Literal, Mapping, Optional, Sequence, Union, overload
@@ -9,14 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, apart
-from .channels import Channels, as_file
-from .columns import sample_columns
+from .channels import Channels
+from .environments import Environment
+from .errors import naming_missing
 from .estimates import Estimate
 from .extras import matplotlib_axes, pandas
-from .figures import JudgedFigures
+from .figures import JudgedFigures, flat
 from .files import PathLike, write_whole
 from .models import Model, load_model
 from .recordings import Recording
+from .runs import Files, Run, as_files, index_of, several_of
+from .samples import sample_columns
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,22 +31,13 @@ AnyModel = Union[Model, PathLike]
 Progress = Callable[[float], None]
 #: Told what begins, and the share.
 StepProgress = Callable[[str, float], None]
+#: One recording or several, as files or in memory.
+Runs = Union[Run, Iterable[Run]]
 
 
 def as_model(model: AnyModel) -> Model:
     """A model, read where its file is given."""
     return model if isinstance(model, Model) else load_model(model)
-
-
-def _paths(files: Union[PathLike, Iterable[PathLike]]) -> List[str]:
-    if isinstance(files, (str, bytes, os.PathLike)):
-        files = [files]
-    if isinstance(files, Recording) or any(isinstance(file, Recording) for file in files):
-        raise _native.Error("recordings are given by their files here, and this is one in memory; give its path")
-    out = [os.fsdecode(file) for file in files]
-    if not out:
-        raise _native.Error("no recording is given; name one at least")
-    return out
 
 
 def _path(file: Optional[PathLike]) -> Optional[str]:
@@ -51,33 +46,6 @@ def _path(file: Optional[PathLike]) -> Optional[str]:
 
 def _units(report: Optional[PathLike], units: Sequence[str]) -> Optional[List[str]]:
     return None if report is None else [units] if isinstance(units, str) else list(units)
-
-
-def calibrate(campaign: PathLike, *, allow_outside: bool = False, despite_doubts: bool = False,
-              report: Optional[PathLike] = None, units: Sequence[str] = (),
-              progress: Optional[StepProgress] = None) -> Model:
-    """Makes a valve's model from the bench recordings of a campaign: the model of `spoolflow calibrate`.
-
-    campaign: campaign.toml, which names the valve, the oil and the recordings with their protocols
-        (docs/formats/campaign.md).
-    allow_outside: read recordings that the campaign names outside its own folder, too.
-    despite_doubts: make a model of recordings that contradict each other or physics, too; `model.doubts` keeps them.
-    report: an HTML page to write about the calibration; `units` are its reader's ("gal/min", "psi", ...).
-    progress: called with what begins and the share done, 0 to 1 (not where HDF5 or MATLAB files are read beside other
-        threads, which a process of its own does).
-
-    What is only unusual about the recordings is warned of. Raises Error, naming the campaign's line, the file, the
-    channel and the likely cause.
-    """
-    file = os.fsdecode(campaign)
-    recordings = _native.campaign_files(file)
-    kept, page, notes = apart.call("calibrate", recordings, file, allow_outside, despite_doubts, _units(report, units),
-                                   telling=progress)
-    for note in [*notes, *(f"doubt: {doubt}" for doubt in kept.doubts)]:
-        warnings.warn(note, stacklevel=2)
-    if report is not None and page is not None:
-        write_whole(report, page)
-    return Model(kept)
 
 
 class Validation(JudgedFigures):
@@ -103,8 +71,10 @@ class Validation(JudgedFigures):
         return rows
 
     def to_pandas(self) -> "pd.DataFrame":
-        """`table()` as a table of pandas."""
-        return pandas().DataFrame(self.table())
+        """`table()` as a table of pandas, with every other figure of the run and estimator behind it, under the names that lead to
+        it: `error.moving.p95.percent_FS` is `error_moving_p95_percent_FS`."""
+        every = [flat(result) for run in self.runs for result in (run.estimators if run.has_reference else [])]
+        return pandas().DataFrame([{**more, **row} for more, row in zip(every, self.table())])
 
     def plot(self, axes: "Optional[Axes]" = None) -> "Axes":
         """95th percentile of the errors by run and estimator [% of full scale]. Needs Matplotlib."""
@@ -118,14 +88,17 @@ class Validation(JudgedFigures):
         return f"<Validation: {self.verdict}>"
 
 
-def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, channels: Optional[Channels] = None,
-             estimator: str = "both", requirements: Optional[PathLike] = None, reference_lag_s: Optional[float] = None,
+def validate(model: AnyModel, recordings: Runs, *, channels: Optional[Channels] = None,
+             environment: Optional[Environment] = None, estimator: str = "both",
+             requirements: Optional[PathLike] = None, reference_lag_s: Optional[float] = None,
              apply_reference_lag: bool = True, compare: Union[PathLike, Iterable[PathLike]] = (),
              report: Optional[PathLike] = None, units: Sequence[str] = (), progress: Optional[Progress] = None) -> Validation:
     """Compares the estimate with a reference flow meter: the figures of `spoolflow validate`.
 
-    model: a model or its file. recordings: one file or several, which also hold `flow_reference`.
-    channels: a channel map of files with other column names or units, as of `read_recording`.
+    model: a model or its file. recordings: one or several that also hold `flow_reference`: files, recordings, tables of
+        pandas, dicts of arrays, with columns called as those of files (`<channel>_<unit>` in any unit).
+    channels: a channel map where columns have other names or units, as of `read_recording`.
+    environment: what the machine leaves open, as of `Model.in_environment`.
     estimator: "both", "condensed" or "observer".
     requirements: limits (TOML, docs/formats/requirements.md) against which the figures are judged.
     reference_lag_s: lag of the reference meter [s], 0 to 10; None: lag and dead time are found in each run.
@@ -136,14 +109,17 @@ def validate(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *
     """
     if reference_lag_s is not None and not 0 <= reference_lag_s <= 10:
         raise _native.Error(f"reference_lag_s: Value {reference_lag_s} not in range 0 to 10")
-    files = _paths(recordings)
     others = [os.fsdecode(compare)] if isinstance(compare, (str, bytes, os.PathLike)) else [os.fsdecode(each) for each in compare]
     if others and report is None:
         raise _native.Error("compare: others are shown in the report, and none is asked for; give report=..., too")
-    with as_file(channels) as map_file:
+    known = as_model(model)
+    if environment is not None:
+        known = known.in_environment(environment)
+    runs = several_of(recordings)
+    with naming_missing(*runs, requirements, *others, channels), as_files(runs, channels) as files:
         figures, page, _ = apart.call(
-            "validate", files, as_model(model)._kept, files, map_file, estimator, _path(requirements), reference_lag_s,
-            apply_reference_lag, others, _units(report, units), telling=progress)
+            "validate", files.paths, known._kept, files.paths, files.channels, estimator, _path(requirements),
+            reference_lag_s, apply_reference_lag, others, _units(report, units), telling=progress)
     if report is not None and page is not None:
         write_whole(report, page)
     return Validation(figures)
@@ -158,8 +134,8 @@ class Condition(JudgedFigures):
     """
 
     def to_pandas(self) -> "pd.DataFrame":
-        """The indicators as a table of pandas."""
-        return pandas().DataFrame([indicator.to_dict() for indicator in self.indicators])
+        """The indicators as a table of pandas, a trend's figures as `trend_per_hour` and so on."""
+        return pandas().DataFrame([flat(indicator) for indicator in self.indicators])
 
     def plot(self, axes: "Optional[Axes]" = None) -> "Axes":
         """Of each judged indicator how far it is from its baseline, in its 95 % uncertainties. Needs Matplotlib."""
@@ -177,13 +153,13 @@ class Condition(JudgedFigures):
         return f"<Condition: NE 107 {self.ne107}; raised: {', '.join(raised) or 'none'}>"
 
 
-def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *, baseline: Optional[PathLike] = None,
+def monitor(model: AnyModel, recordings: Runs, *, baseline: Optional[PathLike] = None,
             adapt: Optional[PathLike] = None, channels: Optional[Channels] = None, false_alarms_per_year: float = 1.0,
             report: Optional[PathLike] = None, units: Sequence[str] = (),
             progress: Optional[Progress] = None) -> Condition:
     """Judges the condition of a valve from recordings of its operation: the figures of `spoolflow monitor`.
 
-    model: a model with an observer, or its file. recordings: in the order in which they were made.
+    model: a model with an observer, or its file. recordings: as of `validate`, in the order in which they were made.
     baseline: what `Condition.save` or `monitor --json` wrote of healthy runs; None: the model is the reference.
     adapt: a model file to write: the model with what is raised put right as it was found (docs/monitoring.md). Raises Error
         where nothing is raised, or what cannot be corrected.
@@ -192,11 +168,12 @@ def monitor(model: AnyModel, recordings: Union[PathLike, Iterable[PathLike]], *,
     """
     if not 1e-6 <= false_alarms_per_year <= 1e4:
         raise _native.Error(f"false_alarms_per_year: Value {false_alarms_per_year} not in range 1e-06 to 10000")
-    files = _paths(recordings)
-    with as_file(channels) as map_file:
+    known = as_model(model)
+    runs = several_of(recordings)
+    with naming_missing(*runs, baseline, channels), as_files(runs, channels) as files:
         figures, page, corrected = apart.call(
-            "monitor", files, as_model(model)._kept, files, map_file, _path(baseline) or "", false_alarms_per_year,
-            adapt is not None, _units(report, units), telling=progress)
+            "monitor", files.paths, known._kept, files.paths, files.channels, _path(baseline) or "",
+            false_alarms_per_year, adapt is not None, _units(report, units), telling=progress)
     if adapt is not None:
         write_whole(adapt, corrected)
     if report is not None and page is not None:
@@ -213,10 +190,8 @@ class Analysis(JudgedFigures):
     """
 
     def to_pandas(self) -> "pd.DataFrame":
-        """A row for each working point and estimator, its single figures."""
-        return pandas().DataFrame([
-            {name: value for name, value in point.items() if isinstance(value, (int, float, str, bool))}
-            for point in self.points])
+        """A row for each working point and estimator, every figure under the names that lead to it."""
+        return pandas().DataFrame([flat(point) for point in self.points])
 
     def __repr__(self) -> str:
         return f"<Analysis: {self.verdict}>"
@@ -236,7 +211,7 @@ class DitherAdvice(JudgedFigures):
 
 
 @overload
-def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: Optional[PathLike] = None,
+def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: Optional[Run] = None,
             channels: Optional[Channels] = None, dither: Literal[False] = False, dither_shape: str = "sine",
             ripple_limit_percent: float = 0.5, samples: Optional[int] = None, seed: Optional[int] = None,
             study: Optional[bool] = None, workers: int = 0, direction: str = "b", report: Optional[PathLike] = None,
@@ -249,7 +224,7 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, dither: Lit
             units: Sequence[str] = ()) -> DitherAdvice: ...
 
 
-def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: Optional[PathLike] = None,
+def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: Optional[Run] = None,
             channels: Optional[Channels] = None, dither: bool = False, dither_shape: str = "sine",
             ripple_limit_percent: float = 0.5, samples: Optional[int] = None, seed: Optional[int] = None,
             study: Optional[bool] = None, workers: int = 0, direction: str = "b", report: Optional[PathLike] = None,
@@ -280,13 +255,14 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
         if report is not None and advice[1] is not None:
             write_whole(report, advice[1])
         return DitherAdvice(advice[0], advice[2] or "")
-    run = [] if recording is None else [os.fsdecode(recording)]
-    with as_file(channels) as map_file:
+    with contextlib.ExitStack() as kept_files:
+        kept_files.enter_context(naming_missing(scenario, recording, channels))
+        files = Files([], None) if recording is None else kept_files.enter_context(as_files([recording], channels))
         figures, page, resampled = apart.call(
-            "analyse", run, kept, _path(scenario), samples, seed, study, workers, direction, _path(recording), map_file,
-            _units(report, units), telling=progress)
+            "analyse", files.paths, kept, _path(scenario), samples, seed, study, workers, direction,
+            next(iter(files.paths), None), files.channels, _units(report, units), telling=progress)
     if resampled:
-        warnings.warn(f"{run[0]}: {resampled}", stacklevel=2)
+        warnings.warn(f"{files.paths[0]}: {resampled}", stacklevel=2)
     if report is not None and page is not None:
         write_whole(report, page)
     return Analysis(figures)
@@ -320,7 +296,8 @@ def simulate(scenario: PathLike, *, truth: bool = False, progress: Optional[Prog
     truth: keep flow, pressure and each force beside it, too (`simulation.truth`). progress: as of `validate`.
     """
     file = os.fsdecode(scenario)
-    recording, really = _native.simulate(file, truth, progress)
+    with naming_missing(scenario):
+        recording, really = _native.simulate(file, truth, progress)
     out = Simulation(recording, file)
     out.truth = really
     return out
@@ -330,8 +307,8 @@ def estimate_many(models: Union[Model, Sequence[Model]], runs: Sequence[Mapping[
                   estimator: Optional[str] = None, workers: int = 0) -> List[Estimate]:
     """Runs of many valves, each through a sensor of its own, on all cores.
 
-    models: a model for each run, or one for all. runs: recordings, or mappings with the names of `Model.estimate`; of any
-        lengths and rates.
+    models: a model for each run, or one for all. runs: recordings, tables of pandas, or mappings with the names of
+        `Model.estimate`; of any lengths and rates.
     estimator: "observer" or "condensed"; None: of each model the best. workers: threads, 0 for all cores.
 
     An estimate for each run, the same as from `Model.estimate`.
@@ -350,4 +327,4 @@ def estimate_many(models: Union[Model, Sequence[Model]], runs: Sequence[Mapping[
         except _native.Error as error:
             raise _native.Error(f"runs[{k}]: {error}") from None
     answers = _native.estimate_many([model._kept for model in models], estimators, columns, workers)
-    return [Estimate(column["time_s"], answer) for column, answer in zip(columns, answers)]
+    return [Estimate(column["time_s"], answer, index_of(run)) for column, answer, run in zip(columns, answers, runs)]

@@ -1,0 +1,29 @@
+"""The arrays of a run, or of keyword arguments, as the compiled part reads them."""
+from __future__ import annotations
+
+from typing import Any, Dict, Mapping, Optional
+
+from numpy.typing import NDArray
+
+from . import _native
+from .columns import SAMPLE_NAMES, array_of, of_one_coil_or_both
+from .runs import as_recording, columns_of, is_path
+
+
+def sample_columns(run: Optional[Any], given: Mapping[str, Any], direction: str) -> Dict[str, NDArray[Any]]:
+    """By the compiled part's names, in SI. Columns with those names are taken as they are; others are read as a file's."""
+    also = sorted(name for name, value in given.items() if value is not None)
+    if run is not None:
+        if also:
+            raise _native.Error(f"{also[0]} is given beside a whole recording; give either a recording or arrays")
+        if is_path(run):
+            raise _native.Error(
+                f"a recording or arrays are estimated, and this is a {type(run).__name__}; read a file by "
+                "spoolflow.read_recording(path), or give time_s=..., current_A=..., position_m=...")
+        given = columns_of(run)
+    else:
+        given = {name: given[name] for name in also}
+    if any(name not in _native.columns for name in given):
+        given = as_recording(given)
+    wanted = {name: given[name] for name in SAMPLE_NAMES if name in given}
+    return {name: array_of(name, value) for name, value in of_one_coil_or_both(wanted, direction).items()}
