@@ -89,10 +89,10 @@ void monitor_recordings(const MonitorArguments& arguments);
 
 struct RecalibrateArguments {
   std::string model;
-  std::vector<std::string> recordings;  ///< oldest first
-  std::string references;               ///< file of [[reference]]; empty: goes back
-  std::string output;                   ///< model to write
-  std::string channels = {};            ///< channel map; empty: none
+  std::vector<std::string> recordings;   ///< oldest first
+  std::string references;                ///< file of [[reference]]; empty: goes back
+  std::string output;                    ///< model to write
+  std::string channels = {};             ///< channel map; empty: none
   std::optional<std::size_t> back_to{};  ///< state to go back to
   bool quiet = false;
 };

@@ -66,8 +66,7 @@ calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, c
   const std::vector<recording::Reference> references = recording::read_references(arguments.references);
   Progress progress("recalibrating", arguments.quiet);
   const std::vector<recording::Recording> recordings = recordings_of(arguments, model.valve.stroke_m, inputs);
-  calibration::RecalibratedValve out =
-      calibration::recalibrate(model, recordings, references, how_from(arguments));
+  calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, how_from(arguments));
   for (const recording::Recording& recording : recordings) {
     out.model.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.file.filename().string(),
                                            model::sha256_of_file(recording.file), recording.size(),

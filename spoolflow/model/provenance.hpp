@@ -36,8 +36,8 @@ struct WearState {
   [[nodiscard]] bool operator==(const WearState&) const = default;
 };
 
-/// Corrections of the model from the valve's operation (monitor/adaptation.hpp), or from what its machine knows. The recordings it
-/// is from stand among the provenance's inputs, as of protocol `adaptation_protocol`.
+/// Corrections of the model from the valve's operation (monitor/adaptation.hpp), or from what its machine knows. The
+/// recordings it is from stand among the provenance's inputs, as of protocol `adaptation_protocol`.
 struct Adaptation {
   std::string tool_version;
   std::string created;             ///< UTC, ISO 8601

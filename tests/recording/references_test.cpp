@@ -26,12 +26,14 @@ std::string refused(const std::string& text, const std::string& marks = {}) {
   return refusal([&] { (void)references_from(text, marks); });
 }
 
-const std::string stroke = "[[reference]]\nkind = \"stroke\"\nname = \"boom\"\nends = \"marks\"\nmarks = \"marks.csv\"\n";
+const std::string stroke =
+    "[[reference]]\nkind = \"stroke\"\nname = \"boom\"\nends = \"marks\"\nmarks = \"marks.csv\"\n";
 
 TEST(References, AStrokeIsAreaTimesLengthWithWhatIsUnknownOfBoth) {
-  const std::vector<Reference> read = references_from(
-      stroke + "area_cm2 = 40\nlength_mm = 650\nseal_leakage_L_min = 0.6\noil_column_cm3 = 1400\nhighest_pressure_bar = 100\n",
-      "begin_s,end_s\n1.0,3.5\n# a pause\n4 ; 6\n");
+  const std::vector<Reference> read = references_from(stroke +
+                                                          "area_cm2 = 40\nlength_mm = 650\nseal_leakage_L_min = "
+                                                          "0.6\noil_column_cm3 = 1400\nhighest_pressure_bar = 100\n",
+                                                      "begin_s,end_s\n1.0,3.5\n# a pause\n4 ; 6\n");
   ASSERT_EQ(read.size(), 1U);
   EXPECT_EQ(read[0].name, "boom");
   EXPECT_NEAR(read[0].area_m2 * read[0].length_m, 2.6e-3, 1e-12);
@@ -52,7 +54,8 @@ TEST(References, APumpsSpeedStandsInTheFileOrBesideEachMark) {
 
 TEST(References, MetersAndTheClosedValveNeedNoMarks) {
   const std::vector<Reference> read = references_from(
-      "[[reference]]\nkind = \"meter\"\nuncertainty_percent = 0.5\n[[reference]]\nkind = \"closed\"\nrecording = \"start.csv\"\n");
+      "[[reference]]\nkind = \"meter\"\nuncertainty_percent = 0.5\n[[reference]]\nkind = \"closed\"\nrecording = "
+      "\"start.csv\"\n");
   EXPECT_EQ(read[0].kind, ReferenceKind::meter);
   EXPECT_EQ(read[0].interval_s, 2);
   EXPECT_EQ(read[1].recording, "start.csv");

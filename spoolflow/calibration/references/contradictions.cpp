@@ -47,17 +47,19 @@ std::string left_out(const MachineEvidence& evidence, const WearView& view, std:
   }
   const std::size_t count = apart.less.size() + apart.more.size();
   if (count == 0) return {};
-  const std::string less = fmt::format("{}", fmt::join(apart.less, ", ")), more = fmt::format("{}", fmt::join(apart.more, ", "));
+  const std::string less = fmt::format("{}", fmt::join(apart.less, ", ")),
+                    more = fmt::format("{}", fmt::join(apart.more, ", "));
   std::string what;
-  if (!apart.less.empty()) what = fmt::format("less oil than in the others in {}: likely another consumer was open", less);
+  if (!apart.less.empty())
+    what = fmt::format("less oil than in the others in {}: likely another consumer was open", less);
   if (!apart.more.empty())
     what += fmt::format("{}more oil in {}: likely ends are marked at other times, or the sensor lost the pressure",
                         what.empty() ? "" : "; ", more);
   if (static_cast<double>(count) > most_left_out * static_cast<double>(apart.all)) {
-    throw CalibrationError(
-        fmt::format("{}: {} is refused: {} of its {} intervals contradict the others ({}); mark intervals in which this "
-                    "valve alone is open",
-                    reference.place, reference.name, count, apart.all, what));
+    throw CalibrationError(fmt::format(
+        "{}: {} is refused: {} of its {} intervals contradict the others ({}); mark intervals in which this "
+        "valve alone is open",
+        reference.place, reference.name, count, apart.all, what));
   }
   return fmt::format("{}: {} of {} intervals are left out ({})", reference.name, count, apart.all, what);
 }

@@ -30,7 +30,8 @@ double median_of(const std::vector<OilRatio>& ratios) {
   return numerics::median(std::move(values));
 }
 
-/// log ratio = level - leak * seconds_per_m3, by weighted squares again and again; the leak stays 0 where not asked for.
+/// log ratio = level - leak * seconds_per_m3, by weighted squares again and again; the leak stays 0 where not asked
+/// for.
 struct Line {
   double level, leak, loss;
   double level_variance, leak_variance;
@@ -76,8 +77,7 @@ std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::v
     const bool used = sensor_m3[k] > least_seen_share * volume_m3;
     const double deviation = std::hypot(oil[k].uncertainty_m3 / volume_m3, interval_share,
                                         interval_flow_share * rated_flow_m3_per_s * seconds_per_m3);
-    out.push_back(
-        {oil[k].reference, used ? std::log(volume_m3 / sensor_m3[k]) : 0, deviation, seconds_per_m3, used});
+    out.push_back({oil[k].reference, used ? std::log(volume_m3 / sensor_m3[k]) : 0, deviation, seconds_per_m3, used});
   }
   return out;
 }

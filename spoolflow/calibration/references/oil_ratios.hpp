@@ -10,9 +10,9 @@ namespace spoolflow::calibration {
 /// One interval.
 struct OilRatio {
   std::size_t reference;
-  double log_ratio;        ///< logarithm of the reference's volume over the sensor's
-  double deviation;        ///< standard deviation expected of it beside what all intervals have in common
-  double seconds_per_m3;   ///< of the interval over the reference's volume: what a leakage takes of each
+  double log_ratio;       ///< logarithm of the reference's volume over the sensor's
+  double deviation;       ///< standard deviation expected of it beside what all intervals have in common
+  double seconds_per_m3;  ///< of the interval over the reference's volume: what a leakage takes of each
   bool used;
 };
 

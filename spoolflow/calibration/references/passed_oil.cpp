@@ -47,7 +47,8 @@ std::vector<bool> stands(const Reference& reference, const recording::Recording&
   std::ranges::sort(sorted);
   constexpr double fallen = 0.15, high_share = 0.9;
   const double below_Pa =
-      sorted.empty() ? 0 : fallen * sorted[static_cast<std::size_t>(high_share * static_cast<double>(sorted.size() - 1))];
+      sorted.empty() ? 0
+                     : fallen * sorted[static_cast<std::size_t>(high_share * static_cast<double>(sorted.size() - 1))];
   for (const double value : pressure_Pa) out.push_back(!(value >= below_Pa));
   return out;
 }
@@ -72,11 +73,10 @@ std::vector<TimeMark> marks_within(const Reference& reference, const recording::
   const double begin_s = recording[Channel::time].front(), end_s = recording[Channel::time].back();
   for (const TimeMark& mark : reference.marks) {
     if (mark.begin_s >= begin_s && mark.end_s <= end_s) continue;
-    throw RecordingError(
-        fmt::format("{}: {}: the mark {} s to {} s lies outside {}, {} s to {} s; give times of the recording, or say "
-                    "with recording = \"FILE\" which one the marks are of",
-                    reference.place, reference.name, mark.begin_s, mark.end_s, recording.file.filename().string(),
-                    begin_s, end_s));
+    throw RecordingError(fmt::format(
+        "{}: {}: the mark {} s to {} s lies outside {}, {} s to {} s; give times of the recording, or say "
+        "with recording = \"FILE\" which one the marks are of",
+        reference.place, reference.name, mark.begin_s, mark.end_s, recording.file.filename().string(), begin_s, end_s));
   }
   return reference.marks;
 }

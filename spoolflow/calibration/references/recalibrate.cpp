@@ -39,7 +39,8 @@ MachineEvidence evidence_of(const model::Model& model, const std::vector<recordi
     for (std::size_t r = 0; r < references.size(); ++r) {
       const std::vector<PassedOil> oil = passed_oil(references[r], r, recording, model.valve.rated_flow_m3_per_s);
       run.oil.insert(run.oil.end(), oil.begin(), oil.end());
-      const bool here = references[r].recording.empty() || references[r].recording == recording.file.filename().string();
+      const bool here =
+          references[r].recording.empty() || references[r].recording == recording.file.filename().string();
       if (references[r].kind != recording::ReferenceKind::closed || !here) continue;
       if (const auto reading_m = closed_reading_m(model.observer->parameters, recording)) out.closed_m = reading_m;
     }
@@ -47,22 +48,23 @@ MachineEvidence evidence_of(const model::Model& model, const std::vector<recordi
   }
   const auto closed = std::ranges::find(references, recording::ReferenceKind::closed, &recording::Reference::kind);
   if (closed != references.end() && !out.closed_m) {
-    throw CalibrationError(fmt::format(
-        "{}: {}: the spool never stands closed without current for 0.3 s; record the valve before it is "
-        "switched on, or leave the reference out",
-        closed->place, closed->name));
+    throw CalibrationError(
+        fmt::format("{}: {}: the spool never stands closed without current for 0.3 s; record the valve before it is "
+                    "switched on, or leave the reference out",
+                    closed->place, closed->name));
   }
   return out;
 }
 
 void require_within_limits(const model::Model& model, const model::WearState& wear) {
   const auto refuse = [&](const std::string& what) {
-    throw CalibrationError(fmt::format("{}: {} lies beyond what references move (edges {:.0f} %, friction {:g} times, "
-                                       "position zero {:g} um); repair the valve, or calibrate it anew",
-                                       model.valve.name, what, percent * most_edge_width, most_friction_ratio,
-                                       um_per_m * most_position_zero_m));
+    throw CalibrationError(fmt::format(
+        "{}: {} lies beyond what references move (edges {:.0f} %, friction {:g} times, "
+        "position zero {:g} um); repair the valve, or calibrate it anew",
+        model.valve.name, what, percent * most_edge_width, most_friction_ratio, um_per_m * most_position_zero_m));
   };
-  if (std::abs(wear.edge_width) > most_edge_width) refuse(fmt::format("edge width {:+.0f} %", percent * wear.edge_width));
+  if (std::abs(wear.edge_width) > most_edge_width)
+    refuse(fmt::format("edge width {:+.0f} %", percent * wear.edge_width));
   if (wear.friction_ratio > most_friction_ratio || wear.friction_ratio < 1 / most_friction_ratio)
     refuse(fmt::format("friction of {:.2f} times the calibrated one", wear.friction_ratio));
   if (std::abs(wear.position_zero_m) > most_position_zero_m)
@@ -120,9 +122,10 @@ class Update {
     wear_.friction_ratio *= ratio;
     wear_.friction_share = friction.deviation;
     correct("friction ratio", "1", ratio, ratio * friction.deviation);
-    say(fmt::format("friction {} +- {:.0f} %: with it the sensor's forces and the references' volumes agree exp({:.1f}) "
-                    "times as likely",
-                    best, percent * 2 * friction.deviation, friction.evidence));
+    say(fmt::format(
+        "friction {} +- {:.0f} %: with it the sensor's forces and the references' volumes agree exp({:.1f}) "
+        "times as likely",
+        best, percent * 2 * friction.deviation, friction.evidence));
   }
 
   void find_edges(const WearView& from) {

@@ -29,8 +29,8 @@ struct RecalibratedValve {
                                             const std::vector<recording::Recording>& recordings,
                                             const std::vector<recording::Reference>& references, model::Adaptation how);
 
-/// The model as it was in an earlier state, 0 for as calibrated: wear_states(). The log goes on. Throws CalibrationError
-/// where there is no such state.
+/// The model as it was in an earlier state, 0 for as calibrated: wear_states(). The log goes on. Throws
+/// CalibrationError where there is no such state.
 [[nodiscard]] RecalibratedValve gone_back(const model::Model& model, std::size_t state, model::Adaptation how);
 
 }  // namespace spoolflow::calibration

@@ -49,8 +49,8 @@ model::Model moved(const model::Model& model, const model::WearState& to) {
   const model::WearState from = wear_of(model);
   model::Model out = model;
   if (from == to) return out;
-  const model::WearState change{(1 + to.edge_width) / (1 + from.edge_width) - 1, to.friction_ratio / from.friction_ratio,
-                                to.position_zero_m - from.position_zero_m};
+  const model::WearState change{(1 + to.edge_width) / (1 + from.edge_width) - 1,
+                                to.friction_ratio / from.friction_ratio, to.position_zero_m - from.position_zero_m};
   sensor::ObserverParameters<double>& valve = out.observer->parameters;
   valve = worn(valve, change);
   valve.environment.flow_share = with_instead(valve.environment.flow_share, from.flow_share, to.flow_share);

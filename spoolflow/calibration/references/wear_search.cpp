@@ -79,8 +79,10 @@ Change friction_change(const MachineEvidence& evidence, const WearView& from) {
     at = {at.middle + step, step, {at.loss[1], at.loss[2], loss_at(at.middle + 2 * step)}};
   while (at.loss[0] < at.loss[1] && at.middle > -furthest)
     at = {at.middle - step, step, {loss_at(at.middle - 2 * step), at.loss[0], at.loss[1]}};
-  const double value = at.vertex(), deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (friction_wear * friction_wear)));
-  const double gain = from.loss - std::min(loss_at(value), at.loss[1]) - std::log(friction_wear / std::min(deviation, friction_wear));
+  const double value = at.vertex(),
+               deviation = 1 / std::sqrt(std::max(at.curvature(), 1 / (friction_wear * friction_wear)));
+  const double gain =
+      from.loss - std::min(loss_at(value), at.loss[1]) - std::log(friction_wear / std::min(deviation, friction_wear));
   return {value, std::max(deviation, least_friction_share), gain, gain > change_evidence};
 }
 
@@ -104,8 +106,9 @@ Change edge_change(const MachineEvidence& evidence, const WearView& from) {
   const std::vector<bool> used = used_of(from);
   const double turn = here.log_ratio < 0 ? -edge_wear : edge_wear;
   const OilAgreement there = agreement_of(evidence, seen_with(evidence, with_edge(from.wear, turn), used));
-  const double slope = (here.log_ratio - there.log_ratio) / turn;  // of the sensor's volume over the width, about a half
-  constexpr double least_slope = 0.2;                              // less is not oil that an edge passes
+  const double slope =
+      (here.log_ratio - there.log_ratio) / turn;  // of the sensor's volume over the width, about a half
+  constexpr double least_slope = 0.2;             // less is not oil that an edge passes
   if (!(slope > least_slope)) return {};
   const double deviation = here.deviation / slope, best = here.log_ratio / slope;
   const double gain = evidence_of_change(best, deviation, edge_wear);

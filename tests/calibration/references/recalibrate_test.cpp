@@ -117,7 +117,8 @@ TEST(Recalibrate, GoesBackToAnyEarlierState) {
   model::Model once = moved(valve(), {0.05, 1.2, 10e-6, 0.01, 0.05});
   once.provenance.adaptations.push_back({"1", "t", std::string(64, 'a'), {}, {}, {}, {{0.05, 1.2, 10e-6, 0.01, 0.05}}});
   model::Model twice = moved(once, {0.09, 1.5, 14e-6, 0.01, 0.06});
-  twice.provenance.adaptations.push_back({"1", "t", std::string(64, 'b'), {}, {}, {}, {{0.09, 1.5, 14e-6, 0.01, 0.06}}});
+  twice.provenance.adaptations.push_back(
+      {"1", "t", std::string(64, 'b'), {}, {}, {}, {{0.09, 1.5, 14e-6, 0.01, 0.06}}});
   for (const auto& [state, there] : {std::pair{0, valve()}, std::pair{1, once}}) {
     const model::Model back = gone_back(twice, static_cast<std::size_t>(state), how()).model;
     const auto &is = back.observer->parameters, &was = there.observer->parameters;
