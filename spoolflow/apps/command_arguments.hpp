@@ -1,5 +1,6 @@
 #pragma once
 /// The commands as functions of what was asked of them, so that `demo` does exactly what the commands do.
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -86,5 +87,16 @@ struct MonitorArguments {
   bool quiet = false;
 };
 void monitor_recordings(const MonitorArguments& arguments);
+
+struct RecalibrateArguments {
+  std::string model;
+  std::vector<std::string> recordings;   ///< oldest first
+  std::string references;                ///< file of [[reference]]; empty: goes back
+  std::string output;                    ///< model to write
+  std::string channels = {};             ///< channel map; empty: none
+  std::optional<std::size_t> back_to{};  ///< state to go back to
+  bool quiet = false;
+};
+void recalibrate_model(const RecalibrateArguments& arguments);
 
 }  // namespace spoolflow::apps

@@ -25,6 +25,7 @@ void add_core_commands(CLI::App& program) {
   add_estimate_command(program);
   add_validate_command(program);
   add_monitor_command(program);
+  add_recalibrate_command(program);
   add_simulate_command(program);
   add_campaign_command(program);
   add_plan_command(program);

@@ -33,6 +33,7 @@ void add_calibrate_command(CLI::App& program);
 void add_estimate_command(CLI::App& program);
 void add_validate_command(CLI::App& program);
 void add_monitor_command(CLI::App& program);
+void add_recalibrate_command(CLI::App& program);
 void add_simulate_command(CLI::App& program);
 void add_campaign_command(CLI::App& program);
 void add_plan_command(CLI::App& program);

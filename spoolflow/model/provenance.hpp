@@ -2,6 +2,7 @@
 /// Where a model came from.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,14 +26,26 @@ struct Correction {
   double uncertainty_95;  ///< half width about `value`, >= 0
 };
 
-/// Corrections of the model from the valve's operation (monitor/adaptation.hpp). The recordings it
-/// is from stand among the provenance's inputs, as of protocol `adaptation_protocol`.
+/// Where references have moved a model to, against the model as it was calibrated (calibration/references).
+struct WearState {
+  double edge_width = 0;       ///< conductance and flow force with it, as a share more
+  double friction_ratio = 1;   ///< friction in operation over what it was
+  double position_zero_m = 0;  ///< the position sensor reads so much too much
+  double flow_share = 0;       ///< standard uncertainty of the flow that is left of it, in the band
+  double friction_share = 0;   ///< the same of friction
+  [[nodiscard]] bool operator==(const WearState&) const = default;
+};
+
+/// Corrections of the model from the valve's operation (monitor/adaptation.hpp), or from what its machine knows. The
+/// recordings it is from stand among the provenance's inputs, as of protocol `adaptation_protocol`.
 struct Adaptation {
   std::string tool_version;
   std::string created;             ///< UTC, ISO 8601
   std::string adapted_from;        ///< sha256 of the model file that was corrected
   std::vector<std::string> files;  ///< recordings, by their names among the inputs
   std::vector<Correction> corrections;
+  std::vector<std::string> reasons = {};  ///< a sentence each
+  std::optional<WearState> wear = {};     ///< the model's after it, where references moved it
 };
 inline constexpr std::string_view adaptation_protocol = "adaptation";
 

@@ -41,6 +41,15 @@ Adaptation adaptation(const JsonNode& node) {
     out.corrections.push_back({each.at("direction").text(), each.at("of").text(), each.at("unit").text(),
                                each.at("value").number(), each.at("uncertainty_95").number(0, 1e15)});
   }
+  if (node.has("reasons")) {
+    for (const JsonNode& reason : node.at("reasons").elements()) out.reasons.push_back(reason.text());
+  }
+  if (node.has("wear")) {
+    const JsonNode wear = node.at("wear");
+    out.wear = {wear.at("edge_width").number(-0.5, 1), wear.at("friction_ratio").number(0.1, 10),
+                wear.at("position_zero_m").number(-1e-3, 1e-3), wear.at("flow_share").number(0, 1),
+                wear.at("friction_share").number(0, 10)};
+  }
   return out;
 }
 

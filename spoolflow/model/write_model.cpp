@@ -39,6 +39,14 @@ Json provenance(const Provenance& provenance) {
                                   {"adapted_from", each.adapted_from},
                                   {"files", each.files},
                                   {"corrections", corrections}});
+    Json& written = out["adaptations"].back();
+    if (!each.reasons.empty()) written["reasons"] = each.reasons;
+    if (!each.wear) continue;
+    written["wear"] = {{"edge_width", each.wear->edge_width},
+                       {"friction_ratio", each.wear->friction_ratio},
+                       {"position_zero_m", each.wear->position_zero_m},
+                       {"flow_share", each.wear->flow_share},
+                       {"friction_share", each.wear->friction_share}};
   }
   if (!provenance.doubts.empty()) out["doubts"] = provenance.doubts;
   return out;

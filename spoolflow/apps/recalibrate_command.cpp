@@ -1,0 +1,136 @@
+/// `spoolflow recalibrate`: a unit's model moved on by what its machine knows of the oil that passed it.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "spoolflow/apps/command.hpp"
+#include "spoolflow/apps/command_arguments.hpp"
+#include "spoolflow/apps/commands.hpp"
+#include "spoolflow/apps/suggestion.hpp"
+#include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/apps/terminal/terminal_text.hpp"
+#include "spoolflow/apps/tool_version.hpp"
+#include "spoolflow/apps/work/readable_model.hpp"
+#include "spoolflow/calibration/references/recalibrate.hpp"
+#include "spoolflow/recording/reader.hpp"
+
+namespace spoolflow::apps {
+namespace {
+
+using recording::Channel;
+
+std::vector<recording::Recording> recordings_of(const RecalibrateArguments& arguments, double stroke_m,
+                                                std::vector<std::filesystem::path>& inputs) {
+  recording::ReadOptions options;
+  options.required = {Channel::time, Channel::current, Channel::position};
+  options.optional = {Channel::voltage, Channel::oil_temperature, Channel::pressure_difference, Channel::flow_reference,
+                      Channel::test};
+  options.stroke_m = stroke_m;
+  if (!arguments.channels.empty()) {
+    options.channels = recording::read_channel_map(arguments.channels);
+    inputs.emplace_back(arguments.channels);
+  }
+  std::vector<recording::Recording> out;
+  for (const std::string& file : arguments.recordings) {
+    inputs.emplace_back(file);
+    out.push_back(recording::read_recording(file, options));
+    constexpr std::size_t least_samples = 100;
+    if (out.back().size() < least_samples)
+      throw std::invalid_argument(
+          fmt::format("{}: has {} samples; give minutes of the valve's operation", file, out.back().size()));
+  }
+  return out;
+}
+
+/// What was done, and the states that the model can go back to.
+void print_findings(const calibration::RecalibratedValve& valve) {
+  constexpr double percent = 100, um_per_m = 1e6;
+  for (const std::string& finding : valve.findings) say("{}\n", finding);
+  const std::vector<model::WearState> states = calibration::wear_states(valve.model);
+  say("\n{:>5} {:>12} {:>10} {:>15}\n", "state", "edge width", "friction", "position zero");
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    say("{:>5} {:>+10.1f} % {:>+8.0f} % {:>+12.1f} um\n", k, percent * states[k].edge_width,
+        percent * (states[k].friction_ratio - 1), um_per_m * states[k].position_zero_m);
+  }
+}
+
+model::Adaptation how_from(const RecalibrateArguments& arguments) {
+  return {std::string(tool_version()), model::creation_time(), model::sha256_of_file(arguments.model), {}, {}};
+}
+
+calibration::RecalibratedValve moved_on(const RecalibrateArguments& arguments, const model::Model& model,
+                                        std::vector<std::filesystem::path>& inputs) {
+  inputs.emplace_back(arguments.references);
+  const std::vector<recording::Reference> references = recording::read_references(arguments.references);
+  Progress progress("recalibrating", arguments.quiet);
+  const std::vector<recording::Recording> recordings = recordings_of(arguments, model.valve.stroke_m, inputs);
+  calibration::RecalibratedValve out = calibration::recalibrate(model, recordings, references, how_from(arguments));
+  for (const recording::Recording& recording : recordings) {
+    out.model.provenance.inputs.push_back({std::string(model::adaptation_protocol), recording.file.filename().string(),
+                                           model::sha256_of_file(recording.file), recording.size(),
+                                           recording.resampled});
+  }
+  return out;
+}
+
+void require_one_way(const RecalibrateArguments& arguments) {
+  const bool back = arguments.back_to.has_value();
+  if (back && (!arguments.references.empty() || !arguments.recordings.empty()))
+    throw std::invalid_argument("recalibrate --back-to takes the model alone; leave out recordings and --references");
+  if (!back && (arguments.references.empty() || arguments.recordings.empty())) {
+    throw std::invalid_argument(
+        "recalibrate needs recordings and --references REF.toml, or --back-to STATE to go back to an earlier state");
+  }
+}
+
+}  // namespace
+
+void recalibrate_model(const RecalibrateArguments& arguments) {
+  require_one_way(arguments);
+  std::vector<Input> roles{{arguments.model, FileKind::model}};
+  for (const std::string& recording : arguments.recordings) roles.push_back({recording, FileKind::recording});
+  if (!arguments.references.empty()) roles.push_back({arguments.references, FileKind::settings, "--references "});
+  refuse_other_kinds("recalibrate", roles);
+  const model::Model model = model::read_model(arguments.model);
+  std::vector<std::filesystem::path> inputs{arguments.model};
+  const calibration::RecalibratedValve valve =
+      arguments.back_to ? calibration::gone_back(model, *arguments.back_to, how_from(arguments))
+                        : moved_on(arguments, model, inputs);
+  OutputFile output(arguments.output, inputs);
+  output.stream() << readable_text(valve.model, arguments.output);
+  commit_together({&output});
+  if (!arguments.quiet) print_findings(valve);
+}
+
+void add_recalibrate_command(CLI::App& program) {
+  auto arguments = std::make_shared<RecalibrateArguments>();
+  CLI::App* command = add_command(
+      program,
+      {"recalibrate",
+       "move a valve's model on by what its machine knows of the oil that passed",
+       "MODEL.json of one direction with an observer; recordings of the valve at work with time, current and position, "
+       "better also voltage and oil temperature; and a file of [[reference]]: strokes of a cylinder, a pump, a flow "
+       "meter, the closed valve",
+       "the model as JSON, moved where the evidence pays for it, with what changed, by how much and why in its "
+       "provenance; the same on standard error",
+       {"spoolflow recalibrate valve_a.json monday.csv --references boom.toml -o valve_a_monday.json",
+        "spoolflow recalibrate valve_a_monday.json --back-to 0 -o valve_a.json"}});
+  command->add_option("model", arguments->model, "model file")->required();
+  command->add_option("recordings", arguments->recordings, "recordings of the valve at work, oldest first");
+  command->add_option("--references", arguments->references, "what the machine knows of its oil: tables [[reference]]")
+      ->type_name("REF.toml");
+  command->add_option("--back-to", arguments->back_to, "earlier state of the model, 0 for as calibrated")
+      ->type_name("STATE");
+  command->add_option("-o,--output", arguments->output, "model file to write, - for standard output")
+      ->type_name("MODEL2.json")
+      ->required();
+  command
+      ->add_option("--channels", arguments->channels, "channel map (TOML) for files with other column names or units")
+      ->type_name("MAP.toml");
+  add_quiet(*command, arguments->quiet);
+  command->callback([arguments] { recalibrate_model(*arguments); });
+}
+
+}  // namespace spoolflow::apps

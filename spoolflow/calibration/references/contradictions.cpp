@@ -1,0 +1,125 @@
+#include "spoolflow/calibration/references/contradictions.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/references/recalibrate.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+constexpr double percent = 100;
+/// Between two references, in standard deviations, and what the sensor's own volumes differ by between their intervals.
+constexpr double contradiction_deviations = 3.5, between_references_share = 0.005;
+
+/// Of a reference: the numbers of intervals left out, counted from 1, and of all whose oil was compared.
+struct Apart {
+  std::vector<std::size_t> less, more;
+  std::size_t all = 0;
+};
+
+Apart apart_of(const WearView& view, std::size_t r) {
+  const double level = level_of(view.ratios, r).log_ratio;
+  Apart out;
+  std::size_t number = 0;
+  for (const OilRatio& each : view.ratios) {
+    if (each.reference != r) continue;
+    ++number;
+    const bool seen = each.used || each.log_ratio != 0;
+    out.all += seen;
+    if (seen && !each.used) (each.log_ratio < level ? out.less : out.more).push_back(number);
+  }
+  return out;
+}
+
+std::string left_out(const MachineEvidence& evidence, const WearView& view, std::size_t r) {
+  const recording::Reference& reference = evidence.references[r];
+  const Apart apart = apart_of(view, r);
+  if (apart.all == 0) {
+    throw CalibrationError(
+        fmt::format("{}: {} is refused: the sensor sees less than {:.0f} % of its oil pass in every interval; check "
+                    "that model and recording belong together, and that the strokes go in the model's direction",
+                    reference.place, reference.name, percent * least_seen_share));
+  }
+  const std::size_t count = apart.less.size() + apart.more.size();
+  if (count == 0) return {};
+  const std::string less = fmt::format("{}", fmt::join(apart.less, ", ")),
+                    more = fmt::format("{}", fmt::join(apart.more, ", "));
+  std::string what;
+  if (!apart.less.empty())
+    what = fmt::format("less oil than in the others in {}: likely another consumer was open", less);
+  if (!apart.more.empty())
+    what += fmt::format("{}more oil in {}: likely ends are marked at other times, or the sensor lost the pressure",
+                        what.empty() ? "" : "; ", more);
+  if (static_cast<double>(count) > most_left_out * static_cast<double>(apart.all)) {
+    throw CalibrationError(fmt::format(
+        "{}: {} is refused: {} of its {} intervals contradict the others ({}); mark intervals in which this "
+        "valve alone is open",
+        reference.place, reference.name, count, apart.all, what));
+  }
+  return fmt::format("{}: {} of {} intervals are left out ({})", reference.name, count, apart.all, what);
+}
+
+void require_no_leak(const MachineEvidence& evidence, const WearView& view, std::size_t r) {
+  const recording::Reference& reference = evidence.references[r];
+  const OilLeak leak = leak_of(view.ratios, r);
+  if (leak.gain < change_evidence || !(leak.leak_m3_per_s > reference.leakage_uncertainty_m3_per_s)) return;
+  throw CalibrationError(fmt::format(
+      "{}: {} is refused: slow intervals miss {:.2g} +- {:.2g} L/min beside fast ones, where {:.2g} L/min was stated; "
+      "likely the seal leaks; mend it, or state its leakage",
+      reference.place, reference.name, units::L_per_min_from_m3_per_s(leak.leak_m3_per_s),
+      units::L_per_min_from_m3_per_s(2 * leak.deviation_m3_per_s),
+      units::L_per_min_from_m3_per_s(reference.leakage_uncertainty_m3_per_s)));
+}
+
+double deviation_of(const MachineEvidence& evidence, const OilLevel& level, std::size_t r) {
+  return std::hypot(level.deviation, 0.5 * evidence.references[r].share_uncertainty);
+}
+
+void require_consistent(const MachineEvidence& evidence, const WearView& view, std::size_t r, std::size_t s) {
+  const OilLevel one = level_of(view.ratios, r), other = level_of(view.ratios, s);
+  if (one.count == 0 || other.count == 0) return;
+  const double expected =
+      std::hypot(deviation_of(evidence, one, r), deviation_of(evidence, other, s), between_references_share);
+  const double off = other.log_ratio - one.log_ratio;
+  if (std::abs(off) <= contradiction_deviations * expected) return;
+  throw CalibrationError(
+      fmt::format("{}: {} says {:+.1f} % more oil than {}, where {:.1f} % is to be expected; likely an area, a "
+                  "displacement or a meter's gain is wrong; correct it, or leave one of them out",
+                  evidence.references[s].place, evidence.references[s].name, percent * off, evidence.references[r].name,
+                  percent * 2 * expected));
+}
+
+}  // namespace
+
+std::string names_of(const MachineEvidence& evidence) {
+  std::vector<std::string> names;
+  for (const recording::Reference& reference : evidence.references)
+    if (reference.kind != recording::ReferenceKind::closed) names.push_back(reference.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::string> require_agreement(const MachineEvidence& evidence, const WearView& view) {
+  std::vector<std::string> out;
+  for (std::size_t r = 0; r < evidence.references.size(); ++r) {
+    if (evidence.references[r].kind == recording::ReferenceKind::closed) continue;
+    if (std::string sentence = left_out(evidence, view, r); !sentence.empty()) out.push_back(std::move(sentence));
+    require_no_leak(evidence, view, r);
+    for (std::size_t s = 0; s < r; ++s) require_consistent(evidence, view, s, r);
+  }
+  return out;
+}
+
+void require_no_less(const MachineEvidence& evidence, const Change& edge) {
+  if (!(edge.value < 0) || edge.evidence < change_evidence) return;
+  throw CalibrationError(
+      fmt::format("{} refused: so little oil passed that the edges would be {:.1f} % narrower, and wear widens them; "
+                  "likely a seal leaks, another consumer is open, or the stated area or displacement is too small",
+                  names_of(evidence), -percent * edge.value));
+}
+
+}  // namespace spoolflow::calibration

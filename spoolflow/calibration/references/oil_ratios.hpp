@@ -1,0 +1,51 @@
+#pragma once
+/// How the oil that references say has passed compares with the sensor's.
+#include <cstddef>
+#include <vector>
+
+#include "spoolflow/calibration/references/passed_oil.hpp"
+
+namespace spoolflow::calibration {
+
+/// One interval.
+struct OilRatio {
+  std::size_t reference;
+  double log_ratio;       ///< logarithm of the reference's volume over the sensor's
+  double deviation;       ///< standard deviation expected of it beside what all intervals have in common
+  double seconds_per_m3;  ///< of the interval over the reference's volume: what a leakage takes of each
+  bool used;
+};
+
+/// What the sensor's volume of an interval is off by, by chance: a share of it, and a share of the rated flow.
+inline constexpr double interval_share = 0.015, interval_flow_share = 0.005;
+/// A reference's intervals in which the sensor saw less than this share of its oil pass are of the other direction.
+inline constexpr double least_seen_share = 0.3;
+
+[[nodiscard]] std::vector<OilRatio> oil_ratios(const std::vector<PassedOil>& oil, const std::vector<double>& sensor_m3,
+                                               double rated_flow_m3_per_s);
+
+/// Loss of a residual in standard deviations, negative logarithm of Student's t of four degrees of freedom: sensors err
+/// by much at times.
+[[nodiscard]] double interval_loss(double deviations);
+
+/// What all used intervals of a reference have in common.
+struct OilLevel {
+  double log_ratio, deviation;
+  double loss;  ///< of its intervals about it
+  std::size_t count;
+};
+[[nodiscard]] OilLevel level_of(const std::vector<OilRatio>& ratios, std::size_t reference);
+
+/// The same with oil that is lost beside the valve at a constant rate.
+struct OilLeak {
+  double leak_m3_per_s;  ///< > 0: the reference misses oil
+  double deviation_m3_per_s;
+  double gain;  ///< by how much less the loss is with it
+};
+[[nodiscard]] OilLeak leak_of(const std::vector<OilRatio>& ratios, std::size_t reference);
+
+/// Takes the intervals out of use that lie apart from their reference's others, more than 8 % and than four times their
+/// median distance from the median.
+void leave_out_apart(std::vector<OilRatio>& ratios);
+
+}  // namespace spoolflow::calibration

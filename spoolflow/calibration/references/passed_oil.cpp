@@ -1,0 +1,146 @@
+#include "spoolflow/calibration/references/passed_oil.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/channels/recording_error.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using recording::Channel;
+using recording::EndsSeen;
+using recording::RecordingError;
+using recording::Reference;
+using recording::ReferenceKind;
+using recording::TimeMark;
+
+/// A shorter stroke is none: ends are seen to some hundredths of a second.
+constexpr double shortest_stroke_s = 0.3;
+/// One standard deviation of the time at which an end, or a meter's lag, is known [s].
+constexpr double end_time_uncertainty_s = 0.01, meter_lag_s = 0.03;
+/// Flow of a meter below which an interval says little [share of the rated flow].
+constexpr double least_metered_share = 0.01;
+
+void require_channel(const Reference& reference, const recording::Recording& recording, Channel channel,
+                     const char* why) {
+  if (recording.has(channel)) return;
+  throw RecordingError(fmt::format("{}: {} needs the channel {} of {}, {}; record it, or name it in a channel map",
+                                   reference.place, reference.name, recording::name(channel),
+                                   recording.file.filename().string(), why));
+}
+
+/// Whether the piston stands at each sample.
+std::vector<bool> stands(const Reference& reference, const recording::Recording& recording) {
+  std::vector<bool> out;
+  if (reference.ends == EndsSeen::by_switch) {
+    require_channel(reference, recording, Channel::test, "whose value is not zero while the piston stands");
+    for (const double value : recording[Channel::test]) out.push_back(value != 0);
+    return out;
+  }
+  require_channel(reference, recording, Channel::pressure_difference, "which falls while the piston stands");
+  const auto pressure_Pa = recording[Channel::pressure_difference];
+  std::vector<double> sorted(pressure_Pa.begin(), pressure_Pa.end());
+  std::erase_if(sorted, [](double value) { return !std::isfinite(value); });
+  std::ranges::sort(sorted);
+  constexpr double fallen = 0.15, high_share = 0.9;
+  const double below_Pa =
+      sorted.empty() ? 0
+                     : fallen * sorted[static_cast<std::size_t>(high_share * static_cast<double>(sorted.size() - 1))];
+  for (const double value : pressure_Pa) out.push_back(!(value >= below_Pa));
+  return out;
+}
+
+/// From when the piston leaves an end to when it stands at the other. Motion at the recording's begin or end is part of
+/// a stroke, and left out.
+std::vector<TimeMark> strokes_seen(const Reference& reference, const recording::Recording& recording) {
+  const std::vector<bool> standing = stands(reference, recording);
+  const auto time_s = recording[Channel::time];
+  std::vector<TimeMark> out;
+  double left_s = NAN;
+  for (std::size_t k = 1; k < standing.size(); ++k) {
+    if (standing[k - 1] && !standing[k]) left_s = time_s[k];
+    if (standing[k - 1] || !standing[k]) continue;
+    if (time_s[k] - left_s > shortest_stroke_s) out.push_back({left_s, time_s[k], NAN});
+    left_s = NAN;
+  }
+  return out;
+}
+
+std::vector<TimeMark> marks_within(const Reference& reference, const recording::Recording& recording) {
+  const double begin_s = recording[Channel::time].front(), end_s = recording[Channel::time].back();
+  for (const TimeMark& mark : reference.marks) {
+    if (mark.begin_s >= begin_s && mark.end_s <= end_s) continue;
+    throw RecordingError(fmt::format(
+        "{}: {}: the mark {} s to {} s lies outside {}, {} s to {} s; give times of the recording, or say "
+        "with recording = \"FILE\" which one the marks are of",
+        reference.place, reference.name, mark.begin_s, mark.end_s, recording.file.filename().string(), begin_s, end_s));
+  }
+  return reference.marks;
+}
+
+std::vector<TimeMark> intervals_of(const Reference& reference, const recording::Recording& recording) {
+  if (reference.kind == ReferenceKind::stroke && reference.ends != EndsSeen::marks)
+    return strokes_seen(reference, recording);
+  if (reference.kind != ReferenceKind::meter) return marks_within(reference, recording);
+  const double begin_s = recording[Channel::time].front(), end_s = recording[Channel::time].back();
+  std::vector<TimeMark> out;
+  for (double at_s = begin_s; at_s + reference.interval_s <= end_s; at_s += reference.interval_s)
+    out.push_back({at_s, at_s + reference.interval_s, NAN});
+  return out;
+}
+
+/// What a meter showed; NaN where samples are missing.
+double metered_m3(const recording::Recording& recording, const TimeMark& mark) {
+  const auto time_s = recording[Channel::time], flow = recording[Channel::flow_reference];
+  double sum = 0;
+  for (std::size_t k = 1; k < time_s.size(); ++k) {
+    if (time_s[k - 1] >= mark.begin_s && time_s[k] <= mark.end_s) sum += flow[k] * (time_s[k] - time_s[k - 1]);
+  }
+  return sum;
+}
+
+PassedOil passed_in(const Reference& reference, std::size_t number, const recording::Recording& recording,
+                    const TimeMark& mark) {
+  const double lasts_s = mark.end_s - mark.begin_s;
+  PassedOil out{number, mark.begin_s, mark.end_s, 0, 0};
+  if (reference.kind == ReferenceKind::stroke) {
+    out.volume_m3 = reference.area_m2 * reference.length_m + 0.5 * reference.compression_m3;
+    const double compression_m3 = reference.compression_m3 / std::sqrt(12.0);  // any share of it is as likely
+    out.uncertainty_m3 = std::hypot(0.5 * reference.length_uncertainty_m * reference.area_m2, compression_m3,
+                                    out.volume_m3 / lasts_s * end_time_uncertainty_s);
+  } else if (reference.kind == ReferenceKind::pump) {
+    const double speed = std::isnan(mark.speed_rad_per_s) ? reference.speed_rad_per_s : mark.speed_rad_per_s;
+    out.volume_m3 = (reference.displacement_m3_per_rad * speed - reference.leakage_m3_per_s) * lasts_s;
+    out.uncertainty_m3 = std::abs(out.volume_m3) / lasts_s * end_time_uncertainty_s;
+  } else {
+    out.volume_m3 = metered_m3(recording, mark);
+    out.uncertainty_m3 = std::abs(out.volume_m3) / lasts_s * meter_lag_s;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<PassedOil> passed_oil(const Reference& reference, std::size_t number, const recording::Recording& recording,
+                                  double rated_flow_m3_per_s) {
+  const bool other = !reference.recording.empty() && reference.recording != recording.file.filename().string();
+  if (other || reference.kind == ReferenceKind::closed) return {};
+  if (reference.kind == ReferenceKind::meter)
+    require_channel(reference, recording, Channel::flow_reference, "the meter's flow");
+  const double least = reference.kind == ReferenceKind::meter ? least_metered_share * rated_flow_m3_per_s : 0;
+  std::vector<PassedOil> out;
+  for (const TimeMark& mark : intervals_of(reference, recording)) {
+    const PassedOil oil = passed_in(reference, number, recording, mark);
+    if (oil.volume_m3 > least * (mark.end_s - mark.begin_s)) out.push_back(oil);
+  }
+  if (!out.empty()) return out;
+  throw RecordingError(
+      fmt::format("{}: {} is not seen in {}: no interval of it lies there whole, with oil that passed; check its "
+                  "figures and how its ends are seen, or mark them in a file with ends = \"marks\"",
+                  reference.place, reference.name, recording.file.filename().string()));
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,98 @@
+#include "spoolflow/calibration/references/sensor_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spoolflow/estimation/columns.hpp"
+#include "spoolflow/numerics/median.hpp"
+#include "spoolflow/sensor/observer.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using recording::Channel;
+
+/// Innovations of a sensor that has just begun show its first guess.
+constexpr double settling_s = 10;
+
+estimation::Columns columns_of(const recording::Recording& recording) {
+  return {.time_s = recording[Channel::time],
+          .current_A = recording[Channel::current],
+          .voltage_V = recording.column(Channel::voltage),
+          .position_m = recording[Channel::position],
+          .oil_temperature_K = recording.column(Channel::oil_temperature)};
+}
+
+/// Sums over one run.
+class RunView {
+ public:
+  explicit RunView(const WatchedRun& run) : run_(run), volume_m3_(run.oil.size(), 0) {
+    for (std::size_t k = 0; k < run.oil.size(); ++k) order_.push_back(k);
+    std::ranges::sort(order_, {}, [&](std::size_t k) { return run.oil[k].begin_s; });
+  }
+  void add(double from_s, double to_s, double flow_m3_per_s) {
+    while (first_ < order_.size() && oil(first_).end_s <= from_s) ++first_;
+    for (std::size_t k = first_; k < order_.size() && oil(k).begin_s < to_s; ++k) {
+      const double seconds = std::min(to_s, oil(k).end_s) - std::max(from_s, oil(k).begin_s);
+      if (seconds > 0) volume_m3_[order_[k]] += seconds * flow_m3_per_s;
+    }
+  }
+  [[nodiscard]] const std::vector<double>& volume_m3() const { return volume_m3_; }
+
+ private:
+  [[nodiscard]] const PassedOil& oil(std::size_t k) const { return run_.oil[order_[k]]; }
+  const WatchedRun& run_;
+  std::vector<double> volume_m3_;
+  std::vector<std::size_t> order_;  ///< of intervals, by their begin
+  std::size_t first_ = 0;           ///< that is not over
+};
+
+}  // namespace
+
+SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
+                        const std::vector<WatchedRun>& runs) {
+  SensorView out{{}, 0, 0};
+  for (const WatchedRun& run : runs) {
+    RunView sums(run);
+    estimation::RunningSensor sensor(&valve, rated_flow_m3_per_s);
+    const estimation::Columns columns = columns_of(*run.recording);
+    const double begin_s = columns.time_s.front();
+    double before_s = begin_s;
+    estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& told) {
+      const double now_s = columns.time_s[k], step_s = now_s - before_s;
+      if (!(step_s > 0)) return;
+      sums.add(before_s, now_s, told.flow_m3_per_s);
+      before_s = now_s;
+      if (now_s - begin_s < settling_s) return;
+      out.innovation_squared += step_s * sensor.state().observer.pressure.innovation_squared;
+      out.watched_s += step_s;
+    });
+    out.volume_m3.insert(out.volume_m3.end(), sums.volume_m3().begin(), sums.volume_m3().end());
+  }
+  if (out.watched_s > 0) out.innovation_squared /= out.watched_s;
+  return out;
+}
+
+std::optional<double> closed_reading_m(const sensor::ObserverParameters<double>& valve,
+                                       const recording::Recording& recording) {
+  constexpr double without_current = 0.01, least_s = 0.3, comes_to_rest_s = 0.1, near_m = 1e-4;
+  const estimation::Columns columns = columns_of(recording);
+  const double closed_m = valve.edge.position_m.first;
+  std::vector<double> readings_m;
+  double silent_s = 0, stood_s = 0, temperature_K = valve.edge.temperature_K.at(1);
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const double step_s = columns.time_s[k] - columns.time_s[k - 1];
+    if (!columns.oil_temperature_K.empty() && std::isfinite(columns.oil_temperature_K[k]))
+      temperature_K = columns.oil_temperature_K[k];
+    const bool silent = std::abs(columns.current_A[k]) < without_current * valve.largest_current_A;
+    silent_s = silent ? silent_s + step_s : 0;
+    const double reading_m = sensor::drift_free_m(valve.position_sensor, columns.position_m[k], temperature_K);
+    if (silent_s < comes_to_rest_s || !(std::abs(reading_m - closed_m) < near_m)) continue;
+    readings_m.push_back(reading_m);
+    stood_s += step_s;
+  }
+  if (stood_s < least_s) return {};
+  return numerics::median(std::move(readings_m));
+}
+
+}  // namespace spoolflow::calibration

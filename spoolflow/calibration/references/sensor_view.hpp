@@ -1,0 +1,32 @@
+#pragma once
+/// Recordings of operation as a valve's sensor sees them.
+#include <optional>
+#include <vector>
+
+#include "spoolflow/calibration/references/passed_oil.hpp"
+#include "spoolflow/sensor/observer_parameters.hpp"
+
+namespace spoolflow::calibration {
+
+/// A recording, and what passed the valve in it by what the machine knows.
+struct WatchedRun {
+  const recording::Recording* recording;
+  std::vector<PassedOil> oil;
+};
+
+struct SensorView {
+  std::vector<double> volume_m3;  ///< the sensor's, of each interval, run after run
+  double innovation_squared;      ///< mean of its normalised innovations squared
+  double watched_s;               ///< over which that is the mean; 0: no run is long enough
+};
+
+/// All runs through the sensor with these parameters, each from its beginning.
+[[nodiscard]] SensorView view_through(const sensor::ObserverParameters<double>& valve, double rated_flow_m3_per_s,
+                                      const std::vector<WatchedRun>& runs);
+
+/// Where the spool stands closed without current [m], free of the drift that the model knows: median of the readings
+/// from a tenth of a second after the current is gone. Nothing where it stands so for less than 0.3 s.
+[[nodiscard]] std::optional<double> closed_reading_m(const sensor::ObserverParameters<double>& valve,
+                                                     const recording::Recording& recording);
+
+}  // namespace spoolflow::calibration

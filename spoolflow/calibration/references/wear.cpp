@@ -1,0 +1,62 @@
+#include "spoolflow/calibration/references/wear.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spoolflow::calibration {
+namespace {
+
+Deviations deviations_of(const model::WearState& wear) {
+  Deviations out{};
+  out[at(Variation::edge_width)] = wear.edge_width;
+  out[at(Variation::position_zero)] = wear.position_zero_m;
+  return out;
+}
+
+/// `whole` with `from` of it, as root of the sum of squares, replaced by `to`.
+double with_instead(double whole, double from, double to) {
+  if (from == to) return whole;
+  return std::hypot(std::sqrt(std::max(0.0, whole * whole - from * from)), to);
+}
+
+}  // namespace
+
+sensor::ObserverParameters<double> worn(const sensor::ObserverParameters<double>& valve, const model::WearState& wear) {
+  sensor::ObserverParameters<double> out = unit_parameters(valve, deviations_of(wear));
+  out.friction.operation_ratio *= wear.friction_ratio;
+  return out;
+}
+
+sensor::CondensedParameters<double> worn(const sensor::CondensedParameters<double>& valve,
+                                         const model::WearState& wear) {
+  sensor::CondensedParameters<double> out = unit_parameters(valve, deviations_of(wear));
+  for (double& friction_N : out.friction_half_width_N.values) friction_N *= wear.friction_ratio;
+  return out;
+}
+
+std::vector<model::WearState> wear_states(const model::Model& model) {
+  std::vector<model::WearState> out{{}};
+  for (const model::Adaptation& each : model.provenance.adaptations)
+    if (each.wear) out.push_back(*each.wear);
+  return out;
+}
+
+model::WearState wear_of(const model::Model& model) {
+  return wear_states(model).back();
+}
+
+model::Model moved(const model::Model& model, const model::WearState& to) {
+  const model::WearState from = wear_of(model);
+  model::Model out = model;
+  if (from == to) return out;
+  const model::WearState change{(1 + to.edge_width) / (1 + from.edge_width) - 1,
+                                to.friction_ratio / from.friction_ratio, to.position_zero_m - from.position_zero_m};
+  sensor::ObserverParameters<double>& valve = out.observer->parameters;
+  valve = worn(valve, change);
+  valve.environment.flow_share = with_instead(valve.environment.flow_share, from.flow_share, to.flow_share);
+  valve.band.friction_share = with_instead(valve.band.friction_share, from.friction_share, to.friction_share);
+  out.condensed.parameters = worn(out.condensed.parameters, change);
+  return out;
+}
+
+}  // namespace spoolflow::calibration

@@ -1,0 +1,72 @@
+#pragma once
+/// The wear that makes a valve's sensor agree best with itself and with the oil that its references say has passed.
+#include <optional>
+#include <span>
+
+#include "spoolflow/calibration/references/oil_ratios.hpp"
+#include "spoolflow/calibration/references/sensor_view.hpp"
+#include "spoolflow/calibration/references/wear.hpp"
+
+namespace spoolflow::calibration {
+
+/// One standard deviation of what wear changes between two looks at a valve.
+inline constexpr double edge_wear = 0.06, friction_wear = 0.25, position_zero_wear_m = 15e-6;
+/// Of a healthy valve's model: what its volumes all have in common, and where its sensor reads closed.
+inline constexpr double model_volume_share = 0.01, closed_uncertainty_m = 4e-6;
+/// Innovations so far apart count as independent.
+inline constexpr double innovation_memory_s = 1;
+/// A change is taken where it is so many times as likely as none, in natural logarithms, its prior width counted.
+inline constexpr double change_evidence = 1.6;
+/// Friction is known no better than so, a share.
+inline constexpr double least_friction_share = 0.05;
+
+/// What is looked at. Keeps model, recordings and references by reference.
+struct MachineEvidence {
+  const model::Model& model;
+  std::vector<WatchedRun> runs;
+  std::span<const recording::Reference> references;
+  std::optional<double> closed_m;  ///< where the sensor reads closed, of `closed` references
+};
+
+/// A valve with some wear beside its evidence.
+struct WearView {
+  model::WearState wear;
+  std::vector<OilRatio> ratios;  ///< of all intervals, run after run
+  double loss;                   ///< negative logarithm of the likelihood, without constants
+};
+
+/// By how much a change of `value`, known to `deviation`, is more likely than none where wear makes it `usual` large,
+/// in natural logarithms. All in one unit, one standard deviation each.
+[[nodiscard]] double evidence_of_change(double value, double deviation, double usual);
+
+/// One change, with its standard deviation, and its evidence in natural logarithms; `taken` where that suffices.
+struct Change {
+  double value = 0, deviation = 0, evidence = 0;
+  bool taken = false;
+};
+
+/// Position zero, from the closed reading [m].
+[[nodiscard]] Change position_zero_change(const MachineEvidence& evidence);
+
+/// Sees the valve with this wear. `used` says which intervals count; empty: those that the sensor sees and that do not
+/// lie apart.
+[[nodiscard]] WearView seen_with(const MachineEvidence& evidence, const model::WearState& wear,
+                                 const std::vector<bool>& used);
+
+/// Friction in operation, as the logarithm of its ratio to that of `from`: where innovations and the scatter of the
+/// references' volumes are least.
+[[nodiscard]] Change friction_change(const MachineEvidence& evidence, const WearView& from);
+
+/// What all references together say of the oil beside the sensor's, logarithm of the ratio. The deviation holds their
+/// own, their stated and the model's.
+struct OilAgreement {
+  double log_ratio, deviation;
+};
+[[nodiscard]] OilAgreement agreement_of(const MachineEvidence& evidence, const WearView& view);
+
+/// Width of the edges, as the logarithm of its ratio to that of `from`. Of a valve that shows other wear it needs no
+/// evidence of its own: parts wear together. Its value is below 0 where the references say that less passes than forces
+/// do: then it is never taken.
+[[nodiscard]] Change edge_change(const MachineEvidence& evidence, const WearView& from);
+
+}  // namespace spoolflow::calibration

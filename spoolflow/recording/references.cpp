@@ -1,0 +1,212 @@
+#include "spoolflow/recording/references.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "spoolflow/recording/channels/allowed_names.hpp"
+#include "spoolflow/recording/channels/recording_error.hpp"
+#include "spoolflow/recording/toml_input.hpp"
+#include "spoolflow/units/conversion.hpp"
+
+namespace spoolflow::recording {
+namespace {
+
+constexpr std::array<std::string_view, 4> kind_names{"stroke", "pump", "meter", "closed"};
+constexpr std::array<std::string_view, 3> end_names{"marks", "pressure", "switch"};
+constexpr double rad_per_s_per_rpm = std::numbers::pi / 30;
+constexpr double percent = 0.01, m2_per_cm2 = 1e-4, m3_per_cm3 = 1e-6;
+
+template <std::size_t count>
+std::size_t choice(const TomlTable& table, const char* key, const std::array<std::string_view, count>& names) {
+  const std::string written = table.text(key);
+  const auto found = std::find(names.begin(), names.end(), written);
+  if (found == names.end()) {
+    const std::vector<std::string> allowed(names.begin(), names.end());
+    throw RecordingError(fmt::format("{}: {} = \"{}\" is not known{}; allowed: {}", table.place(key), key, written,
+                                     did_you_mean(written, allowed), listed(allowed)));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+struct Range {
+  double least, most;
+  const char* what;
+};
+
+/// The number of a key within its range, or `otherwise` where it is not given.
+double number_within(const TomlTable& table, const char* key, const Range& range,
+                     std::optional<double> otherwise = {}) {
+  const std::optional<double> written = otherwise ? table.optional_number(key) : table.number(key);
+  if (!written) return *otherwise;
+  if (*written >= range.least && *written <= range.most) return *written;
+  throw RecordingError(fmt::format("{}: {} = {} is out of range; give {}, {} to {}", table.place(key), key, *written,
+                                   range.what, range.least, range.most));
+}
+
+/// Numbers of one line between commas, semicolons, tabs or blanks. Throws RecordingError with the line.
+std::vector<double> numbers_of(const std::string& line, const std::string& place) {
+  std::vector<double> out;
+  const char *at = line.data(), *end = at + line.size();
+  while (at != end) {
+    if (std::string_view(",; \t\r").find(*at) != std::string_view::npos) {
+      ++at;
+      continue;
+    }
+    double value = 0;
+    const auto [after, failure] = std::from_chars(at, end, value);
+    if (failure != std::errc() || !std::isfinite(value)) {
+      throw RecordingError(fmt::format("{}: \"{}\" is no row of marks; a row is begin_s, end_s and of a pump speed_rpm",
+                                       place, line.substr(0, 60)));
+    }
+    out.push_back(value);
+    at = after;
+  }
+  return out;
+}
+
+/// A file of rows `begin_s, end_s[, speed_rpm]` under a row that names them.
+std::vector<TimeMark> marks_of(const TomlTable& table) {
+  const std::filesystem::path file = table.file.parent_path() / table.text("marks");
+  std::ifstream in(file);
+  if (!in) {
+    throw RecordingError(fmt::format("{}: the file of marks {} cannot be read; correct marks = \"{}\" or put it there",
+                                     table.place("marks"), file.string(), table.text("marks")));
+  }
+  std::vector<TimeMark> out;
+  std::string line;
+  std::size_t number = 0;
+  bool headed = false;
+  while (std::getline(in, line)) {
+    const std::string place = fmt::format("{}, line {}", file.string(), ++number);
+    if (line.empty() || line.starts_with('#') || line == "\r") continue;
+    if (!headed) {
+      if (!line.starts_with("begin_s")) {
+        throw RecordingError(
+            fmt::format("{}: \"{}\" names no columns; write begin_s,end_s (and speed_rpm of a pump) "
+                        "above the rows",
+                        place, line.substr(0, 60)));
+      }
+      headed = true;
+      continue;
+    }
+    const std::vector<double> row = numbers_of(line, place);
+    if (row.size() < 2 || row.size() > 3) {
+      throw RecordingError(
+          fmt::format("{}: has {} numbers; a row is begin_s, end_s and of a pump speed_rpm", place, row.size()));
+    }
+    if (!(row[1] > row[0]) || (!out.empty() && row[0] < out.back().end_s)) {
+      throw RecordingError(
+          fmt::format("{}: {} s to {} s is no interval after the one before it; order the rows by "
+                      "time and let them not overlap",
+                      place, row[0], row[1]));
+    }
+    const double speed_rpm = row.size() == 3 ? row[2] : std::numeric_limits<double>::quiet_NaN();
+    out.push_back({row[0], row[1], speed_rpm * rad_per_s_per_rpm});
+  }
+  if (out.empty()) throw RecordingError(fmt::format("{}: has no rows of marks begin_s, end_s", file.string()));
+  return out;
+}
+
+constexpr Range any_percent{0, 20, "the half width at 95 % in percent"};
+constexpr Range any_leakage{0, 20, "the half width at 95 % in L/min"};
+
+void read_stroke(const TomlTable& table, Reference& out) {
+  table.allow_only({"kind", "name", "recording", "ends", "marks", "area_cm2", "length_mm", "area_uncertainty_percent",
+                    "length_uncertainty_mm", "seal_leakage_L_min", "oil_column_cm3", "highest_pressure_bar"});
+  out.ends = static_cast<EndsSeen>(choice(table, "ends", end_names));
+  if (out.ends == EndsSeen::marks) out.marks = marks_of(table);
+  if (out.ends != EndsSeen::marks && table.optional_text("marks")) {
+    throw RecordingError(fmt::format("{}: marks stands with ends = \"{}\"; leave marks out, or write ends = \"marks\"",
+                                     table.place("marks"), end_names[static_cast<std::size_t>(out.ends)]));
+  }
+  out.area_m2 = number_within(table, "area_cm2", {0.1, 1e4, "the area that the oil fills in cm2"}) * m2_per_cm2;
+  out.length_m = number_within(table, "length_mm", {1, 2e4, "the way from end to end in mm"}) * 1e-3;
+  out.share_uncertainty = number_within(table, "area_uncertainty_percent", any_percent, 0.5) * percent;
+  out.length_uncertainty_m =
+      number_within(table, "length_uncertainty_mm", {0, 1e3, "the half width at 95 % in mm"}, 1) * 1e-3;
+  out.leakage_uncertainty_m3_per_s =
+      units::m3_per_s_from_L_per_min(number_within(table, "seal_leakage_L_min", any_leakage, 0.1));
+  constexpr double bulk_modulus_Pa = 1.4e9;  // oil in hoses, with its air
+  const double column_m3 =
+      number_within(table, "oil_column_cm3", {0, 1e6, "oil between valve and piston in cm3"}, 0.0) * m3_per_cm3;
+  const double highest_Pa = units::Pa_from_bar(
+      number_within(table, "highest_pressure_bar", {1, 1000, "the highest pressure there in bar"}, 200.0));
+  out.compression_m3 = column_m3 * highest_Pa / bulk_modulus_Pa;
+}
+
+void read_pump(const TomlTable& table, Reference& out) {
+  table.allow_only({"kind", "name", "recording", "marks", "displacement_cm3", "speed_rpm", "leakage_L_min",
+                    "displacement_uncertainty_percent", "leakage_uncertainty_L_min"});
+  out.marks = marks_of(table);
+  out.displacement_m3_per_rad =
+      number_within(table, "displacement_cm3", {0.1, 1e4, "what the pump displaces a turn in cm3"}) * m3_per_cm3 /
+      (2 * std::numbers::pi);
+  const bool each = std::ranges::all_of(out.marks, [](const TimeMark& mark) { return mark.speed_rad_per_s > 0; });
+  const Range speeds{1, 1e5, "the pump's speed in turns a minute, or a third column speed_rpm among the marks"};
+  out.speed_rad_per_s =
+      number_within(table, "speed_rpm", speeds, each ? std::optional(1.0) : std::nullopt) * rad_per_s_per_rpm;
+  out.leakage_m3_per_s = units::m3_per_s_from_L_per_min(
+      number_within(table, "leakage_L_min", {0, 1e3, "what the pump loses at work in L/min"}, 0.0));
+  out.share_uncertainty = number_within(table, "displacement_uncertainty_percent", any_percent, 1.0) * percent;
+  out.leakage_uncertainty_m3_per_s =
+      units::m3_per_s_from_L_per_min(number_within(table, "leakage_uncertainty_L_min", any_leakage, 0.3));
+}
+
+void read_meter(const TomlTable& table, Reference& out) {
+  table.allow_only({"kind", "name", "recording", "uncertainty_percent", "zero_uncertainty_L_min", "interval_s"});
+  out.share_uncertainty = number_within(table, "uncertainty_percent", any_percent, 1.0) * percent;
+  out.leakage_uncertainty_m3_per_s =
+      units::m3_per_s_from_L_per_min(number_within(table, "zero_uncertainty_L_min", any_leakage, 0.1));
+  out.interval_s =
+      number_within(table, "interval_s", {0.5, 3600, "the time in s over which the meter is averaged"}, 2.0);
+}
+
+Reference reference_of(const TomlTable& table, std::size_t number) {
+  Reference out;
+  out.kind = static_cast<ReferenceKind>(choice(table, "kind", kind_names));
+  out.place = place_of(table.table, table.file);
+  out.name = table.optional_text("name").value_or(fmt::format("{} {}", name(out.kind), number));
+  out.recording = table.optional_text("recording").value_or("");
+  if (out.kind == ReferenceKind::stroke) read_stroke(table, out);
+  if (out.kind == ReferenceKind::pump) read_pump(table, out);
+  if (out.kind == ReferenceKind::meter) read_meter(table, out);
+  if (out.kind == ReferenceKind::closed) table.allow_only({"kind", "name", "recording"});
+  return out;
+}
+
+}  // namespace
+
+std::string_view name(ReferenceKind kind) {
+  return kind_names[static_cast<std::size_t>(kind)];
+}
+
+std::vector<Reference> read_references(const std::filesystem::path& file) {
+  const toml::table read = read_toml(file);
+  const TomlTable document{read, file, "the references"};
+  document.allow_only({"reference"});
+  const toml::array* entries = read["reference"].as_array();
+  if (entries == nullptr || entries->empty()) {
+    throw RecordingError(
+        fmt::format("{}: names no references; add tables [[reference]] with kind = \"stroke\", "
+                    "\"pump\", \"meter\" or \"closed\"",
+                    document.place("reference")));
+  }
+  std::vector<Reference> out;
+  for (const toml::node& node : *entries) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      throw RecordingError(fmt::format("{}: write each reference as a table [[reference]]", place_of(node, file)));
+    }
+    out.push_back(reference_of({*table, file, "[[reference]]"}, out.size() + 1));
+  }
+  return out;
+}
+
+}  // namespace spoolflow::recording

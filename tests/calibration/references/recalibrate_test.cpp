@@ -1,0 +1,165 @@
+/// A valve that wore, in the closed form of the sensor's own functions: how the search behaves, not how well it does.
+#include "spoolflow/calibration/references/recalibrate.hpp"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/recording/reader.hpp"
+#include "tests/calibration/type/virtual_unit.hpp"
+#include "tests/recording/temporary_file.hpp"
+
+namespace spoolflow::calibration {
+namespace {
+
+using recording::Channel;
+using recording::Reference;
+using recording::ReferenceKind;
+using testing::HasSubstr;
+
+const model::Model& valve() {
+  static const model::Model model = [] {
+    model::Model out = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
+    out.observer->parameters.position_sensor.drift_m_per_K = 0;  // positions of the virtual unit are free of drift
+    return out;
+  }();
+  return model;
+}
+
+std::vector<recording::Recording> strokes_of(const model::WearState& wear) {
+  const sensor::ObserverParameters<double> unit = worn(valve().observer->parameters, wear);
+  std::vector<recording::Recording> out;
+  for (const int pressure_bar : {30, 45}) {
+    const recording::TemporaryFile file("strokes_at_" + std::to_string(pressure_bar) + "_bar.csv");
+    write_strokes(file.path(), unit, pressure_bar, valve().valve.stroke_m);
+    recording::ReadOptions options;
+    options.required = {Channel::time, Channel::current, Channel::position};
+    options.optional = {Channel::oil_temperature, Channel::flow_reference};
+    out.push_back(recording::read_recording(file.path(), options));
+  }
+  return out;
+}
+
+const std::vector<recording::Recording>& fresh_strokes() {
+  static const std::vector<recording::Recording> recordings = strokes_of({});
+  return recordings;
+}
+
+Reference meter(double uncertainty = 0.01) {
+  Reference out;
+  out.kind = ReferenceKind::meter;
+  out.name = "meter";
+  out.place = "references.toml, line 1";
+  out.share_uncertainty = uncertainty;
+  out.leakage_uncertainty_m3_per_s = 1e-6;
+  out.interval_s = 2;
+  return out;
+}
+
+Reference closed() {
+  Reference out;
+  out.kind = ReferenceKind::closed;
+  out.name = "closed";
+  return out;
+}
+
+model::Adaptation how() {
+  return {"1.2.3", "2026-01-02T03:04:05Z", std::string(64, 'a'), {}, {}};
+}
+
+std::string refusal(const std::vector<recording::Recording>& recordings, const std::vector<Reference>& references) {
+  try {
+    static_cast<void>(recalibrate(valve(), recordings, references, how()));
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void scale_meter(std::vector<recording::Recording>& recordings, double factor) {
+  for (recording::Recording& recording : recordings)
+    for (double& flow : recording.column(Channel::flow_reference)) flow *= factor;
+}
+
+std::string text_of(const model::Model& model) {
+  std::ostringstream out;
+  model::write_model(out, model);
+  return out.str();
+}
+
+TEST(Recalibrate, AValveThatDidNotWearStaysAsItIsToTheLastBit) {
+  const RecalibratedValve same = recalibrate(valve(), fresh_strokes(), {meter(), closed()}, how());
+  EXPECT_EQ(same.after, model::WearState{});
+  model::Model without_log = same.model;
+  without_log.provenance.adaptations.clear();
+  EXPECT_EQ(text_of(without_log), text_of(valve()));
+  EXPECT_EQ(same.model.provenance.adaptations.size(), 1U);
+}
+
+TEST(Recalibrate, FindsTheWearOfEdgesFrictionAndPositionZeroAndLogsIt) {
+  const model::WearState wear{0.12, 1.35, 15e-6};
+  const RecalibratedValve found = recalibrate(valve(), strokes_of(wear), {meter(), closed()}, how());
+  EXPECT_NEAR(found.after.edge_width, wear.edge_width, 0.04);
+  EXPECT_NEAR(found.after.friction_ratio, wear.friction_ratio, 0.12);
+  EXPECT_NEAR(found.after.position_zero_m, wear.position_zero_m, 2e-6);
+  EXPECT_GT(found.model.observer->parameters.environment.flow_share, 0);
+  const model::Model read = model::parse_model(text_of(found.model), "valve_2.json");
+  ASSERT_EQ(wear_states(read).size(), 2U);
+  EXPECT_EQ(wear_of(read), found.after);
+  const model::Adaptation& log = read.provenance.adaptations.back();
+  EXPECT_EQ(log.corrections.size(), 3U);
+  EXPECT_EQ(log.reasons, found.findings);
+}
+
+TEST(Recalibrate, GoesBackToAnyEarlierState) {
+  model::Model once = moved(valve(), {0.05, 1.2, 10e-6, 0.01, 0.05});
+  once.provenance.adaptations.push_back({"1", "t", std::string(64, 'a'), {}, {}, {}, {{0.05, 1.2, 10e-6, 0.01, 0.05}}});
+  model::Model twice = moved(once, {0.09, 1.5, 14e-6, 0.01, 0.06});
+  twice.provenance.adaptations.push_back(
+      {"1", "t", std::string(64, 'b'), {}, {}, {}, {{0.09, 1.5, 14e-6, 0.01, 0.06}}});
+  for (const auto& [state, there] : {std::pair{0, valve()}, std::pair{1, once}}) {
+    const model::Model back = gone_back(twice, static_cast<std::size_t>(state), how()).model;
+    const auto &is = back.observer->parameters, &was = there.observer->parameters;
+    EXPECT_NEAR(is.edge.at(320, 40e5, 1e-3).conductance / was.edge.at(320, 40e5, 1e-3).conductance, 1, 1e-9);
+    EXPECT_NEAR(is.friction.operation_ratio, was.friction.operation_ratio, 1e-12);
+    EXPECT_NEAR(is.spring.at(1e-3).value, was.spring.at(1e-3).value, 1e-9);
+    EXPECT_NEAR(is.environment.flow_share, was.environment.flow_share, 1e-9);
+    EXPECT_EQ(wear_states(back).size(), 4U);
+  }
+  EXPECT_THROW(static_cast<void>(gone_back(twice, 3, how())), CalibrationError);
+}
+
+TEST(Recalibrate, RefusesLessOilThanForcesSayForEdgesOnlyWiden) {
+  std::vector<recording::Recording> recordings = fresh_strokes();
+  scale_meter(recordings, 0.9);
+  EXPECT_THAT(refusal(recordings, {meter()}), HasSubstr("narrower"));
+}
+
+TEST(Recalibrate, RefusesTwoReferencesThatContradictEachOtherByName) {
+  Reference pump;
+  pump.kind = ReferenceKind::pump;
+  pump.name = "gear pump";
+  pump.place = "references.toml, line 9";
+  pump.recording = fresh_strokes()[0].file.filename().string();
+  pump.share_uncertainty = 0.01;
+  pump.displacement_m3_per_rad = 1;
+  const recording::Recording& first = fresh_strokes()[0];
+  double passed_m3 = 0;
+  for (std::size_t k = 1; k < first.size(); ++k)
+    passed_m3 += first[Channel::flow_reference][k] * (first[Channel::time][k] - first[Channel::time][k - 1]);
+  const double begin_s = first[Channel::time].front(), end_s = first[Channel::time].back();
+  pump.marks = {{begin_s, end_s, 1.15 * passed_m3 / (end_s - begin_s)}};
+  EXPECT_THAT(refusal(fresh_strokes(), {meter(), pump}), HasSubstr("gear pump says +"));
+}
+
+TEST(Recalibrate, NamesAClosedReferenceWhoseValveNeverCloses) {
+  std::vector<recording::Recording> recordings = fresh_strokes();
+  for (recording::Recording& recording : recordings)
+    for (double& current_A : recording.column(Channel::current)) current_A += 0.2;
+  EXPECT_THAT(refusal(recordings, {meter(), closed()}), HasSubstr("never stands closed"));
+}
+
+}  // namespace
+}  // namespace spoolflow::calibration
