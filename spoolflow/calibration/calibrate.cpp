@@ -206,6 +206,7 @@ model::Model calibrate(const recording::Campaign& campaign, const std::string& t
   progress("forces from the flow bench", reading_share);
   for (const std::string& each : recordings.directions()) recordings.infer_benches(each);
   progress("what physics says of the recordings", reading_share);
+  provenance.simulated = campaign.valve.simulated;
   provenance.doubts = findings_about(recordings, campaign, contradictions);
   provenance.doubts.insert(provenance.doubts.begin(), on_flow_bench.begin(), on_flow_bench.end());
   model::Valve valve{campaign.valve.name, campaign.valve.rated_flow_m3_per_s, campaign.valve.stroke_m, direction};

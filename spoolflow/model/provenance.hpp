@@ -55,6 +55,7 @@ struct Provenance {
   std::vector<InputFile> inputs;
   std::vector<Adaptation> adaptations = {};  ///< oldest first
   std::vector<std::string> doubts = {};      ///< what physics says against the recordings, a sentence each
+  bool simulated = false;                    ///< the campaign says that its recordings are
 };
 
 /// Throws std::runtime_error where the file cannot be read.

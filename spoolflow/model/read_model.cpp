@@ -65,6 +65,7 @@ Provenance provenance(const JsonNode& node) {
   if (node.has("doubts")) {
     for (const JsonNode& each : node.at("doubts").elements()) out.doubts.push_back(each.text());
   }
+  out.simulated = node.has("origin") && node.at("origin").text() == "simulated";
   return out;
 }
 

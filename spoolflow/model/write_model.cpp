@@ -49,6 +49,7 @@ Json provenance(const Provenance& provenance) {
                        {"friction_share", each.wear->friction_share}};
   }
   if (!provenance.doubts.empty()) out["doubts"] = provenance.doubts;
+  if (provenance.simulated) out["origin"] = "simulated";
   return out;
 }
 

@@ -39,10 +39,21 @@ std::optional<std::string> direction_of(const TomlTable& table) {
   return out;
 }
 
+bool simulated_of(const TomlTable& table) {
+  const std::optional<std::string> origin = table.optional_text("origin");
+  if (origin && *origin != "simulated" && *origin != "measured") {
+    throw RecordingError(
+        fmt::format("{}: origin \"{}\" is not known; allowed: \"measured\" (the default), \"simulated\"",
+                    table.place("origin"), *origin));
+  }
+  return origin == "simulated";
+}
+
 CampaignValve valve_of(const TomlTable& table) {
-  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction"});
+  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin"});
   CampaignValve valve{table.text("name"), units::m3_per_s_from_L_per_min(table.positive("rated_flow_L_min")),
-                      units::m_from_mm(table.positive("stroke_mm")), direction_of(table).value_or("b")};
+                      units::m_from_mm(table.positive("stroke_mm")), direction_of(table).value_or("b"),
+                      simulated_of(table)};
   constexpr double longest_stroke_m = 0.1;
   if (valve.stroke_m > longest_stroke_m) {
     throw RecordingError(fmt::format("{}: a stroke of {} mm is longer than any spool valve's; give it in mm",
@@ -53,8 +64,9 @@ CampaignValve valve_of(const TomlTable& table) {
 
 /// What a unit's [valve] may say against its type: its name, and what agrees with the type.
 CampaignValve unit_valve_of(const TomlTable& table, CampaignValve type) {
-  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction"});
+  table.allow_only({"name", "rated_flow_L_min", "stroke_mm", "direction", "origin"});
   if (const auto name = table.optional_text("name")) type.name = *name;
+  type.simulated = simulated_of(table);
   const auto require = [&](std::string_view key, double of_type) {
     const auto written = table.optional_positive(key);
     constexpr double alike = 1e-6;

@@ -36,6 +36,7 @@ struct CampaignValve {
   double rated_flow_m3_per_s;  ///< full scale of every % FS figure
   double stroke_m;
   std::string direction = "b";  ///< "b": flow P to B; of the recordings that do not say theirs
+  bool simulated = false;       ///< origin = "simulated": no recording of the campaign was measured
 };
 
 /// Data-sheet values of the oil; absent where the campaign does not give them.

@@ -8,8 +8,8 @@
 
 namespace spoolflow::recording {
 
-/// As open_reader() of a file; `open` makes the table from its first row on, as often as it is called, and `name` stands
-/// in messages.
+/// As open_reader() of a file; `open` makes the table from its first row on, as often as it is called, and `name`
+/// stands in messages.
 [[nodiscard]] std::unique_ptr<Reader> open_reader(const OpenAgain& open, const ReadOptions& options,
                                                   const std::string& name);
 

@@ -94,6 +94,13 @@ TEST(Model, ComesBackBitForBitFromItsFile) {
   EXPECT_EQ(written(back), text);
 }
 
+TEST(Model, RemembersThatItsRecordingsWereSimulated) {
+  Model model = small_model();
+  EXPECT_FALSE(parse_model(written(model), "model.json").provenance.simulated);
+  model.provenance.simulated = true;
+  EXPECT_TRUE(parse_model(written(model), "model.json").provenance.simulated);
+}
+
 TEST(Model, CutShortAnywhereIsRefused) {
   const std::string text = written(small_model());
   for (std::size_t length = 0; length < text.size() - 2; length += 1 + text.size() / 97) {

@@ -47,6 +47,20 @@ TEST(Campaign, IsReadInSiWithItsChannelMaps) {
   EXPECT_EQ(spring.channels.sources.at(Channel::position).to, "mm");
 }
 
+TEST(Campaign, IsMeasuredUnlessItSaysThatItIsSimulated) {
+  const auto simulated = [](const std::string& origin) {
+    const TemporaryFile file(
+        "campaign.toml", std::string(valve) + origin + "[[recording]]\nprotocol = \"spring\"\nfile = \"spring.csv\"\n");
+    std::ofstream(file.folder() / "spring.csv") << "time_s\n";
+    return read_campaign(file.path()).valve.simulated;
+  };
+  EXPECT_FALSE(simulated(""));
+  EXPECT_FALSE(simulated("origin = \"measured\"\n"));
+  EXPECT_TRUE(simulated("origin = \"simulated\"\n"));
+  EXPECT_THAT(refused_campaign(std::string(valve) + "origin = \"virtual\"\n"),
+              HasSubstr("line 5: origin \"virtual\" is not known; allowed: \"measured\" (the default), \"simulated\""));
+}
+
 TEST(Campaign, NamesFileAndLineOfWhatItRefuses) {
   EXPECT_THAT(refused_campaign(std::string(valve)), HasSubstr("names no recordings"));
   EXPECT_THAT(

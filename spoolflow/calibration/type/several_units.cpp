@@ -152,6 +152,7 @@ model::Model type_of(const std::vector<model::Model>& units, const SeveralUnits&
   out.condensed.parameters = unit_parameters(out.condensed.parameters, compared.middle);
   for (const model::Model& unit : units) {
     if (&unit == &units[compared.nearest]) continue;
+    out.provenance.simulated = out.provenance.simulated || unit.provenance.simulated;
     const auto campaign = std::ranges::find(unit.provenance.inputs, "campaign", &model::InputFile::protocol);
     if (campaign != unit.provenance.inputs.end()) out.provenance.inputs.push_back(*campaign);
   }

@@ -113,7 +113,8 @@ std::string origin_of(const model::Model& model) {
 }
 
 Text headline_of(const model::Model& model) {
-  return phrase("full scale {}", three_digits(units::flow(model.valve.rated_flow_m3_per_s)));
+  return phrase("full scale {}{}", three_digits(units::flow(model.valve.rated_flow_m3_per_s)),
+                model.provenance.simulated ? "; simulated: calibrated with recordings of the virtual test rig" : "");
 }
 
 const char* flow_name(const model::Model& model) {

@@ -8,7 +8,7 @@ namespace spoolflow::report {
 
 /// When and by what the model was made; the line below a page's title.
 [[nodiscard]] std::string origin_of(const model::Model& model);
-/// What a page on the model says beside its title: full scale.
+/// What a page on the model says beside its title: full scale, and that the model is of simulated recordings.
 [[nodiscard]] Text headline_of(const model::Model& model);
 /// "Flow P to B" or "Flow P to A", of a model of one direction.
 [[nodiscard]] const char* flow_name(const model::Model& model);

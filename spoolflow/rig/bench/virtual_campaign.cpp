@@ -126,6 +126,7 @@ std::string campaign_text(const ValveUnderTest& valve, const std::vector<Campaig
 name = "{name}"
 rated_flow_L_min = {flow:.1f}      # full scale of every % FS figure
 stroke_mm = {stroke:g}
+origin = "simulated"          # reports say so in their headline
 
 [fluid]
 name = "{fluid}"

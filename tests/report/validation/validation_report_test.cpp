@@ -155,6 +155,20 @@ TEST(ValidationReport, BeginsWithFullScaleVerdictAndOnePlotAndTablesAndContentsF
                    "class=\"tiles\"", "<table", "<nav", "<h2"});
 }
 
+TEST(ValidationReport, SaysInItsHeadlineThatTheModelIsOfSimulatedRecordings) {
+  model::Model model = small_model();
+  const auto headline = [&] {
+    std::ostringstream out;
+    write_validation_report(out, model, one_run(1000, 5), {});
+    const std::string page = out.str();
+    const std::size_t from = page.find("class=\"facts\"");
+    return page.substr(from, page.find("</p>", from) - from);
+  };
+  EXPECT_THAT(headline(), Not(HasSubstr("imulated")));
+  model.provenance.simulated = true;
+  EXPECT_THAT(headline(), HasSubstr("full scale 80.0 L/min; simulated"));
+}
+
 TEST(ValidationReport, JudgesByStatedDefaultLimitsWhereNoneAreGiven) {
   EXPECT_THAT(page_of(one_run(1000, 5)), HasSubstr("By default limits: 95th percentile of the condensed's error: at "
                                                    "most 5 % FS; share of the samples inside"));

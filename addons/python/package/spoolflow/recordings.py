@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ class Recording(Mapping[str, NDArray[Any]]):
 
     def __init__(self, read: "_native.Recording", file: str) -> None:
         self._read = read
+        self._source: Optional[Tuple[str, int, int]] = None
         self._columns: Dict[str, NDArray[Any]] = read.columns()
         #: where it was read
         self.file = file
@@ -79,6 +80,11 @@ class Recording(Mapping[str, NDArray[Any]]):
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self._columns]
 
+    def whole_file(self) -> Optional[str]:
+        """The file that it is all of, by its own names and units, where that has not changed since; else None."""
+        source = self._source
+        return source[0] if source is not None and source == _stamp(source[0]) else None
+
     @property
     def samples(self) -> int:
         return len(self._columns["time_s"])
@@ -120,7 +126,19 @@ def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
     file = os.fsdecode(path)
     with naming_missing(path, channels), as_file(channels) as map_file:
         read = apart.call("read_recording", [file], file, map_file, stroke_m)
-    return Recording(read, file)
+    out = Recording(read, file)
+    if channels is None and stroke_m is None:
+        out._source = _stamp(file)
+    return out
+
+
+def _stamp(file: str) -> Optional[Tuple[str, int, int]]:
+    """What changes with a file's content."""
+    try:
+        of = os.stat(file)
+    except OSError:
+        return None
+    return os.path.abspath(file), of.st_mtime_ns, of.st_size
 
 
 def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Optional[float] = None) -> Dict[str, Any]:

@@ -109,8 +109,9 @@ def as_files(runs: Union[Run, Iterable[Run]], channels: Optional[Channels] = Non
         for k, run in enumerate(several):
             if mapped and is_path(run):
                 run = read_recording(run, channels)
-            if is_path(run):
-                paths.append(os.fsdecode(run))
+            file = run if is_path(run) else run.whole_file() if isinstance(run, Recording) else None
+            if file is not None:  # which the model may know from its calibration
+                paths.append(os.fsdecode(file))
                 continue
             called = getattr(run, "file", None) or ("the run" if len(several) == 1 else f"recordings[{k}]")
             folder = kept.enter_context(tempfile.TemporaryDirectory(prefix="spoolflow-"))

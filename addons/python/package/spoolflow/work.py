@@ -96,7 +96,8 @@ def validate(model: AnyModel, recordings: Runs, *, channels: Optional[Channels] 
     """Compares the estimate with a reference flow meter: the figures of `spoolflow validate`.
 
     model: a model or its file. recordings: one or several that also hold `flow_reference`: files, recordings, tables of
-        pandas, dicts of arrays, with columns called as those of files (`<channel>_<unit>` in any unit).
+        pandas, dicts of arrays, with columns called as those of files (`<channel>_<unit>` in any unit). That a run was an
+        input of the calibration shows by its file alone: of tables and arrays it is not known.
     channels: a channel map where columns have other names or units, as of `read_recording`.
     environment: what the machine leaves open, as of `Model.in_environment`.
     estimator: "both", "condensed" or "observer".
