@@ -12,7 +12,6 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr double percent = 100;
 /// Between two references, in standard deviations, and what the sensor's own volumes differ by between their intervals.
 constexpr double contradiction_deviations = 3.5, between_references_share = 0.005;
 

@@ -11,7 +11,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr double percent = 100, um_per_m = 1e6;
+constexpr double um_per_m = 1e6;
 
 void require_unit(const model::Model& model) {
   if (model.whole()) {
