@@ -67,8 +67,9 @@ TEST(Series, FindsTheSpreadBetweenUnitsWithoutWhatTheirRecordingsLeaveOpen) {
   const auto with_tolerances = [](double share) {  // that count as four units beside the fifty
     return std::sqrt((tolerances_as_units + 50 * share * share) / (tolerances_as_units + 50));
   };
-  EXPECT_NEAR(of(Variation::permeance).spread / 0.015, with_tolerances(0.5), 0.2 * with_tolerances(0.5));
-  EXPECT_NEAR(of(Variation::flow_force).spread / 0.02, with_tolerances(2), 0.2 * with_tolerances(2));
+  constexpr double of_fifty = 0.3;  // three standard deviations of a spread of fifty draws
+  EXPECT_NEAR(of(Variation::permeance).spread / 0.015, with_tolerances(0.5), of_fifty * with_tolerances(0.5));
+  EXPECT_NEAR(of(Variation::flow_force).spread / 0.02, with_tolerances(2), of_fifty * with_tolerances(2));
   EXPECT_NEAR(of(Variation::permeance).mean, 0, 3 * of(Variation::permeance).mean_uncertainty);
 }
 
