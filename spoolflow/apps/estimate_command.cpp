@@ -95,23 +95,15 @@ void estimate(const EstimateArguments& arguments) {
   if (!arguments.json.empty()) summary_file.emplace(arguments.json, task.inputs);
   std::vector<validation::EstimateSummary> summaries;
   const bool one = arguments.recordings.size() == 1;
+  const auto targets = one ? std::vector<std::filesystem::path>{arguments.output}
+                           : targets_in(arguments.output, arguments.recordings, task.format);
+  if (!one) make_output_folder(arguments.output);
   if (!arguments.fleet.empty()) {
-    if (!arguments.environment.empty())
-      throw std::invalid_argument(
-          "--environment is not known to workers; give [environment] in the campaign, or leave "
-          "--fleet out");
-    if (one && arguments.recordings.front() == "-")
-      throw std::invalid_argument("--fleet sends whole recordings; name a file instead of -");
-    if (!one) make_output_folder(arguments.output);
-    summaries = elsewhere().estimate(task, arguments,
-                                     one ? std::vector<std::filesystem::path>{arguments.output}
-                                         : targets_in(arguments.output, arguments.recordings, task.format));
+    summaries = elsewhere().estimate(task, arguments, targets);
   } else if (one) {
     const bool beside = parallel::cores() > 1;
     summaries.push_back(estimate_recording(task, arguments.recordings.front(), arguments.output, beside));
   } else {
-    const auto targets = targets_in(arguments.output, arguments.recordings, task.format);
-    make_output_folder(arguments.output);
     task.quiet = true;  // one line cannot report on many
     summaries = estimate_all(task, arguments.recordings, targets);
   }

@@ -156,6 +156,19 @@ class Jobs(unittest.TestCase):
         self.same("e.json", *(f"e/{os.path.basename(run)}" for run in runs))
         self.assertEqual(self.states(), {"done": 4})
 
+    def test_an_environment_widens_the_band_elsewhere_as_here(self):
+        self.folders()
+        self.write("line.toml", "[environment]\nposition_zero_um = 50\n")
+        self.start_worker()
+        for k, environment in enumerate(("machine", "line.toml")):
+            for place, by in (("near", ()), ("far", ("--fleet", "batch.toml"))):
+                self.run_here("estimate", "model.json", "runs/monday.csv", "-o", f"{place}/e{k}.csv", "--environment", environment,
+                              *by)
+        self.same("e0.csv", "e1.csv")
+        with open(os.path.join(self.folder, "far", "e0.csv"), "rb") as machine, \
+                open(os.path.join(self.folder, "far", "e1.csv"), "rb") as line:
+            self.assertNotEqual(machine.read(), line.read())
+
     def test_a_bad_recording_is_told_as_here(self):
         self.folders()
         with open(os.path.join(self.folder, "runs", "monday.csv"), encoding="utf-8") as file:
