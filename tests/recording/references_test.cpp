@@ -22,7 +22,7 @@ std::vector<Reference> references_from(const std::string& text, const std::strin
   return read_references(file.path());
 }
 
-std::string refused(const std::string& text, const std::string& marks = {}) {
+std::string refused_reference(const std::string& text, const std::string& marks = {}) {
   return refusal([&] { (void)references_from(text, marks); });
 }
 
@@ -49,7 +49,7 @@ TEST(References, APumpsSpeedStandsInTheFileOrBesideEachMark) {
   const std::vector<Reference> read = references_from(pump, "begin_s,end_s,speed_rpm\n0,10,1500\n");
   EXPECT_EQ(read[0].name, "pump 1");
   EXPECT_NEAR(read[0].displacement_m3_per_rad * read[0].marks[0].speed_rad_per_s, 500e-6, 1e-12);  // 30 L/min
-  EXPECT_THAT(refused(pump, "begin_s,end_s\n0,10\n"), HasSubstr("speed_rpm"));
+  EXPECT_THAT(refused_reference(pump, "begin_s,end_s\n0,10\n"), HasSubstr("speed_rpm"));
 }
 
 TEST(References, MetersAndTheClosedValveNeedNoMarks) {
@@ -62,13 +62,16 @@ TEST(References, MetersAndTheClosedValveNeedNoMarks) {
 }
 
 TEST(References, WhatIsWrongIsNamedWithItsLineAndWhatIsAllowed) {
-  EXPECT_THAT(refused("[[reference]]\nkind = \"strok\"\n"), HasSubstr("stroke"));
-  EXPECT_THAT(refused("title = \"none\"\n"), HasSubstr("title"));
-  EXPECT_THAT(refused(stroke + "length_mm = 650\n", "begin_s,end_s\n1,2\n"), HasSubstr("area_cm2"));
-  EXPECT_THAT(refused(stroke + "area_cm2 = -40\nlength_mm = 650\n", "begin_s,end_s\n1,2\n"), HasSubstr("line 6"));
-  EXPECT_THAT(refused(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,3\n2,4\n"), HasSubstr("line 3"));
-  EXPECT_THAT(refused(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,two\n"), HasSubstr("two"));
-  EXPECT_THAT(refused(stroke + "area_cm2 = 40\nlength_mm = 650\n"), HasSubstr("cannot be read"));
+  EXPECT_THAT(refused_reference("[[reference]]\nkind = \"strok\"\n"), HasSubstr("stroke"));
+  EXPECT_THAT(refused_reference("title = \"none\"\n"), HasSubstr("title"));
+  EXPECT_THAT(refused_reference(stroke + "length_mm = 650\n", "begin_s,end_s\n1,2\n"), HasSubstr("area_cm2"));
+  EXPECT_THAT(refused_reference(stroke + "area_cm2 = -40\nlength_mm = 650\n", "begin_s,end_s\n1,2\n"),
+              HasSubstr("line 6"));
+  EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,3\n2,4\n"),
+              HasSubstr("line 3"));
+  EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n", "begin_s,end_s\n1,two\n"),
+              HasSubstr("two"));
+  EXPECT_THAT(refused_reference(stroke + "area_cm2 = 40\nlength_mm = 650\n"), HasSubstr("cannot be read"));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace spoolflow::calibration {
 namespace {
 
-constexpr double volume_m3 = 2.6e-3, rated_m3_per_s = 80.0 / 60000;
+constexpr double volume_m3 = 2.6e-3, full_flow_m3_per_s = 80.0 / 60000;
 
 /// Strokes of 3 to 12.5 s; what passed the valve by the sensor is `share` of what filled the cylinder, and a leakage.
 std::vector<OilRatio> strokes(double share, double leak_m3_per_s) {
@@ -21,7 +21,7 @@ std::vector<OilRatio> strokes(double share, double leak_m3_per_s) {
     oil.push_back({0, 20.0 * k, 20.0 * k + seconds, volume_m3, 0.002 * volume_m3});
     sensor_m3.push_back(share * scatter * (volume_m3 + leak_m3_per_s * seconds));
   }
-  return oil_ratios(oil, sensor_m3, rated_m3_per_s);
+  return oil_ratios(oil, sensor_m3, full_flow_m3_per_s);
 }
 
 TEST(OilRatios, AllStrokesTogetherKnowTheShareBetterThanOneOfThem) {
@@ -49,8 +49,8 @@ TEST(OilRatios, ALeakingSealTakesMoreOfSlowStrokes) {
 }
 
 TEST(OilRatios, AReturnStrokeThatTheValvesOtherSideFedIsNotCounted) {
-  const std::vector<OilRatio> ratios =
-      oil_ratios({{0, 0, 4, volume_m3, 0}, {0, 5, 9, volume_m3, 0}}, {volume_m3, 0.001 * volume_m3}, rated_m3_per_s);
+  const std::vector<OilRatio> ratios = oil_ratios({{0, 0, 4, volume_m3, 0}, {0, 5, 9, volume_m3, 0}},
+                                                  {volume_m3, 0.001 * volume_m3}, full_flow_m3_per_s);
   EXPECT_TRUE(ratios[0].used);
   EXPECT_FALSE(ratios[1].used);
 }

@@ -19,7 +19,7 @@ using recording::Reference;
 using recording::ReferenceKind;
 using testing::HasSubstr;
 
-const model::Model& valve() {
+const model::Model& worn_valve() {
   static const model::Model model = [] {
     model::Model out = model::read_model(SPOOLFLOW_EXAMPLE_MODEL);
     out.observer->parameters.position_sensor.drift_m_per_K = 0;  // positions of the virtual unit are free of drift
@@ -29,11 +29,11 @@ const model::Model& valve() {
 }
 
 std::vector<recording::Recording> strokes_of(const model::WearState& wear) {
-  const sensor::ObserverParameters<double> unit = worn(valve().observer->parameters, wear);
+  const sensor::ObserverParameters<double> unit = worn(worn_valve().observer->parameters, wear);
   std::vector<recording::Recording> out;
-  for (const int pressure_bar : {30, 45}) {
-    const recording::TemporaryFile file("strokes_at_" + std::to_string(pressure_bar) + "_bar.csv");
-    write_strokes(file.path(), unit, pressure_bar, valve().valve.stroke_m);
+  for (const double pressure_bar : {30.0, 45.0}) {
+    const recording::TemporaryFile file("strokes_at_" + std::to_string(static_cast<int>(pressure_bar)) + "_bar.csv");
+    write_strokes(file.path(), unit, {pressure_bar, pressure_bar}, worn_valve().valve.stroke_m);
     recording::ReadOptions options;
     options.required = {Channel::time, Channel::current, Channel::position};
     options.optional = {Channel::oil_temperature, Channel::flow_reference};
@@ -71,7 +71,7 @@ model::Adaptation how() {
 
 std::string refusal(const std::vector<recording::Recording>& recordings, const std::vector<Reference>& references) {
   try {
-    static_cast<void>(recalibrate(valve(), recordings, references, how()));
+    static_cast<void>(recalibrate(worn_valve(), recordings, references, how()));
   } catch (const CalibrationError& error) {
     return error.what();
   }
@@ -90,17 +90,17 @@ std::string text_of(const model::Model& model) {
 }
 
 TEST(Recalibrate, AValveThatDidNotWearStaysAsItIsToTheLastBit) {
-  const RecalibratedValve same = recalibrate(valve(), fresh_strokes(), {meter(), closed()}, how());
+  const RecalibratedValve same = recalibrate(worn_valve(), fresh_strokes(), {meter(), closed()}, how());
   EXPECT_EQ(same.after, model::WearState{});
   model::Model without_log = same.model;
   without_log.provenance.adaptations.clear();
-  EXPECT_EQ(text_of(without_log), text_of(valve()));
+  EXPECT_EQ(text_of(without_log), text_of(worn_valve()));
   EXPECT_EQ(same.model.provenance.adaptations.size(), 1U);
 }
 
 TEST(Recalibrate, FindsTheWearOfEdgesFrictionAndPositionZeroAndLogsIt) {
   const model::WearState wear{0.12, 1.35, 15e-6};
-  const RecalibratedValve found = recalibrate(valve(), strokes_of(wear), {meter(), closed()}, how());
+  const RecalibratedValve found = recalibrate(worn_valve(), strokes_of(wear), {meter(), closed()}, how());
   EXPECT_NEAR(found.after.edge_width, wear.edge_width, 0.04);
   EXPECT_NEAR(found.after.friction_ratio, wear.friction_ratio, 0.12);
   EXPECT_NEAR(found.after.position_zero_m, wear.position_zero_m, 2e-6);
@@ -114,12 +114,12 @@ TEST(Recalibrate, FindsTheWearOfEdgesFrictionAndPositionZeroAndLogsIt) {
 }
 
 TEST(Recalibrate, GoesBackToAnyEarlierState) {
-  model::Model once = moved(valve(), {0.05, 1.2, 10e-6, 0.01, 0.05});
+  model::Model once = moved(worn_valve(), {0.05, 1.2, 10e-6, 0.01, 0.05});
   once.provenance.adaptations.push_back({"1", "t", std::string(64, 'a'), {}, {}, {}, {{0.05, 1.2, 10e-6, 0.01, 0.05}}});
   model::Model twice = moved(once, {0.09, 1.5, 14e-6, 0.01, 0.06});
   twice.provenance.adaptations.push_back(
       {"1", "t", std::string(64, 'b'), {}, {}, {}, {{0.09, 1.5, 14e-6, 0.01, 0.06}}});
-  for (const auto& [state, there] : {std::pair{0, valve()}, std::pair{1, once}}) {
+  for (const auto& [state, there] : {std::pair{0, worn_valve()}, std::pair{1, once}}) {
     const model::Model back = gone_back(twice, static_cast<std::size_t>(state), how()).model;
     const auto &is = back.observer->parameters, &was = there.observer->parameters;
     EXPECT_NEAR(is.edge.at(320, 40e5, 1e-3).conductance / was.edge.at(320, 40e5, 1e-3).conductance, 1, 1e-9);
