@@ -121,7 +121,8 @@ def main(spoolflow, model):
         with open(folder / "run.csv", "w", encoding="ascii") as out:
             out.write("time_s,current_A,position_m,oil_temperature_C\n")
             for time_s, current, position in samples():
-                out.write(f"{time_s:.3f},{'' if current is None else current!r},{'' if position is None else position!r},45\n")
+                cells = ("" if value is None else repr(value) for value in (current, position))
+                out.write(f"{time_s:.3f},{','.join(cells)},45\n")
         subprocess.run([spoolflow, "estimate", model, folder / "run.csv", "--estimator", "condensed", "-o", folder / "flow.csv", "-q"],
                        check=True)
         with open(folder / "flow.csv", encoding="ascii") as lines:
