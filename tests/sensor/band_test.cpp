@@ -159,7 +159,7 @@ TEST(Band, HoldsWhatTheMachineLeavesOpenInMotionAndBeyondFrictionsBoundsAtRest) 
   const double slope = ClosedFormValve::flow_force_per_pressure(1.2e-3);
   spool.environment_N = 2;
   const double uncertain_N = 2 * bounds_deviation_N(spool.parameters.band, 3.0);
-  EXPECT_NEAR((40e5 - spool.band().least_Pa) * slope, 1 + std::hypot(uncertain_N, 4), 0.1);
+  EXPECT_NEAR((40e5 - spool.band().least_Pa) * slope, interval_share * 1 / 4 + std::hypot(uncertain_N, 4), 0.1);
   spool.balance.sliding = true;
   spool.pressure.unobserved_variance_Pa2 = 0;
   spool.balance.friction_N = spool.balance.residual_force_N;

@@ -195,7 +195,7 @@ TEST(Dither, MakesTheRestingSpoolSee) {
   const Judgement sees = at_rest_beside_a_moving_supply(0.95);
   EXPECT_LT(sees.largest, 0.5 * blind.largest);
   EXPECT_LT(sees.rms(), 0.2 * blind.rms());
-  EXPECT_LT(sees.mean_width(), blind.mean_width());  // stiction has grown by a fifth
+  EXPECT_GT(blind.coverage(), 0.93);
   EXPECT_GT(sees.coverage(), 0.93);
 }
 
