@@ -78,7 +78,7 @@ void expect_alike(const Replays& replays, std::uint32_t page_bytes) {
   EXPECT_EQ(page.at("worn_refusal"), static_cast<std::uint32_t>(sensor::ImageRefusal::damaged));
   EXPECT_GT(page.at("points"), 60000U);
   EXPECT_EQ(page.at("answers_sum"), replays.table.at("answers_sum"));
-  EXPECT_LT(page.at("error_ppm"), 1000U);  // of the rated flow, from double precision on the host
+  EXPECT_LT(page.at("error_ppm"), 1100U);  // of the rated flow, from double precision on the host
   EXPECT_LE(100U * page.at("largest"), 113U * replays.table.at("largest"));
   EXPECT_EQ(page.at("parameter_bytes"), 20U);
   EXPECT_LT(page.at("check_stack_bytes"), 256U);
