@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 #include "spoolflow/report/calibration/calibration_summary.hpp"

@@ -23,7 +23,7 @@
 #include "spoolflow/export/parameters/image_summary.hpp"
 #include "spoolflow/export/parameters/parameter_image.hpp"
 #include "spoolflow/export/sensor_fmu.hpp"
-#include "spoolflow/export/st_program.hpp"
+#include "spoolflow/export/st/st_program.hpp"
 #include "spoolflow/export/valve_fmu.hpp"
 #include "spoolflow/rig/bench/virtual_campaign.hpp"
 #include "spoolflow/units/conversion.hpp"
@@ -273,13 +273,13 @@ void add_export_command(CLI::App& program) {
         "spoolflow export parameters valve_a.json -o valve.bin", "spoolflow export st valve_a.json -o valve.st"}});
   command
       ->add_option("kind", arguments->kind,
-                   "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page; st: PLCs")
+                   "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page; st: PLC")
       ->required()
       ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters", "st"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "file (fmu, parameters, st; - for standard output) or folder (cpp, c) to write")
+                   "file (fmu, parameters, st; - for standard output) or folder (cpp, c)")
       ->required();
   command->add_option("--fmi", arguments->fmi, "version of the FMI standard; every importer in use reads 2.0")
       ->check(CLI::IsMember({"2", "3"}))

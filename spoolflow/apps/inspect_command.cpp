@@ -10,8 +10,8 @@
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal/progress.hpp"
+#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/folder_text.hpp"
 #include "spoolflow/apps/work/inspection_text.hpp"

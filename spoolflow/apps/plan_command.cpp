@@ -7,8 +7,8 @@
 
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/work/expected_band.hpp"
 #include "spoolflow/calibration/type/plan_minute.hpp"

@@ -15,9 +15,9 @@
 #include "spoolflow/apps/addon_programs.hpp"
 #include "spoolflow/apps/command.hpp"
 #include "spoolflow/apps/commands.hpp"
-#include "spoolflow/apps/suggestion.hpp"
 #include "spoolflow/apps/terminal/interruption.hpp"
 #include "spoolflow/apps/terminal/output_file.hpp"
+#include "spoolflow/apps/terminal/suggestion.hpp"
 #include "spoolflow/apps/terminal/terminal_text.hpp"
 #include "spoolflow/apps/tool_version.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spoolflow/monitor/alarm_limits.hpp"
 #include "spoolflow/monitor/correction.hpp"
 #include "spoolflow/monitor/dense.hpp"
+#include "spoolflow/monitor/indicators.hpp"
 
 namespace spoolflow::monitor {
 namespace {

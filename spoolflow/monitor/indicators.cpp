@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "spoolflow/estimation/running_sensor.hpp"
-#include "spoolflow/monitor/alarm_limits.hpp"
 
 namespace spoolflow::monitor {
 namespace {

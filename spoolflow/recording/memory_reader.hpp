@@ -3,10 +3,12 @@
 #include <memory>
 #include <string>
 
-#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/resampled_table.hpp"
 
 namespace spoolflow::recording {
+
+class Reader;
 
 /// As open_reader() of a file; `open` makes the table from its first row on, as often as it is called, and `name`
 /// stands in messages.

@@ -1,4 +1,4 @@
-#include "spoolflow/apps/suggestion.hpp"
+#include "spoolflow/apps/terminal/suggestion.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,8 +9,8 @@
 
 #include "spoolflow/estimation/estimator.hpp"
 #include "spoolflow/estimation/recordings/sensor_channels.hpp"
-#include "spoolflow/monitor/alarm_limits.hpp"
 #include "spoolflow/monitor/baseline_json.hpp"
+#include "spoolflow/monitor/indicators.hpp"
 #include "tests/monitor/example.hpp"
 
 namespace spoolflow::monitor {

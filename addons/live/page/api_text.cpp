@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "addons/live/http/json_text.hpp"
-#include "spoolflow/monitor/alarm_limits.hpp"
+#include "spoolflow/monitor/indicators.hpp"
 #include "spoolflow/sensor/basis/status.hpp"
 #include "spoolflow/units/conversion.hpp"
 

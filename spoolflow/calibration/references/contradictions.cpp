@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
-#include "spoolflow/calibration/references/recalibrate.hpp"
+#include "spoolflow/calibration/references/wear_search.hpp"
 #include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::calibration {

@@ -11,9 +11,6 @@ namespace spoolflow::calibration {
 
 /// No more is moved, against the model as it was calibrated: beyond, the valve is to be repaired or calibrated anew.
 inline constexpr double most_edge_width = 0.35, most_friction_ratio = 3, most_position_zero_m = 60e-6;
-inline constexpr double percent = 100;  ///< a share of 1
-/// Of a reference's intervals, the share that may contradict the others.
-inline constexpr double most_left_out = 0.4;
 
 struct RecalibratedValve {
   model::Model model;

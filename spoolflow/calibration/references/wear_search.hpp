@@ -19,6 +19,9 @@ inline constexpr double innovation_memory_s = 1;
 inline constexpr double change_evidence = 1.6;
 /// Friction is known no better than so, a share.
 inline constexpr double least_friction_share = 0.05;
+/// Of a reference's intervals, the share that may contradict the others.
+inline constexpr double most_left_out = 0.4;
+inline constexpr double percent = 100;  ///< a share of 1
 
 /// What is looked at. Keeps model, recordings and references by reference.
 struct MachineEvidence {

@@ -1,4 +1,4 @@
-#include "spoolflow/export/st_program.hpp"
+#include "spoolflow/export/st/st_program.hpp"
 
 #include <algorithm>
 #include <stdexcept>
