@@ -48,7 +48,7 @@ class CortexM : public ::testing::TestWithParam<Core> {
 
 TEST_P(CortexM, ObserverAnswersAsTheHostOverAMinuteOfOperation) {
   const Replay observer = replay(model, Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(observer, {1470, 9, 2560, 480});
+  expect_fit_for_a_valve(observer, {1490, 9, 2600, 480});
   for (const Status status :
        {Status::closed, Status::spool_at_rest, Status::outside_force_map, Status::outside_temperature,
         Status::position_fault, Status::sample_missing, Status::dithered, Status::temperature_fault}) {
@@ -62,7 +62,7 @@ TEST_P(CortexM, CondensedSensorAnswersAsTheHostOverAMinuteOfOperation) {
 
 TEST_P(CortexM, WholeValveCostsAQuarterMoreThanOneDirection) {
   const Replay valve = replay(on_both_sides(model), Estimator::observer, minute, GetParam());
-  expect_fit_for_a_valve(valve, {1770, 9, 3500, 740, 98304});
+  expect_fit_for_a_valve(valve, {1770, 9, 3540, 740, 98304});
   EXPECT_LE(valve.state_bytes, 1536U);
   for (const Status status : {Status::closed, Status::spool_at_rest, Status::outside_temperature,
                               Status::position_fault, Status::sample_missing, Status::dithered}) {

@@ -14,12 +14,12 @@ SENSED = ("time_s", "current_A", "voltage_V", "position_m", "oil_temperature_K")
 
 
 def without_names(figures):
-    """But for which file it was: its name and checksum."""
-    out = json.loads(json.dumps(figures.to_dict()))
-    for run in out["runs"]:
-        for key in ("file", "name", "sha256", "recording"):
-            run.pop(key, None)
-    return out
+    """But for which file it was: its name and checksum, wherever they stand."""
+    def rest(part):
+        if isinstance(part, dict):
+            return {key: rest(value) for key, value in part.items() if key not in ("file", "name", "sha256", "recording", "run")}
+        return [rest(value) for value in part] if isinstance(part, list) else part
+    return rest(json.loads(json.dumps(figures.to_dict())))
 
 
 def head(count=4000):
@@ -57,7 +57,7 @@ class Memory(examples.InAFolder):
     def test_takes_every_unit_that_files_take(self):
         run, expected = head(), examples.model().estimate(head())
         other = {"Time [ms]": 1e3 * run["time_s"], "current (mA)": 1e3 * run["current_A"], "voltage_mV": 1e3 * run["voltage_V"],
-                 "position_um": 1e6 * run["position_m"], "Oil_Temperature_\u00b0C": run["oil_temperature_K"] - 273.15,
+                 "position_um": 1e6 * run["position_m"], "oil_temperature_\u00b0C": run["oil_temperature_K"] - 273.15,
                  "remark": "of the press line", "operator": ["anna"] * 4000}
         found = examples.model().estimate(other)
         np.testing.assert_allclose(found.flow_m3_per_s, expected.flow_m3_per_s, rtol=1e-6, atol=1e-12)
