@@ -137,8 +137,7 @@ void add_calibrate_command(CLI::App& program) {
       ->type_name("MODEL.json")
       ->required();
   command
-      ->add_option("--report", arguments->report,
-                   "HTML page to write; a folder for several campaigns; with --type of the series")
+      ->add_option("--report", arguments->report, "HTML page to write; a folder for several; with --type of the series")
       ->type_name("PAGE.html");
   command->add_flag("--allow-outside", arguments->allow_outside,
                     "read recordings that the campaign names outside its own folder, too");

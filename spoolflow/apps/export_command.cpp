@@ -273,7 +273,7 @@ void add_export_command(CLI::App& program) {
         "spoolflow export parameters valve_a.json -o valve.bin", "spoolflow export st valve_a.json -o valve.st"}});
   command
       ->add_option("kind", arguments->kind,
-                   "fmu: for simulation tools; cpp, c: firmware; parameters: a flash page; st: PLC")
+                   "fmu: simulation tools; cpp, c: firmware; parameters: a flash page; st: PLC")
       ->required()
       ->check(CLI::IsMember({"fmu", "cpp", "c", "parameters", "st"}));
   command->add_option("model", arguments->model, "model file; for fmu also a virtual valve")->required();

@@ -5,7 +5,6 @@
 
 #include "spoolflow/monitor/correction.hpp"
 #include "spoolflow/monitor/dense.hpp"
-#include "spoolflow/monitor/indicators.hpp"
 
 namespace spoolflow::monitor {
 namespace {
