@@ -1,4 +1,4 @@
-/// `spoolflow plan`: the strokes that tell most of a unit in the time that there is.
+/// `spoolflow plan`: the strokes after which a unit is known best in the time that there is.
 #include <memory>
 #include <string>
 
@@ -81,7 +81,7 @@ void add_plan_command(CLI::App& program) {
   CLI::App* command = add_command(
       program,
       {.name = "plan",
-       .purpose = "plan the strokes that tell most of a unit of a type",
+       .purpose = "plan the strokes after which a unit of a type is known best",
        .reads = "a type's model, as `calibrate --as-type` writes it",
        .writes = "a table of corners (CSV), straight lines between: time, set position, pressure difference and "
                  "dither; and on request a scenario of the same for the virtual rig",

@@ -16,7 +16,7 @@ namespace spoolflow::calibration {
 
 using Recordings = std::vector<const recording::Recording*>;
 
-/// The recordings of one direction of flow, what no force bench recorded as inferred from the flow bench.
+/// The recordings of one direction of flow; what no force bench recorded is inferred from the flow bench.
 struct CampaignRecordings {
   const recording::Recording& spring;
   const recording::Recording& solenoid_force_map;

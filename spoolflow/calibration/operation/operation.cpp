@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "spoolflow/calibration/operation/force_error_ratio.hpp"
-#include "spoolflow/calibration/operation/identifiable_dials.hpp"
+#include "spoolflow/calibration/operation/identifiable_parameters.hpp"
 #include "spoolflow/calibration/operation/operation_score.hpp"
 #include "spoolflow/calibration/operation/operation_uncertainty.hpp"
 
@@ -13,26 +13,26 @@ namespace spoolflow::calibration {
 namespace {
 
 /// Pattern search: one parameter after the other, by a factor that grows where it helps and shrinks where it does not.
-void search(const std::vector<Dial>& dials, const std::function<double()>& cost,
+void search(const std::vector<OperationParameter>& fitted, const std::function<double()>& cost,
             const std::function<void(double)>& progress) {
   double best = cost();
   constexpr int rounds = 20;
   constexpr double first_step = 1.35;  // as a factor
-  std::vector<double> step(dials.size(), first_step);
+  std::vector<double> step(fitted.size(), first_step);
   for (int round = 0; round < rounds; ++round) {
-    for (std::size_t k = 0; k < dials.size(); ++k) {
-      progress((round + static_cast<double>(k) / static_cast<double>(dials.size())) / rounds);
-      const double before = *dials[k].value;
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+      progress((round + static_cast<double>(k) / static_cast<double>(fitted.size())) / rounds);
+      const double before = *fitted[k].value;
       bool better = false;
       for (const double factor : {step[k], 1 / step[k]}) {
-        *dials[k].value = std::clamp(before * factor, dials[k].lowest, dials[k].highest);
+        *fitted[k].value = std::clamp(before * factor, fitted[k].lowest, fitted[k].highest);
         const double tried = cost();
         better = tried < best;
         if (better) {
           best = tried;
           break;
         }
-        *dials[k].value = before;
+        *fitted[k].value = before;
       }
       step[k] = better ? std::min(2.0, 1 + 1.3 * (step[k] - 1)) : 1 + 0.6 * (step[k] - 1);
     }
@@ -41,11 +41,12 @@ void search(const std::vector<Dial>& dials, const std::function<double()>& cost,
 
 /// Names of those of all parameters that are not identifiable.
 std::vector<std::string> not_identifiable(sensor::ObserverParameters<double>& parameters,
-                                          const std::vector<Dial>& identifiable) {
+                                          const std::vector<OperationParameter>& identifiable) {
   std::vector<std::string> out;
-  for (const Dial& dial : operation_dials(parameters)) {
-    if (std::ranges::none_of(identifiable, [&](const Dial& each) { return each.value == dial.value; }))
-      out.emplace_back(dial.name);
+  for (const OperationParameter& parameter : operation_parameters(parameters)) {
+    if (std::ranges::none_of(identifiable,
+                             [&](const OperationParameter& each) { return each.value == parameter.value; }))
+      out.emplace_back(parameter.name);
   }
   return out;
 }
@@ -68,10 +69,10 @@ OperationFit fit_operation(sensor::ObserverParameters<double>& parameters, const
   // Dither that hardly frees the spool shows of friction, and the search must not pass it by.
   const double given_freeing_share = parameters.friction.freeing_share;
   parameters.friction.freeing_share = 1;
-  const std::vector<Dial> all = identifiable_dials(parameters, runs, full_scale_m3_per_s);
+  const std::vector<OperationParameter> all = identifiable_parameters(parameters, runs, full_scale_m3_per_s);
   out.not_identifiable = not_identifiable(parameters, all);
   std::vector<double> prior;
-  for (const Dial& dial : all) prior.push_back(*dial.value);
+  for (const OperationParameter& parameter : all) prior.push_back(*parameter.value);
   // An operating recording shows one supply and one oil temperature: a parameter moves only where that pays.
   constexpr double pull = 0.1;
   const auto cost = [&] {

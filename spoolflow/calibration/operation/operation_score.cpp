@@ -6,7 +6,7 @@
 
 namespace spoolflow::calibration {
 
-std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters) {
+std::vector<OperationParameter> operation_parameters(sensor::ObserverParameters<double>& parameters) {
   sensor::FrictionParameters<double>& friction = parameters.friction;
   return {
       {"operation_friction_ratio", &friction.operation_ratio, 0.5, 2.5, ShownBy::any_run},

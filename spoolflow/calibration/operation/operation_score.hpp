@@ -18,14 +18,14 @@ enum class ShownBy {
 };
 
 /// A parameter that operation shows, with the range that is searched.
-struct Dial {
+struct OperationParameter {
   const char* name;  ///< with its SI unit as suffix
   double* value;
   double lowest, highest;
   ShownBy shown_by;
 };
 
-[[nodiscard]] std::vector<Dial> operation_dials(sensor::ObserverParameters<double>& parameters);
+[[nodiscard]] std::vector<OperationParameter> operation_parameters(sensor::ObserverParameters<double>& parameters);
 
 /// What the observer answered beside the reference, summed up.
 struct OperationOutcome {

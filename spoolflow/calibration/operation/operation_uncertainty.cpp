@@ -83,28 +83,29 @@ Eigen::MatrixXd covariance_from(Curvature score, double pull) {
 
 }  // namespace
 
-model::Fit known_of_operation(const std::vector<Dial>& dials, const sensor::ObserverParameters<double>& parameters,
+model::Fit known_of_operation(const std::vector<OperationParameter>& fitted,
+                              const sensor::ObserverParameters<double>& parameters,
                               const std::vector<OperatingRun>& runs, double full_scale_m3_per_s, double pull) {
   std::vector<std::string> names;
   std::vector<double> values;
   std::vector<Eigen::Index> free;
-  for (const Dial& dial : dials) {
-    if (*dial.value > 1.001 * dial.lowest && *dial.value < 0.999 * dial.highest)
+  for (const OperationParameter& parameter : fitted) {
+    if (*parameter.value > 1.001 * parameter.lowest && *parameter.value < 0.999 * parameter.highest)
       free.push_back(static_cast<Eigen::Index>(names.size()));
-    names.emplace_back(dial.name);
-    values.push_back(*dial.value);
+    names.emplace_back(parameter.name);
+    values.push_back(*parameter.value);
   }
   const std::vector<OperationOutcome> here = replay_stretches(parameters, runs, stretch_s);
   const double rms_m3_per_s = std::max(1e-9 * full_scale_m3_per_s, together(here).error.rms());
   const auto turned = [&](Eigen::Index a, double log_a, Eigen::Index b, double log_b) {
-    double& dial_a = *dials[static_cast<std::size_t>(a)].value;
-    double& dial_b = *dials[static_cast<std::size_t>(b)].value;
-    const double before_a = dial_a, before_b = dial_b;
-    dial_a *= std::exp(log_a);
-    dial_b *= std::exp(log_b);
+    double& value_a = *fitted[static_cast<std::size_t>(a)].value;
+    double& value_b = *fitted[static_cast<std::size_t>(b)].value;
+    const double before_a = value_a, before_b = value_b;
+    value_a *= std::exp(log_a);
+    value_b *= std::exp(log_b);
     Eigen::VectorXd out = scores(replay_stretches(parameters, runs, stretch_s), rms_m3_per_s, full_scale_m3_per_s);
-    dial_a = before_a;
-    dial_b = before_b;
+    value_a = before_a;
+    value_b = before_b;
     return out;
   };
   const Eigen::MatrixXd on_log_scale =

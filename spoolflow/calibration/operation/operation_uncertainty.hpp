@@ -17,7 +17,7 @@ inline constexpr const char* fit_of_operation = "friction and position sensor in
 /// is pulled to: a parameter that the recordings do not identify is uncertain by a factor of two. `pull` is the
 /// curvature's half that the weak pull of the search adds. A parameter at the end of its range has uncertainty 0. The
 /// score's curvature comes from differences of ten percent: two digits at best.
-[[nodiscard]] model::Fit known_of_operation(const std::vector<Dial>& dials,
+[[nodiscard]] model::Fit known_of_operation(const std::vector<OperationParameter>& fitted,
                                             const sensor::ObserverParameters<double>& parameters,
                                             const std::vector<OperatingRun>& runs, double full_scale_m3_per_s,
                                             double pull);

@@ -60,7 +60,7 @@ void require_within_limits(const model::Model& model, const model::WearState& we
   const auto refuse = [&](const std::string& what) {
     throw CalibrationError(fmt::format(
         "{}: {} lies beyond what references move (edges {:.0f} %, friction {:g} times, "
-        "position zero {:g} um); repair the valve, or calibrate it anew",
+        "position zero {:g} um); repair the valve, or calibrate it again",
         model.valve.name, what, percent * most_edge_width, most_friction_ratio, um_per_m * most_position_zero_m));
   };
   if (std::abs(wear.edge_width) > most_edge_width)

@@ -9,7 +9,7 @@
 
 namespace spoolflow::calibration {
 
-/// No more is moved, against the model as it was calibrated: beyond, the valve is to be repaired or calibrated anew.
+/// No more is moved, against the model as it was calibrated: beyond, the valve is to be repaired or calibrated again.
 inline constexpr double most_edge_width = 0.35, most_friction_ratio = 3, most_position_zero_m = 60e-6;
 
 struct RecalibratedValve {

@@ -58,10 +58,10 @@ SensorView view_through(const sensor::ObserverParameters<double>& valve, double 
     const estimation::Columns columns = columns_of(*run.recording);
     const double begin_s = columns.time_s.front();
     double before_s = begin_s;
-    estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& told) {
+    estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& answer) {
       const double now_s = columns.time_s[k], step_s = now_s - before_s;
       if (!(step_s > 0)) return;
-      sums.add(before_s, now_s, told.flow_m3_per_s);
+      sums.add(before_s, now_s, answer.flow_m3_per_s);
       before_s = now_s;
       if (now_s - begin_s < settling_s) return;
       out.innovation_squared += step_s * sensor.state().observer.pressure.innovation_squared;

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/numerics/calibration_error.hpp"
+#include "spoolflow/calibration/numerics/definite_matrix.hpp"
 #include "spoolflow/calibration/type/type_model.hpp"
 #include "spoolflow/calibration/type/unit_effects.hpp"
 #include "spoolflow/calibration/type/unit_evidence.hpp"
@@ -36,8 +36,7 @@ class Planner {
   Planner(const model::Model& type, const KnownDeviations& known) : type_(type), known_(known) {
     deviation_ = known.covariance.diagonal().cwiseSqrt();
     prior_ = Eigen::MatrixXd::Zero(searched, searched);
-    prior_.topLeftCorner(deviating, deviating) =
-        known.covariance.llt().solve(Eigen::MatrixXd::Identity(deviating, deviating));
+    prior_.topLeftCorner(deviating, deviating) = inverse_of_covariance(known.covariance);
     prior_(deviating, deviating) = 1 / (meter_gain_uncertainty * meter_gain_uncertainty);
     find_flow_slopes();
   }
@@ -56,21 +55,21 @@ class Planner {
 
   /// The best strokes of that rate and what they leave.
   [[nodiscard]] PlannedMinute best_of(double rate_per_s, std::size_t strokes) const {
-    std::vector<Eigen::MatrixXd> told;
-    for (const double share : tried_pressure_shares) told.push_back(told_by(rate_per_s, share));
+    std::vector<Eigen::MatrixXd> information;
+    for (const double share : tried_pressure_shares) information.push_back(information_of(rate_per_s, share));
     std::vector<std::size_t> chosen;
     Eigen::MatrixXd precision = prior_ + at_rest();
     for (std::size_t k = 0; k < strokes; ++k) {
-      chosen.push_back(best_level(precision, told));
-      precision += told[chosen.back()];
+      chosen.push_back(best_level(precision, information));
+      precision += information[chosen.back()];
     }
     for (bool better = true; better;) {  // exchange one after the other until none helps
       better = false;
       for (std::size_t& level : chosen) {
-        const Eigen::MatrixXd without = precision - told[level];
-        const std::size_t other = best_level(without, told);
-        if (!(left_share(without + told[other]) < (1 - 1e-6) * left_share(precision))) continue;
-        precision = without + told[other];
+        const Eigen::MatrixXd without = precision - information[level];
+        const std::size_t other = best_level(without, information);
+        if (!(left_share(without + information[other]) < (1 - 1e-6) * left_share(precision))) continue;
+        precision = without + information[other];
         level = other;
         better = true;
       }
@@ -86,14 +85,15 @@ class Planner {
   [[nodiscard]] const sensor::ObserverParameters<double>& unit() const { return type_.observer->parameters; }
 
   [[nodiscard]] static Eigen::MatrixXd left_of(const Eigen::MatrixXd& precision) {
-    return precision.llt().solve(Eigen::MatrixXd::Identity(searched, searched)).topLeftCorner(deviating, deviating);
+    return inverse_of_covariance(precision).topLeftCorner(deviating, deviating);
   }
 
-  [[nodiscard]] std::size_t best_level(const Eigen::MatrixXd& before, const std::vector<Eigen::MatrixXd>& told) const {
+  [[nodiscard]] std::size_t best_level(const Eigen::MatrixXd& before,
+                                       const std::vector<Eigen::MatrixXd>& information) const {
     std::size_t out = 0;
     double least = INFINITY;
-    for (std::size_t k = 0; k < told.size(); ++k) {
-      const double left = left_share(before + told[k]);
+    for (std::size_t k = 0; k < information.size(); ++k) {
+      const double left = left_share(before + information[k]);
       if (left < least) out = k;
       least = std::min(least, left);
     }
@@ -135,7 +135,7 @@ class Planner {
   }
 
   /// Rows of both ways, as UnitEvidence makes them.
-  [[nodiscard]] Eigen::MatrixXd told_by(double rate_per_s, double pressure_share) const {
+  [[nodiscard]] Eigen::MatrixXd information_of(double rate_per_s, double pressure_share) const {
     const double stroke_m = type_.valve.stroke_m, speed_m_per_s = rate_per_s * stroke_m;
     const double apart_m = std::min(row_travel_m, row_time_s * speed_m_per_s);
     const double pressure_Pa = pressure_share * unit().edge.highest_pressure_difference_Pa();

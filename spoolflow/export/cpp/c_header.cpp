@@ -29,20 +29,12 @@ std::string status_bits() {
   return out;
 }
 
-/// As it may stand in a comment of C: nothing in it ends the comment or its line.
-std::string in_a_c_comment(const std::string& name) {
-  std::string out;
-  for (const char letter : name)
-    out += static_cast<unsigned char>(letter) < ' ' || letter == '*' || letter == '\\' || letter == '?' ? ' ' : letter;
-  return out;
-}
-
 }  // namespace
 
 std::string c_header(const model::Model& model) {
   const bool observer = model.has_observer();
   return exported_text("valve_sensor.h.in",
-                       {{"@VALVE@", in_a_c_comment(model.valve.name)},
+                       {{"@VALVE@", in_a_block_comment(model.valve.name)},
                         {"@WHOLE@", model.whole() ? "1" : "0"},
                         {"@OBSERVER@", observer ? "1" : "0"},
                         {"@STATUS@", status_bits()},

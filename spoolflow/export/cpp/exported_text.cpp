@@ -20,4 +20,14 @@ std::string exported_text(std::string_view name, const std::vector<FilledPlace>&
   return out;
 }
 
+std::string in_a_block_comment(std::string name) {
+  std::ranges::replace_if(
+      name,
+      [](char letter) {
+        return static_cast<unsigned char>(letter) < ' ' || letter == '*' || letter == '\\' || letter == '?';
+      },
+      ' ');
+  return name;
+}
+
 }  // namespace spoolflow::exports

@@ -15,4 +15,7 @@ struct FilledPlace {
 /// the program holds none of that name.
 [[nodiscard]] std::string exported_text(std::string_view name, const std::vector<FilledPlace>& places = {});
 
+/// `name` as it may stand in a comment of C or Structured Text: nothing in it ends the comment or its line.
+[[nodiscard]] std::string in_a_block_comment(std::string name);
+
 }  // namespace spoolflow::exports

@@ -36,14 +36,6 @@ std::string lines_of(const sensor::CondensedTables<float>& tables) {
   return out + line;
 }
 
-/// Nothing in the name of a valve ends a comment.
-std::string in_an_st_comment(std::string name) {
-  std::ranges::replace_if(
-      name, [](char letter) { return static_cast<unsigned char>(letter) < ' ' || letter == '*' || letter == '('; },
-      ' ');
-  return name;
-}
-
 }  // namespace
 
 std::string st_program(const model::Model& model) {
@@ -55,7 +47,7 @@ std::string st_program(const model::Model& model) {
   }
   using Layout = sensor::CondensedLayout;
   const auto tables = single_tables(model.condensed);
-  return exported_text("condensed.st.in", {{"@VALVE@", in_an_st_comment(model.valve.name)},
+  return exported_text("condensed.st.in", {{"@VALVE@", in_a_block_comment(model.valve.name)},
                                            {"@DIRECTION@", model.valve.direction},
                                            {"@SHA256@", sha256_of_model(model)},
                                            {"@CELLS_PER_M@", real(tables->cells_per_m)},

@@ -10,7 +10,7 @@ namespace spoolflow::calibration {
 /// Rest without dither, the valve open, that identifies friction at rest [s], all recordings together.
 inline constexpr double least_undithered_rest_s = 2;
 /// A parameter is identifiable where half or twice its value makes the score worse or better by this share of it.
-inline constexpr double telling_score_share = 0.01;
+inline constexpr double least_score_share = 0.01;
 
 /// How long the spool rests open without dither [s].
 [[nodiscard]] double undithered_rest_s(const sensor::ObserverParameters<double>& parameters,
@@ -21,7 +21,8 @@ inline constexpr double telling_score_share = 0.01;
 void assume_rest(sensor::ObserverParameters<double>& parameters);
 
 /// Those of all parameters that these recordings identify.
-[[nodiscard]] std::vector<Dial> identifiable_dials(sensor::ObserverParameters<double>& parameters,
-                                                   const std::vector<OperatingRun>& runs, double full_scale_m3_per_s);
+[[nodiscard]] std::vector<OperationParameter> identifiable_parameters(sensor::ObserverParameters<double>& parameters,
+                                                                      const std::vector<OperatingRun>& runs,
+                                                                      double full_scale_m3_per_s);
 
 }  // namespace spoolflow::calibration

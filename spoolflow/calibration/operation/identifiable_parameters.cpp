@@ -1,4 +1,4 @@
-#include "spoolflow/calibration/operation/identifiable_dials.hpp"
+#include "spoolflow/calibration/operation/identifiable_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,17 +7,17 @@ namespace spoolflow::calibration {
 namespace {
 
 /// Largest relative change of the score where the parameter is turned to half or twice its value.
-double telling(const Dial& dial, const sensor::ObserverParameters<double>& parameters,
-               const std::vector<OperatingRun>& runs, double full_scale_m3_per_s) {
-  const double here = *dial.value;
+double score_change(const OperationParameter& parameter, const sensor::ObserverParameters<double>& parameters,
+                    const std::vector<OperatingRun>& runs, double full_scale_m3_per_s) {
+  const double here = *parameter.value;
   const double middle = operation_score(parameters, runs, full_scale_m3_per_s);
   double most = 0;
   for (const double factor : {0.5, 2.0}) {
-    *dial.value = std::clamp(factor * here, dial.lowest, dial.highest);
+    *parameter.value = std::clamp(factor * here, parameter.lowest, parameter.highest);
     const double turned = operation_score(parameters, runs, full_scale_m3_per_s);
     most = std::max(most, std::abs(turned - middle) / middle);
   }
-  *dial.value = here;
+  *parameter.value = here;
   return most;
 }
 
@@ -42,16 +42,17 @@ void assume_rest(sensor::ObserverParameters<double>& parameters) {
   parameters.position_sensor.backlash_m = unknown_backlash_m;
 }
 
-std::vector<Dial> identifiable_dials(sensor::ObserverParameters<double>& parameters,
-                                     const std::vector<OperatingRun>& runs, double full_scale_m3_per_s) {
+std::vector<OperationParameter> identifiable_parameters(sensor::ObserverParameters<double>& parameters,
+                                                        const std::vector<OperatingRun>& runs,
+                                                        double full_scale_m3_per_s) {
   const bool rests = undithered_rest_s(parameters, runs) >= least_undithered_rest_s;
-  std::vector<Dial> out;
-  for (const Dial& dial : operation_dials(parameters)) {
-    const bool identifiable = dial.shown_by == ShownBy::any_run ||
-                              (dial.shown_by == ShownBy::undithered_rest && rests) ||
-                              (dial.shown_by == ShownBy::score &&
-                               telling(dial, parameters, runs, full_scale_m3_per_s) >= telling_score_share);
-    if (identifiable) out.push_back(dial);
+  std::vector<OperationParameter> out;
+  for (const OperationParameter& parameter : operation_parameters(parameters)) {
+    const bool identifiable = parameter.shown_by == ShownBy::any_run ||
+                              (parameter.shown_by == ShownBy::undithered_rest && rests) ||
+                              (parameter.shown_by == ShownBy::score &&
+                               score_change(parameter, parameters, runs, full_scale_m3_per_s) >= least_score_share);
+    if (identifiable) out.push_back(parameter);
   }
   // The spool's friction on the benches of the other direction may be another share of that in operation.
   const auto other = std::ranges::find_if(runs, [](const OperatingRun& run) { return run.other != nullptr; });
