@@ -8,7 +8,9 @@
 #include "spoolflow/recording/channels/channel_unit.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/column_clock.hpp"
+#include "spoolflow/recording/files/file_contents.hpp"
 #include "spoolflow/recording/files/header_name.hpp"
+#include "spoolflow/recording/proposal.hpp"
 
 namespace spoolflow::recording {
 namespace {
@@ -164,23 +166,40 @@ class Binder {
                     map_place(), name(channel), mapped, file_, stated, column.name));
   }
 
+  /// The unit in a column's name and the one beside it.
+  void refuse_two_units(const FileColumn& column, Channel channel, const std::string& in_name) const {
+    const auto named = units::unit_named(in_name);
+    const auto beside = units::unit_named(stated_unit(column));
+    if (!named || !beside || named->name == beside->name || beside->dimension != named->dimension) return;
+    throw RecordingError(
+        fmt::format("{}, column '{}': the unit of channel {} is {} by its name and {} by what stands beside it; say in "
+                    "a channel map which channel it is, with its unit",
+                    file_, column.name, name(channel), named->name, beside->name));
+  }
+
   bool named_by_map(const FileColumn& column) const {
     return std::any_of(options_.channels.sources.begin(), options_.channels.sources.end(),
                        [&column](const auto& entry) { return entry.second.column == column.name; });
   }
 
   std::optional<BoundColumn> by_header(Channel channel) const {
+    const auto exact = by_header(channel, true);
+    return exact ? exact : by_header(channel, false);
+  }
+
+  std::optional<BoundColumn> by_header(Channel channel, bool exact) const {
     std::optional<BoundColumn> out;
     for (std::size_t index = 0; index < columns_.size(); ++index) {
       const FileColumn& column = columns_[index];
       const auto header = channel_header(column);
-      if (!header || header->channel != channel || named_by_map(column)) continue;
+      if (!header || header->channel != channel || header->exact != exact || named_by_map(column)) continue;
       if (out) {
         throw RecordingError(
             fmt::format("{}: columns '{}' and '{}' are both channel {}; rename one of them or choose "
                         "one in a channel map",
                         file_, out->name, column.name, name(channel)));
       }
+      refuse_two_units(column, channel, header->unit);
       out = in_unit(index, channel, header->unit);
     }
     return out;
@@ -244,11 +263,23 @@ std::vector<BoundColumn> bind_channels(const SampleTable& table, const ReadOptio
 std::string unread_channels(const SampleTable& table, const ReadOptions& options, const std::vector<BoundColumn>& bound,
                             const std::string& file) {
   const Binder binder(table, options, file);
+  const ChannelMap guessed = propose_channels(contents_of("", table)).map;
+  const auto named_otherwise = [&](Channel channel) -> std::string {
+    const auto found = guessed.sources.find(channel);
+    if (found == guessed.sources.end() || std::ranges::count(bound, found->second.column, &BoundColumn::name) > 0)
+      return {};
+    return fmt::format("column '{}' is not read: if it is {}, name it {}_<unit> or give it in a channel map",
+                       found->second.column, name(channel), name(channel));
+  };
   std::string out;
   for (const Channel channel : all_channels()) {
     if (std::ranges::count(options.optional, channel) == 0) continue;  // a required one is bound
     if (std::ranges::count(bound, channel, &BoundColumn::channel) > 0) continue;
-    if (const std::string what = binder.unread_as(channel); !what.empty()) out += (out.empty() ? "" : "; ") + what;
+    std::string what = binder.unread_as(channel);
+    if (what.empty()) what = named_otherwise(channel);
+    if (const auto assumed = options.assumed.find(channel); assumed != options.assumed.end())
+      what += fmt::format("{}{} is missing: {}", what.empty() ? "" : "; ", name(channel), assumed->second);
+    if (!what.empty()) out += (out.empty() ? "" : "; ") + what;
   }
   return out;
 }

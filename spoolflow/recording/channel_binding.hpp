@@ -31,7 +31,8 @@ struct BoundColumn {
                                                      const std::string& file);
 
 /// Of the channels that were asked for where they can be had and are not bound: what would be one by its name, but
-/// cannot be read, with its remedy. Empty: nothing.
+/// cannot be read, and what may be one by another name (proposal.hpp), with its remedy, and what is assumed for the
+/// channel. Empty: nothing.
 [[nodiscard]] std::string unread_channels(const SampleTable& table, const ReadOptions& options,
                                           const std::vector<BoundColumn>& bound, const std::string& file);
 

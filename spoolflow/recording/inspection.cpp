@@ -131,7 +131,7 @@ ChannelMap known_units(ChannelMap map) {
 
 std::string how_known(const FileColumn& column, Channel channel) {
   const auto header = channel_header(column);
-  if (header && header->channel == channel) return "its own name";
+  if (header && header->exact && header->channel == channel) return "its own name";
   return column.name.ends_with(column.leaf) ? "by its name" : "by its label '" + column.leaf + "'";
 }
 

@@ -176,10 +176,13 @@ Proposal propose_channels(const FileContents& contents, const std::vector<bool>&
     }
   };
   std::vector<bool> own(contents.columns.size(), false);
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    const auto header = channel_header(contents.column(k));
-    own[k] = header.has_value() || holds_none(k);
-    if (header && !holds_none(k)) propose(header->channel, contents.columns[k], header->unit);
+  for (const bool exact : {true, false}) {
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const auto header = channel_header(contents.column(k));
+      own[k] = header.has_value() || holds_none(k);
+      if (header && header->exact == exact && !holds_none(k))
+        propose(header->channel, contents.columns[k], header->unit);
+    }
   }
   for (const bool with_unit : {true, false}) {
     found.clear();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "spoolflow/recording/channel_map.hpp"
-#include "spoolflow/recording/reader.hpp"
+#include "spoolflow/recording/files/file_contents.hpp"
 
 namespace spoolflow::recording {
 

@@ -8,7 +8,6 @@
 
 #include "spoolflow/recording/channel_binding.hpp"
 #include "spoolflow/recording/channels/recording_error.hpp"
-#include "spoolflow/recording/files/header_name.hpp"
 #include "spoolflow/recording/memory_reader.hpp"
 #include "spoolflow/recording/open_table.hpp"
 #include "spoolflow/recording/plausibility.hpp"
@@ -171,14 +170,7 @@ FileContents contents_of(const std::filesystem::path& file) {
 
 FileContents contents_of(std::unique_ptr<InputBytes> input) {
   const OpenTable open = open_sample_table(std::move(input));
-  FileContents out{std::string(name(open.format)), {}, {}, {}, {}};
-  for (const FileColumn& column : open.table->columns()) {
-    out.columns.push_back(column.name);
-    out.leaves.push_back(column.leaf);
-    out.units.push_back(stated_unit(column));
-  }
-  for (const UnreadPart& part : open.table->unread()) out.unread.push_back(part.what);
-  return out;
+  return contents_of(std::string(name(open.format)), *open.table);
 }
 
 std::unique_ptr<Reader> open_reader(const std::filesystem::path& file, const ReadOptions& options) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "spoolflow/recording/channels/channel.hpp"
+#include "spoolflow/recording/files/file_contents.hpp"
 #include "spoolflow/recording/files/input_bytes.hpp"
-#include "spoolflow/recording/files/sample_table.hpp"
 #include "spoolflow/recording/read_options.hpp"
 #include "spoolflow/recording/recording.hpp"
 
@@ -72,18 +72,7 @@ class Reader {
 /// The same of an input that is open.
 [[nodiscard]] std::unique_ptr<Reader> open_reader(std::unique_ptr<InputBytes> input, const ReadOptions& options);
 
-/// What a file is and what its columns are called, whether they are channels or not.
-struct FileContents {
-  std::string format;  ///< "CSV", "MATLAB", "HDF5", "TDMS"
-  std::vector<std::string> columns;
-  /// What each column's name is looked for in: the last part of its name, or what the file labels it with.
-  std::vector<std::string> leaves;
-  std::vector<std::string> units;   ///< as a units row or an attribute says; empty where nothing does
-  std::vector<std::string> unread;  ///< what else it holds, and why that is not read
-
-  /// As a reader finds it.
-  [[nodiscard]] FileColumn column(std::size_t index) const { return {columns[index], leaves[index], units[index], {}}; }
-};
+/// What a file holds, of its path or its open bytes.
 [[nodiscard]] FileContents contents_of(const std::filesystem::path& file);
 [[nodiscard]] FileContents contents_of(std::unique_ptr<InputBytes> input);
 

@@ -4,12 +4,15 @@
 
 #include "spoolflow/recording/channels/recording_error.hpp"
 #include "spoolflow/recording/coil_channels.hpp"
+#include "spoolflow/units/conversion.hpp"
 
 namespace spoolflow::estimation {
 
 using recording::Channel;
 
-recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels) {
+namespace {
+
+recording::ReadOptions channels_of(const model::Model& model, recording::ChannelMap channels) {
   if (!model.whole()) {
     // Of a run of the whole valve, in whose signs P to B is > 0, the coil that this model knows.
     std::map<Channel, Channel> stands_in;
@@ -27,6 +30,19 @@ recording::ReadOptions sensor_channels(const model::Model& model, recording::Cha
            Channel::voltage_b, Channel::oil_temperature, Channel::pressure_p, Channel::pressure_a, Channel::pressure_b,
            Channel::pressure_t},
           model.valve.stroke_m};
+}
+
+}  // namespace
+
+recording::ReadOptions sensor_channels(const model::Model& model, recording::ChannelMap channels) {
+  recording::ReadOptions out = channels_of(model, std::move(channels));
+  if (model.observer) {
+    out.assumed[Channel::oil_temperature] = fmt::format(
+        "that of the calibration, {:.0f} degC, is assumed; the band counts another one only where an environment "
+        "declares it",
+        units::degC_from_K(model.observer->parameters.edge.temperature_K.at(1)));
+  }
+  return out;
 }
 
 std::unique_ptr<recording::Reader> open_sensor_channels(const std::filesystem::path& file,

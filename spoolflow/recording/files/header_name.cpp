@@ -21,6 +21,53 @@ bool may_be_meant(Channel channel, const units::Unit& unit) {
          (unit.dimension != units::Dimension::ratio && unit.dimension != units::Dimension::time);
 }
 
+bool is_gap(char c) {
+  return c == '_' || c == ' ' || c == '-' || c == '.';
+}
+
+char small(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+/// What stands behind the channel's name, however the name is written: "Oil_Temperature", "oil temperature" and
+/// "OilTemperature" are all oil_temperature.
+std::optional<std::string_view> behind_name(std::string_view written, Channel channel) {
+  for (const char c : name(channel)) {
+    if (c != '_') {
+      if (written.empty() || small(written.front()) != c) return std::nullopt;
+      written.remove_prefix(1);
+    } else if (!written.empty() && is_gap(written.front())) {
+      written.remove_prefix(1);
+    }
+  }
+  return written;
+}
+
+/// A capital letter at the end that may be the unit: Current_A is a current in A, where Voltage_A is that of coil a.
+bool ends_in_unit(std::string_view stem, Channel channel) {
+  const std::string_view own = name(channel);
+  const auto unit = own[own.size() - 2] == '_' ? units::unit_named(stem.substr(stem.size() - 1)) : std::nullopt;
+  return unit && stem.back() != own.back() && unit->dimension == dimension(channel);
+}
+
+/// A channel's name in other letters or with other gaps. It counts with a unit of that channel only.
+std::optional<ChannelHeader> similar_header(std::string_view stem, const std::string& stated) {
+  const auto suits = [](Channel channel, const std::optional<units::Unit>& unit) {
+    return unit && (unit->dimension == dimension(channel) || (channel == Channel::position && unit->name == "percent"));
+  };
+  for (const bool whole : {true, false}) {
+    for (const Channel channel : all_channels()) {
+      const auto rest = channel == Channel::test ? std::nullopt : behind_name(stem, channel);
+      if (!rest || rest->empty() != whole) continue;
+      if (whole && suits(channel, units::unit_named(stated)) && !ends_in_unit(stem, channel))
+        return ChannelHeader{channel, stated, false};
+      const auto unit = rest->size() > 1 && rest->front() == '_' ? units::unit_named(rest->substr(1)) : std::nullopt;
+      if (suits(channel, unit)) return ChannelHeader{channel, std::string(unit->name), false};
+    }
+  }
+  return std::nullopt;
+}
+
 /// What stands between a pair of brackets, which begins and ends there.
 struct Bracketed {
   std::size_t begin, end;
@@ -135,7 +182,7 @@ std::optional<ChannelHeader> channel_header(const FileColumn& column) {
     const auto unit = units::unit_named(rest.substr(1));
     if (unit && may_be_meant(channel, *unit)) return ChannelHeader{channel, std::string(unit->name)};
   }
-  return std::nullopt;
+  return similar_header(stem, stated_unit(column));
 }
 
 }  // namespace spoolflow::recording

@@ -20,10 +20,13 @@ struct NameAndUnit {
 };
 [[nodiscard]] NameAndUnit split_unit(std::string_view name);
 
-/// `<channel>_<unit>`, or the bare channel's name with its unit as split_unit() finds it or in a units row.
+/// `<channel>_<unit>`, or the bare channel's name with its unit as split_unit() finds it or in a units row. The name
+/// may have capital letters and other gaps ("Oil Temperature [degC]", "OilTemperature_degC") where a unit of the
+/// channel stands with it; a column that has the name as it is comes before such a one.
 struct ChannelHeader {
   Channel channel;
-  std::string unit;  ///< "1" for `test`; empty: the file does not say
+  std::string unit;   ///< "1" for `test`; empty: the file does not say
+  bool exact = true;  ///< the channel's name as it is
 };
 [[nodiscard]] std::optional<ChannelHeader> channel_header(const FileColumn& column);
 

@@ -1,0 +1,20 @@
+#include "spoolflow/recording/files/file_contents.hpp"
+
+#include <utility>
+
+#include "spoolflow/recording/files/header_name.hpp"
+
+namespace spoolflow::recording {
+
+FileContents contents_of(std::string format, const SampleTable& table) {
+  FileContents out{std::move(format), {}, {}, {}, {}};
+  for (const FileColumn& column : table.columns()) {
+    out.columns.push_back(column.name);
+    out.leaves.push_back(column.leaf);
+    out.units.push_back(stated_unit(column));
+  }
+  for (const UnreadPart& part : table.unread()) out.unread.push_back(part.what);
+  return out;
+}
+
+}  // namespace spoolflow::recording
