@@ -1,0 +1,1 @@
+// Nothing of its own: the headers are read for it.
