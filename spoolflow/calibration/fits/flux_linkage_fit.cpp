@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/fits/position_sensor.hpp"

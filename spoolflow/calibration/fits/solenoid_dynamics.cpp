@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "spoolflow/calibration/fits/coil_deviation.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include "spoolflow/calibration/fits/axial_force.hpp"
 #include "spoolflow/calibration/fits/bench_strokes.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 namespace spoolflow::calibration {
 namespace {
