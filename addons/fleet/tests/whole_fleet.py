@@ -70,7 +70,7 @@ class Fleet:
         self.begun += 1
         self.workers.append(self.started(worker))
 
-    def tell_logs(self):
+    def show_logs(self):
         """What the workers have to say, and how the fleet looks."""
         status = subprocess.run([self.command, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
                                 capture_output=True)
