@@ -37,7 +37,7 @@ TEST(SeriesSpread, MedianAndDeviationAreNotMovedByOneWildValve) {
 
 TEST(SeriesSpread, NobodyIsNamedForWhatIsNotKnownSoWell) {
   const SeriesSpread rough = spread_of(sisters(19.6));
-  EXPECT_DOUBLE_EQ(rough.scale, 10);  // sisters are told apart no better than each is known
+  EXPECT_DOUBLE_EQ(rough.scale, 10);  // sisters differ by no more than their uncertainty
   EXPECT_FALSE(is_outlier(rough, {16, 19.6}));
   EXPECT_FALSE(is_outlier(spread_of(sisters(0.1)), {16, 12}));
 }

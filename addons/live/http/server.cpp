@@ -111,7 +111,7 @@ struct PageServer::Parts {
     } catch (const std::exception& error) {
       message = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
     }
-    if (origin.tell) origin.tell(message);
+    if (origin.report) origin.report(message);
   }
 
   /// Whoever waits is taken; without a descriptor one that is idle gives way, and the listener rests.

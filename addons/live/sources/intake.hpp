@@ -32,7 +32,7 @@ class Intake {
   void count_unreadable(std::uint64_t pieces) { unreadable_ += pieces; }
   void count_connection() { ++connections_; }
   /// What is wrong with the source at present, as the page shows it; empty: nothing.
-  void tell(std::string trouble);
+  void set_trouble(std::string trouble);
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] IntakeCounters counters() const;
   /// Whether nothing waits to be worked on.

@@ -109,7 +109,7 @@ class DatagramOrderTest : public ::testing::Test {
   DatagramOrder order;
 };
 
-TEST_F(DatagramOrderTest, TellsWhatWasLostAndLeavesOutWhatCameBefore) {
+TEST_F(DatagramOrderTest, CountsWhatWasLostAndLeavesOutWhatCameBefore) {
   EXPECT_EQ(take(100, 10).lost_before, 0U);  // in the middle of a session: nothing is known of what was before
   EXPECT_EQ(take(110, 10).samples.size(), 10U);
   const SampleBlock after_gap = take(150, 10);

@@ -135,7 +135,7 @@ TEST_F(StoreMending, AnotherStoreInItsPlaceIsGoneOnInAndTheFirstIsSaved) {
   expect_goes_on(3);
 }
 
-TEST_F(StoreMending, WhereNothingCanBeKeptItIsToldAndTriedAgain) {
+TEST_F(StoreMending, WhereNothingCanBeKeptItIsReportedAndTriedAgain) {
   fs::remove(path("s.sqlite"));
   fs::create_directory(path("s.sqlite"));
   EXPECT_THAT(refusal([&] { (void)store_->look_after(3000); }), HasSubstr("s.sqlite"));

@@ -27,7 +27,7 @@ Playground silent() {
                      .opened = [](const std::string& file) { return std::make_unique<std::ofstream>(file); }});
 }
 
-TEST(Playground, TellsFaultsInTheProgramsOwnWords) {
+TEST(Playground, ReportsFaultsInTheProgramsOwnWords) {
   Playground playground = silent();
   const json missing = answered(playground, {{"work", "inspect"}, {"file", "/nowhere/run.csv"}});
   EXPECT_THAT(missing.at("error").get<std::string>(), HasSubstr("/nowhere/run.csv"));

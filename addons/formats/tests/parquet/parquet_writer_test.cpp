@@ -30,7 +30,7 @@ TEST(ThriftCompact, WritesFieldsByTheirStepAndNumbersZigzag) {
                                           0x19, 0x25, 0x00, 0x04, 0x00));
 }
 
-TEST(ParquetRuns, TellHowOftenThenWhich) {
+TEST(ParquetRuns, HoldTheCountThenTheValue) {
   const std::vector<std::uint32_t> numbers{3, 3, 3, 1, 0, 0};
   Bytes out;
   put_runs(out, numbers.size(), 2, [&](std::size_t k) { return numbers[k]; });

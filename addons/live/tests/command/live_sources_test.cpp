@@ -45,7 +45,7 @@ class LiveSource : public LiveSite {
   std::uint16_t source = 0, page = 0;
 };
 
-TEST_F(LiveSource, ThatStallsIsToldAndTakenUpAgain) {
+TEST_F(LiveSource, ThatStallsIsReportedAndTakenUpAgain) {
   const LoopbackSender sender(source);
   sender.send(std::string(live_header) + live_rows(100));
   EXPECT_EQ(with_samples(100)["samples"], 100);
@@ -58,7 +58,7 @@ TEST_F(LiveSource, ThatStallsIsToldAndTakenUpAgain) {
   EXPECT_FALSE(says(again, "stalled"));
 }
 
-TEST_F(LiveSource, ThatRepeatsItselfIsToldByTimeFault) {
+TEST_F(LiveSource, ThatRepeatsItselfHasATimeFault) {
   const LoopbackSender sender(source);
   sender.send(std::string(live_header) + live_rows(100) + live_rows(1, 99));
   const Json valve = with_samples(101);
