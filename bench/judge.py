@@ -34,7 +34,7 @@ import judging_set
 
 STEP = 0.01  # % of full scale: bins in which errors are counted
 BINS = 20000
-RUN = ("set", "valve", "programme", "effect")  # tells runs apart
+RUN = ("set", "valve", "programme", "effect")  # identifies a run
 VALVE_A = ("ramp_60bar", "ramps_30_to_70bar", "temperature_sweep", "duty_cycle_1", "motor_load", "fast_10kHz",
            "ramp_60bar_dither", "orifice_duty_dither")
 SISTERS = ("ramps_30_to_40bar", "duty_cycle_1", "orifice_duty_dither")

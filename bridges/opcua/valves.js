@@ -43,7 +43,7 @@ export class Valves {
     const named = new Set(answer.valves.map((one) => one.id));
     for (const one of answer.valves) {
       if (!this.valves.has(one.id)) this.valves.set(one.id, this.#add(one));
-      this.#tell(this.valves.get(one.id), one, now);
+      this.#write(this.valves.get(one.id), one, now);
     }
     for (const [id, valve] of this.valves) if (!named.has(id)) this.#tellLost(valve, now);
   }
@@ -101,7 +101,7 @@ export class Valves {
     };
   }
 
-  #tell(valve, one, now) {
+  #write(valve, one, now) {
     const stalled = one.status.includes("stalled");
     const put = (variable, dataType, value, status = StatusCodes.Good) =>
       variable.setValueFromSource({ dataType, value }, status, now);

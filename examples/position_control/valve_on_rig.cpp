@@ -1,5 +1,5 @@
 /// What the firmware's electronics are built into: two amplifiers, the instruments and the valve of the virtual rig, in
-/// closed loop with the firmware over two pipes. Tells, phase by phase, what flowed and what the sensor answered.
+/// closed loop with the firmware over two pipes. Prints, phase by phase, what flowed and what the sensor answered.
 ///
 ///     valve_on_rig SAMPLES ANSWERS
 ///
@@ -67,7 +67,7 @@ constexpr std::array<Phase, 11> phases{{
     {"no position for good", 15.5, -1.2e-3, 40, 1, 3, Event::none, true},
 }};
 
-/// Of one phase, its settling left out: errors of the flow rate [L/min], and what was told.
+/// Of one phase, its settling left out: errors of the flow rate [L/min], and the status.
 struct Figures {
   int samples = 0, inside = 0;
   double truth = 0, answer = 0, largest_error = 0, largest_flow = 0, dithered = 0;

@@ -178,7 +178,7 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   await page.waitForSelector('.alarm:has-text("feed_udp"):has-text("no samples")', { timeout: 30000 });
   const torn = page.locator('.alarm:has-text("clamp_torn_cable"):has-text("function check")').first();
   await torn.waitFor({ timeout: 30000 });
-  // What stands on the card of the valve without samples is told as old, in its figures as in words.
+  // What stands on the card of the valve without samples is marked as old, in its figures as in words.
   const quiet = page.locator('.card:has-text("feed_udp")');
   assert.match(await quiet.locator('.flow').textContent(), /^last /);
   assert.match(await quiet.locator('.worst').textContent(), /^no samples for \d+ s/);

@@ -91,14 +91,14 @@ TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
     return fit_operation(parameters, runs, valve.full_scale_m3_per_s(), [](double) {});
   };
   const OperationFit blind = fitted(only(dithered)), both = fitted({{.recording = &dithered}, {.recording = &plain}});
-  const auto tells = [](const OperationFit& fit, const char* name) {
+  const auto identifies = [](const OperationFit& fit, const char* name) {
     return std::ranges::find(fit.not_identifiable, name) == fit.not_identifiable.end();
   };
   for (const char* of_rest : {"friction_ageing_ratio", "friction_tolerance_N", "position_backlash_m"}) {
-    EXPECT_FALSE(tells(blind, of_rest)) << of_rest;
-    EXPECT_TRUE(tells(both, of_rest)) << of_rest;
+    EXPECT_FALSE(identifies(blind, of_rest)) << of_rest;
+    EXPECT_TRUE(identifies(both, of_rest)) << of_rest;
   }
-  EXPECT_TRUE(tells(blind, "operation_friction_ratio"));
+  EXPECT_TRUE(identifies(blind, "operation_friction_ratio"));
   EXPECT_GE(blind.force_error_ratio, least_dithered_force_error_ratio);
 }
 
@@ -115,7 +115,7 @@ TEST(Operation, BandFromADitheredRecordingHoldsTheFlowWithoutDither) {
 }
 
 /// A mass leaves no trace in slow strokes without dither.
-TEST(Operation, LeavesTheMassWhereNothingTellsIt) {
+TEST(Operation, LeavesTheMassWhereNothingIdentifiesIt) {
   const sensor::ClosedFormValve valve;
   const recording::Recording plain = recorded(valve, work(), 1);
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
