@@ -23,7 +23,7 @@ json answered(Playground& playground, const json& request) {
 }
 
 Playground silent() {
-  return Playground({.told = [](double, std::string_view) {},
+  return Playground({.progress = [](double, std::string_view) {},
                      .opened = [](const std::string& file) { return std::make_unique<std::ofstream>(file); }});
 }
 
