@@ -1,6 +1,6 @@
-/// Faults of the signals put in at random while a virtual valve works, against the plant's true flow: how many are reported
-/// and how soon, the share of samples inside the 95 % band while a fault stands and in the second after it, how long
-/// the answer stays off, and how many faults are reported where there is none.
+/// Faults of the signals put in at random while a virtual valve works, against the plant's true flow: how many are
+/// reported and how soon, the share of samples inside the 95 % band while a fault stands and in the second after it,
+/// how long the answer stays off, and how many faults are reported where there is none.
 ///
 ///     spoolflow campaign size_6 -o size_6 && spoolflow calibrate size_6/campaign.toml -o size_6.json
 ///     faults_on_rig size_6.json size_6 [KEY=NUMBER ...]
@@ -284,9 +284,9 @@ void meet_faults(const model::Model& model, const rig::ValveUnderTest& valve, Se
     Outcome out;
     for (const Run& run : runs) put_in(model, run, kind, chance, set["every"], out);
     fmt::print("| {} | {} | {:.1f} % | {:.0f} | {} % | {} % | {:.0f}; {:.0f} | {:.0f} |\n", kind.name, out.faults,
-               100.0 * out.reported / std::max(1, out.faults), 1e3 * quantile(out.reported_after_s, 0.5), out.during.percent(),
-               out.after.percent(), 1e3 * quantile(out.back_after_s, 0.5), 1e3 * quantile(out.back_after_s, 0.95),
-               100 * out.largest_error);
+               100.0 * out.reported / std::max(1, out.faults), 1e3 * quantile(out.reported_after_s, 0.5),
+               out.during.percent(), out.after.percent(), 1e3 * quantile(out.back_after_s, 0.5),
+               1e3 * quantile(out.back_after_s, 0.95), 100 * out.largest_error);
   }
 }
 

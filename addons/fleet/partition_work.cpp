@@ -56,7 +56,7 @@ void PartitionWork::begin_anew(const ValveRefused& why) {
   const BlockPlace last = found->second.line.last();
   if (!suspects_.refused(why.valve, last, found->second.uncommitted, why.what())) {
     parts_.report(fmt::format("partition {}: {} stands at block {} until a worker takes the partition again: {}",
-                            claim_.partition, why.valve, last.number, why.what()));
+                              claim_.partition, why.valve, last.number, why.what()));
   }
   gathered_.clear();
   places_.clear();

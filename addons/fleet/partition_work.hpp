@@ -83,7 +83,7 @@ class PartitionWork {
   PartitionStore store_;
   std::map<std::string, Place> places_;
   std::vector<Gathered> gathered_;     ///< of each valve one
-  std::set<std::string> to_publish_;      ///< valves whose coverage is to be published to their sites
+  std::set<std::string> to_publish_;   ///< valves whose coverage is to be published to their sites
   std::set<std::string> kept_models_;  ///< hashes of those that the store is known to have
   std::optional<Puller> puller_;
   SetAside set_aside_;

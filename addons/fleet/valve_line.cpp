@@ -130,8 +130,8 @@ live::ValveAtWork* ValveLine::begin_work(const Block& block, const live::SharedM
   if (model.sha256 != position_.model_sha256 || !work_) {
     if (work_)
       add_event(fmt::format("the model {} is in force from block {} on; sensor and monitor are reset", model.sha256,
-                       block.number),
-           block);
+                            block.number),
+                block);
     begin(model);
     if (model.sha256 != position_.model_sha256) rows_.models.push_back({now, model.sha256});
     position_.model_sha256 = model.sha256;

@@ -116,7 +116,7 @@ std::vector<Claim> Worker::standing() {
     if (task.ended || Clock::now() - task.moved.load() < stands_after) return;
     if (!task.stands) {
       report_(fmt::format("partition {}: has stood for {} s; it is left to whoever takes it, this thread is given up",
-                        task.claim.partition, stands_after.count()));
+                          task.claim.partition, stands_after.count()));
     }
     task.stands = true;
     out.push_back(task.claim);

@@ -44,7 +44,7 @@ class Worker {
   SharedSettings shared_;  ///< no partitions: not known yet
   Models models_;
   std::string reported_;  ///< what was reported last of a server that is away; of the keeper, once it is at work
-  int away_ = 0;      ///< times that NATS was found away, one after another
+  int away_ = 0;          ///< times that NATS was found away, one after another
   std::map<std::int64_t, std::unique_ptr<Task>> tasks_;  ///< by partition
   /// Asked to end; to be waited for by nobody who renews leases.
   std::vector<std::unique_ptr<Task>> leaving_;

@@ -80,7 +80,8 @@ TEST_F(EstimateStream, HoldsOverWhatIsNoSampleAndGoesOn) {
   estimate.close_input();
   EXPECT_EQ(estimate.wait(), 0);
   std::string messages;
-  for (std::string line = estimate.message_line(); !line.empty(); line = estimate.message_line()) messages += line + '\n';
+  for (std::string line = estimate.message_line(); !line.empty(); line = estimate.message_line())
+    messages += line + '\n';
   EXPECT_THAT(messages, HasSubstr("1 samples have no time stamp, of 1 it runs back"));
   EXPECT_THAT(messages, HasSubstr("2 lines are no samples"));
 }

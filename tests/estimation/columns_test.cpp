@@ -202,7 +202,7 @@ TEST_P(Sensors, NeverAnswerNaNAndFindTheFlowAgainAfterNonsense) {
   EXPECT_LT(judged.largest, observer() ? 0.025 : 1e-9);
 }
 
-TEST_P(Sensors, TellACoilOfTwiceItsResistanceWhereTheVoltageIsMeasured) {
+TEST_P(Sensors, ReportACoilOfTwiceItsResistanceWhereTheVoltageIsMeasured) {
   Measured run = strokes(0);
   for (double& voltage_V : run.voltage_V) voltage_V *= 2;
   RunningSensor measured = new_sensor();

@@ -43,7 +43,8 @@ TEST(StillPosition, HangsWhereANoisyChannelRepeatsItselfUnderAMovingCurrent) {
 }
 
 TEST(StillPosition, CoarseChannelIsSound) {
-  for (const double resolution_m : {1e-6, 2e-6, 5e-6, 2e-5}) EXPECT_EQ(reported_at({}, 40'000, 40'000, resolution_m), -1);
+  for (const double resolution_m : {1e-6, 2e-6, 5e-6, 2e-5})
+    EXPECT_EQ(reported_at({}, 40'000, 40'000, resolution_m), -1);
 }
 
 TEST(StillPosition, CoarseChannelThatRestsAndStartsLateIsSound) {

@@ -98,7 +98,7 @@ TEST(CInterface, RefusesTheObserverOfAModelThatIsNotCalibratedForItAndFallsBackW
   spoolflow_destroy(sensor);
 }
 
-TEST(CInterface, TellsAFileThatIsNotThereFromAModelThatIsDamaged) {
+TEST(CInterface, SeparatesAFileThatIsNotThereFromAModelThatIsDamaged) {
   spoolflow_sensor* sensor = nullptr;
   char message[256];
   EXPECT_EQ(spoolflow_create("/nowhere/valve.json", SPOOLFLOW_BEST, &sensor, message, sizeof message),

@@ -212,7 +212,7 @@ TEST(CppFolder, SelfTestFindsASingleWrongNumberOfTheTables) {
 
 /// Of every 97th number that is not zero, made a tenth larger in turn, the share that the sums over the cells find.
 template <class Tables>
-double share_told(const Tables& sound, const std::vector<float>& cells) {
+double share_found(const Tables& sound, const std::vector<float>& cells) {
   EXPECT_TRUE(cells_agree(sound, cells));
   const auto tables = std::make_unique<Tables>(sound);
   int found = 0, all = 0;
@@ -242,9 +242,9 @@ TEST(CppFolder, SelfTestFindsMostSingleWrongNumbersByWhatTheTablesAnswer) {
   const model::Model model = example_model();
   const auto tables = std::make_unique<sensor::CondensedTables<double>>();
   sensor::lay_out(model.condensed.parameters, *tables);
-  EXPECT_GT(share_told(single_precision(*tables), cells_of(*tables)), 0.8);
+  EXPECT_GT(share_found(single_precision(*tables), cells_of(*tables)), 0.8);
   const auto& observer = model.observer->parameters;
-  EXPECT_GT(share_told(single_precision(observer), cells_of(observer)), 0.9);
+  EXPECT_GT(share_found(single_precision(observer), cells_of(observer)), 0.9);
 }
 
 TEST(CppFolder, HoldsTheSensorsHeadersUnchanged) {

@@ -64,7 +64,7 @@ TEST(CoilResistance, OfAColdStartIsNoFaultThoughTheFluxOfTheFirstMillisecondsIsM
   }
 }
 
-TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsToldPoorly) {
+TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsUncertain) {
   // 200 Hz at 1 kHz: whoever follows every fifth sample only always meets the same phase.
   for (const double phase : {0.0, 0.3, 0.6, 0.9}) {
     CoilResistanceState<double> state;

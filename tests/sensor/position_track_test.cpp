@@ -77,11 +77,11 @@ TEST_P(PositionTrack, FindsWhichWayTheSpoolSlidesWithinAFewBlocks) {
     const double turn_s = 1.5e-3 / speed_m_per_s;
     const auto course = [&](double time_s) { return speed_m_per_s * (time_s < turn_s ? time_s : 2 * turn_s - time_s); };
     const double blocks = speed_m_per_s < 0.5e-3 ? 32 : 9;  // the long windows, or the short
-    const double tells_s = blocks * std::max(step_s(), block_length_s);
+    const double found_after_s = blocks * std::max(step_s(), block_length_s);
     int wrong = 0, opening = 0, closing = 0, samples = 0;
     follow(2 * turn_s, course, [&](double time_s, const PositionPoint<double>& point) {
       const double since_s = time_s < turn_s ? time_s : time_s - turn_s;
-      if (since_s < tells_s) return;
+      if (since_s < found_after_s) return;
       ++samples;
       opening += point.motion == Motion::opening ? 1 : 0;
       closing += point.motion == Motion::closing ? 1 : 0;

@@ -100,10 +100,11 @@ void Batch::report_silence(Session& session) {
   }
   if (silence_reported_) return;
   silence_reported_ = true;
-  report_(takers.other_programs.empty()
-            ? fmt::format("no worker has asked for work for {:.0f} s; start one: spoolflow worker FLEET.toml", silent_s)
-            : fmt::format("no worker of this program ({}) has asked for work for {:.0f} s; those at work are of {}",
-                          program_, silent_s, takers.other_programs));
+  report_(
+      takers.other_programs.empty()
+          ? fmt::format("no worker has asked for work for {:.0f} s; start one: spoolflow worker FLEET.toml", silent_s)
+          : fmt::format("no worker of this program ({}) has asked for work for {:.0f} s; those at work are of {}",
+                        program_, silent_s, takers.other_programs));
 }
 
 std::string Batch::content(const PieceFile& file) {

@@ -20,8 +20,8 @@ namespace spoolflow::fleet {
 
 class Batch {
  public:
-  /// Throws ServerAway, ServerRefuses; later a server that is away is waited for. `report` is called with what is worth a
-  /// line.
+  /// Throws ServerAway, ServerRefuses; later a server that is away is waited for. `report` is called with what is worth
+  /// a line.
   Batch(std::string connection, std::string program, std::function<void(const std::string&)> report);
 
   /// Kept by the fleet from now on.

@@ -51,7 +51,7 @@ void JobWorker::work(const std::stop_token& stop, bool cleans_up) {
         remove_old_jobs(*session, parts_.settings.keep_hours);
         cleaned = Clock::now();
       }
-      tell_at_work(*session, parts_.owner, parts_.program);
+      report_at_work(*session, parts_.owner, parts_.program);
       if (!take_one(session, stop)) parallel::wait_for(asks_every, stop);
       reported.clear();
     } catch (const ServerAway&) {  // the worker reports it as a whole
@@ -91,7 +91,7 @@ bool JobWorker::take_one(std::unique_ptr<Session>& session, const std::stop_toke
     return_job(*session, job->key, parts_.owner, !stop.stop_requested());
     if (!stop.stop_requested())
       report_(fmt::format("the piece {:.8} ended without a result ({} {})", job->key,
-                        ended < 0 ? "signal" : "exit status", std::abs(ended)));
+                          ended < 0 ? "signal" : "exit status", std::abs(ended)));
   }
   return true;
 }
@@ -101,7 +101,7 @@ bool JobWorker::goes_on(std::unique_ptr<Session>& session, const std::string& ke
   if (stop.stop_requested()) return false;
   try {
     if (!session) session = std::make_unique<Session>(parts_.connection, parts_.owner);
-    tell_at_work(*session, parts_.owner, parts_.program);
+    report_at_work(*session, parts_.owner, parts_.program);
     return renew_job(*session, key, parts_.owner, parts_.lease_s);
   } catch (const ServerAway&) {
     session.reset();

@@ -66,7 +66,8 @@ Json inspect(const Json& asked, const Outlet& outlet) {
   recording::ReadOptions options;
   options.channels = channels_of(asked);
   const recording::Inspection found = recording::inspect(
-      file, options, [&](std::optional<double> share, std::uint64_t) { outlet.progress(share.value_or(0), "inspecting"); });
+      file, options,
+      [&](std::optional<double> share, std::uint64_t) { outlet.progress(share.value_or(0), "inspecting"); });
   const apps::InspectedFile inspected{
       .file = file, .map_file = asked.value("channels", ""), .map = options.channels, .found = found};
   return {{"text", apps::inspection_text(inspected)}, {"inspection", Json::parse(apps::inspection_json(found))}};
@@ -137,8 +138,9 @@ Json validate(const Json& asked, const Outlet& outlet) {
   const auto recordings = asked.at("recordings").get<std::vector<std::string>>();
   const validation::ValidationOptions options{.estimators = estimation::all_estimators(model),
                                               .channels = channels_of(asked)};
-  const validation::Validation validation = validation::validate(
-      model, {recordings.begin(), recordings.end()}, options, [&](double share) { outlet.progress(share, "validating"); });
+  const validation::Validation validation =
+      validation::validate(model, {recordings.begin(), recordings.end()}, options,
+                           [&](double share) { outlet.progress(share, "validating"); });
   const auto page = opened(outlet, asked.at("report"));
   report::write_validation_report(*page, model, validation);
   const auto metrics = opened(outlet, asked.at("metrics"));

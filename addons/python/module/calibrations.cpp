@@ -90,9 +90,9 @@ py::tuple calibrate_unit(const Path& file, bool allow_outside, const Path& type_
            const model::Model type = model::read_model(type_file);
            const recording::Campaign campaign =
                recording::read_unit_campaign(file, calibration::valve_of_type(type), outside(allow_outside));
-           const calibration::UnitCalibration unit =
-               calibration::calibrate_unit(type, type_file.string(), campaign, SPOOLFLOW_VERSION,
-                                           [&](const std::string& step, double share) { check(progress, step, share); });
+           const calibration::UnitCalibration unit = calibration::calibrate_unit(
+               type, type_file.string(), campaign, SPOOLFLOW_VERSION,
+               [&](const std::string& step, double share) { check(progress, step, share); });
            Made out{kept(unit.model)};
            for (const calibration::UnitParameter& each : unit.parameters) {
              if (!each.marginal) continue;

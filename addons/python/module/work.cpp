@@ -73,7 +73,8 @@ py::tuple validate(const SharedModel& kept, const std::vector<Path>& recordings,
 
 py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& recordings,
                              const std::optional<Path>& channels, const std::string& baseline,
-                             double false_alarms_per_year, bool adapt, const PageUnits& units, const py::object& progress) {
+                             double false_alarms_per_year, bool adapt, const PageUnits& units,
+                             const py::object& progress) {
   return at_work([&](SignalCheck& check) {
            const model::Model& model = kept->model;
            const recording::ChannelMap map = channel_map(channels);
