@@ -17,7 +17,7 @@ folder = pathlib.Path(folder)
 folder.mkdir(parents=True, exist_ok=True)
 POSITIONS = [40, 60, 80]  # percent of the stroke
 HOLD_S, TOLD_S = 1.5, 0.5
-MOVES_UM = 3  # more is no elastic tremble
+MOVES_UM = 3  # more is no elastic motion
 
 
 def columns(file):

@@ -1,5 +1,5 @@
 /// How small a fault may be that the monitor still finds: valves of the virtual rig with one fault each, judged by
-/// their healthy sister's model, one hundred strokes a case, without a baseline.
+/// the model of the healthy valve, one hundred strokes a case, without a baseline.
 ///
 ///     monitor_limits VALVE=MODEL.json [VALVE=MODEL.json ...] [KEY=NUMBER ...]
 ///

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `spoolflow monitor` reports of valves of the virtual rig with one fault each, judged with their healthy sister's model.
+"""What `spoolflow monitor` reports of valves of the virtual rig with one fault each, judged with the model of the healthy valve.
 
     python3 bench/monitor_on_rig.py build/release/bin/spoolflow OUT [VALVE ...]
 

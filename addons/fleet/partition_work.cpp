@@ -17,7 +17,7 @@ using std::chrono::seconds;
 /// Blocks of one fetch; of one transaction at most; of one valve that came before their turn.
 constexpr int fetched_blocks = 64;
 constexpr std::size_t committed_blocks = 512, early_blocks = 256;
-/// Whoever may send for one valve may send for many: what waits of all of them, and how many there are of a partition.
+/// A sender of one valve may be one of many: what waits of all of them, and how many there are of a partition.
 constexpr std::size_t most_early_bytes = std::size_t{1} << 26U, most_valves = 16384;
 constexpr milliseconds patience{100}, retry{300};
 /// A site sends again by itself what is not covered in time; asking is quicker where a single block is missing.
@@ -50,7 +50,7 @@ void PartitionWork::restore() {
 
 /// From what is kept, after the store has refused what a valve gave: which of its blocks it is for is found out by
 /// committing them one by one, and nothing is made of that one then.
-void PartitionWork::begin_anew(const ValveRefused& why) {
+void PartitionWork::restart(const ValveRefused& why) {
   const auto found = places_.find(why.valve);
   if (found == places_.end() || found->second.uncommitted == 0) throw ServerRefuses(why.what());
   const BlockPlace last = found->second.line.last();
@@ -264,7 +264,7 @@ void PartitionWork::commit() {
       const auto first_seen = store_.commit(rows, seen, set_aside_.waiting(), stream_);
       for (const std::string& line : set_aside_.committed(claim_.partition, first_seen)) parts_.report(line);
     } catch (const ValveRefused& error) {
-      return begin_anew(error);
+      return restart(error);
     }
   }
   for (auto& [valve, at] : places_) {

@@ -61,7 +61,7 @@ class PartitionWork {
   };
   Place& place(const std::string& valve);
   void restore();
-  void begin_anew(const ValveRefused& why);
+  void restart(const ValveRefused& why);
   [[nodiscard]] std::optional<Block> whole_block(const Message& message);
   void open_stream();
   bool fetch();

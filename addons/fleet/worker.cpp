@@ -108,15 +108,16 @@ void Worker::report_nats_away() {
     report_("NATS: no server can be reached, or none lets this user in; it is tried again and again");
 }
 
-/// Partitions whose thread hangs in something that has no end: their leases run out, and whoever takes them raises the
-/// epoch, so that the thread can keep nothing should it come back.
+/// Partitions whose thread hangs in something that has no end: their leases run out, and the worker that takes them
+/// raises the epoch, so that the thread can keep nothing should it come back.
 std::vector<Claim> Worker::standing() {
   std::vector<Claim> out;
   const auto look = [&](Task& task) {
     if (task.ended || Clock::now() - task.moved.load() < stands_after) return;
     if (!task.stands) {
-      report_(fmt::format("partition {}: has stood for {} s; it is left to whoever takes it, this thread is given up",
-                          task.claim.partition, stands_after.count()));
+      report_(fmt::format(
+          "partition {}: has stood for {} s; it is left to any worker that takes it, this thread is given up",
+          task.claim.partition, stands_after.count()));
     }
     task.stands = true;
     out.push_back(task.claim);

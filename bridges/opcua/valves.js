@@ -91,7 +91,7 @@ export class Valves {
       flow: flow("Flow", "Estimated flow rate, > 0 from P to B"),
       lower: flow("FlowLower", "Lower end of the 95 % band of the flow rate"),
       upper: flow("FlowUpper", "Upper end of the 95 % band of the flow rate"),
-      pressure: this.#analog(machine, "PressureDifference", "Pressure difference over the open edge, as believed", BAR,
+      pressure: this.#analog(machine, "PressureDifference", "Pressure difference over the open edge, estimated", BAR,
         { low: 0, high: 400 }),
       health: this.#variable(machine, "DeviceHealth", "NAMUR NE 107", this.health.nodeId),
       status: this.#variable(machine, "Status", "Status bits that are set, by name", "String"),

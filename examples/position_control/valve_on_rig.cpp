@@ -201,8 +201,8 @@ void expect(const Phase& phase, const Figures& figures) {
   demand(figures.largest_flow < most_flow_L_per_min + most_overshoot_L_per_min, "more flows than the machine can bear");
   if (phase.trust > 1) return;
   // The sensor has not seen the valve for a while, and when the spool slips next is a matter of chance.
-  const double begun_anew = phase.trust == 0 ? 1 : 4;
-  demand(figures.largest_error < begun_anew * most_error_L_per_min,
+  const double restart_factor = phase.trust == 0 ? 1 : 4;
+  demand(figures.largest_error < restart_factor * most_error_L_per_min,
          "the answer is further from the truth than it should be");
   demand(percent(figures, figures.inside) > least_inside_percent, "the truth is outside the band");
 }

@@ -1,6 +1,6 @@
 /// The sensor's step over any samples: double and single precision, observer, condensed sensor and whole valve. Each
-/// byte group is a sample: which of its numbers are odd, and how. Whatever comes, an answer is finite, its band holds
-/// it, and where an input was no number a fault says so.
+/// byte group is a sample: which of its numbers are extreme, and how. Whatever comes, an answer is finite, its band
+/// holds it, and where an input was no number a fault reports it.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -193,7 +193,7 @@ void leap(T step_s) {
   }
 }
 
-TEST(Observer, BeginsAnewAndSaysSoWhereTimeLeaps) {
+TEST(Observer, IsResetAndReportsItWhereTimeLeaps) {
   // 4 294 967 s: a counter of milliseconds in 32 bits that ran back by a tick.
   for (const double step_s : {1.5, 100.0, 2e6, 4294967.296, 1e9}) {
     leap<float>(static_cast<float>(step_s));

@@ -272,7 +272,7 @@ test('narrow and dark, nothing goes beyond the page', async () => {
   }
 });
 
-// At a program of its own: that of the others may have been started anew since the end, and then knows no figures.
+// At a program of its own: that of the others may have been restarted since the end, and then knows no figures.
 test('a recording that has ended leaves old figures, and its card says so', async () => {
   writeFileSync(join(folder, 'ended.toml'), '[page]\nlisten = "127.0.0.1:0"\n[[valve]]\nid = "clamp"\nmodel = "model.json"\n' +
     'source = { kind = "replay", recording = "short.csv" }\n');

@@ -120,7 +120,7 @@ test('differences of temperatures have no offset', () => {
   assert.equal(differenceText({ ...series, shape: 'band' } as Series, 0, 2, table.temperature[0]), '');
 });
 
-test('the first click puts cursor A, the second B, the third begins anew, half of a double click nothing', () => {
+test('the first click puts cursor A, the second B, the third begins again, half of a double click nothing', () => {
   const view = new View(0, 10, 1);
   view.clickAt(2);
   view.clickAt(5);

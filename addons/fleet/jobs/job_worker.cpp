@@ -96,7 +96,7 @@ bool JobWorker::take_one(std::unique_ptr<Session>& session, const std::stop_toke
   return true;
 }
 
-/// What is done while the database is away is not lost: whoever has the piece then, its result is the same.
+/// What is done while the database is away is not lost: any worker that has the piece then makes the same result.
 bool JobWorker::goes_on(std::unique_ptr<Session>& session, const std::string& key, const std::stop_token& stop) {
   if (stop.stop_requested()) return false;
   try {

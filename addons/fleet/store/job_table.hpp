@@ -51,7 +51,7 @@ struct TakenJob {
                                                double lease_s);
 /// False where it is not this worker's any more.
 [[nodiscard]] bool renew_job(Session& session, const std::string& key, const std::string& owner, double lease_s);
-/// Whoever has done it: the result follows from the key. One that is done stays as it is.
+/// By any worker: the result follows from the key. One that is done stays as it is.
 void finish_job(Session& session, const FinishedJob& job, const std::vector<std::string>& contents);
 /// It is for others to take. `ended`: its process has ended without a result; such a beginning counts.
 void return_job(Session& session, const std::string& key, const std::string& owner, bool ended);

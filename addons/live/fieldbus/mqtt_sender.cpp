@@ -207,11 +207,11 @@ struct MqttSender::Parts {
     std::vector<SparkplugMetric> node{bd_metric(birth_ms), {"Node Control/Rebirth", birth_ms, false}};
     if (!publish_next("NBIRTH", "", birth_ms, std::move(node))) return false;
     for (std::size_t k = 0; k < published.size(); ++k) {
-      if (!bear(k, birth_ms, answer_of(engine, k))) return false;
+      if (!publish_birth(k, birth_ms, answer_of(engine, k))) return false;
     }
     return true;
   }
-  bool bear(std::size_t k, std::int64_t time_ms, const PlantAnswer& answer) {
+  bool publish_birth(std::size_t k, std::int64_t time_ms, const PlantAnswer& answer) {
     published[k] = fieldbus::valve_metrics(answer, time_ms);
     return publish_next("DBIRTH", answer.id, time_ms, published[k]);
   }
@@ -227,7 +227,7 @@ struct MqttSender::Parts {
         if (!publish_next("DDEATH", answer.id, record.time_ms, {})) return false;
         continue;
       } else if (!is_historical) {
-        if (!bear(k, record.time_ms, answer)) return false;
+        if (!publish_birth(k, record.time_ms, answer)) return false;
         continue;
       }
       std::vector<SparkplugMetric> now = fieldbus::valve_metrics(answer, record.time_ms);

@@ -1,5 +1,5 @@
 #pragma once
-/// The bounded queue between the source of one valve and whoever works on it. A source never waits for a slow consumer
+/// The bounded queue between the source of one valve and its consumer. A source never waits for a slow consumer
 /// (but one that can, such as a replay as fast as may be): what finds no room is dropped and counted.
 #include <atomic>
 #include <condition_variable>

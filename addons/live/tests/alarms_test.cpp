@@ -103,7 +103,7 @@ TEST_F(AlarmList, AcknowledgedByTheFirstWhoDoes) {
   EXPECT_EQ(alarms.acknowledge(1, "bert", now_ms + 5)->acknowledged_by, "anna");
 }
 
-TEST_F(AlarmList, WhatBecomesWorseIsToBeSeenAnew) {
+TEST_F(AlarmList, WhatBecomesWorseIsToBeSeenAgain) {
   ValveView valve = worn();
   valve.causes = {{Fault::coil, 50}};
   look(valve, 3);

@@ -123,7 +123,7 @@ TEST_F(DatagramOrderTest, CountsWhatWasLostAndLeavesOutWhatCameBefore) {
   EXPECT_EQ(intake.counters().connections, 1U);
 }
 
-TEST_F(DatagramOrderTest, ANewSessionBeginsAnew) {
+TEST_F(DatagramOrderTest, ANewSessionStartsAgain) {
   (void)take(100, 10);
   const SampleBlock first = take(0, 10, 8);
   EXPECT_EQ(first.samples.size(), 10U);

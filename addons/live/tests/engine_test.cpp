@@ -87,7 +87,7 @@ TEST_F(EngineTest, AValveThatIsTakenUpAgainAnswersAsIfItHadNeverStopped) {
   EXPECT_GT(expected.state.energy_J, 0);
 }
 
-TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedBeginsAnewAndCountsOn) {
+TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedStartsAgainAndCountsOn) {
   ValveAtWork before("v", model, "test");
   ValveCommit kept = before.take_commit(false);
   kept.state.samples = 7;
@@ -101,7 +101,7 @@ TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedBeginsAnewAndCountsOn) {
   }
 }
 
-TEST_F(EngineTest, AnotherModelBeginsAnewAndCountsOn) {
+TEST_F(EngineTest, AnotherModelStartsAgainAndCountsOn) {
   write("run.csv", engine_header + rows(0, 100));
   SiteSettings kept = site({{"r", ReplaySettings{path("run.csv"), 0}}});
   kept.store = path("kept.sqlite");

@@ -69,7 +69,7 @@ class StoreMending : public InFolder {
   std::vector<Event> known_;
 };
 
-TEST_F(StoreMending, ADeletedFileIsWrittenAnewWithAllThatItHeld) {
+TEST_F(StoreMending, ADeletedFileIsWrittenAgainWithAllThatItHeld) {
   fs::remove(path("s.sqlite"));
   mend("was deleted");
   keep(5000);

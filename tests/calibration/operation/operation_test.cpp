@@ -155,8 +155,8 @@ TEST(Operation, ScoreOfARunWhoseReferenceEndsIsThatOfTheRunCutThere) {
   EXPECT_DOUBLE_EQ(score, operation_score(parameters, only(cut), valve.full_scale_m3_per_s()));
 }
 
-/// The observer of that valve with a spring that is wrong by so many standard deviations of what it believes its forces
-/// to be right to.
+/// The observer of that valve with a spring that is wrong by so many standard deviations of what the model states of
+/// its forces to be right to.
 sensor::ObserverParameters<double> with_wrong_spring(const sensor::ClosedFormValve& valve,
                                                      const recording::Recording& run, double deviations) {
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
@@ -176,7 +176,7 @@ TEST(ForceErrorRatio, IsThatOfTheForcesErrorToWhatTheyAreBelievedToBeRightTo) {
   // Without an error what is left is noise that the filter averages out, and drags of the sensor that noise fakes.
   EXPECT_LT(force_error_ratio(with_wrong_spring(valve, run, 0), only(run)), 0.6);
   for (const double deviations : {-4, -2, -1, 1, 2, 4}) {
-    // 6 to 8 % too small: the residual of the flow's map counts as well, and the believed noise rises with friction.
+    // 6 to 8 % too small: the residual of the flow's map counts as well, and the stated noise rises with friction.
     EXPECT_NEAR(force_error_ratio(with_wrong_spring(valve, run, deviations), only(run)), std::abs(deviations),
                 0.3 * std::abs(deviations));
   }

@@ -21,7 +21,7 @@ TEST(ThriftCompact, WritesFieldsByTheirStepAndNumbersZigzag) {
   out.long_number(4, 300);                            // step 3, type 6; zigzag 600 in two bytes
   out.text(5, "ab");                                  // step 1, type 8; length, letters
   out.begin_structure(8);                             // step 3, type 12
-  out.number(2, 3);                                   // counted anew inside
+  out.number(2, 3);                                   // counted again inside
   out.end();                                          // 0
   out.begin_list(9, 2, ThriftCompact::Kind::number);  // step 1, type 9; two of type 5
   out.bare_number(0);

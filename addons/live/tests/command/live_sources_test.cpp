@@ -84,7 +84,7 @@ TEST_F(LiveSource, ThatSkipsGoesOnBehindTheGap) {
   const LoopbackSender sender(source);
   sender.send(std::string(live_header) + live_rows(300) + live_rows(1, 5000));
   const Json valve = with_samples(301);
-  EXPECT_TRUE(says(valve, "time_fault"));  // nobody knows what was in so many seconds: it begins anew
+  EXPECT_TRUE(says(valve, "time_fault"));  // nobody knows what was in so many seconds: it is reset
   EXPECT_NEAR(valve["time_s"].get<double>(), 5.0, 1e-9);
   sender.send(live_rows(300, 5001));
   EXPECT_FALSE(says(with_samples(601), "time_fault"));

@@ -105,7 +105,7 @@ TEST(CanopenDevice, HasAnErrorInItsRegisterWhereItsStateIsAFault) {
   }
 }
 
-/// SPOOLFLOW_WRITE_EDS=1 writes it anew.
+/// SPOOLFLOW_WRITE_EDS=1 writes it again.
 TEST(CanopenDevice, HasTheElectronicDataSheetOfTheDocuments) {
   if (std::getenv("SPOOLFLOW_WRITE_EDS") != nullptr) std::ofstream(SPOOLFLOW_EDS) << eds_text();
   std::ostringstream kept;
