@@ -102,8 +102,7 @@ endfunction()
 
 # spoolflow_tests(FOLDER [COMPUTES] [APART] [LINKS target…]): *_test.cpp of tests/FOLDER and its parts become one program, which
 # ctest runs once: what several tests need (a campaign of the rig, a model) is made once. APART: each test is one of ctest's, in
-# a process of its own. COMPUTES: the tests themselves compute with the
-# headers of the sensor, and are optimised; others are not.
+# a process of its own. COMPUTES: the tests themselves compute with the headers of the sensor, and are optimised; others are not.
 function(spoolflow_tests folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES;APART" "" "LINKS")
   spoolflow_link_names(arg_LINKS)

@@ -35,14 +35,14 @@ TEST(SeriesSpread, MedianAndDeviationAreNotMovedByOneWildValve) {
   EXPECT_FALSE(is_outlier(after, {unknown, 0.1}));
 }
 
-TEST(SeriesSpread, NobodyIsNamedForWhatIsNotKnownSoWell) {
+TEST(SeriesSpread, NoneIsNamedWhereItsValueIsUncertain) {
   const SeriesSpread rough = spread_of(series(19.6));
-  EXPECT_DOUBLE_EQ(rough.scale, 10);  // series differ by no more than their uncertainty
+  EXPECT_DOUBLE_EQ(rough.scale, 10);  // valves differ by no more than their uncertainty
   EXPECT_FALSE(is_outlier(rough, {16, 19.6}));
   EXPECT_FALSE(is_outlier(spread_of(series(0.1)), {16, 12}));
 }
 
-TEST(SeriesSpread, EqualSistersAndFewOnesNameNobody) {
+TEST(SeriesSpread, EqualValvesAndFewOnesNameNone) {
   const SeriesSpread equal = spread_of(std::vector<ValveFigure>(9, {3, 0}));
   EXPECT_EQ(equal.scale, 0);
   EXPECT_EQ(score(equal, {4, 0}), 0);
