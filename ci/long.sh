@@ -1,7 +1,7 @@
 #!/bin/sh
 # ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, RISC-V, `live` killed at fifty
 # instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, 500 valves
-# at 1 kHz for as long, and the page of 200. Prints figures; the exit status tells of clang-tidy, kills, fleets, fuzzing and the page.
+# at 1 kHz for as long, and the page of 200. Prints figures; the exit status covers clang-tidy, kills, fleets, fuzzing and the page.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
@@ -22,7 +22,7 @@ for kind in single cluster; do
   /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/fleet_reference examples $kind \
     $(seq 1 20) || status=1
   /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/fleet_reference examples $kind 1 \
-    --tell --large || status=1
+    --show --large || status=1
 done
 echo "== 500 valves"
 build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 500 "$seconds"

@@ -74,7 +74,7 @@ class Report:
 
 
 def read_block(block):
-    """Of version 1 with a column for each channel, of version 2 with what Report.read() tells."""
+    """Of version 1 with a column for each channel, of version 2 with what Report.read() returns."""
     mark, version, length, channels = struct.unpack_from("<4sBBH", block)
     assert mark == b"SFBL" and version in (1, 2)
     assert zlib.crc32(block[:-4]) == struct.unpack("<I", block[-4:])[0]

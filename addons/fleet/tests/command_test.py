@@ -49,7 +49,7 @@ class Commands(unittest.TestCase):
         self.assertIn("no NATS servers", self.said(2, "live", "s.toml", "--publish", "ftp://a", s=valve))
         self.assertIn("sevrers", self.said(2, "live", "s.toml", s=valve + '[fleet]\nsite = "h"\nsevrers = "a"\n'))
 
-    def test_a_worker_waits_for_its_servers_and_ends_when_it_is_told(self):
+    def test_a_worker_waits_for_its_servers_and_ends_on_a_signal(self):
         with open(os.path.join(self.folder, "f.toml"), "w", encoding="utf-8") as file:
             file.write(NATS + AWAY)
         for number in (signal.SIGINT, signal.SIGTERM):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""faults_test.py COMMAND REFERENCE EXAMPLES single|cluster [SEED…] [--tell] [--large]: a fleet whose parts are killed, stopped and cut off one
+"""faults_test.py COMMAND REFERENCE EXAMPLES single|cluster [SEED…] [--show] [--large]: a fleet whose parts are killed, stopped and cut off one
 after another while blocks are on their way; what it has kept must be, bit for bit, what one process without servers
-reckons from the same blocks. `single`: one NATS server and one PostgreSQL server. `cluster`: three NATS servers with
+computes from the same blocks. `single`: one NATS server and one PostgreSQL server. `cluster`: three NATS servers with
 three replicas, a primary and a synchronous standby that takes over. Without a seed there are two, 1 and 2. --large: 200 valves and
 ten minutes of samples, or VALVES,SECONDS as --large=50,100, in blocks of a second; of disk 20 bytes a sample are used."""
 import json
@@ -15,14 +15,14 @@ import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
-from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline,  # noqa: E402
+from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, computed, record_offline,  # noqa: E402
                    reports_of_the_fleet, reports_of_the_site, site, write_reporting_site, write_site)
 from servers import make_certificates, refused_by_nats, until  # noqa: E402
 from whole_fleet import Fleet, WithAFleet  # noqa: E402
 
 COMMAND, REFERENCE, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:4])
 KIND, SEEDS = sys.argv[4], [int(seed) for seed in sys.argv[5:] if not seed.startswith("--")] or [1, 2]
-TELLS = "--tell" in sys.argv
+SHOWS = "--show" in sys.argv
 LARGE = [option.partition("=")[2] or "200,600" for option in sys.argv if option.startswith("--large")]
 VALVES, SECONDS = map(int, LARGE[0].split(",")) if LARGE else (6, 70)
 BLOCK_S = 1.0 if LARGE else 0.1
@@ -36,8 +36,8 @@ class Faults(WithAFleet):
         self.done = False
 
     def tearDown(self):
-        if self.fleet and TELLS and not self.done:
-            self.fleet.tell_logs()
+        if self.fleet and SHOWS and not self.done:
+            self.fleet.show_logs()
         super().tearDown()
 
     def look_at_blocks(self, newest):
@@ -55,7 +55,7 @@ class Faults(WithAFleet):
                 self.assertLess(abs(currents[k] - float(row["current_A"])), 8e-6)
 
     def look_at_rights(self, port):
-        """A site speaks for itself alone, hears what is told to it alone, and nobody comes in without a name."""
+        """A site publishes only its own blocks, receives only what is sent to it, and nobody comes in without a name."""
         for user, line, refused in (("hall", "PUB spoolflow.block.3.hall 0\r\n", False),
                                     ("hall", "PUB spoolflow.block.3.other 0\r\n", True),
                                     ("hall", "PUB spoolflow.coverage.hall 0\r\n", True),
@@ -164,10 +164,10 @@ class Faults(WithAFleet):
     def once(self, chance):
         begin = time.monotonic()
 
-        def tell(text):
-            if TELLS:
+        def show(text):
+            if SHOWS:
                 print(f"{time.monotonic() - begin:5.1f} s  {text}", flush=True)
-        tell(f"two recordings are made, and {VALVES} valves of a site work through them while no server is there")
+        show(f"two recordings are made, and {VALVES} valves of a site work through them while no server is there")
         make_recordings(COMMAND, self.folder, SECONDS)
         if KIND == "single":
             make_certificates(self.folder)
@@ -176,11 +176,11 @@ class Faults(WithAFleet):
         waiting, newest, totals = outbox(self.folder)
         self.assertEqual(waiting, sum(newest.values()))
         self.look_at_blocks(newest["v0"])
-        expected = reckoned(COMMAND, REFERENCE, self.folder, MODEL)
+        expected = computed(COMMAND, REFERENCE, self.folder, MODEL)
         for kind in ("second", "indicator", "event", "alarm", "model_in_force"):  # there is something of each to lose
             self.assertTrue(any(line.startswith(kind + "|") for line in expected), kind)
 
-        tell(f"{waiting} blocks wait in the site's store; servers and two workers start")
+        show(f"{waiting} blocks wait in the site's store; servers and two workers start")
         fleet = self.fleet = Fleet(COMMAND, self.folder, KIND)
         self.assertIn('publish: ["spoolflow.block.*.hall"', fleet.setup().stdout)
         if fleet.rights:
@@ -193,26 +193,26 @@ class Faults(WithAFleet):
                   fleet.cut_the_site_off, fleet.kill_postgres, fleet.start_another_worker, fleet.complain_to_the_site]
         chance.shuffle(faults)
         with site(COMMAND, self.folder, fleet.servers()) as live:
-            tell(f"the site sends; its page is at http://127.0.0.1:{live.port}/")
+            show(f"the site sends; its page is at http://127.0.0.1:{live.port}/")
             watch = Watch(fleet)
             for k, fault in enumerate(faults):
                 reach(fleet, waiting * (k + chance.random()) / (len(faults) + 2), 90 * PATIENCE)
                 if k > 0:
-                    tell(f"  since then {watch.lap()}")
-                tell(fault.__name__.replace("_", " "))
+                    show(f"  since then {watch.lap()}")
+                show(fault.__name__.replace("_", " "))
                 watch.begin_fault()
                 fault(chance)
             reach(fleet, waiting, 90 * PATIENCE)
-            tell(f"  since then {watch.lap()}")
-            tell(f"in all {watch.end()}")
+            show(f"  since then {watch.lap()}")
+            show(f"in all {watch.end()}")
             until(lambda: outbox(self.folder)[0] == 0, 30 * PATIENCE, "a site that has heard of all")
-        def told():
+        def status():
             return subprocess.run([COMMAND, "fleet", "--status", "fleet.toml"], cwd=self.folder, text=True,
                                   capture_output=True)
-        until(lambda: "(nobody)" not in told().stdout, 20, "partitions that have owners")
-        asked = told()
+        until(lambda: "(nobody)" not in status().stdout, 20, "partitions that have owners")
+        asked = status()
         self.assertEqual((asked.returncode, asked.stderr), (0, ""))
-        tell("all is committed:\n" + asked.stdout)
+        show("all is committed:\n" + asked.stdout)
         for worker in fleet.workers:
             worker.end()
 
@@ -225,7 +225,7 @@ class Faults(WithAFleet):
             self.acknowledge_on_the_page(fleet)
             self.send_reports(fleet, chance)
         self.done = True
-        tell(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
+        show(f"nothing was lost and nothing taken twice: {len(expected)} rows are those of one process, bit for bit")
 
 
 if __name__ == "__main__":

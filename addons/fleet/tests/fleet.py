@@ -103,7 +103,7 @@ def write_reporting_site(folder, model):
 
 
 def reports_of_the_site(folder):
-    """What its own store has, as reports_of_the_fleet() tells it."""
+    """What its own store has, in the form of reports_of_the_fleet()."""
     def bits(value):
         return "" if value is None else "\\x" + struct.pack(">d", value).hex()
     store = sqlite3.connect(f"file:{folder}/site.sqlite?mode=ro", uri=True, timeout=10)
@@ -233,12 +233,12 @@ class Watch:
                 self.moved[valve] = (block, since)
 
     @staticmethod
-    def told(stood):
+    def text_of(stood):
         return f"no valve stood longer than {stood[0]:.1f} s, {stood[1]:.1f} s behind the last fault"
 
     def lap(self):
         """The longest of what ended since a fault began."""
-        return self.told(self.lapped)
+        return self.text_of(self.lapped)
 
     def begin_fault(self):
         self.lapped, self.fault = (0.0, 0.0), time.monotonic()
@@ -246,10 +246,10 @@ class Watch:
     def end(self):
         self.ended = True
         self.thread.join()
-        return self.told(self.all)
+        return self.text_of(self.all)
 
 
-def reckoned(command, reference, folder, model):
+def computed(command, reference, folder, model):
     """What one process makes of the blocks that wait in the site's store."""
     version = subprocess.run([command, "--version"], text=True, capture_output=True, check=True).stdout.strip()
     done = subprocess.run([reference, version, "site.sqlite", model, "0", "0.05"], cwd=folder, text=True,

@@ -169,7 +169,7 @@ class Jobs(unittest.TestCase):
                 open(os.path.join(self.folder, "far", "e1.csv"), "rb") as line:
             self.assertNotEqual(machine.read(), line.read())
 
-    def test_a_bad_recording_is_told_as_here(self):
+    def test_a_bad_recording_gives_the_message_of_the_command_alone(self):
         self.folders()
         with open(os.path.join(self.folder, "runs", "monday.csv"), encoding="utf-8") as file:
             lines = file.readlines()[:2000]
@@ -244,7 +244,7 @@ class Jobs(unittest.TestCase):
         self.assertEqual(self.states().get("given_up"), 1)
 
     def test_rights_and_limits(self):
-        """Who asks tells no result, and nothing else of the fleet; a worker changes no table."""
+        """A login that asks for work writes no result and reads nothing else of the fleet; a worker changes no table."""
         def refused(role, sql):
             with self.assertRaisesRegex(RuntimeError, "permission denied|must be owner"):
                 self.postgres.ask(f"SET ROLE {role}; {sql}")

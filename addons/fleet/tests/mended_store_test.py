@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """mended_store_test.py COMMAND EXAMPLES: a site whose store is deleted, and then cut off, while it sends. Of the deleted one nothing is lost; of the
-one that was cut off the fleet is told which blocks are, and everything else is there once."""
+one that was cut off the fleet reports which blocks are lost, and everything else is there once."""
 import json
 import os
 import re
@@ -23,10 +23,10 @@ class MendedStore(WithAFleet):
             "SELECT id, block FROM coverage JOIN valve ON valve = number"))
 
     def mended(self, live, words):
-        def told():
+        def is_mended():
             mending = json.loads(live.ask("/api/v1/site")[2])["store_mended"]
             return mending is not None and words in mending["text"]
-        until(told, 30, f"a store that {words}")
+        until(is_mended, 30, f"a store that {words}")
 
     def test_a_site_sends_on_from_a_store_that_was_mended(self):
         make_recordings(COMMAND, self.folder, SECONDS)
@@ -43,7 +43,7 @@ class MendedStore(WithAFleet):
             self.assertEqual(self.fleet.postgres.ask("SELECT count(*) FROM event WHERE text LIKE '%are lost%'"), ["0"])
             before = self.committed()
             until(lambda: all(int(self.committed()[valve]) > int(before[valve]) + 50 for valve in before), 60,
-                  "blocks of a store that is written anew")
+                  "blocks of a store that is written again")
             for gate in fleet.gates:
                 gate.close()
             cut_off = outbox(self.folder)[1]
@@ -67,10 +67,10 @@ class MendedStore(WithAFleet):
                     f"SELECT block FROM second JOIN valve ON valve = number WHERE id = 'hall/{valve}' ORDER BY block")]
                 events = self.fleet.postgres.ask(
                     f"SELECT text FROM event WHERE valve = 'hall/{valve}' AND text LIKE 'blocks%lost%' ORDER BY id")
-                told = [tuple(map(int, re.match("blocks ([0-9]+) to ([0-9]+) are lost", text).groups())) for text in events]
-                self.assertGreater(sum(last - first + 1 for first, last in told), 10)
-                lost = {n for first, last in told for n in range(first, last + 1)}
-                self.assertEqual(sorted([*numbers, *lost]), list(range(1, number + 1)))  # each once, or told
+                reported = [tuple(map(int, re.match("blocks ([0-9]+) to ([0-9]+) are lost", text).groups())) for text in events]
+                self.assertGreater(sum(last - first + 1 for first, last in reported), 10)
+                lost = {n for first, last in reported for n in range(first, last + 1)}
+                self.assertEqual(sorted([*numbers, *lost]), list(range(1, number + 1)))  # each once, or reported as lost
 
 
 if __name__ == "__main__":

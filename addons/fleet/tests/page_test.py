@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""page_test.py COMMAND: what the interface of `spoolflow fleet` tells of a thousand valves, who may acknowledge, and what
+"""page_test.py COMMAND: what the interface of `spoolflow fleet` answers about a thousand valves, who may acknowledge, and what
 happens when the database goes away."""
 import json
 import os
@@ -45,31 +45,31 @@ class Page(unittest.TestCase):
             with error:
                 return error.code, error.read().decode()
 
-    def told(self, path):
+    def answer_of(self, path):
         status, body = self.ask(path)
         self.assertEqual(status, 200, body)
         return json.loads(body)
 
     def test_overview_and_search(self):
         begin = time.monotonic()
-        valves = self.told("/api/v1/valves")["valves"]
+        valves = self.answer_of("/api/v1/valves")["valves"]
         print(f"{len(valves)} valves in {time.monotonic() - begin:.2f} s")
         self.assertEqual(len(valves), VALVES)
-        sites = self.told("/api/v1/sites")["sites"]
+        sites = self.answer_of("/api/v1/sites")["sites"]
         self.assertEqual(sum(site["valves"] for site in sites), VALVES)
         self.assertEqual(sum(site["silent"] for site in sites), VALVES // 250)
         self.assertEqual(sum(site["alarms"] for site in sites), VALVES // 500)
-        some = self.told("/api/v1/valves?site=hall_03&search=VALVE_0000")["valves"]
+        some = self.answer_of("/api/v1/valves?site=hall_03&search=VALVE_0000")["valves"]
         self.assertEqual([valve["id"] for valve in some], ["hall_03/valve_00003"])
         self.assertAlmostEqual(some[0]["flow_L_min"], 60000 * (2e-4 + 1e-4 * 0.1411200), places=3)
-        self.assertEqual(self.told("/api/v1/valves?search=%27%20OR%201=1")["valves"], [])
+        self.assertEqual(self.answer_of("/api/v1/valves?search=%27%20OR%201=1")["valves"], [])
         self.fleet.postgres.ask("UPDATE partition SET set_aside = 7 WHERE number = 5")
         metrics = self.ask("/metrics")[1]
         self.assertIn(f'spoolflow_fleet_valves{{site="hall_00"}} {VALVES // 20}\n', metrics)
         self.assertIn('spoolflow_fleet_blocks_set_aside_total{partition="5"} 7\n', metrics)
 
     def test_names_the_valves_that_differ_from_their_sisters(self):
-        series = self.told("/api/v1/series")["series"]
+        series = self.answer_of("/api/v1/series")["series"]
         self.assertEqual([one["series"] for one in series], ["model aaaaaaaa", "model bbbbbbbb"])
         friction = {one["name"]: one for one in series[0]["indicators"]}["friction_ratio"]
         self.assertEqual(friction["valves"], VALVES // 2)
@@ -79,22 +79,22 @@ class Page(unittest.TestCase):
         self.assertTrue(all(one["outliers"]["count"] == 0 for one in series[1]["indicators"]))
         query = urllib.parse.urlencode({"series": "model aaaaaaaa", "indicator": "friction_ratio"},
                                        quote_via=urllib.parse.quote)
-        self.assertEqual(sum(self.told("/api/v1/distribution?" + query)["outlier"]), len(named))
+        self.assertEqual(sum(self.answer_of("/api/v1/distribution?" + query)["outlier"]), len(named))
         self.assertEqual(self.ask("/api/v1/distribution?series=none&indicator=none")[0], 404)
 
     def test_days_of_one_valve(self):
-        flow = self.told("/api/v1/valves/hall_01%2Fvalve_00001/history")
+        flow = self.answer_of("/api/v1/valves/hall_01%2Fvalve_00001/history")
         self.assertEqual(flow["valve"], "hall_01/valve_00001")
         self.assertGreater(len(flow["time_ms"]), 20)
-        indicators = self.told("/api/v1/valves/hall_01/valve_00001/indicators")["indicators"]
+        indicators = self.answer_of("/api/v1/valves/hall_01/valve_00001/indicators")["indicators"]
         self.assertEqual(len(indicators), 10)
         self.assertEqual(indicators[0]["unit"], "1")
         self.assertEqual(self.ask("/api/v1/valves/hall_01%2Fnone/history")[0], 404)
         self.assertEqual(self.ask("/api/v1/valves/hall_01%2Fvalve_00001/history?from=2&to=1")[0], 400)
-        self.assertEqual(len(self.told("/api/v1/events?valve=hall_01/valve_00001")["events"]), 1)
+        self.assertEqual(len(self.answer_of("/api/v1/events?valve=hall_01/valve_00001")["events"]), 1)
 
     def test_acknowledges_in_the_database(self):
-        alarms = self.told("/api/v1/alarms")["alarms"]
+        alarms = self.answer_of("/api/v1/alarms")["alarms"]
         self.assertEqual(len(alarms), VALVES // 500)
         path = f"/api/v1/alarms/{alarms[0]['key']}/acknowledge"
         self.assertEqual(self.ask(path, b"{}", "http://evil.example")[0], 403)
@@ -110,7 +110,7 @@ class Page(unittest.TestCase):
 
     def test_every_path_answers_as_it_is_described(self):
         """And what is described is all that there is: docs/fleet.md lists no other, and unknown members are refused."""
-        description = self.told("/api/v1/openapi.json")
+        description = self.answer_of("/api/v1/openapi.json")
         with open(os.path.join(DOCS, "fleet_openapi.json"), encoding="utf-8") as file:
             self.assertEqual(description, json.load(file))
         asked = set()
@@ -134,7 +134,7 @@ class Page(unittest.TestCase):
                 if isinstance(value, dict):  # what is looked at is there
                     self.assertTrue(all(value[name] for name in value if isinstance(value[name], list)), path)
         self.assertGreater(len(asked), 10)
-        alarm = self.told("/api/v1/alarms")["alarms"][-1]
+        alarm = self.answer_of("/api/v1/alarms")["alarms"][-1]
         acknowledged = json.loads(self.ask(f"/api/v1/alarms/{alarm['key']}/acknowledge", b"{}")[1])
         schema = description["paths"]["/api/v1/alarms/{site}/{id}/{number}/acknowledge"]["post"]["responses"]["200"]
         self.assertEqual(open_api.violations(description, schema["content"]["application/json"]["schema"], acknowledged), [])
@@ -178,7 +178,7 @@ class Page(unittest.TestCase):
                 old.maximum_version = ssl.TLSVersion.TLSv1_1
             with self.assertRaises(urllib.error.URLError):
                 status(old, bearer)
-            with socket.create_connection(("127.0.0.1", port), 10) as plain:  # nothing is told without TLS
+            with socket.create_connection(("127.0.0.1", port), 10) as plain:  # no answer without TLS
                 plain.sendall(b"GET /api/v1/valves HTTP/1.1\r\nHost: localhost\r\n\r\n")
                 plain.settimeout(30)
                 try:
@@ -201,7 +201,7 @@ class Page(unittest.TestCase):
 
     def test_z_says_that_the_database_is_away_and_comes_back(self):
         self.fleet.postgres.kill()
-        until(lambda: self.ask("/api/v1/alarms")[0] == 503, 20, "a page that says so")
+        until(lambda: self.ask("/api/v1/alarms")[0] == 503, 20, "a page that reports it")
         self.assertIn("PostgreSQL", self.ask("/api/v1/alarms")[1])
         self.fleet.postgres.restart()
         until(lambda: self.ask("/api/v1/alarms")[0] == 200, 20, "a page that is back")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""report_blocks_test.py COMMAND EXAMPLES: the blocks of a site that sends summaries, read by Python alone, tell what stands in
+"""report_blocks_test.py COMMAND EXAMPLES: the blocks of a site that sends summaries, read by Python alone, hold what stands in
 the site's own store."""
 import json
 import os
@@ -23,7 +23,7 @@ def bits(value):
 
 
 def lines_of(valve, blocks):
-    """As reports_of_the_site() tells them."""
+    """In the form of reports_of_the_site()."""
     name, alarms = f"yard/{valve}", {}
     for block in blocks:
         if block["summary"]["samples"]:
@@ -42,7 +42,7 @@ def lines_of(valve, blocks):
 
 
 class ReportBlocks(unittest.TestCase):
-    def test_blocks_tell_what_the_store_has(self):
+    def test_blocks_hold_what_the_store_has(self):
         folder = tempfile.mkdtemp(prefix="spoolflow-fleet-reports-")
         self.addCleanup(shutil.rmtree, folder)
         make_recordings(COMMAND, folder, SECONDS)

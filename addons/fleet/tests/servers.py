@@ -261,14 +261,14 @@ class Gate:
         self.listener.close()
 
 
-def tell_nats(port, user, lines):
-    """In the servers' own words; a connection that was told who speaks."""
+def connected_to_nats(port, user, lines):
+    """A connection by the NATS protocol, logged in, to which `lines` were sent."""
     raw = socket.create_connection(("127.0.0.1", port), 5)
     raw.settimeout(5)
-    told = b""
-    while not told.endswith(b"\r\n"):
-        told += raw.recv(1)
-    if b'"tls_required":true' in told:
+    greeting = b""
+    while not greeting.endswith(b"\r\n"):
+        greeting += raw.recv(1)
+    if b'"tls_required":true' in greeting:
         context = ssl.create_default_context()
         context.check_hostname = False
         context.verify_mode = ssl.CERT_NONE
@@ -294,7 +294,7 @@ def ask_nats(port, subject, user=None):
     def answered(got):
         return b"MSG answer" in got and got.endswith(b"}\r\n")
     try:
-        with tell_nats(port, user, f"SUB answer 1\r\nPUB {subject} answer 0\r\n\r\n") as raw:
+        with connected_to_nats(port, user, f"SUB answer 1\r\nPUB {subject} answer 0\r\n\r\n") as raw:
             got = heard(raw, answered)
     except OSError:
         return ""
@@ -303,5 +303,5 @@ def ask_nats(port, subject, user=None):
 
 def refused_by_nats(port, user, line):
     """Whether the server says that the user may not do so."""
-    with tell_nats(port, user, f"{line}\r\nPING\r\n") as raw:
+    with connected_to_nats(port, user, f"{line}\r\nPING\r\n") as raw:
         return b"Violation" in heard(raw, lambda got: b"PONG" in got or b"-ERR" in got)

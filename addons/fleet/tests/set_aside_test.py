@@ -13,7 +13,7 @@ import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import ZSTD  # noqa: E402
-from servers import heard, tell_nats, until  # noqa: E402
+from servers import connected_to_nats, heard, until  # noqa: E402
 from whole_fleet import Fleet, WithAFleet  # noqa: E402
 
 COMMAND, EXAMPLES = (os.path.abspath(path) for path in sys.argv[1:3])
@@ -58,7 +58,7 @@ def named(form, partition=PARTITION):
 
 class SetAside(WithAFleet):
     def publish(self, subject, *messages):
-        with tell_nats(self.fleet.nats_ports[0], "hall", "") as raw:
+        with connected_to_nats(self.fleet.nats_ports[0], "hall", "") as raw:
             raw.sendall(b"".join(b"PUB %s %d\r\n%s\r\n" % (subject, len(one), one) for one in messages) + b"PING\r\n")
             said = heard(raw, lambda got: b"PONG" in got or b"-ERR" in got)
             self.assertNotIn(b"-ERR", said)
@@ -150,9 +150,9 @@ class SetAside(WithAFleet):
         self.assertEqual((self.numbers(sound), self.numbers(wrong), self.numbers(refused)), (["1", "2"], ["2"], ["1", "3"]))
         self.assertEqual(fleet.postgres.ask("SELECT count(*) FROM valve"), ["3"])
         for valve, number, reason in ((wrong, 1, "without sense"), (refused, 2, "refused by the store")):
-            told = fleet.postgres.ask(f"SELECT text FROM event WHERE valve = '{valve.decode()}' AND text LIKE '%set aside%'")
-            self.assertEqual(len(told), 1, told)
-            self.assertIn(f"block {number} is set aside: it is {reason}", told[0])
+            events = fleet.postgres.ask(f"SELECT text FROM event WHERE valve = '{valve.decode()}' AND text LIKE '%set aside%'")
+            self.assertEqual(len(events), 1, events)
+            self.assertIn(f"block {number} is set aside: it is {reason}", events[0])
 
         rows = fleet.postgres.ask("SELECT encode(content, 'hex'), times, valve, block FROM set_aside WHERE partition = 3 ORDER BY number")
         self.assertEqual([row.split("|")[0] for row in rows[:len(bad)]], [one.hex() for one in bad])

@@ -73,7 +73,7 @@ TEST(PathOfEdges, SharesThePressureDifferenceAsTheCylinderPassesTheFlow) {
   }
 }
 
-TEST(PathOfEdges, TellsWhatOfThePressureDifferenceLiesOverTheInlet) {
+TEST(PathOfEdges, ShowsWhatOfThePressureDifferenceLiesOverTheInlet) {
   const recording::Recording of_inlet = recorded("PB.csv", wide), of_outlet = recorded("AT.csv", narrow);
   const SpringFit spring = unloaded_spring();
   for (const double k : {0.6, 1.0}) {
@@ -84,14 +84,14 @@ TEST(PathOfEdges, TellsWhatOfThePressureDifferenceLiesOverTheInlet) {
     const sensor::InletShare<double> apart = fit_path(maps, spring.spring, stroke_m).inlet;
     EXPECT_NEAR(apart.share, 0.36 / (0.36 + k * k), 1e-3) << k;  // the outlet's conductance is 0.6 of the inlet's
     EXPECT_NEAR(apart.range, 0.02, 1e-9) << k;
-    // Joined, only operation tells.
+    // Joined, only operation shows the ratio.
     const sensor::InletShare<double> assumed = fit_path(joined_maps(of_inlet, k), spring.spring, stroke_m).inlet;
     EXPECT_EQ(assumed.share, 0.5) << k;
     EXPECT_EQ(assumed.range, 0.25) << k;
   }
-  AxialForceMaps told = joined_maps(of_inlet, 0.6);
-  told.edge_ratio = EdgeRatio{0.6, 0.5, 0.7};
-  const sensor::InletShare<double> inlet = fit_path(told, spring.spring, stroke_m).inlet;
+  AxialForceMaps maps = joined_maps(of_inlet, 0.6);
+  maps.edge_ratio = EdgeRatio{0.6, 0.5, 0.7};
+  const sensor::InletShare<double> inlet = fit_path(maps, spring.spring, stroke_m).inlet;
   EXPECT_NEAR(inlet.share, 0.5, 1e-9);
   EXPECT_NEAR(inlet.range, 0.5 - 0.25 / (0.25 + 0.36), 1e-9);
 }
@@ -150,7 +150,7 @@ TEST(PathOfEdges, WhoseEdgesAreAssumedHasABandThatHoldsEdgesCutForTheCylinder) {
   }
 }
 
-TEST(PathOfEdges, WhoseProportionOperationToldIsThatUnderTheCylinder) {
+TEST(PathOfEdges, WhoseProportionOperationShowedIsThatUnderTheCylinder) {
   ClosedFormEdge cut = wide;
   cut.conductance_per_m *= 0.5;
   cut.force_per_m_Pa *= 0.5;
@@ -171,7 +171,7 @@ TEST(PathOfEdges, WhoseProportionOperationToldIsThatUnderTheCylinder) {
   EXPECT_NEAR(edge_ratio_of(0.6, conductance_under_load(0.6, 0.5)), 0.5, 1e-12);
 }
 
-TEST(PathOfEdges, WidensNoBandWhereTheCampaignTellsTheEdges) {
+TEST(PathOfEdges, WidensNoBandWhereTheCampaignShowsTheEdges) {
   const recording::Recording one = recorded("one.csv", wide);
   EXPECT_EQ(flow_residual_with_unknown_edges(joined_maps(one, 1), 1e-6, 1e-3), 1e-6);
   AxialForceMaps apart;
