@@ -1,27 +1,30 @@
 #!/bin/sh
-# ci/long.sh [SECONDS]: what takes too long for every day, over the built release: clang-tidy, RISC-V, `live` killed at fifty
-# instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets whose parts are killed, 500 valves
-# at 1 kHz for as long, and the page of 200. Prints figures; the exit status covers clang-tidy, kills, fleets, fuzzing and the page.
+# ci/long.sh [SECONDS]: what takes too long for every day, over what ./test has built: clang-tidy, the rig and calibration under
+# sanitizers, RISC-V, `live` killed at fifty instants, its parsers fuzzed for SECONDS each (an hour where none are given), fleets
+# whose parts are killed, 500 valves at 1 kHz for as long, and the page of 200. Prints figures and, at the end, its time; the exit
+# status covers clang-tidy, sanitizers, kills, fleets, fuzzing and the page.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=${1:-3600}
 status=0
 ci/packages.sh tests long
-ci/build.sh release apps_test
+begin=$(date +%s)
+ci/build.sh release live_test
 ci/build.sh release benchmarks
-echo "== clang-tidy"
+ci/build.sh sanitize all
+echo "== clang-tidy, and tests under sanitizers that read nothing foreign"
 ctest --test-dir build/release -L long -j "$(nproc)" --output-on-failure || status=1
 echo "== 50 kills"
-SPOOLFLOW_KILLS=50 build/release/tests/apps/apps_test --gtest_filter='Kills.*' --gtest_brief=1 || status=1
+SPOOLFLOW_KILLS=50 build/release/addons/live/tests/live_test --gtest_filter='Kills.*' --gtest_brief=1 || status=1
 for name in live_datagram live_csv live_site live_http fleet_block; do
   ci/fuzz.sh "$seconds" "$name" || status=1
 done
 echo "== fleets whose parts are killed, 20 seeds, and one with 200 valves for ten minutes"
 ci/build.sh release fleet_reference
 for kind in single cluster; do
-  /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/fleet_reference examples $kind \
+  /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/reference/fleet_reference examples $kind \
     $(seq 1 20) || status=1
-  /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/fleet_reference examples $kind 1 \
+  /usr/bin/python3 addons/fleet/tests/faults_test.py build/release/bin/spoolflow build/release/addons/fleet/tests/reference/fleet_reference examples $kind 1 \
     --show --large || status=1
 done
 echo "== 500 valves"
@@ -29,4 +32,5 @@ build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.j
 echo "== the page of 200 valves"
 tests/web/live_for_long.sh build/release/tests/web/page build/release/bench/live_load build/release/bin/spoolflow examples/live/size_6.json 200 \
   "$seconds" || status=1
+echo "== $((($(date +%s) - begin) / 60)) minutes, status $status"
 exit $status

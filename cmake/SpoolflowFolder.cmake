@@ -161,11 +161,18 @@ function(spoolflow_tests folder)
   endif()
 endfunction()
 
-# spoolflow_sanitized_tests(FOLDER [WITHOUT filter]): the same program of the build with sanitizers, the whole of it as one test,
-# but for what takes minutes there (a filter of GoogleTest).
+# spoolflow_sanitized_tests(FOLDER [LONG] [WITHOUT filter]): the same program of the build with sanitizers, the whole of it as one
+# test, but for what takes minutes there (a filter of GoogleTest). LONG: it reads no byte of a file or of the network and runs no
+# step of the sensor, so that ci/long.sh is often enough.
 function(spoolflow_sanitized_tests folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "WITHOUT" "")
-  if(NOT SPOOLFLOW_SANITIZED_BUILD OR NOT TARGET ${folder}_test)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "WITHOUT" "")
+  if(NOT TARGET ${folder}_test)
+    return()
+  endif()
+  if(SPOOLFLOW_SANITIZE AND NOT arg_LONG)
+    add_dependencies(sanitized_tests ${folder}_test)
+  endif()
+  if(NOT SPOOLFLOW_SANITIZED_BUILD)
     return()
   endif()
   get_target_property(place ${folder}_test BINARY_DIR)
@@ -176,4 +183,7 @@ function(spoolflow_sanitized_tests folder)
   endif()
   add_test(NAME sanitizers.${folder} COMMAND ${SPOOLFLOW_SANITIZED_BUILD}/${place}/${folder}_test --gtest_brief=1 ${without})
   set_tests_properties(sanitizers.${folder} PROPERTIES TIMEOUT 900 COST 500)
+  if(arg_LONG)
+    set_tests_properties(sanitizers.${folder} PROPERTIES LABELS long TIMEOUT 1800)
+  endif()
 endfunction()
