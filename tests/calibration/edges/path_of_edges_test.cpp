@@ -141,10 +141,10 @@ TEST(PathOfEdges, WhoseEdgesAreAssumedHasABandThatHoldsEdgesCutForTheCylinder) {
     const EdgeReading known = reading_of(wide, cut, k, x_m, 30e5);
     // The sensor reads the flow force, and the flow from it.
     const auto point = fit.edge.at(warm_K, 30e5, x_m);
-    const double told_Pa = 30e5 * known.force_N / point.flow_force_N;
-    const double told_m3_per_s = point.conductance * std::sqrt(told_Pa);
+    const double estimated_Pa = 30e5 * known.force_N / point.flow_force_N;
+    const double estimated_m3_per_s = point.conductance * std::sqrt(estimated_Pa);
     const double residual_m3_per_s = flow_residual_with_unknown_edges(joined_maps(both, k), 0, known.flow_m3_per_s);
-    const double missed_m3_per_s = std::abs(told_m3_per_s - known.flow_m3_per_s);
+    const double missed_m3_per_s = std::abs(estimated_m3_per_s - known.flow_m3_per_s);
     EXPECT_LT(missed_m3_per_s, 1.02 * sensor::flow_residual_factor * residual_m3_per_s) << k;
     EXPECT_GT(missed_m3_per_s, 0.5 * sensor::flow_residual_factor * residual_m3_per_s) << k;
   }
@@ -165,9 +165,9 @@ TEST(PathOfEdges, WhoseProportionOperationShowedIsThatUnderTheCylinder) {
   const auto found = fit.edge.at(warm_K, 50e5, 1.6e-3);
   EXPECT_NEAR(found.conductance * std::sqrt(50e5) / known.flow_m3_per_s, 1, 2e-3);
   EXPECT_NEAR(found.flow_force_N, known.force_N, 0.02);
-  const double told_m3_per_s = flow_residual_with_unknown_edges(maps, 0, 1e-3);
+  const double measured_m3_per_s = flow_residual_with_unknown_edges(maps, 0, 1e-3);
   maps.edge_ratio.reset();
-  EXPECT_LT(told_m3_per_s, 0.2 * flow_residual_with_unknown_edges(maps, 0, 1e-3));
+  EXPECT_LT(measured_m3_per_s, 0.2 * flow_residual_with_unknown_edges(maps, 0, 1e-3));
   EXPECT_NEAR(edge_ratio_of(0.6, conductance_under_load(0.6, 0.5)), 0.5, 1e-12);
 }
 
