@@ -69,6 +69,9 @@ class Binder {
           "-1";
     }
     if (const std::string unread = unread_for(channel); !unread.empty()) hint += "; " + unread;
+    const ChannelMap guessed = propose_channels(contents_of("", table_)).map;
+    if (const auto other = guessed.sources.find(channel); hint.empty() && other != guessed.sources.end())
+      hint = fmt::format("; '{}' may be it", other->second.column);
     throw RecordingError(
         fmt::format("{}: channel {} is missing{}; the columns are {}. Name the column {}_<unit> (unit: {}) or say in a "
                     "channel map which column it is (`spoolflow inspect` proposes one)",

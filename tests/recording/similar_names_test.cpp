@@ -108,6 +108,12 @@ TEST(OtherNames, OfAChannelThatIsMissingAreReported) {
   }
 }
 
+TEST(OtherNames, OfAChannelThatIsNeededStandInItsRefusal) {
+  const TemporaryFile file("run.csv", "time_s,coil current (mA),position_mm\n0,500,0.1\n0.001,500,0.1\n");
+  EXPECT_THAT(refusal([&] { (void)reader_of(file); }),
+              HasSubstr("channel current is missing; 'coil current (mA)' may be it"));
+}
+
 TEST(OtherNames, OfChannelsThatAreReadAreNoNews) {
   const TemporaryFile file("run.csv",
                            "time_s,current_A,position_mm,oil_temperature_degC,T_tank [degC],Temp [degC],rpm\n"
