@@ -1,5 +1,5 @@
 #pragma once
-/// Runs a command as a user would and tells what it cost.
+/// Runs a command as a user would and reports what it cost.
 #include <string>
 #include <sys/types.h>
 #include <vector>

@@ -1,8 +1,8 @@
 """dither_limit_on_rig.py SPOOLFLOW MODEL.json PRESET FOLDER [sine|square] [Hz ...]: at which amplitude of the coil current
-dither brings the flow ripple to its limit, as `analyse --dither` tells it and on the virtual rig, under the position control.
+dither brings the flow ripple to its limit, as `analyse --dither` predicts it and on the virtual rig, under the position control.
 Runs SPOOLFLOW; its files go to FOLDER. The spool rests at three openings under four pressure differences; ripple is half of
 peak to peak at the dither's frequency in the rig's true flow, the largest of all rests, and the coil current the median over
-them. Printed for each frequency: the amplitude that is told, and the rig's between the largest that kept the limit and the
+them. Printed for each frequency: the predicted amplitude, and the rig's between the largest that kept the limit and the
 smallest that broke it, in 10 % steps; their ratio is what the recommendation must keep in reserve."""
 
 import csv
@@ -19,7 +19,7 @@ folder = pathlib.Path(folder)
 folder.mkdir(parents=True, exist_ok=True)
 POSITIONS = [40, 60, 80]  # percent of the stroke
 LEVELS = [14, 18, 24, 29] if "10" in preset else [20, 35, 50, 65]  # bar
-HOLD_S, TOLD_S, RATE_HZ = 1.0, 0.5, 2500
+HOLD_S, LAST_S, RATE_HZ = 1.0, 0.5, 2500
 STEP = 1.1
 
 
@@ -40,15 +40,15 @@ def at_frequency(time_s, values, frequency_hz):
     return 2 * math.hypot(a, b) / len(part)
 
 
-def told():
-    scenario, out = folder / "points.toml", folder / "told.json"
+def predicted():
+    scenario, out = folder / "points.toml", folder / "predicted.json"
     scenario.write_text(f"[points]\npositions_percent = {POSITIONS}\npressure_differences_bar = {LEVELS}\n")
     subprocess.run([spoolflow, "analyse", model, "--dither", "--dither-shape", shape, "--scenario", scenario, "--json", out],
                    check=True, stdout=subprocess.DEVNULL)
     return json.load(open(out))
 
 
-def told_limit_A(study, limit, frequency_Hz):
+def predicted_limit_A(study, limit, frequency_Hz):
     """Smallest amplitude at which a point's ripple reaches the limit; the largest there is where none does."""
     near = min({e[1] for e in study["points"][0]["effects"]}, key=lambda f: abs(f - frequency_Hz))
     least = math.inf
@@ -83,7 +83,7 @@ shape = "{shape}"
         before = percent
         for _ in LEVELS:
             end = round((start_s + HOLD_S) * RATE_HZ)
-            part = slice(end - round(TOLD_S * RATE_HZ), end - 3)
+            part = slice(end - round(LAST_S * RATE_HZ), end - 3)
             coils.append(at_frequency(time_s[part], truth["current_A"][part], frequency_Hz))
             ripple = max(ripple, at_frequency(time_s[part], truth["flow_L_min"][part], frequency_Hz))
             start_s += HOLD_S
@@ -92,10 +92,10 @@ shape = "{shape}"
 
 full_scale = 60000 * json.load(open(model))["valve"]["rated_flow_m3_per_s"]
 limit = 0.005 * full_scale
-study = told()
+study = predicted()
 for frequency_Hz in frequencies:
-    told_A, reached = told_limit_A(study, limit, frequency_Hz)
-    kept, broken, set_A = None, None, told_A
+    predicted_A, reached = predicted_limit_A(study, limit, frequency_Hz)
+    kept, broken, set_A = None, None, predicted_A
     for _ in range(9):
         coil_A, ripple = on_rig(min(set_A, 1.0), frequency_Hz)
         if ripple > limit:
@@ -105,9 +105,9 @@ for frequency_Hz in frequencies:
             set_A /= STEP
         else:
             kept = (coil_A, ripple)
-            if broken or set_A >= 1.0 or coil_A > 1.3 * told_A:
+            if broken or set_A >= 1.0 or coil_A > 1.3 * predicted_A:
                 break
             set_A *= STEP
     text = lambda pair: f"{pair[0]:.3f} A ({pair[1]:.3f} L/min)" if pair else "-"
-    print(f"{preset}, {shape}, {frequency_Hz:.0f} Hz: limit {limit:.2f} L/min told at {told_A:.3f} A{'' if reached else ' or more'}; rig "
+    print(f"{preset}, {shape}, {frequency_Hz:.0f} Hz: limit {limit:.2f} L/min predicted at {predicted_A:.3f} A{'' if reached else ' or more'}; rig "
           f"keeps it at {text(kept)}, breaks it at {text(broken)}", flush=True)

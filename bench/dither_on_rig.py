@@ -1,4 +1,4 @@
-"""dither_on_rig.py SPOOLFLOW MODEL.json PRESET FOLDER [-v]: the tremble and the flow ripple that `analyse --dither` tells
+"""dither_on_rig.py SPOOLFLOW MODEL.json PRESET FOLDER [-v]: the dither motion and the flow ripple that `analyse --dither` predicts
 beside those of the virtual rig's truth, while the spool rests under random steps of the pressure difference. Runs
 SPOOLFLOW; its files go to FOLDER. Settings: the recommended one, and half and one and a half times its amplitude. Printed:
 medians over all rests of half of peak to peak, the rig's at the dither's frequency; the spool "holds" where it gives way
@@ -17,7 +17,7 @@ folder = pathlib.Path(folder)
 folder.mkdir(parents=True, exist_ok=True)
 POSITIONS = [40, 60, 80]  # percent of the stroke
 HOLD_S, TOLD_S = 1.5, 0.5
-MOVES_UM = 3  # more is no elastic tremble
+MOVES_UM = 3  # more is no elastic motion
 
 
 def columns(file):
@@ -27,8 +27,8 @@ def columns(file):
         return dict(zip(names, zip(*[[float(x) if x else math.nan for x in row] for row in rows])))
 
 
-def told(points_bar=None):
-    out = folder / "told.json"
+def predicted(points_bar=None):
+    out = folder / "predicted.json"
     command = [spoolflow, "analyse", model, "--dither", "--json", out]
     if points_bar:
         scenario = folder / "points.toml"
@@ -98,8 +98,8 @@ def median(values):
 
 draw = random.Random(5)
 levels = [round(draw.uniform(*((8, 30) if preset == "size_10" else (15, 70))), 1) for _ in range(6)]
-study = told(sorted(set(levels)))
-best = told()["recommended"]
+study = predicted(sorted(set(levels)))
+best = predicted()["recommended"]
 print(f"{preset}: recommended {best['amplitude_A']:.3f} A at {best['frequency_Hz']:.0f} Hz; levels {levels} bar")
 settings = [(share * best["amplitude_A"], best["frequency_Hz"]) for share in (1, 0.5, 1.5)]
 for k, (wanted_A, frequency_Hz) in enumerate(settings):
@@ -117,17 +117,17 @@ for k, (wanted_A, frequency_Hz) in enumerate(settings):
         rig_um = 1e3 * at_frequency(time_s, truth["position_mm"][stretch], frequency_Hz)
         rig_flow = at_frequency(time_s, truth["flow_L_min"][stretch], frequency_Hz)
         rig_N = at_frequency(time_s, truth["magnetic_force_N"][stretch], frequency_Hz)
-        tell = lambda column: interpolated(point["effects"], coil_A, frequency_Hz, column)
-        rows.append((coil_A, tell(4), rig_um, tell(5), rig_flow, tell(2), rig_N, percent, level))
+        at_coil = lambda column: interpolated(point["effects"], coil_A, frequency_Hz, column)
+        rows.append((coil_A, at_coil(4), rig_um, at_coil(5), rig_flow, at_coil(2), rig_N, percent, level))
     if "-v" in sys.argv:
         for r in rows:
             print("     ", *(f"{x:8.3f}" for x in r))
     still, moving = [r for r in rows if r[2] <= MOVES_UM], [r for r in rows if r[2] > MOVES_UM]
     print(f"set {set_A:5.3f} A, {frequency_Hz:3.0f} Hz, coil {median([r[0] for r in rows]):5.3f} A | moves at {len(moving)} of {len(rows)} rests, "
-          f"told at {sum(r[1] > MOVES_UM for r in rows)}, alike at {sum((r[1] > MOVES_UM) == (r[2] > MOVES_UM) for r in rows)}")
+          f"predicted at {sum(r[1] > MOVES_UM for r in rows)}, alike at {sum((r[1] > MOVES_UM) == (r[2] > MOVES_UM) for r in rows)}")
     for name, part in (("holds", still), ("moves", moving)):
         if part:
             m = [median([r[c] for r in part]) for c in range(7)]
             w = [max(r[c] for r in part) for c in range(7)]
-            print(f"  {name}: tremble told {m[1]:6.2f}, rig {m[2]:6.2f} um; flow ripple told {m[3]:6.3f}, rig {m[4]:6.3f} L/min (largest "
-                  f"{w[3]:6.3f}, {w[4]:6.3f}); half swing told {m[5]:5.2f}, rig {m[6]:5.2f} N")
+            print(f"  {name}: motion predicted {m[1]:6.2f}, rig {m[2]:6.2f} um; flow ripple predicted {m[3]:6.3f}, rig {m[4]:6.3f} L/min (largest "
+                  f"{w[3]:6.3f}, {w[4]:6.3f}); half swing predicted {m[5]:5.2f}, rig {m[6]:5.2f} N")

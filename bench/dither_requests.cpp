@@ -47,7 +47,7 @@ struct Figures {
 /// What the electronics make of one step of the observer.
 using Decision = std::function<rig::Dither(const sensor::ObserverState<double>&, double time_step_s)>;
 
-/// One duty cycle; the observer begins anew.
+/// One duty cycle; the observer is reset.
 void run(const model::Model& model, const rig::ValveUnderTest& valve, const rig::BenchRun& course, std::uint64_t seed,
          const Decision& decide, Figures& figures) {
   sensor::ObserverState<double> state{};

@@ -10,7 +10,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "fleet"))
-from fleet import make_recordings, outbox, reach, reckoned, record_offline, site, write_site  # noqa: E402
+from fleet import make_recordings, outbox, reach, computed, record_offline, site, write_site  # noqa: E402
 from servers import make_certificates  # noqa: E402
 from whole_fleet import Fleet  # noqa: E402
 
@@ -36,7 +36,7 @@ try:
     samples = 1000 * SECONDS * VALVES
     size = os.path.getsize(os.path.join(folder, "site.sqlite"))
     begin = time.monotonic()
-    reckoned(COMMAND, REFERENCE, folder, MODEL)
+    computed(COMMAND, REFERENCE, folder, MODEL)
     alone_s = time.monotonic() - begin
     fleet = Fleet(COMMAND, folder, KIND)
     fleet.setup()

@@ -4,7 +4,7 @@
     foreign_measurement_files.py COMMAND MODEL.json RECORDING.csv NPTDMS_FOLDER ASAMDF_FOLDER
 
 The folders hold the sources of npTDMS and of asammdf (7.4, whose compiled part must have been built), which Debian does not have;
-NumPy, pandas, lz4, lxml, canmatrix and numexpr are Debian's. One line a file; the exit status tells whether all could be read and
+NumPy, pandas, lz4, lxml, canmatrix and numexpr are Debian's. One line a file; the exit status shows whether all could be read and
 none differs by more than its numbers' resolution makes.
 """
 import csv
@@ -139,12 +139,12 @@ def main():
                 difference = np.nanmax(np.abs(flow - wanted)) if len(flow) == len(wanted) else np.inf
                 if "rates" in file.name:
                     limit = 0.05  # a slow temperature is drawn straight between its samples
-                told = f"{difference:.2g} L/min"
+                result = f"{difference:.2g} L/min"
                 failed += difference > limit
             except RuntimeError as error:
-                told = str(error)
+                result = str(error)
                 failed += 1
-            print(f"{file.name:28} {told}", flush=True)
+            print(f"{file.name:28} {result}", flush=True)
     print(f"{failed} of the files are not as the CSV")
     return 1 if failed else 0
 

@@ -41,10 +41,10 @@ def drawn(lines, correlations):
 
 
 def flows(spoolflow, model, recording, estimator):
-    told = subprocess.run([spoolflow, "estimate", model, recording, "-o", "-", "--estimator", estimator, "-q"],
+    rows = subprocess.run([spoolflow, "estimate", model, recording, "-o", "-", "--estimator", estimator, "-q"],
                           capture_output=True, text=True, check=True).stdout.splitlines()
-    column = told[0].split(",").index("flow_L_min")
-    return [float(row.split(",")[column]) for row in told[1:]]
+    column = rows[0].split(",").index("flow_L_min")
+    return [float(row.split(",")[column]) for row in rows[1:]]
 
 
 def deviation(values):

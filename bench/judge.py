@@ -34,7 +34,7 @@ import judging_set
 
 STEP = 0.01  # % of full scale: bins in which errors are counted
 BINS = 20000
-RUN = ("set", "valve", "programme", "effect")  # tells runs apart
+RUN = ("set", "valve", "programme", "effect")  # identifies a run
 VALVE_A = ("ramp_60bar", "ramps_30_to_70bar", "temperature_sweep", "duty_cycle_1", "motor_load", "fast_10kHz",
            "ramp_60bar_dither", "orifice_duty_dither")
 SISTERS = ("ramps_30_to_40bar", "duty_cycle_1", "orifice_duty_dither")
@@ -161,12 +161,12 @@ def set_runs(folder):
     for name, wanted in about["sha256"].items():
         file = folder / name
         if not file.exists() or hashlib.sha256(file.read_bytes()).hexdigest() != wanted:
-            fail(f"{file} is not the file that the set was made with; make the set anew in another folder")
+            fail(f"{file} is not the file that the set was made with; make the set again in another folder")
     files = ("model", "recording", "truth")
     return [dict(entry, set=about["set"], declared_by=about["set"], **{key: folder / entry[key] for key in files}) for entry in about["runs"]]
 
 
-def calibrated_anew(runs, folder, spoolflow):
+def calibrated_again(runs, folder, spoolflow):
     """The runs by models of this program."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -301,7 +301,7 @@ def main(arguments):
     if models is not None:
         if shared is not None:
             fail("--calibrate is of sets; give --shared the models")
-        runs = calibrated_anew(runs, models, spoolflow)
+        runs = calibrated_again(runs, models, spoolflow)
     if not runs:
         fail(f"no row holds {only!r}")
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as workers:

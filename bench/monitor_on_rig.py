@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `spoolflow monitor` tells of valves of the virtual rig with one fault each, judged with their healthy sister's model.
+"""What `spoolflow monitor` reports of valves of the virtual rig with one fault each, judged with the model of the healthy valve.
 
     python3 bench/monitor_on_rig.py build/release/bin/spoolflow OUT [VALVE ...]
 
@@ -93,9 +93,9 @@ def main():
                 run("simulate", stem + ".toml", "-o", stem + ".csv", "-q")
             run("monitor", model, stem + ".csv", "--json", stem + ".json", "-q")
             with open(stem + ".json") as file:
-                told = json.load(file)
-            causes = ", ".join(f"{c['cause']} ({c['odds']:.3g})" for c in told["causes"])
-            print(f"{valve:<16} {name:<26} {told['ne107']:<5} {causes}", flush=True)
+                condition = json.load(file)
+            causes = ", ".join(f"{c['cause']} ({c['odds']:.3g})" for c in condition["causes"])
+            print(f"{valve:<16} {name:<26} {condition['ne107']:<5} {causes}", flush=True)
 
 
 if __name__ == "__main__":

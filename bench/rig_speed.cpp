@@ -164,12 +164,12 @@ bool against_cvode(int rounds) {
   const auto show = [](std::string_view name, double took_s, double error) {
     fmt::print("  {:<52}{:8.4f} s {:10.2e}\n", name, took_s, error);
   };
-  // CVODE in the better of its two manners: started anew at each change of the input, or carrying its history over.
+  // CVODE in the better of its two manners: restarted at each change of the input, or carrying its history over.
   double cvode_s = 1e9, cvode_error = 0;
   for (const bool restart : {true, false}) {
     const double took_s = shortest_s(rounds, [&] { cvode(p, start, 1e-6, restart); });
     const double error = error_of(p, cvode(p, start, 1e-6, restart), exact);
-    show(restart ? "CVODE 1e-6, started anew at each change" : "CVODE 1e-6, carrying its history over", took_s, error);
+    show(restart ? "CVODE 1e-6, restarted at each change" : "CVODE 1e-6, carrying its history over", took_s, error);
     if (took_s < cvode_s) {
       cvode_s = took_s;
       cvode_error = error;

@@ -5,7 +5,7 @@
 namespace spoolflow::bench {
 namespace {
 
-/// What is written in these serves all stages and is attributed to whoever asked for it.
+/// What is written in these serves all stages and is attributed to the caller.
 bool serves_all(const std::string& header) {
   return header == "table" || header == "scalar" || header == "status" || header == "sample" ||
          header == "position_state";

@@ -145,7 +145,7 @@ def main():
     if "--update" in sys.argv:
         update(found, names)
     else:
-        tell(found, names, "--markdown" in sys.argv)
+        print_findings(found, names, "--markdown" in sys.argv)
 
 
 def findings(lines, runs):
@@ -164,7 +164,7 @@ def findings(lines, runs):
         yield name, runs[k] if shown(k) >= 0.005 else None, [(v[2 * k], v[2 * k + 1]) for v in (half, base, double)]
 
 
-def tell(lines, runs, markdown):
+def print_findings(lines, runs, markdown):
     """One line a number."""
     base = [float(v) for v in lines[0][2:]]
     if not markdown:

@@ -8,7 +8,7 @@ where anything does, 2 where there is nothing to compare.
 Numbers may differ by RELATIVE of their magnitude (of a column: of its largest); by nothing where it is not given.
 
 Left out: dates; version texts; checksums of a model whose content is equal; the order of the files of a folder; fields that name
-source files in an FMU's description. Sources that an FMU or a C++ folder carries along are told in the last lines and
+source files in an FMU's description. Sources that an FMU or a C++ folder carries along are listed in the last lines and
 count as equal: what they do is compared as answers.
 """
 import argparse
@@ -22,7 +22,7 @@ import pathlib
 import re
 import sys
 
-MOST_TOLD = 8  # paths, columns or lines of one file
+MOST_LISTED = 8  # paths, columns or lines of one file
 SHOWN = 110  # letters of a line
 CARRIED_SOURCES = re.compile(r"(?:^|/)(?:sources|cpp/spoolflow)/")
 NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -56,8 +56,8 @@ class Difference:
                 f"by {self.relative:.3g} of their size at most")
 
 
-def at_most(told, what):
-    return told[:MOST_TOLD] + ([f"and {len(told) - MOST_TOLD} more {what}"] if len(told) > MOST_TOLD else [])
+def at_most(listed, what):
+    return listed[:MOST_LISTED] + ([f"and {len(listed) - MOST_LISTED} more {what}"] if len(listed) > MOST_LISTED else [])
 
 
 def shortened(text, place):
@@ -76,9 +76,9 @@ def differing_pair(a, b):
 
 
 def text_differences(a, b, tolerance):
-    """Of two texts, by lines. Lines that differ in numbers alone are told together."""
+    """Of two texts, by lines. Lines that differ in numbers alone are listed together."""
     a, b = a.splitlines(), b.splitlines()
-    numbers, told, more = Difference(tolerance), [], 0
+    numbers, listed, more = Difference(tolerance), [], 0
     at = None
     for tag, a0, a1, b0, b1 in difflib.SequenceMatcher(None, a, b, autojunk=False).get_opcodes() if len(a) + len(b) < 20000 \
             else [("replace", 0, len(a), 0, len(b))]:
@@ -96,15 +96,15 @@ def text_differences(a, b, tolerance):
                     at = [f"line {a0 + k + 1}:"] + differing_pair(x, y)
                 continue
             more += 1
-            if more > MOST_TOLD // 2:
+            if more > MOST_LISTED // 2:
                 continue
-            told += [f"line {a0 + k + 1}:"] + (differing_pair(x, y) if x is not None and y is not None else
+            listed += [f"line {a0 + k + 1}:"] + (differing_pair(x, y) if x is not None and y is not None else
                                               [("- " if y is None else "+ ") + shortened(y if x is None else x, 0)])
-    if more > MOST_TOLD // 2:
-        told.append(f"and {more - MOST_TOLD // 2} more lines")
+    if more > MOST_LISTED // 2:
+        listed.append(f"and {more - MOST_LISTED // 2} more lines")
     if numbers.count:
-        told += [str(numbers), *(at or [])]
-    return told
+        listed += [str(numbers), *(at or [])]
+    return listed
 
 
 def as_number(text):
@@ -118,10 +118,10 @@ def csv_differences(a, b, tolerance):
     a, b = list(csv.reader(a.splitlines())), list(csv.reader(b.splitlines()))
     if not a or not b or a[0] != b[0]:
         return ["other columns:", *differing_pair(",".join(a[0] if a else []), ",".join(b[0] if b else []))]
-    told = [] if len(a) == len(b) else [f"{len(a) - 1} rows -> {len(b) - 1} rows"]
+    listed = [] if len(a) == len(b) else [f"{len(a) - 1} rows -> {len(b) - 1} rows"]
     rows = [(x, y) for x, y in zip(a[1:], b[1:])]
     if any(len(x) != len(y) for x, y in rows):
-        return told + ["rows of other lengths"]
+        return listed + ["rows of other lengths"]
     for k, column in enumerate(a[0]):
         differing = [(row, x[k], y[k]) for row, (x, y) in enumerate(rows) if x[k] != y[k]]
         if not differing:
@@ -137,11 +137,11 @@ def csv_differences(a, b, tolerance):
                 numbers.add(p, q, scale)
         numbers.of = len(rows)
         if numbers.count:
-            told.append(f"{column}: {numbers}")
+            listed.append(f"{column}: {numbers}")
         if words:
             row, x, y = words[0]
-            told.append(f"{column}: {len(words)} of {len(rows)} rows; first row {row + 1}: {x!r} -> {y!r}")
-    return told
+            listed.append(f"{column}: {len(words)} of {len(rows)} rows; first row {row + 1}: {x!r} -> {y!r}")
+    return listed
 
 
 def json_differences(a, b, tolerance):
@@ -183,15 +183,15 @@ def unpacked(offset, scale, codes):
 
 def html_differences(a, b, tolerance):
     columns = [PACKED.findall(page) for page in (a, b)]
-    told = []
+    listed = []
     if len(columns[0]) != len(columns[1]):
-        told.append(f"{len(columns[0])} -> {len(columns[1])} packed columns")
+        listed.append(f"{len(columns[0])} -> {len(columns[1])} packed columns")
     for k, (x, y) in enumerate(zip(*columns)):
         if x == y:
             continue
         p, q = (unpacked(float(offset), float(scale), codes) for offset, scale, codes in (x, y))
         if len(p) != len(q):
-            told.append(f"packed column {k}: {len(p)} -> {len(q)} values")
+            listed.append(f"packed column {k}: {len(p)} -> {len(q)} values")
             continue
         difference = Difference(tolerance)
         # A packed value is right to half a code; where any difference is let pass, so is one code.
@@ -199,10 +199,10 @@ def html_differences(a, b, tolerance):
         for v, w in zip(p, q):
             difference.add(v, v if abs(v - w) <= 1.5 * code else w)
         if difference.count:
-            told.append(f"packed column {k}: {difference}")
-    told = at_most(told, "packed columns")
+            listed.append(f"packed column {k}: {difference}")
+    listed = at_most(listed, "packed columns")
     lines = [re.sub(r"(?=<)", "\n", PACKED.sub("packed column", page)) for page in (a, b)]
-    return told + text_differences(*lines, tolerance)
+    return listed + text_differences(*lines, tolerance)
 
 
 class Folders:
@@ -261,14 +261,14 @@ def main():
                 carried.append(name)
             continue
         if name not in folders.files[1]:
-            told = ["is gone"]
+            listed = ["is gone"]
         elif name not in folders.files[0]:
-            told = ["is new"]
+            listed = ["is new"]
         else:
-            told = folders.differences(name)
-        if told:
+            listed = folders.differences(name)
+        if listed:
             differing += 1
-            print(f"{name}\n    " + "\n    ".join(told), flush=True)
+            print(f"{name}\n    " + "\n    ".join(listed), flush=True)
     both = len(folders.files[0] & folders.files[1])
     if carried:
         print(f"sources carried along differ, which counts as equal: {len(carried)} files, {carried[0]} the first")

@@ -54,7 +54,7 @@ fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 apt() { $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "$@" </dev/null >>"$log" 2>&1; }
-apt update || true # a broken third-party source must not stand in the way; the installation tells
+apt update || true # a broken third-party source must not stand in the way; the installation reports it
 if ! apt install -y --no-install-recommends $missing; then
   cat "$log" >&2
   echo "could not install:$missing" >&2

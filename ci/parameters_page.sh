@@ -1,5 +1,5 @@
 #!/bin/sh
-# ci/parameters_page.sh PROGRAM [--check]: writes docs/formats/parameters.md with the built parameters_page, or tells that it
+# ci/parameters_page.sh PROGRAM [--check]: writes docs/formats/parameters.md with the built parameters_page, or reports that it
 # is out of date.
 set -eu
 page=$(dirname "$0")/../docs/formats/parameters.md

@@ -1,6 +1,6 @@
 #!/bin/sh
 # ci/readme_figures.sh COMMAND [--check]: puts the figures that `spoolflow demo` prints, and the picture from its report, into
-# README.md and docs/pictures; or tells that the figures there are out of date.
+# README.md and docs/pictures; or reports that the figures there are out of date.
 set -eu
 spoolflow=$1
 root=$(dirname "$0")/..

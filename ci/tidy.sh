@@ -22,15 +22,15 @@ if [ "$(cat "$mark" 2>/dev/null)" = "$key" ]; then exit 0; fi
 
 # tidy SOURCE
 tidy() { clang-tidy --quiet "$1" -- $flags >"$mark.found" 2>"$mark.log"; }
-# tell: what the last one found
-tell() { cat "$mark.found"; grep -v -e 'warnings\? generated' -e '^Suppressed' -e '^Use -header-filter' "$mark.log" || true; }
+# report: what the last one found
+report() { cat "$mark.found"; grep -v -e 'warnings\? generated' -e '^Suppressed' -e '^Use -header-filter' "$mark.log" || true; }
 for source in "$folder"/*.cpp; do echo "#include \"$root/$source\""; done >"$mark.all.cpp"
 failed=0
 if ! tidy "$mark.all.cpp"; then
   if grep -q 'clang-diagnostic-error' "$mark.found"; then
-    for source in $(printf "%s\n" "$commands" | grep -e "^$root/.*\.c[px][px]$"); do tidy "$source" || { tell; failed=1; }; done
+    for source in $(printf "%s\n" "$commands" | grep -e "^$root/.*\.c[px][px]$"); do tidy "$source" || { report; failed=1; }; done
   else
-    tell
+    report
     failed=1
   fi
 fi

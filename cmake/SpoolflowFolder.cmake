@@ -69,13 +69,13 @@ endfunction()
 
 # spoolflow_folder(NAME [LIGHT] [LINKS target…] [PRIVATE_LINKS target…] [APART file…])
 # All *.cpp of the folder, but those that are compiled apart, become the library spoolflow_NAME, in addons/ addons_NAME; a folder
-# without *.cpp is header-only. A room has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. LIGHT: see
+# without *.cpp is header-only. A part has its folder's name before its own: rig/plant becomes spoolflow_rig_plant. LIGHT: see
 # spoolflow_light.
 function(spoolflow_folder name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "LINKS;PRIVATE_LINKS;APART")
-  set(house spoolflow)
+  set(prefix spoolflow)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/addons/")
-    set(house addons)
+    set(prefix addons)
   endif()
   spoolflow_link_names(arg_LINKS)
   spoolflow_link_names(arg_PRIVATE_LINKS)
@@ -86,25 +86,25 @@ function(spoolflow_folder name)
     list(REMOVE_ITEM sources ${arg_APART})
   endif()
   if(sources)
-    add_library(${house}_${name} STATIC ${sources})
-    target_link_libraries(${house}_${name} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
+    add_library(${prefix}_${name} STATIC ${sources})
+    target_link_libraries(${prefix}_${name} PUBLIC spoolflow_settings ${arg_LINKS} PRIVATE spoolflow_warnings ${arg_PRIVATE_LINKS})
     if(arg_LIGHT)
-      spoolflow_light(${house}_${name})
+      spoolflow_light(${prefix}_${name})
     endif()
     if(NOT name MATCHES "^(estimation|calibration|rig|analysis|uncertainty|validation|plausibility|numerics|parallel|units)")
-      spoolflow_hardened(${house}_${name})
+      spoolflow_hardened(${prefix}_${name})
     endif()
   else()
-    add_library(${house}_${name} INTERFACE)
-    target_link_libraries(${house}_${name} INTERFACE spoolflow_settings ${arg_LINKS})
+    add_library(${prefix}_${name} INTERFACE)
+    target_link_libraries(${prefix}_${name} INTERFACE spoolflow_settings ${arg_LINKS})
   endif()
 endfunction()
 
-# spoolflow_tests(FOLDER [RECKONS] [APART] [LINKS target…]): *_test.cpp of tests/FOLDER and its rooms become one program, which
+# spoolflow_tests(FOLDER [COMPUTES] [APART] [LINKS target…]): *_test.cpp of tests/FOLDER and its parts become one program, which
 # ctest runs once: what several tests need (a campaign of the rig, a model) is made once. APART: each test is one of ctest's, in
-# a process of its own. RECKONS: the tests themselves do, with headers of the sensor, too. The others are not optimised at all.
+# a process of its own. COMPUTES: the tests themselves compute with the headers of the sensor, and are optimised; others are not.
 function(spoolflow_tests folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "RECKONS;APART" "" "LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES;APART" "" "LINKS")
   spoolflow_link_names(arg_LINKS)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   if(NOT sources)
@@ -115,7 +115,7 @@ function(spoolflow_tests folder)
   if(SPOOLFLOW_SANITIZE)
     return()  # ctest runs the whole program (spoolflow_sanitized_tests)
   endif()
-  if(arg_RECKONS)
+  if(arg_COMPUTES)
     spoolflow_light(${folder}_test)  # what is tested is optimised in its own library
   else()
     target_compile_options(${folder}_test PRIVATE -O0)

@@ -73,9 +73,9 @@ if(SPOOLFLOW_PYTHON_INTERPRETER)
           PATTERN __pycache__ EXCLUDE)
 endif()
 
-# Whoever distributes the packages answers for them.
+# The distributor of the packages is responsible for them.
 set(SPOOLFLOW_PACKAGE_MAINTAINER "the spoolflow authors <spoolflow@example.org>" CACHE STRING
-    "name and address that the Debian packages tell as their maintainer's")
+    "name and address that the Debian packages name as their maintainer's")
 
 # Who may do what with it, and what has changed, of each package.
 set(library libspoolflow${PROJECT_VERSION_MAJOR})

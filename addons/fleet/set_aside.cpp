@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t longest_shown = 200, most_lines = 8;
 
-/// Whoever sends chooses the bytes: neither a terminal nor a database takes all of them.
+/// The sender chooses the bytes: neither a terminal nor a database takes all of them.
 std::string printable(std::string_view text) {
   std::string out(text.substr(0, longest_shown));
   for (char& c : out) {

@@ -17,7 +17,7 @@ struct StoreView {
   std::string trouble{};       ///< why nothing is kept at present; empty where it is, or where it need not be
   std::string mended{};        ///< what was done last about a file that was deleted or damaged; empty: nothing
   std::int64_t mended_ms = 0;  ///< when, since 1970-01-01 UTC
-  std::uint64_t mendings = 0;  ///< since the start: whoever reads the file opens it again after each
+  std::uint64_t mendings = 0;  ///< since the start: readers of the file open it again after each
 };
 
 class SiteKeeper {

@@ -43,7 +43,7 @@ export class Valves {
     const named = new Set(answer.valves.map((one) => one.id));
     for (const one of answer.valves) {
       if (!this.valves.has(one.id)) this.valves.set(one.id, this.#add(one));
-      this.#tell(this.valves.get(one.id), one, now);
+      this.#write(this.valves.get(one.id), one, now);
     }
     for (const [id, valve] of this.valves) if (!named.has(id)) this.#tellLost(valve, now);
   }
@@ -91,7 +91,7 @@ export class Valves {
       flow: flow("Flow", "Estimated flow rate, > 0 from P to B"),
       lower: flow("FlowLower", "Lower end of the 95 % band of the flow rate"),
       upper: flow("FlowUpper", "Upper end of the 95 % band of the flow rate"),
-      pressure: this.#analog(machine, "PressureDifference", "Pressure difference over the open edge, as believed", BAR,
+      pressure: this.#analog(machine, "PressureDifference", "Pressure difference over the open edge, estimated", BAR,
         { low: 0, high: 400 }),
       health: this.#variable(machine, "DeviceHealth", "NAMUR NE 107", this.health.nodeId),
       status: this.#variable(machine, "Status", "Status bits that are set, by name", "String"),
@@ -101,7 +101,7 @@ export class Valves {
     };
   }
 
-  #tell(valve, one, now) {
+  #write(valve, one, now) {
     const stalled = one.status.includes("stalled");
     const put = (variable, dataType, value, status = StatusCodes.Good) =>
       variable.setValueFromSource({ dataType, value }, status, now);

@@ -18,7 +18,7 @@ typedef struct {
 
 typedef struct {
   const char* valve;  /* up to 32 bytes */
-  uint32_t session;   /* anew at each start: a random number or the start's count */
+  uint32_t session;   /* another at each start: a random number or the start's count */
   uint64_t sequence;  /* samples sent before in this session */
   int64_t time_ns;    /* of the first sample, by a clock that never runs back */
   uint32_t period_ns; /* from sample to sample */

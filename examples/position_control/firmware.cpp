@@ -1,5 +1,5 @@
 /// The firmware of a valve's electronics on an emulated Cortex-M4F: each millisecond a sample comes in and orders to
-/// the amplifiers go out, over two pipes of the host instead of converters and timers. At the end it tells what it
+/// the amplifiers go out, over two pipes of the host instead of converters and timers. At the end it reports what it
 /// cost.
 #include "board.hpp"
 #include "parameter_pages.hpp"
@@ -65,7 +65,7 @@ int main() {
   board::start_ticks();
   ParameterPages pages(first_page, second_page, 65536);
   pages.start();
-  if (pages.at_work() == 0) return 1;  // no sensor from the start: told at the plant, not to be found out at work
+  if (pages.at_work() == 0) return 1;  // no sensor from the start: reported before the machine runs
   const board::HostFile samples("samples", board::HostFile::Mode::read);
   const board::HostFile answers("answers", board::HostFile::Mode::write);
   FlashWriter flash;

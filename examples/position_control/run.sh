@@ -17,11 +17,11 @@ arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mthumb -mfloat-a
   -o position_control.elf -nostartfiles -nostdlib -Wl,--gc-sections -T "$board/board.ld" -lgcc
 mkfifo samples answers
 qemu-system-arm -M mps2-an386 -display none -serial none -monitor none -chardev stdio,id=c0 \
-  -semihosting-config enable=on,target=native,chardev=c0 -icount shift=6 -kernel position_control.elf </dev/null >told 2>&1 &
+  -semihosting-config enable=on,target=native,chardev=c0 -icount shift=6 -kernel position_control.elf </dev/null >log 2>&1 &
 emulator=$!
 status=0
 timeout 120 "$valve_on_rig" samples answers || status=$?
 if [ $status -eq 124 ]; then kill $emulator || true; fi  # it waits at the other end
-wait $emulator || { cat told; exit 1; }
-cat told
+wait $emulator || { cat log; exit 1; }
+cat log
 exit $status

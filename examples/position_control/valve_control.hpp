@@ -101,7 +101,7 @@ inline Orders control(const ControlSettings& set, ControlState& state, const sen
   const float time_step_s = sample.time_step_s;
   if (valve != nullptr) {
     const bool unseen = state.unseen_s > 0;
-    sample.time_step_s += state.unseen_s;  // the sensor's own time: after more than a second it begins anew
+    sample.time_step_s += state.unseen_s;  // the sensor's own time: after more than a second it is reset
     state.unseen_s = 0;
     const Status status = step(*valve, state.sensor, sample).status;
     orders.trust = trust_in(unseen ? without(status, Status::time_fault) : status);  // the gap is of its own making

@@ -63,7 +63,7 @@ TEST(BudgetAtAPoint, ANewtonOfForceMapCountsWhatANewtonOfSpringTakesBack) {
     EXPECT_NEAR(line(budget, InputQuantity::spring).sensitivity_m3_per_s, -per_force, 0.05 * per_force);
     EXPECT_NEAR(line(budget, InputQuantity::flow_force_map).sensitivity_m3_per_s, -per_force, 0.05 * per_force);
     EXPECT_EQ(line(budget, InputQuantity::voltage_offset).contribution_m3_per_s, 0)
-        << "the voltage only tells the coil's resistance";
+        << "the voltage shows the coil's resistance alone";
   }
 }
 
@@ -112,7 +112,7 @@ TEST(InputUncertainties, TheCampaignsInstrumentsGoBeforeDefaultsAndTheScenarioBe
   EXPECT_NEAR(input(InputQuantity::current_offset, asked).standard_uncertainty, 1e-2 / std::sqrt(3.0), 1e-9);
 }
 
-TEST(InputUncertainties, AResidualThatTheModelDoesNotTellIsNoneOfZero) {
+TEST(InputUncertainties, AResidualThatTheModelDoesNotStateIsNotZero) {
   model::Model model = example();
   for (model::Residual& residual : model.condensed.residuals) {
     if (residual.of == "flow rate") residual.of = "flow";
@@ -196,7 +196,7 @@ TEST(BudgetAlongARun, EndsAsTheBudgetOfThePointWhereItEnds) {
   const uncertainty::Budget budget = function->budget(uncertainty::inputs_of(example(), Estimator::observer, {}));
   ASSERT_EQ(run.results.size(), 2U);
   const RunResult& observer = run.results.back();
-  // 16 noise runs instead of 48 tell the noise's part less well.
+  // 16 noise runs instead of 48 measure the noise's part less well.
   EXPECT_NEAR(observer.combined_m3_per_s.back(), budget.combined_m3_per_s, 0.1 * budget.combined_m3_per_s);
   EXPECT_FALSE(observer.shares) << "there was no reference";
   double shares = 0;

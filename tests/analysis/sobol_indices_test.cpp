@@ -49,7 +49,7 @@ TEST(SobolIndices, AreZeroWhereNothingVaries) {
   EXPECT_EQ(found.factors[1].first_order.upper, 0);
 }
 
-TEST(SobolIndices, TellApartWhatOnlyActsTogether) {
+TEST(SobolIndices, SeparateWhatOnlyActsTogether) {
   const SaltelliDesign design({1, 1}, 1024, 2);
   const auto product = [](const std::vector<double>& u) { return (u[0] - 0.5) * (u[1] - 0.5); };
   const SobolIndices found = sobol_indices(design, evaluated(design, product), 2);

@@ -31,7 +31,7 @@ TEST_P(ProducedAhead, KeepsTheOrderAndEndsOnce) {
   EXPECT_EQ(expected, 1000);
 }
 
-TEST_P(ProducedAhead, TellsAFailureAfterWhatCameBeforeIt) {
+TEST_P(ProducedAhead, ReportsAFailureAfterWhatCameBeforeIt) {
   Ahead<int> numbers(
       [k = 0](int& item) mutable {
         if (k == 3) throw std::runtime_error("the fourth");

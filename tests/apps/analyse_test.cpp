@@ -110,7 +110,7 @@ TEST_F(Analyse, SaysWhereNoPointLiesInsideTheMaps) {
   EXPECT_TRUE(content("o.json").find("\"inside_maps\": true") == std::string::npos);
 }
 
-TEST_F(Analyse, TellsHowToDither) {
+TEST_F(Analyse, RecommendsADither) {
   write("s.toml", "[points]\npositions_percent = [50]\npressure_differences_bar = [40]\n");
   const std::string command = "analyse " + analysed_model + " --scenario s.toml --dither ";
   const Answer answer = run(command + "--json o.json --report r.html --units psi");

@@ -9,7 +9,7 @@
 namespace spoolflow::apps {
 
 struct Answer {
-  int status;           ///< exit status, or 128 + the signal that ended it, as a shell tells it
+  int status;           ///< exit status, or 128 + the signal that ended it, as a shell reports it
   std::string output;   ///< standard output
   std::string message;  ///< standard error
 };

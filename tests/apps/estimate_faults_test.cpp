@@ -69,7 +69,7 @@ TEST_F(EstimateFaults, ACurrentThatNoCoilCarriesHoldsTheFlowWithABandThatHoldsTh
   }
 }
 
-TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsTold) {
+TEST_F(EstimateFaults, AVoltageOfSeveralSuppliesIsReported) {
   const std::vector<Row> sound = estimate([](double current_A) { return std::pair(current_A, 2.9 * current_A); });
   const std::vector<Row> rows = estimate([](double current_A) { return std::pair(current_A, 200.0); });
   for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {

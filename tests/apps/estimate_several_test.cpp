@@ -61,7 +61,7 @@ TEST_F(EstimateSeveral, FinishesTheOthersWhereOneIsDamaged) {
   EXPECT_FALSE(std::filesystem::exists(folder / "together/run1.csv"));
 }
 
-TEST_F(EstimateSeveral, TellsEveryFailureOfSeveral) {
+TEST_F(EstimateSeveral, ReportsEveryFailureOfSeveral) {
   write("run1.csv", "time_s,current_A,position_mm\n0,1,1\n0.001,one,1\n");
   write("run3.csv", "time_s,position_mm\n0,1\n0.001,1\n");
   const Answer answer = run("estimate " + model + " run0.csv run1.csv run2.csv run3.csv missing.csv -o together");

@@ -87,7 +87,7 @@ TEST_F(Export, TakesTheDirectionThatTheModelHasAndRefusesTheOther) {
   EXPECT_THAT(files(), Not(Contains("other")));
 }
 
-TEST_F(Export, WritesParametersThatInspectReadsBackAndTellsDamageOf) {
+TEST_F(Export, WritesParametersThatInspectReadsBackAndFindsDamageIn) {
   const std::string command = "export parameters '" + model + "' -o valve.bin";
   ASSERT_EQ(run(command).status, 0);
   Answer answer = run("inspect valve.bin");
@@ -109,7 +109,7 @@ TEST_F(Export, WritesParametersThatInspectReadsBackAndTellsDamageOf) {
   EXPECT_EQ(run("export cpp '" + model + "' --fmi 3 -o other").status, 2);
 }
 
-TEST_F(Export, TellsThatAPageHoldsTheBeginningOfALongName) {
+TEST_F(Export, ReportsThatAPageHoldsTheBeginningOfALongName) {
   std::string text = content(model);
   const std::string before = "\"name\": \"";
   const std::size_t at = text.find(before);
@@ -122,7 +122,7 @@ TEST_F(Export, TellsThatAPageHoldsTheBeginningOfALongName) {
   EXPECT_THAT(run("inspect valve.bin").output, HasSubstr(std::string(63, 'L') + ","));
 }
 
-TEST_F(Export, IsToldOfAPageThatWasNeverProgrammed) {
+TEST_F(Export, ReportsAPageThatWasNeverProgrammed) {
   for (const char bit : {'\xff', '\0'}) {
     write("page.rom", std::string(40000, bit));
     const Answer answer = run("inspect page.rom");

@@ -27,7 +27,7 @@ TEST_F(Inspect, ProposesAMapWhereNoneWasGiven) {
   EXPECT_THAT(run("inspect rig.csv").output, HasSubstr("Proposed channel map"));
 }
 
-TEST_F(Inspect, WithAMapTellsWhatItLeavesOutInsteadOfProposingOne) {
+TEST_F(Inspect, WithAMapListsWhatItLeavesOutInsteadOfProposingOne) {
   write("map.toml",
         "[channels]\ntime = { column = \"t\", unit = \"s\" }\ncurrent = { column = \"cur\", unit = \"A\" }\n"
         "position = { column = \"x\", unit = \"mm\" }\n");

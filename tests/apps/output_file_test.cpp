@@ -222,7 +222,7 @@ TEST_F(OutputFileDeathTest, TurnsTheSizeLimitIntoAMessage) {
   EXPECT_EQ(files(), 0);
 }
 
-TEST_F(OutputFileDeathTest, TellsAClosedPipeFromAFailure) {
+TEST_F(OutputFileDeathTest, SeparatesAClosedPipeFromAFailure) {
   const auto closed = [] {
     end_cleanly_when_interrupted("spoolflow");
     int ends[2];

@@ -36,7 +36,7 @@ TEST_F(Score, OfTheScriptAndFiguresOfTheReportAgreeToRounding) {
   const json ours = json::parse(content("metrics.json")).at("runs").at(0).at("estimators").at(0).at("error");
   // Metrics keep errors as float: 1e-5 % FS; the six decimals of the file are less.
   constexpr double rounding_percent_FS = 2e-5;
-  // The script tells motion by the command, the report by the spool: over all samples they must agree.
+  // The script takes motion from the command, the report by the spool: over all samples they must agree.
   for (const char* phase : {"all"}) {
     EXPECT_EQ(ours.at(phase).at("samples").get<double>(), theirs.at(phase).at("samples").get<double>()) << phase;
     for (const auto& [mine, other] : {std::pair{"p95", "p95"}, {"rms", "rms"}, {"largest", "max"}, {"bias", "bias"}}) {

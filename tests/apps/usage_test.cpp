@@ -34,7 +34,7 @@ std::vector<std::string> commands() {
   return names;
 }
 
-TEST(Usage, TellsItsVersion) {
+TEST(Usage, PrintsItsVersion) {
   const Answer answer = spoolflow("--version");
   EXPECT_EQ(answer.status, 0);
   EXPECT_THAT(answer.output, MatchesRegex("spoolflow [0-9]+\\.[0-9]+\\.[0-9]+\n"));
@@ -97,11 +97,11 @@ TEST(Usage, SuggestsTheNearestWord) {
 
 TEST(Usage, RefusesAnArgumentTooMany) {
   const Answer answer = spoolflow("--version surplus");
-  EXPECT_EQ(answer.status, 0);  // what was asked for can be told all the same
+  EXPECT_EQ(answer.status, 0);  // what was asked for is printed all the same
   EXPECT_EQ(spoolflow("surplus").status, 2);
 }
 
-TEST(Usage, TellsAFullDiskEvenForHelp) {
+TEST(Usage, ReportsAFullDiskEvenForHelp) {
   const Answer answer = spoolflow("--help > /dev/full");
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.message, HasSubstr("the disk is full"));

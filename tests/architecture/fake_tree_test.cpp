@@ -103,7 +103,7 @@ TEST_F(FakeTree, FindsAFolderOutsideTheTable) {
   EXPECT_THAT(includes(), ElementsAre(HasSubstr("the folder extras is not in the table")));
 }
 
-TEST_F(FakeTree, KnowsTheRoomsOfAFolder) {
+TEST_F(FakeTree, KnowsThePartsOfAFolder) {
   write("spoolflow/fits/lines/line.hpp", "#pragma once\n");
   write("spoolflow/fits/curves/curve.cpp", "#include \"spoolflow/fits/lines/line.hpp\"\n");
   write("spoolflow/tables/table.cpp", "#include \"spoolflow/fits/lines/line.hpp\"\n");
@@ -114,25 +114,25 @@ TEST_F(FakeTree, KnowsTheRoomsOfAFolder) {
                                       "(spoolflow/fits/curves/curve.hpp)"));
 }
 
-TEST_F(FakeTree, KeepsAFolderThatIsMeantAloneFromItsRooms) {
+TEST_F(FakeTree, KeepsAFolderThatIsMeantAloneFromItsParts) {
   write("spoolflow/runs/run.hpp", "#pragma once\n");
   write("spoolflow/runs/files/file_run.hpp", "#pragma once\n#include \"spoolflow/runs/run.hpp\"\n");
   write("spoolflow/watch/watch.hpp", "#pragma once\n#include \"spoolflow/runs/run.hpp\"\n");
   EXPECT_THAT(includes(), IsEmpty());
-  EXPECT_EQ(floors(table()).at("watch"), 3);  // above runs, not above its room
+  EXPECT_EQ(floors(table()).at("watch"), 3);  // above runs, not above its part
   write("spoolflow/watch/watch.cpp", "#include \"spoolflow/runs/files/file_run.hpp\"\n");
   EXPECT_THAT(includes(), ElementsAre("spoolflow/watch/watch.cpp:1: watch must not include runs/files "
                                       "(spoolflow/runs/files/file_run.hpp)"));
 }
 
-TEST_F(FakeTree, FindsARoomOutsideTheTableAndAFileOutsideTheRooms) {
+TEST_F(FakeTree, FindsAPartOutsideTheTableAndAFileOutsideTheParts) {
   write("spoolflow/fits/planes/plane.hpp", "#pragma once\n");
   write("spoolflow/fits/all.hpp", "#pragma once\n");
   EXPECT_THAT(includes(), ElementsAre(HasSubstr("the folder fits is not in the table"),
                                       HasSubstr("the folder fits/planes is not in the table")));
 }
 
-TEST_F(FakeTree, TakesAFolderInsideOneWithoutRoomsForItsPart) {
+TEST_F(FakeTree, TakesAFolderInsideOneWithoutPartsForItsOwn) {
   write("spoolflow/rig/pumps/pump.cpp", "#include \"spoolflow/sensor/table.hpp\"\n");
   EXPECT_THAT(includes(), ElementsAre(HasSubstr("rig must not include sensor")));
 }
@@ -147,7 +147,7 @@ TEST_F(FakeTree, StandsFloorByFloor) {
   EXPECT_EQ(standing.at("units"), 1);
   EXPECT_EQ(standing.at("recording"), 2);
   EXPECT_EQ(standing.at("fits/curves"), 3);
-  EXPECT_EQ(standing.at("tables"), 4);  // above every room of fits
+  EXPECT_EQ(standing.at("tables"), 4);  // above every part of fits
   EXPECT_EQ(standing.at("apps"), 5);    // above all
   write("ARCHITECTURE.md", std::string("```floors\n 2  rig\n    fits/lines\n 1  units\n```\n 3  no drawing\n") + page);
   EXPECT_EQ(drawn_floors(root / "ARCHITECTURE.md"), (Floors{{"rig", 2}, {"fits/lines", 2}, {"units", 1}}));
@@ -177,10 +177,10 @@ TEST_F(FakeTree, FindsAFolderThatIsTooFull) {
     write("spoolflow/rig/part_" + std::to_string(k) + ".hpp", "#pragma once\n");
     write("spoolflow/rig/part_" + std::to_string(k) + ".cpp", "");  // of the same subject
   }
-  write("spoolflow/rig/room/part.hpp", "#pragma once\n");
+  write("spoolflow/rig/inner/part.hpp", "#pragma once\n");
   EXPECT_THAT(full_folders(root), IsEmpty());
   write("spoolflow/rig/one_more.cpp", "");
-  EXPECT_THAT(full_folders(root), ElementsAre("spoolflow/rig holds 26 subjects; past 25 give it rooms"));
+  EXPECT_THAT(full_folders(root), ElementsAre("spoolflow/rig holds 26 subjects; past 25 divide it"));
 }
 
 TEST_F(FakeTree, FindsSubjectsThatIncludeEachOther) {

@@ -1,5 +1,5 @@
 #pragma once
-/// House rules that each source file keeps for itself.
+/// Project rules that each source file keeps for itself.
 #include <filesystem>
 #include <string>
 #include <vector>

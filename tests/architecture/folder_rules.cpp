@@ -75,7 +75,7 @@ std::vector<std::string> full_folders(const fs::path& root) {
   std::vector<std::string> full;
   for (const auto& [folder, count] : held) {
     if (count > most_subjects) {
-      full.push_back(fmt::format("{} holds {} subjects; past {} give it rooms", folder, count, most_subjects));
+      full.push_back(fmt::format("{} holds {} subjects; past {} divide it", folder, count, most_subjects));
     }
   }
   return full;

@@ -1,5 +1,5 @@
 #pragma once
-/// House rule of the library's functions: a reader holds one in view.
+/// Project rule of the library's functions: a reader holds one in view.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -85,7 +85,7 @@ TEST(CampaignNeeds, OfNothingAreAllTestsOfEachKind) {
   EXPECT_DOUBLE_EQ(needs[1].missing_minutes(), 5.5);
 }
 
-TEST(CampaignNeeds, AFlowBenchIsWholeWithStrokesAndLacksWhatTellsTheMagneticForceWithoutVoltage) {
+TEST(CampaignNeeds, AFlowBenchIsWholeWithStrokesAndLacksTheMagneticForceWithoutVoltage) {
   Recorded dry = recorded_by(strokes({0, 0}, 12), Protocol::unpressurised_strokes);
   Recorded metering = recorded_by(strokes({1e6, 3e6, 6e6}, 12), Protocol::metering);
   EXPECT_THAT(needs_of({dry, metering})[1].missing, IsEmpty());
@@ -95,7 +95,7 @@ TEST(CampaignNeeds, AFlowBenchIsWholeWithStrokesAndLacksWhatTellsTheMagneticForc
   metering.voltage = false;
   EXPECT_THAT(protocols(needs_of({dry, metering})[1].missing), ElementsAre(Protocol::metering));
   const Recorded map{Protocol::solenoid_force_map};
-  EXPECT_THAT(needs_of({dry, metering, map})[1].missing, IsEmpty()) << "a force map tells it as well";
+  EXPECT_THAT(needs_of({dry, metering, map})[1].missing, IsEmpty()) << "a force map shows it as well";
 }
 
 TEST(CampaignNeeds, ASecondDirectionNeedsItsOwn) {

@@ -107,7 +107,7 @@ TEST(Uniqueness, IsBlindOnlyBelowTheOpening) {
   EXPECT_TRUE(found.ambiguous_at_m.empty());
 }
 
-TEST(Uniqueness, TellsThePositionsAtWhichAHigherLevelPullsLess) {
+TEST(Uniqueness, ListsThePositionsAtWhichAHigherLevelPullsLess) {
   std::vector<FlowForceColumn> columns;
   for (int k = 0; k < 5; ++k) columns.push_back({k * 1e-3, {1.0, 2.0, k == 3 ? 1.5 : 3.0}, {1, 2, 3}, {1e5, 2e5, 3e5}});
   const model::Uniqueness found = check_uniqueness(columns, 0.1);

@@ -22,7 +22,7 @@ struct Stroke {
   bool with_closing = true;
 };
 
-/// Position over time of all strokes, with `noise_m` on what the position sensor tells.
+/// Position over time of all strokes, with `noise_m` on the position signal.
 struct Drive {
   std::vector<double> time_s, true_position_m, position_m, level, direction;
 };

@@ -21,7 +21,7 @@ std::string FollowedSteps::filter() const {
 }
 
 void FollowedSteps::read(const std::string& line) {
-  // "Trace 0: host [table/address/…] name". A block that is stopped before it was executed is told again.
+  // "Trace 0: host [table/address/…] name". A block that is stopped before it was executed is reported again.
   if (line.rfind("Stopped", 0) == 0) has_pending_ = false;
   if (line.rfind("Trace", 0) != 0) return;
   if (has_pending_) begin_block(pending_);

@@ -12,7 +12,7 @@ namespace {
 
 using estimation::Estimator;
 
-/// What one firmware told, built from the exported model (`table`) or with nothing but pages.
+/// What one firmware printed, built from the exported model (`table`) or with nothing but pages.
 struct Replays {
   Figures table;
   Figures page;

@@ -34,7 +34,7 @@ struct StepCode {
 };
 
 /// The function whose mangled name holds `name`, which must be one alone, and all that can be reached from it. Throws
-/// std::runtime_error with function and address where the code alone does not tell where control goes: an indirect
+/// std::runtime_error with function and address where the code alone does not show where control goes: an indirect
 /// call, an indirect jump that is neither a return nor a table behind TBB or TBH whose index is compared before.
 [[nodiscard]] StepCode step_code(const std::string& disassembly, const std::string& name);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Cross-compiles an exported folder, replays a recording through it on an emulated core, and tells what came out.
+/// Cross-compiles an exported folder, replays a recording through it on an emulated core, and returns what came out.
 #include <array>
 #include <cstdint>
 #include <filesystem>

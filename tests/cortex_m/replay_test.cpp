@@ -78,7 +78,7 @@ TEST_P(CortexM, CondensedSensorOfAWholeValveAnswersAsTheHost) {
 
 class SoftFloat : public CortexM {};
 
-/// Minutes; run by the long tests. There is no unit that would tell of a NaN it made.
+/// Minutes; run by the long tests. There is no unit that would report a NaN it made.
 TEST_P(SoftFloat, DISABLED_BothSensorsAnswerAsTheHostWithoutAFloatingPointUnit) {
   const bool m0plus = GetParam().name == std::string("Cortex-M0+");
   expect_fit_for_a_valve(replay(model, Estimator::observer, minute, GetParam()),

@@ -17,7 +17,7 @@ namespace spoolflow::rig::reference {
 
 class PlantCvode {
  public:
-  /// With `restart` the method starts anew at every change of the input; without, it carries its history over the jump.
+  /// With `restart` the method restarts at every change of the input; without, it carries its history over the jump.
   PlantCvode(const PlantParameters& parameters, const PlantState& state, double relative_tolerance, bool restart = true)
       : parameters_(parameters),
         state_(state),

@@ -193,16 +193,16 @@ TEST_P(Sensors, NeverAnswerNaNAndFindTheFlowAgainAfterNonsense) {
     ASSERT_LE(out[k].flow_m3_per_s, out[k].flow_upper_m3_per_s) << k;
     held += has(out[k].status, Status::sample_missing) || has(out[k].status, Status::time_fault) ? 1 : 0;
   }
-  EXPECT_LT(held, out.size() * 4 / 5) << "the rest was answered anew";
+  EXPECT_LT(held, out.size() * 4 / 5) << "the rest was computed";
   const Measured good = strokes(1e8);
   const Estimates after = answers(sensor, good);
   sensor::Judgement judged;
   for (std::size_t k = 3500; k < good.size(); ++k) judged.add(after[k], good.flow_m3_per_s[k], full_scale_m3_per_s());
-  // The observer still forgets the oil of 10 000 K and the friction that it was made to believe.
+  // The observer still forgets the oil of 10 000 K and the friction that it was given.
   EXPECT_LT(judged.largest, observer() ? 0.025 : 1e-9);
 }
 
-TEST_P(Sensors, TellACoilOfTwiceItsResistanceWhereTheVoltageIsMeasured) {
+TEST_P(Sensors, ReportACoilOfTwiceItsResistanceWhereTheVoltageIsMeasured) {
   Measured run = strokes(0);
   for (double& voltage_V : run.voltage_V) voltage_V *= 2;
   RunningSensor measured = new_sensor();

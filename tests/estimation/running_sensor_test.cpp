@@ -55,7 +55,7 @@ TEST(RunningSensor, KnowsNothingButTheRatedFlowBeforeItsFirstCompleteSample) {
   EXPECT_EQ(first.flow_upper_m3_per_s, 1e-3);
 }
 
-TEST(RunningSensor, TellsATimeThatStandsStillOrRunsBackwardsAndGoesOnFromThere) {
+TEST(RunningSensor, ReportsATimeThatStandsStillOrRunsBackwardsAndGoesOnFromThere) {
   const auto valve = straight_valve();
   RunningSensor sensor(&valve, 1e-3);
   const auto first = sensor.step({10.0, 1.0, nothing, 1e-3, nothing});

@@ -27,8 +27,8 @@ tried_on() {
   echo "$compiler: self-test ends with $status"
   [ $status -eq 0 ]
   "$compiler" -std=c++17 -O2 $warnings -static -I. "$byte_order" -o byte_order
-  "$@" ./byte_order ../valve.bin >told || { cat told; exit 1; }
-  echo "$compiler: image: $(cat told)"
+  "$@" ./byte_order ../valve.bin >log || { cat log; exit 1; }
+  echo "$compiler: image: $(cat log)"
 }
 tried_on clang++-19
 tried_on aarch64-linux-gnu-g++ qemu-aarch64

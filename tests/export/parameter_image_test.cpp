@@ -58,7 +58,7 @@ Page page_of(const model::Model& model) {
   return Page(parameter_image(model, as_of_2023));
 }
 
-TEST(ParameterImage, TellsWhoseValveItIsAndWhoMadeIt) {
+TEST(ParameterImage, NamesItsValveAndTheToolThatMadeIt) {
   Page page = page_of(example_model());
   ASSERT_EQ(page.taken(), ImageRefusal::none);
   const ImageHeader& header = *page.valve.header;
@@ -180,7 +180,7 @@ TEST(ParameterImage, RefusesEachDamageByItsCode) {
       {"a sensor that is promised", ImageRefusal::wrong_sizes, [](Page& p) { p.header().sensors |= 4U; }},
       {"a sensor of later days", ImageRefusal::wrong_sizes, [](Page& p) { p.header().sensors |= 8U; }},
       {"no sensor at all", ImageRefusal::wrong_sizes, [](Page& p) { p.header().sensors = 0; }},
-      {"a table nobody tells of", ImageRefusal::wrong_sizes, [](Page& p) { p.header().sensors = 1; }},
+      {"a table that no header names", ImageRefusal::wrong_sizes, [](Page& p) { p.header().sensors = 1; }},
       {"a name without an end", ImageRefusal::no_text,
        [](Page& p) { std::memset(p.header().valve_name, 'A', sizeof p.header().valve_name); }},
       {"an infinite number", ImageRefusal::not_finite,

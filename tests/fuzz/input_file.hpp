@@ -11,7 +11,7 @@
 
 namespace spoolflow::fuzz {
 
-/// One a process, in a folder of its own, written anew for each input.
+/// One a process, in a folder of its own, written again for each input.
 class InputFile {
  public:
   explicit InputFile(const std::string& name) {

@@ -31,7 +31,7 @@ Base read_base() {
   std::ifstream in(SPOOLFLOW_FUZZ_MODEL);
   Base base{Json::parse(in), {}};
   list_places(base.model, Json::json_pointer(), base.places);
-  // Throws where the reader takes it no more: then make it anew with tests/fuzz/small_model.py.
+  // Throws where the reader refuses it: then make it again with tests/fuzz/small_model.py.
   (void)spoolflow::model::parse_model(base.model.dump(), SPOOLFLOW_FUZZ_MODEL);
   return base;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a fuzz target takes off the front of its input: choices, and numbers of which many are odd.
+/// What a fuzz target takes off the front of its input: choices, and numbers of which many are extreme.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh BUILD NAME SECONDS [CORPUS]: one fuzz target over its committed seeds for that time. New inputs go to the folder
 # CORPUS where it is given, else nowhere; an input that breaks something is kept in BUILD/fuzz_findings and the exit
-# status tells.
+# status shows it.
 set -eu
 build=$1
 name=$2

@@ -39,7 +39,7 @@ inline void read_vectors(const InputFile& file, const std::uint8_t* data, std::s
     }
   } catch (const recording::RecordingError& error) {
     require(error.what()[0] != '\0');
-  } catch (const std::bad_alloc&) {  // the child has a limit of memory, and says so
+  } catch (const std::bad_alloc&) {  // the child has a limit of memory, and reports it
   }
 }
 

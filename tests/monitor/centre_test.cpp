@@ -1,4 +1,4 @@
-/// Where a whole valve rests in its centre, and what that tells of its position sensor.
+/// Where a whole valve rests in its centre, and what that shows of its position sensor.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -92,7 +92,7 @@ TEST(Centre, FrictionIsNoShiftedZero) {
   EXPECT_EQ(watch.condition(), Ne107::good);
 }
 
-TEST(Centre, StrokesToOneSideAloneDoNotTellIt) {
+TEST(Centre, StrokesToOneSideAloneDoNotShowIt) {
   const model::Model model = whole();
   const Monitor watch = watched(model, {.zero_m = 40e-6, .to_b_alone = true});
   EXPECT_EQ(centre(watch).state, IndicatorState::unknown);

@@ -7,7 +7,7 @@
 namespace spoolflow::monitor {
 namespace {
 
-/// Windows that tell every magnitude to 0.1 of a usual fault, of a valve with these.
+/// Windows that determine every magnitude to 0.1 of a usual fault, of a valve with these.
 Evidence shown_by(const Magnitudes& truth, double deviation = 0.1) {
   Evidence out;
   for (std::size_t k = 0; k < magnitudes; ++k) {
@@ -39,7 +39,7 @@ TEST(Isolation, WhatHealthyValvesDifferByIsNoFault) {
   for (const bool there : found.likeliest) EXPECT_FALSE(there);
 }
 
-TEST(Isolation, EachFaultIsToldByItsOwnMagnitude) {
+TEST(Isolation, EachFaultIsNamedByItsOwnMagnitude) {
   EXPECT_TRUE(only(isolated({1, 0, 0, 0, 0, 0}), Fault::friction));
   EXPECT_TRUE(only(isolated({0, 1, 0, 0, 0, 0}), Fault::edge_wear));
   EXPECT_TRUE(only(isolated({0, 0, 1, 1, 0, 0}), Fault::spring));

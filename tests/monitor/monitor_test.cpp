@@ -75,7 +75,7 @@ TEST(Monitor, CountsTowardsAnAlarmOnTheSideOfTheFaultAlone) {
   EXPECT_TRUE(std::isnan(alarm_limits(named(indicators, "strokes")).above));
 }
 
-TEST(Monitor, TellsWhatTheValveDid) {
+TEST(Monitor, CountsWhatTheValveDid) {
   Monitor watch(example());
   watch.take(ramp().samples, ramp().answers);
   watch.finish();
@@ -126,7 +126,7 @@ TEST(Monitor, WhatItFoundIsPutRightInTheModelAndNoLongerThere) {
   EXPECT_FALSE(watched(corrected).side[0].raised);
 }
 
-TEST(Monitor, TellsHowTheSpoolFollowsItsCommand) {
+TEST(Monitor, MeasuresHowTheSpoolFollowsItsCommand) {
   Monitor watch(example());
   for (std::size_t k = 0; k < 3000; ++k) {
     estimation::TimedSample sample = ramp().samples[k];

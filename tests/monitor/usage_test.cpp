@@ -9,7 +9,7 @@ namespace {
 
 constexpr UsageScale scale{2e-3, 1e-3, 70e5};
 
-/// To and fro between 0 and 1 mm, each way in a second, with a tremble of 2 um.
+/// To and fro between 0 and 1 mm, each way in a second, with a vibration of 2 um.
 Usage triangles(int ways) {
   Usage usage;
   for (int way = 0; way < ways; ++way) {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """whole_valve_test.py COMMAND VALVE: a whole valve of the virtual rig, judged by the model of its own campaign: as it is
-it raises nothing; with the zero of its position sensor 40 um off either way it is told as that."""
+it raises nothing; with the zero of its position sensor 40 um off either way it reports that."""
 import json
 import os
 import subprocess

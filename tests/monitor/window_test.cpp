@@ -59,7 +59,7 @@ TEST(Window, AHealthyValveShowsNothing) {
   for (const bool there : found.likeliest) EXPECT_FALSE(there);
 }
 
-TEST(Window, EachFaultIsToldApart) {
+TEST(Window, EachFaultIsSeparated) {
   const std::array<std::pair<Magnitudes, Fault>, 4> cases{{{{1, 0, 0, 0, 0, 0}, Fault::friction},
                                                            {{0, 1.5, 0, 0, 0, 0}, Fault::edge_wear},
                                                            {{0, 0, 1, 1, 0, 0}, Fault::spring},
@@ -88,11 +88,11 @@ TEST(Window, StrongerSpringsAreExplainedByNoFault) {
   EXPECT_GT(isolate(result->evidence, {}, healthy_spread).unexplained_odds, 1);
 }
 
-TEST(Window, OneWayAloneTellsNothing) {
+TEST(Window, OneWayAloneShowsNothing) {
   EXPECT_FALSE(fit_window(valve(), example().valve.stroke_m, triangle({}, 50e5, 1)));
 }
 
-TEST(Window, FewEventsTellNothing) {
+TEST(Window, FewEventsShowNothing) {
   WindowState window = triangle({}, 50e5);
   window.count = least_window_events - 1;
   EXPECT_FALSE(fit_window(valve(), example().valve.stroke_m, window));
@@ -143,7 +143,7 @@ TEST(Window, FasterStrokesLeaveFrictionLessKnown) {
   EXPECT_NEAR(deviation(loosened), std::hypot(deviation(result->evidence), unknown), 1e-6);
 }
 
-TEST(EventFinder, TellsTheForceAtWhichARestingSpoolBreaksAway) {
+TEST(EventFinder, FindsTheForceAtWhichARestingSpoolBreaksAway) {
   FinderState state;
   std::vector<ForceEvent> found;
   double position_m = 0.4 * example().valve.stroke_m;

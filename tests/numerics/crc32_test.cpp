@@ -13,7 +13,7 @@ TEST(Crc32, IsThatOfZlib) {
   EXPECT_EQ(crc32({}), 0U);
 }
 
-TEST(Crc32, TellsEverySingleBit) {
+TEST(Crc32, FindsEverySingleBit) {
   std::array<std::uint8_t, 32> bytes{};
   const std::uint32_t whole = crc32(bytes);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {

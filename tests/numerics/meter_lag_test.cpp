@@ -66,7 +66,7 @@ TEST(MeterLag, IsNotFoundWhereItWouldButSmoothTheFlowsOwnErrors) {
   EXPECT_FALSE(find_meter_lag(course.time_s, wrong, course.flow));
 }
 
-TEST(MeterLag, TooFewSamplesTellNone) {
+TEST(MeterLag, TooFewSamplesShowNone) {
   const std::vector<double> few(10, 1.0);
   EXPECT_FALSE(find_meter_lag(few, few, few));
 }

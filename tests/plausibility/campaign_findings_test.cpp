@@ -109,7 +109,7 @@ struct Count {
 };
 
 /// Each recording error of one channel in turn, in campaign and, where it is the run's, beside the valve that its
-/// benches tell.
+/// benches show.
 Count spoil_each(RigBenches& valve, const std::string& ramp, const std::string& map) {
   Count count;
   const Benches sound = valve.benches();

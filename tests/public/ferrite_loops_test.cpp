@@ -24,7 +24,7 @@ Iron ferrite() {
        .preisach = {.reversible_share = 0.228, .coercive_spread = 1.0, .interaction_field_A_per_m = 19.5}});
 }
 
-/// RMS deviation over the loop's peak. The flux density is told; the measured slope turns a deviation of the field
+/// RMS deviation over the loop's peak. The flux density is given; the measured slope turns a deviation of the field
 /// strength into one of the flux density.
 double ferrite_deviation_share(const FerriteLoop& loop) {
   const Iron iron = ferrite();

@@ -72,7 +72,7 @@ Steel identify(std::initializer_list<const Loop*> loops) {
   return {fit_hysteresis(histories), full_T};
 }
 
-/// RMS deviation of the predicted flux density over the loop's peak. The field strength is all that is told.
+/// RMS deviation of the predicted flux density over the loop's peak. Only the field strength is given.
 double deviation_share(const Steel& steel, const Loop& loop) {
   sensor::HysteresisState<double> state;
   double sum = 0;

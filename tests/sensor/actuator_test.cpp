@@ -15,7 +15,7 @@ Course strokes() {
   return course;
 }
 
-TEST(Actuator, TellsTheMagneticForceWithinItsUncertainty) {
+TEST(Actuator, StatesTheMagneticForceWithinItsUncertainty) {
   const Course course = strokes();
   const ActuatorParameters<double> actuator = closed_form_actuator<double>(closed_form);
   for (const double step_s : {50e-6, 1e-3, 5e-3}) {

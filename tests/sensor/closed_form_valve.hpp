@@ -129,7 +129,7 @@ MeteringEdge<T> closed_form_edge(const ClosedFormValve& valve) {
   return out;
 }
 
-/// The observer of this valve, calibrated without error. What no bench tells is as `calibrate` assumes it.
+/// The observer of this valve, calibrated without error. What no bench shows is as `calibrate` assumes it.
 template <class T>
 ObserverParameters<T> closed_form_observer(const ClosedFormValve& valve) {
   ObserverParameters<T> out{};

@@ -64,8 +64,8 @@ TEST(CoilResistance, OfAColdStartIsNoFaultThoughTheFluxOfTheFirstMillisecondsIsM
   }
 }
 
-TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsToldPoorly) {
-  // 200 Hz at 1 kHz: whoever follows every fifth sample only always meets the same phase.
+TEST(CoilResistance, IsFollowedUnderStrongDitherWhoseFluxRateIsUncertain) {
+  // 200 Hz at 1 kHz: a sensor that takes every fifth sample only always meets the same phase.
   for (const double phase : {0.0, 0.3, 0.6, 0.9}) {
     CoilResistanceState<double> state;
     for (int n = 0; n < 20000; ++n) {

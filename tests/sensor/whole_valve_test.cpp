@@ -263,7 +263,7 @@ TEST(WholeValve, FindsHowTheEdgesShareThePressureDrop) {
   EXPECT_NEAR(answer.flow_m3_per_s, conductance * std::sqrt(60e5), 0.02 * conductance * std::sqrt(60e5));
 }
 
-TEST(WholeValve, WhoseEdgesAreCalibratedTellsTheInletsFlowUnderAnyLoad) {
+TEST(WholeValve, WhoseEdgesAreCalibratedGivesTheInletsFlowUnderAnyLoad) {
   Sides sides;
   sides.b.inlet = {.share = 0.6, .range = 0.02};
   WholeValveState<double> state = opened(sides, false);

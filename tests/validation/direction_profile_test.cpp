@@ -29,7 +29,7 @@ TEST(DirectionProfile, FindsTheWidestPlaceOfTheLoop) {
   EXPECT_NEAR(profile.bins().front().closing_m3_per_s, -0.01, 1e-12);
 }
 
-TEST(DirectionProfile, TellsTheErrorsOfEachDirection) {
+TEST(DirectionProfile, StatesTheErrorsOfEachDirection) {
   DirectionProfile profile = loop(0.1, -0.01);
   EXPECT_NEAR(profile.magnitudes(Direction::opening)->p95_m3_per_s, 0.1, 1e-3);
   EXPECT_NEAR(profile.magnitudes(Direction::closing)->median_m3_per_s, 0.01, 1e-3);

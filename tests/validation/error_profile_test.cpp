@@ -50,7 +50,7 @@ TEST(ErrorProfile, CountsErrorsBeyondFullScaleAsFullScale) {
   EXPECT_NEAR(profile.bins().front().p95_m3_per_s, 1.0, 5e-4);
 }
 
-TEST(ErrorProfile, TellsTheShareInsideTheBandOfEachBin) {
+TEST(ErrorProfile, StatesTheShareInsideTheBandOfEachBin) {
   ErrorProfile profile(1, 1.0);
   for (int k = 0; k < 200; ++k) profile.add(k < 100 ? 0.5 : 1.5, 0.1, k < 100 || k % 4 == 0);
   EXPECT_DOUBLE_EQ(profile.bins()[0].band_coverage, 1);

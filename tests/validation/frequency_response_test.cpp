@@ -71,7 +71,7 @@ TEST(FrequencyResponse, EndsWhereTheFlowNoLongerExplainsTheEstimate) {
   EXPECT_GT(response->points.back().frequency_Hz, 5);
 }
 
-TEST(FrequencyResponse, WithoutExcitationIsNotTold) {
+TEST(FrequencyResponse, WithoutExcitationIsNotStated) {
   Signals run = noise(0, 0.05);
   std::mt19937 engine(8);
   std::normal_distribution<double> normal;

@@ -41,7 +41,7 @@ ComparedSample resting_sample(double reference) {
   return {reference - 0.3, reference - 0.4, reference - 0.2, reference, false, true, true};
 }
 
-TEST(ComparedSamples, AreToldApartByWhatTheSpoolDid) {
+TEST(ComparedSamples, AreSeparatedByWhatTheSpoolDid) {
   ComparedSamples samples(unit_scale);
   for (int k = 0; k < 30; ++k) samples.add(moving_sample(0.5));
   for (int k = 0; k < 10; ++k) samples.add(resting_sample(0.5));
@@ -57,7 +57,7 @@ TEST(ComparedSamples, AreToldApartByWhatTheSpoolDid) {
   EXPECT_NEAR(metrics.rest.band_mean_width_m3_per_s, 0.2, 1e-6);
 }
 
-TEST(ComparedSamples, TellErrorsOfReadingOnlyWhereThereIsSomethingToRead) {
+TEST(ComparedSamples, StateErrorsOfReadingOnlyWhereThereIsAReading) {
   ComparedSamples samples(unit_scale);
   samples.add(moving_sample(0.05));  // below a tenth of full scale
   samples.add(moving_sample(0.5));

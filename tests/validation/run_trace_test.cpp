@@ -79,7 +79,7 @@ TEST(RunTrace, HasWhatTheCoilAndTheOilHadWhereItWasRecorded) {
   EXPECT_EQ(trace.oil_temperature_K.lowest[2], 324);
 }
 
-TEST(RunTrace, TellsAllThatWasSaidInAStretch) {
+TEST(RunTrace, HoldsEveryStatusOfAStretch) {
   const RunTrace trace = run_trace(sine(10'000, 7'000), 10'000);
   const auto place_of = [](sensor::Status bit) {
     for (unsigned n = 0; n < sensor::status_names.size(); ++n) {

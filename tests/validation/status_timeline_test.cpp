@@ -8,7 +8,7 @@ namespace {
 
 using sensor::Status;
 
-TEST(StatusTimeline, TellsWhenAndHowOften) {
+TEST(StatusTimeline, ShowsWhenAndHowOften) {
   std::vector<double> time_s;
   std::vector<Status> status;
   for (int k = 0; k < 1000; ++k) {

@@ -44,7 +44,7 @@ TEST(StepResponse, OfAFirstOrderLagRisesIn2Point2TimeConstants) {
   EXPECT_NEAR(answer.course.back(), 1, 0.01);
 }
 
-TEST(StepResponse, TellsPureDelayAndAnEstimateThatIsAheadOfTheMeter) {
+TEST(StepResponse, MeasuresPureDelayAndAnEstimateThatIsAheadOfTheMeter) {
   EXPECT_NEAR(step_response(square_wave(0.05, 0.02), step_scale)->answers.front().delay_s, 0.05, 1e-3);
   EXPECT_LT(step_response(square_wave(0, 0.002), step_scale)->answers.front().delay_s, -0.01);
 }

@@ -84,7 +84,7 @@ TEST_F(Validate, OfAWholeValveIsOverSignedFlow) {
   EXPECT_LT(judged.profiles.front().bins().front().to, 0) << "the flow of P to A has its own bins";
 }
 
-TEST_F(Validate, CountsSamplesThatFlowTheOtherWayThanTold) {
+TEST_F(Validate, CountsSamplesThatFlowTheOtherWayThanEstimated) {
   model.p_to_a = model::Direction{model.condensed, {}, {}};
   model.valve.direction = "both";
   std::string text = "time_s,current_a_A,current_b_A,position_mm,flow_reference_L_min\n";
@@ -136,7 +136,7 @@ TEST_F(Validate, CountsEveryRunAlikeHoweverLongItIs) {
   EXPECT_EQ(pooled.metrics->all.error.samples, 1000U);
 }
 
-TEST_F(Validate, TellsMotionFromTheSpoolWhateverWasCommanded) {
+TEST_F(Validate, TakesMotionFromTheSpoolWhateverWasCommanded) {
   std::string text = "time_s,current_A,position_mm,position_set_percent,flow_reference_L_min\n";
   for (int k = 0; k < 2000; ++k) {  // the command stands; the spool steps by 1 mm in 20 ms, and the meter errs then
     const double gone = std::clamp((k - 1000) / 20.0, 0.0, 1.0);
@@ -149,7 +149,7 @@ TEST_F(Validate, TellsMotionFromTheSpoolWhateverWasCommanded) {
   EXPECT_GT(worst.velocity_m_per_s, 0.01);
 }
 
-TEST_F(Validate, TellsTheReferencesScaleAndZeroAndAppliesNeither) {
+TEST_F(Validate, StatesTheReferencesScaleAndZeroAndAppliesNeither) {
   std::string text = "time_s,current_A,position_mm,flow_reference_L_min\n";
   for (int k = 0; k < 4000; ++k) {
     const double current_A = 1.5 + 0.5 * std::sin(0.01 * k), flow = 60 * std::sqrt((current_A * 20 - 10) / 50);
@@ -173,7 +173,7 @@ TEST_F(Validate, SkipsSamplesWhoseReferenceIsMissingAndStillEstimatesThem) {
   EXPECT_EQ(result.results.front().flow_m3_per_s.time_s.size(), 3U);
 }
 
-TEST_F(Validate, TellsTheWorstMoment) {
+TEST_F(Validate, StatesTheWorstMoment) {
   std::string text = "time_s,current_A,position_mm,position_set_percent,flow_reference_L_min\n";
   for (int k = 0; k < 1000; ++k) {
     text += number(k * 0.01) + ",1.5,1,41.7," + number(flow_L_min - (k == 700 ? 20 : 1)) + "\n";

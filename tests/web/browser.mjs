@@ -230,7 +230,7 @@ test('the reader chooses the units', async () => {
   assert.ok(Math.abs(now.values[2].series.measured - 14.5038 * before.values[2].series.measured) < 1.5);
 });
 
-test('the keyboard moves the cursor by samples, zooms, and a screen reader is told', async () => {
+test('the keyboard moves the cursor by samples, zooms, and a screen reader announces it', async () => {
   const { page } = await opened('usual');
   const figure = await plots(page);
   const whole = await range(figure);
@@ -427,7 +427,7 @@ test('dragging up or down zooms the values of one plot, its buttons do too, and 
   assert.equal(await drawing(0), first);
 });
 
-test('two cursors tell the time between them and the difference of every trace', async () => {
+test('two cursors show the time between them and the difference of every trace', async () => {
   const { page } = await opened('usual');
   const figure = await plots(page);
   const recorded = rowsOf('usual.csv');
@@ -443,10 +443,10 @@ test('two cursors tell the time between them and the difference of every trace',
   const said = await figure.locator('.clock').textContent();
   const [from, to] = said.match(/t = ([0-9.]+) s, Δt = ([0-9.]+) s/).slice(1).map(Number);
   assert.ok(Math.abs(from - 7) < 0.02 && Math.abs(to - 5) < 0.04, `${from}, ${to}`);
-  const told = await figure.locator('output[data-difference=measured]').first().textContent();
+  const shown = await figure.locator('output[data-difference=measured]').first().textContent();
   const k = Math.round(from * 1000);
   const expected = recorded[k].flow_reference_L_min - recorded[k - Math.round(to * 1000)].flow_reference_L_min;
-  assert.ok(Math.abs(Number(told.replace('Δ ', '').replace('−', '-')) - expected) < 0.02, `${told}, ${expected}`);
+  assert.ok(Math.abs(Number(shown.replace('Δ ', '').replace('−', '-')) - expected) < 0.02, `${shown}, ${expected}`);
   await figure.locator('.plots').focus();
   await page.keyboard.press('c');
   assert.equal(await figure.locator('.clock').textContent(), '');

@@ -1,5 +1,5 @@
 #!/bin/sh
-# browser.sh PAGE REPORTS COMMAND MODEL: opens the reports of some telling runs in Chromium. SPOOLFLOW_PICTURES=FOLDER also keeps
+# browser.sh PAGE REPORTS COMMAND MODEL: opens the reports of some runs in Chromium. SPOOLFLOW_PICTURES=FOLDER also keeps
 # screenshots and a print of them.
 set -eu
 page=$1

@@ -178,7 +178,7 @@ test('alarms are raised, acknowledged by a button, and stay acknowledged over a 
   await page.waitForSelector('.alarm:has-text("feed_udp"):has-text("no samples")', { timeout: 30000 });
   const torn = page.locator('.alarm:has-text("clamp_torn_cable"):has-text("function check")').first();
   await torn.waitFor({ timeout: 30000 });
-  // What stands on the card of the valve without samples is told as old, in its figures as in words.
+  // What stands on the card of the valve without samples is marked as old, in its figures as in words.
   const quiet = page.locator('.card:has-text("feed_udp")');
   assert.match(await quiet.locator('.flow').textContent(), /^last /);
   assert.match(await quiet.locator('.worst').textContent(), /^no samples for \d+ s/);
@@ -272,7 +272,7 @@ test('narrow and dark, nothing goes beyond the page', async () => {
   }
 });
 
-// At a program of its own: that of the others may have been started anew since the end, and then knows no figures.
+// At a program of its own: that of the others may have been restarted since the end, and then knows no figures.
 test('a recording that has ended leaves old figures, and its card says so', async () => {
   writeFileSync(join(folder, 'ended.toml'), '[page]\nlisten = "127.0.0.1:0"\n[[valve]]\nid = "clamp"\nmodel = "model.json"\n' +
     'source = { kind = "replay", recording = "short.csv" }\n');

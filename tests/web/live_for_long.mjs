@@ -1,6 +1,6 @@
 // The page of a running `spoolflow live` in a real browser for as long as wanted: what would grow, stall or go stale shows.
 //   SPOOLFLOW_BROWSER=chromium node live_for_long.mjs http://127.0.0.1:PORT SECONDS VALVE
-// One tab shows all valves, another the plot of VALVE. A line a minute; the exit status tells whether all was well.
+// One tab shows all valves, another the plot of VALVE. A line a minute; the exit status shows whether all was well.
 import assert from 'node:assert/strict';
 import { chromium } from 'playwright-core';
 
@@ -39,7 +39,7 @@ await tabs[0].page.waitForSelector('.card');
 await tabs[1].page.waitForSelector('canvas');
 const settled = new Map();
 const began = Date.now();
-for (let told = 0; Date.now() - began < 1000 * seconds;) {
+for (let lines = 0; Date.now() - began < 1000 * seconds;) {
   await new Promise((resolve) => setTimeout(resolve, Math.min(60_000, 1000 * seconds / 8)));
   const passed_s = (Date.now() - began) / 1000;
   let line = `${passed_s.toFixed(0).padStart(7)} s:`;
@@ -53,7 +53,7 @@ for (let told = 0; Date.now() - began < 1000 * seconds;) {
   }
   const shown = await tabs[0].page.$$eval('.card', (all) => all.length);
   console.log(`${line} ${shown} cards`);
-  told += 1;
+  lines += 1;
 }
 await browser.close();
 assert.deepEqual(complaints, []);

@@ -120,7 +120,7 @@ test('differences of temperatures have no offset', () => {
   assert.equal(differenceText({ ...series, shape: 'band' } as Series, 0, 2, table.temperature[0]), '');
 });
 
-test('the first click puts cursor A, the second B, the third begins anew, half of a double click nothing', () => {
+test('the first click puts cursor A, the second B, the third begins again, half of a double click nothing', () => {
   const view = new View(0, 10, 1);
   view.clickAt(2);
   view.clickAt(5);
@@ -139,7 +139,7 @@ test('numbers have a true minus sign, no negative zero, and a dash where nothing
   assert.equal(numberText(NaN, 2), '–');
 });
 
-test('errors are told in percent of full scale or in the unit of the flow', () => {
+test('errors are stated in percent of full scale or in the unit of the flow', () => {
   const units = new ReadersUnits();
   assert.equal(units.unitOf('error', 80).factor * 8, 10);
   units.choose('error', 1);
@@ -176,7 +176,7 @@ test('a channel map is the same as rows and as text, and its comments stay', () 
 const seen = (name: string, state: string, more: object = {}): Indicator =>
   ({ name, value: 1, unit: '1', uncertainty_95: 0.1, baseline: 1, state, ...more });
 
-test('of indicators raised ones come first, then those that tell most, and counters stand apart', () => {
+test('of indicators raised ones come first, then the most informative ones, and counters stand apart', () => {
   const found = grouped([seen('strokes', 'counts'), seen('dither_frequency', 'good'), seen('position_zero', 'good'), seen('friction_ratio', 'good'),
                          seen('dither_frees', 'raised'), seen('friction_ratio_a', 'good')]);
   assert.deepEqual(found.shown.map((one) => one.name), ['dither_frees', 'friction_ratio', 'friction_ratio_a', 'position_zero']);
@@ -184,7 +184,7 @@ test('of indicators raised ones come first, then those that tell most, and count
   assert.deepEqual(found.counters.map((one) => one.name), ['strokes']);
 });
 
-test('a trend tells how fast and when its limit is reached, in the indicator’s unit', () => {
+test('a trend shows how fast and when its limit is reached, in the indicator’s unit', () => {
   const trend = { per_hour: 0.5e-6, uncertainty_95: 1e-7, limit: 80e-6, hours_to_limit: 100, hours_to_limit_95: [80, 130] as [number, number] };
   assert.equal(trendText(seen('edge_rounding', 'good', { unit: 'm', trend })), '+12 µm a day; reaches its limit 80 µm in about 4 days at work');
   assert.equal(trendText(seen('edge_rounding', 'good', { unit: 'm', trend: { ...trend, hours_to_limit: null } })), '+12 µm a day');

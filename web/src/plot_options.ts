@@ -126,7 +126,7 @@ export function bindClicks(plot: uPlot, view: View, snapped: (time: number) => n
   });
 }
 
-/** Zoom by dragging, and the cursor that all plots share. `zoomHeight` is told the range of values that was dragged over. */
+/** Zoom by dragging, and the cursor that all plots share. `zoomHeight` gets the range of values that was dragged over. */
 export function hooksOf(view: View, zoomHeight?: (lowest: number, highest: number) => void): Partial<uPlot.Hooks.Arrays> {
   return {
     setSelect: [
@@ -149,7 +149,7 @@ export function hooksOf(view: View, zoomHeight?: (lowest: number, highest: numbe
   };
 }
 
-/** Puts the plot's cursor where the view's is, without telling the view again. */
+/** Puts the plot's cursor where the view's is, without a call of the view. */
 export function showCursor(plot: uPlot, view: View): void {
   const time = view.cursor;
   const inside = time !== null && time >= view.from && time <= view.to;

@@ -69,8 +69,8 @@ export class Readout {
   sentence(index: number, from: number | null, unit: Unit): string {
     return this.panel.series.map((series) => {
       const difference = from === null ? '' : differenceText(series, from, index, unit);
-      const told = difference === '' ? '' : `, difference ${difference}`;
-      return `${series.name} ${valueText(series, index, unit)} ${unit.name}${told}`;
+      const suffix = difference === '' ? '' : `, difference ${difference}`;
+      return `${series.name} ${valueText(series, index, unit)} ${unit.name}${suffix}`;
     }).join(', ');
   }
 

@@ -61,7 +61,7 @@ export class View {
     this.putMarks(noMarks);
   }
 
-  /** The first click puts a, the second b, the third begins anew. */
+  /** The first click puts a, the second b, the third begins again. */
   clickAt(time: number): void {
     this.beforeClick = this.marks;
     if (this.marks.a === null) this.putMarks({ a: time });

@@ -10,11 +10,11 @@ cd "$folder"
 "$source/addons/cross/windows_library.sh" library.zip
 cmake -E tar xf library.zip
 cd spoolflow-*-windows-x64
-x86_64-w64-mingw32-objdump -p bin/spoolflow.dll >told
-sed -n 's/^\t\[ *[0-9]*\] \(spoolflow_[a-z_]*\)$/\1/p' told | sort -u >exported
+x86_64-w64-mingw32-objdump -p bin/spoolflow.dll >headers
+sed -n 's/^\t\[ *[0-9]*\] \(spoolflow_[a-z_]*\)$/\1/p' headers | sort -u >exported
 grep 'SPOOLFLOW_API' include/spoolflow.h | grep -o 'spoolflow_[a-z_]*(' | tr -d '(' | sort -u | diff - exported
 test "$(wc -l <exported)" -ge 20
-test "$(sed -n 's/.*DLL Name: //p' told | sort | tr '\n' ' ')" = "KERNEL32.dll msvcrt.dll "
+test "$(sed -n 's/.*DLL Name: //p' headers | sort | tr '\n' ' ')" = "KERNEL32.dll msvcrt.dll "
 x86_64-w64-mingw32-gcc-posix -std=c99 -Wall -Wextra -Werror -Iinclude examples/estimate.c lib/libspoolflow.dll.a -o bin/estimate.exe
 emulator=$(command -v wine64 || command -v /usr/lib/wine/wine64 || true)
 if [ -z "$emulator" ]; then

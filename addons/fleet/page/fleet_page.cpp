@@ -151,7 +151,7 @@ std::optional<PageAnswer> FleetPage::acknowledge(std::string_view alarm, const s
   if (error != std::errc() || end != last) return std::nullopt;
   try {
     const auto seen = fleet::acknowledge(session(), name.substr(0, slash), id, by, live::wall_ms());
-    read_.reset();  // whoever looks sees it
+    read_.reset();  // the page shows it
     if (!seen) return PageAnswer{404, plain, "there is no alarm of this name\n"};
     return PageAnswer{200, json, alarm_json(*seen)};
   } catch (const ContentRefused&) {

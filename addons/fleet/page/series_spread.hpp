@@ -1,5 +1,5 @@
 #pragma once
-/// How an indicator is spread over the valves of a series, and which of them differ from their sisters.
+/// How an indicator is spread over the valves of a series, and which of them differ from the others.
 #include <cstddef>
 #include <vector>
 
@@ -26,7 +26,7 @@ struct SeriesSpread {
 inline constexpr std::size_t fewest_sisters = 5;
 /// Iglewicz and Hoaglin, How to Detect and Handle Outliers, 1993: beyond it a value is labelled as an outlier.
 inline constexpr double outlier_score = 3.5;
-/// Whether the valve differs from its sisters, and by more than its own value is uncertain.
+/// Whether the valve differs from the others, and by more than its own value is uncertain.
 [[nodiscard]] bool is_outlier(const SeriesSpread& spread, const ValveFigure& one);
 
 }  // namespace spoolflow::fleet

@@ -11,7 +11,7 @@ namespace spoolflow::fleet {
 
 struct Claim {
   std::int64_t partition = 0;
-  std::int64_t epoch = 0;  ///< what it was raised to; whoever holds an older one has lost the partition
+  std::int64_t epoch = 0;  ///< what it was raised to; a worker with an older one has lost the partition
 };
 
 /// The partition is another's by now: what was computed since the last transaction is worthless.

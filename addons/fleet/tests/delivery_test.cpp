@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A site, a way that loses all while it is closed, and a fleet that commits each half second, and tells it, the blocks
+/// A site, a way that loses all while it is closed, and a fleet that commits each half second, and confirms, the blocks
 /// whose turn has come. It asks for nothing.
 struct Way {
   Delivery::Time now{seconds(1000)};

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """faults_test.py COMMAND REFERENCE EXAMPLES single|cluster [SEED…] [--show] [--large]: a fleet whose parts are killed, stopped and cut off one
 after another while blocks are on their way; what it has kept must be, bit for bit, what one process without servers
-reckons from the same blocks. `single`: one NATS server and one PostgreSQL server. `cluster`: three NATS servers with
+computes from the same blocks. `single`: one NATS server and one PostgreSQL server. `cluster`: three NATS servers with
 three replicas, a primary and a synchronous standby that takes over. Without a seed there are two, 1 and 2. --large: 200 valves and
 ten minutes of samples, or VALVES,SECONDS as --large=50,100, in blocks of a second; of disk 20 bytes a sample are used."""
 import json
@@ -15,7 +15,7 @@ import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from block_reader import read_block  # noqa: E402
-from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, reckoned, record_offline,  # noqa: E402
+from fleet import (Watch, blocks_of, compared, kept, make_recordings, outbox, reach, computed, record_offline,  # noqa: E402
                    reports_of_the_fleet, reports_of_the_site, site, write_reporting_site, write_site)
 from servers import make_certificates, refused_by_nats, until  # noqa: E402
 from whole_fleet import Fleet, WithAFleet  # noqa: E402
@@ -176,7 +176,7 @@ class Faults(WithAFleet):
         waiting, newest, totals = outbox(self.folder)
         self.assertEqual(waiting, sum(newest.values()))
         self.look_at_blocks(newest["v0"])
-        expected = reckoned(COMMAND, REFERENCE, self.folder, MODEL)
+        expected = computed(COMMAND, REFERENCE, self.folder, MODEL)
         for kind in ("second", "indicator", "event", "alarm", "model_in_force"):  # there is something of each to lose
             self.assertTrue(any(line.startswith(kind + "|") for line in expected), kind)
 

@@ -249,7 +249,7 @@ class Watch:
         return self.text_of(self.all)
 
 
-def reckoned(command, reference, folder, model):
+def computed(command, reference, folder, model):
     """What one process makes of the blocks that wait in the site's store."""
     version = subprocess.run([command, "--version"], text=True, capture_output=True, check=True).stdout.strip()
     done = subprocess.run([reference, version, "site.sqlite", model, "0", "0.05"], cwd=folder, text=True,

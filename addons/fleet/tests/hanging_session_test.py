@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """hanging_session_test.py COMMAND REFERENCE EXAMPLES: a process of PostgreSQL that serves a partition hangs for good, while its machine keeps the
-line open. The worker says so, leaves it, and the partition goes on; nothing is lost and nothing taken twice."""
+line open. The worker reports it, leaves it, and the partition goes on; nothing is lost and nothing taken twice."""
 import os
 import random
 import signal

@@ -43,7 +43,7 @@ class MendedStore(WithAFleet):
             self.assertEqual(self.fleet.postgres.ask("SELECT count(*) FROM event WHERE text LIKE '%are lost%'"), ["0"])
             before = self.committed()
             until(lambda: all(int(self.committed()[valve]) > int(before[valve]) + 50 for valve in before), 60,
-                  "blocks of a store that is written anew")
+                  "blocks of a store that is written again")
             for gate in fleet.gates:
                 gate.close()
             cut_off = outbox(self.folder)[1]

@@ -74,7 +74,7 @@ TEST_F(Outbox, SendsAgainWhatCouldNotBeKept) {
   EXPECT_EQ(next.since_last.samples, 2000);
 }
 
-// A disk that is full for an hour: memory holds the newest blocks up to the limit, and their numbers tell of the gap.
+// A disk that is full for an hour: memory holds the newest blocks up to the limit, and their numbers show the gap.
 TEST_F(Outbox, BlocksThatTheStoreCannotKeepAreHeldInMemoryUpToTheLimit) {
   const auto at = valve({.valve = "v", .session = 5});
   std::size_t given_up = 0, most = 0;

@@ -201,7 +201,7 @@ class Page(unittest.TestCase):
 
     def test_z_says_that_the_database_is_away_and_comes_back(self):
         self.fleet.postgres.kill()
-        until(lambda: self.ask("/api/v1/alarms")[0] == 503, 20, "a page that says so")
+        until(lambda: self.ask("/api/v1/alarms")[0] == 503, 20, "a page that reports it")
         self.assertIn("PostgreSQL", self.ask("/api/v1/alarms")[1])
         self.fleet.postgres.restart()
         until(lambda: self.ask("/api/v1/alarms")[0] == 200, 20, "a page that is back")

@@ -11,7 +11,7 @@ import tempfile
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from servers import Postgres, free_ports  # noqa: E402
 
-# Valve v belongs to one of 20 sites and one of two series. Every 1000th valve's friction is beyond that of its sisters, every
+# Valve v belongs to one of 20 sites and one of two series. Every 1000th valve's friction is beyond that of its series, every
 # 500th has an alarm, every 250th has been silent for an hour. A whole hour is kept of the first one alone.
 ROWS = """
 SET synchronous_commit = off;

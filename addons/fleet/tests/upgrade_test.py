@@ -126,7 +126,7 @@ class Upgrade(unittest.TestCase):
         self.assertEqual(self.postgres.ask("SELECT count(*), min(block), max(block) FROM second"), [f"{newest}|1|{newest}"])
         self.assertEqual(after["model_in_force"], before["model_in_force"])
         self.assertIn(before["alarm"][0], after["alarm"])
-        self.assertGreater(len(after["event"]), 1)  # that sensor and monitor began anew
+        self.assertGreater(len(after["event"]), 1)  # that sensor and monitor were reset
 
     def session(self):
         """Of the site's store."""

@@ -74,7 +74,7 @@ TEST(ValveLine, TakesEachBlockOnceAndInItsTurn) {
   EXPECT_FALSE(at.take_rows().has_value());
 }
 
-TEST(ValveLine, TellsBlocksThatTheSiteHasLost) {
+TEST(ValveLine, ReportsBlocksThatTheSiteHasLost) {
   ValveLine at("hall/v", "test", delays);
   at.work(second(1), size_6());
   Block later = second(5);
@@ -103,7 +103,7 @@ TEST(ValveLine, CountsFromOneAgainWithAnotherStoreOfTheSite) {
   EXPECT_THAT(rows.events.front().text, HasSubstr("counted from 1 again"));
 }
 
-TEST(ValveLine, TellsFromWhichBlockOnAModelIsInForce) {
+TEST(ValveLine, ReportsFromWhichBlockOnAModelIsInForce) {
   ValveLine at("hall/v", "test", delays);
   at.work(second(1), size_6("a"));
   at.work(second(2), size_6("b"));

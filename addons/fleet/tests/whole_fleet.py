@@ -7,7 +7,7 @@ import tempfile
 import time
 import unittest
 
-from fleet import Worker, make_recordings, outbox, reckoned, record_offline, write_fleet, write_site
+from fleet import Worker, make_recordings, outbox, computed, record_offline, write_fleet, write_site
 from servers import Gate, Nats, Postgres, ask_nats, free_ports, make_certificates, tls_of_nats, until
 
 
@@ -109,7 +109,7 @@ class Fleet:
         server.start()
 
     def delete_the_stream(self, _):
-        # A cluster may be without a leader for a while, and one that has deleted it may fail before it says so.
+        # A cluster may be without a leader for a while, and one that has deleted it may fail before it confirms.
         def deleted():
             said = ask_nats(self.nats_ports[0], "$JS.API.STREAM.DELETE.spoolflow", self.user)
             return '"success":true' in said or "stream not found" in said
@@ -157,4 +157,4 @@ class WithAFleet(unittest.TestCase):
         make_recordings(command, self.folder, seconds)
         write_site(self.folder, model, valves, 0.1)
         record_offline(command, self.folder, "nats://127.0.0.1:1", valves, 1000 * seconds, 120)
-        return outbox(self.folder)[0], reckoned(command, reference, self.folder, model)
+        return outbox(self.folder)[0], computed(command, reference, self.folder, model)

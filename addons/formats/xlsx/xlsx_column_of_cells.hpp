@@ -32,7 +32,7 @@ class XlsxColumnOfCells {
 
  private:
   /// A number that is written as text, with a decimal point or a decimal comma: one kind in a column. 1,234 alone may
-  /// be 1234 to whoever wrote it, until another cell of the column decides.
+  /// be 1234 to its author, until another cell of the column decides.
   double text_number(const XlsxCell& cell, std::uint64_t row, double value);
   /// 1,234 and -12,345, but not 0,123 or 1,25.
   static bool may_group_thousands(std::string_view text);

@@ -1,5 +1,5 @@
 #pragma once
-/// Modbus TCP: the registers of docs/fieldbus.md for whoever asks; nothing can be written.
+/// Modbus TCP: the registers of docs/fieldbus.md for any client; nothing can be written.
 #include <memory>
 
 #include "addons/live/engine.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-/// One program at a time on a store. The lock lies on the file itself, beyond all that SQLite locks: whoever comes by
-/// another name of it (a symbolic or a hard link) meets it, too.
+/// One program at a time on a store. The lock lies on the file itself, beyond all that SQLite locks: a program that
+/// comes by another name of it (a symbolic or a hard link) meets it, too.
 #include <string>
 
 namespace spoolflow::live {

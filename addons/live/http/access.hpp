@@ -31,7 +31,7 @@ class Access {
   /// Throws SiteError where an account's secret is no hash.
   explicit Access(const PageSettings& settings);
 
-  /// Other accounts from now on, of which none may be unusable (check_secrets). Whoever is logged in stays so, with the
+  /// Other accounts from now on, of which none may be unusable (check_secrets). Sessions go on, with the
   /// role that they have now, unless their account is gone or its secret another.
   void change(const PageSettings& settings);
 

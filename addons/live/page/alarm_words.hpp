@@ -1,5 +1,5 @@
 #pragma once
-/// What an alarm means and what to do about it, in words for whoever stands at the machine.
+/// What an alarm means and what to do about it, in words for the operator of the machine.
 #include <array>
 #include <string_view>
 

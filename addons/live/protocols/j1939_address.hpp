@@ -1,5 +1,5 @@
 #pragma once
-/// The right to a J1939 source address (SAE J1939-81): claimed, sent when asked, given up to whoever has the lesser
+/// The right to a J1939 source address (SAE J1939-81): claimed, sent when asked, given up to the device of the lesser
 /// NAME.
 #include <cstdint>
 #include <optional>

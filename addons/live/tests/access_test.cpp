@@ -45,7 +45,7 @@ TEST(SecretHash, HoldsItsOwnSecretAlone) {
 
 // The same figures by another program: python3 -c "import hashlib; hashlib.scrypt(b'pleaseletmein',
 // salt=b'0123456789abcdef', n=2**14, r=8, p=1, dklen=32, maxmem=2**26)".
-TEST(SecretHash, IsScryptAsOtherProgramsReckonIt) {
+TEST(SecretHash, IsScryptAsOtherProgramsComputeIt) {
   EXPECT_TRUE(holds("$scrypt$ln=14,r=8,p=1$MDEyMzQ1Njc4OWFiY2RlZg$wOBlTLx2kTvDnlM7GeRqLPJSaL8dgO6Mbiarn6WFHEI",
                     "pleaseletmein"));
 }

@@ -59,7 +59,7 @@ TEST_F(AlarmList, WhatStandsLongEnoughIsRaisedWithWhatWasSeen) {
   EXPECT_EQ(alarm.sign, "M");
   EXPECT_EQ(alarm.time_s, 10);
   EXPECT_THAT(alarm.text, HasSubstr("odds 120 to 1; at 6 L/min"));
-  ASSERT_EQ(alarm.indicators.size(), 1U);  // counters tell nothing of it
+  ASSERT_EQ(alarm.indicators.size(), 1U);  // counters do not describe it
   EXPECT_EQ(alarm.indicators[0].value, 1.6);
   EXPECT_EQ(state(), "raised_unacknowledged");
 }
@@ -103,7 +103,7 @@ TEST_F(AlarmList, AcknowledgedByTheFirstWhoDoes) {
   EXPECT_EQ(alarms.acknowledge(1, "bert", now_ms + 5)->acknowledged_by, "anna");
 }
 
-TEST_F(AlarmList, WhatBecomesWorseIsToBeSeenAnew) {
+TEST_F(AlarmList, WhatBecomesWorseIsToBeSeenAgain) {
   ValveView valve = worn();
   valve.causes = {{Fault::coil, 50}};
   look(valve, 3);

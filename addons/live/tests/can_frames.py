@@ -40,7 +40,7 @@ def process_data(message):
 
 def agreeing_flows(flows, data):
     """How many J1939 flows say what the process data next to them say; all of both must be decodable."""
-    told = 0
+    agreeing = 0
     data = sorted(data, key=lambda one: one.timestamp)
     for message in flows:
         extend, retract, state, limit = message.data[:4]
@@ -52,5 +52,5 @@ def agreeing_flows(flows, data):
         if extend > 250 or flow == NOT_KNOWN or word != ACTIVE:
             continue
         assert lower <= flow <= upper, near
-        told += abs((extend - 125) - 100 * flow / 16384) < 2
-    return told
+        agreeing += abs((extend - 125) - 100 * flow / 16384) < 2
+    return agreeing

@@ -39,7 +39,7 @@ def read(bus, index, sub):
 
 
 def judge(messages, name):
-    """Estimated flow every 100 ms and process data of two nodes, all of them told alike."""
+    """Estimated flow every 100 ms and process data of two nodes, all of them equal."""
     groups = grouped(messages)
     assert set(groups) == {(True, 0x18EEFF80), (True, 0x0CFE1380), (False, 0x191), (False, 0x192), (False, 0x711),
                            (False, 0x712)} | ({(False, 0x591)} & set(groups)), (name, groups.keys())
@@ -47,8 +47,8 @@ def judge(messages, name):
     assert abs(median_step(flows) - 0.1) < 0.02, (name, median_step(flows))
     claimed = groups[(True, 0x18EEFF80)][0].timestamp  # 0.25 s for others to object
     assert flows[0].timestamp - claimed > 0.24, (name, flows[0].timestamp - claimed)
-    told = agreeing_flows(flows, groups[(False, 0x191)])
-    assert told > 0.5 * len(flows), (name, told, len(flows))
+    agreeing = agreeing_flows(flows, groups[(False, 0x191)])
+    assert agreeing > 0.5 * len(flows), (name, agreeing, len(flows))
     return len(messages)
 
 

@@ -78,11 +78,11 @@ try:
         threading.Thread(target=pump, daemon=True).start()
         result = None
         for line in master.stdout:
-            told = json.loads(line)
-            if "values" in told:
-                result = told
+            message = json.loads(line)
+            if "values" in message:
+                result = message
                 break
-            bus.send(can.Message(arbitration_id=told["id"], is_extended_id=False, data=bytes.fromhex(told["data"])))
+            bus.send(can.Message(arbitration_id=message["id"], is_extended_id=False, data=bytes.fromhex(message["data"])))
         assert master.wait(timeout=60) == 0 and result, "the master gave up"
     values = result["values"]
     assert values["1000.0"] == 408 and values["1800.1"] == 0x40000191, values

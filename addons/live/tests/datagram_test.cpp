@@ -109,7 +109,7 @@ class DatagramOrderTest : public ::testing::Test {
   DatagramOrder order;
 };
 
-TEST_F(DatagramOrderTest, TellsWhatWasLostAndLeavesOutWhatCameBefore) {
+TEST_F(DatagramOrderTest, CountsWhatWasLostAndLeavesOutWhatCameBefore) {
   EXPECT_EQ(take(100, 10).lost_before, 0U);  // in the middle of a session: nothing is known of what was before
   EXPECT_EQ(take(110, 10).samples.size(), 10U);
   const SampleBlock after_gap = take(150, 10);
@@ -123,7 +123,7 @@ TEST_F(DatagramOrderTest, TellsWhatWasLostAndLeavesOutWhatCameBefore) {
   EXPECT_EQ(intake.counters().connections, 1U);
 }
 
-TEST_F(DatagramOrderTest, ANewSessionBeginsAnew) {
+TEST_F(DatagramOrderTest, ANewSessionStartsAgain) {
   (void)take(100, 10);
   const SampleBlock first = take(0, 10, 8);
   EXPECT_EQ(first.samples.size(), 10U);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """mended_store_test.py COMMAND EXAMPLES: the store's file cut off and deleted under a running program: it goes on
-answering and keeping, and tells what it did on page, metrics and standard error."""
+answering and keeping, and reports what it did on page, metrics and standard error."""
 import json
 import os
 import shutil
@@ -30,11 +30,11 @@ class MendedStore(unittest.TestCase):
     def live(self):
         return Live(COMMAND, self.folder, "site.toml", "--store", "site.sqlite")
 
-    def told(self, live, path):
+    def answer_of(self, live, path):
         return json.loads(live.ask(path)[2])
 
     def samples(self, live):
-        return self.told(live, "/api/v1/valves")["valves"][0]["samples"]
+        return self.answer_of(live, "/api/v1/valves")["valves"][0]["samples"]
 
     def until(self, true):
         for _ in range(600):
@@ -46,19 +46,19 @@ class MendedStore(unittest.TestCase):
     def test_cut_off_then_deleted(self):
         with self.live() as live:
             self.until(lambda: os.path.getsize(self.store) > 0 and self.samples(live) > 2000)
-            self.assertIsNone(self.told(live, "/api/v1/site")["store_mended"])
+            self.assertIsNone(self.answer_of(live, "/api/v1/site")["store_mended"])
             os.truncate(self.store, 0)
-            self.until(lambda: self.told(live, "/api/v1/site")["store_mended"] is not None)
-            text = self.told(live, "/api/v1/site")["store_mended"]["text"]
+            self.until(lambda: self.answer_of(live, "/api/v1/site")["store_mended"] is not None)
+            text = self.answer_of(live, "/api/v1/site")["store_mended"]["text"]
             self.assertIn("set aside", text)
             self.assertTrue([name for name in os.listdir(self.folder) if name.startswith("site.sqlite.damaged-")])
-            self.assertIn(text, [event["text"] for event in self.told(live, "/api/v1/events")["events"]])
+            self.assertIn(text, [event["text"] for event in self.answer_of(live, "/api/v1/events")["events"]])
             self.assertIn("spoolflow_store_mended_total 1", live.ask("/metrics")[2])
             os.remove(self.store)
-            self.until(lambda: "was deleted" in self.told(live, "/api/v1/site")["store_mended"]["text"])
+            self.until(lambda: "was deleted" in self.answer_of(live, "/api/v1/site")["store_mended"]["text"])
             before = self.samples(live)
             self.until(lambda: self.samples(live) > before + 1500)
-            self.until(lambda: self.told(live, "/api/v1/site")["store_trouble"] == "")
+            self.until(lambda: self.answer_of(live, "/api/v1/site")["store_trouble"] == "")
             self.assertIn("spoolflow_store_failing 0", live.ask("/metrics")[2])
             self.assertIn("set aside", live.heard())
             before = self.samples(live)

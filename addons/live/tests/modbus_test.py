@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""modbus_test.py COMMAND EXAMPLES: what [modbus] tells, read by pymodbus; what must be refused."""
+"""modbus_test.py COMMAND EXAMPLES: the registers of [modbus], read by pymodbus; what must be refused."""
 import json
 import math
 import os
@@ -48,13 +48,13 @@ try:
         assert client.connect()
         head = client.read_holding_registers(0, HEAD, slave=1).registers
         assert head[:4] == [0x5346, 1, 2, PER_VALVE], head
-        while (told := valve(client, 0))["samples"] < 100 or math.isnan(told["flow"]):
+        while (registers := valve(client, 0))["samples"] < 100 or math.isnan(registers["flow"]):
             pass
-        assert told["id"] == "a" and told["stalled"] == 0, told
-        assert told["lower"] <= told["flow"] <= told["upper"], told
+        assert registers["id"] == "a" and registers["stalled"] == 0, registers
+        assert registers["lower"] <= registers["flow"] <= registers["upper"], registers
         page = json.loads(live.ask("/api/v1/valves")[2])["valves"][0]
-        assert math.isclose(told["rated"], page["rated_flow_L_min"], rel_tol=1e-5), (told, page)
-        assert page["samples"] >= told["samples"]
+        assert math.isclose(registers["rated"], page["rated_flow_L_min"], rel_tol=1e-5), (registers, page)
+        assert page["samples"] >= registers["samples"]
         silent = valve(client, 1)
         assert silent["id"] == "silent" and silent["stalled"] == 1 and silent["ne107"] == 3, silent
         assert math.isnan(silent["flow"]), silent
@@ -68,6 +68,6 @@ try:
         assert 'spoolflow_output_sent_total{output="modbus"}' in live.ask("/metrics")[2]
         client.close()
         slow.close()
-    print(told)
+    print(registers)
 finally:
     shutil.rmtree(folder)

@@ -172,12 +172,12 @@ try:
         # the sequence has no gap, past 255
         while len(host.heard) < 300:
             time.sleep(0.1)
-        told = [decoder.decode(payload) for topic, payload in host.heard if "/N" not in topic or "NBIRTH" in topic]
+        payloads = [decoder.decode(payload) for topic, payload in host.heard if "/N" not in topic or "NBIRTH" in topic]
         last = None
-        for one in told:
+        for one in payloads:
             assert last is None or one["seq"] in ((last + 1) % 256, 0), (last, one)
             last = one["seq"]
-        flows = [one for one in told if "Flow/L_min" in values(one)]
+        flows = [one for one in payloads if "Flow/L_min" in values(one)]
         assert len({values(one)["Flow/L_min"] for one in flows}) > 10
 
         # a new birth by command, written by the foreign encoder

@@ -1,4 +1,4 @@
-// opcua_client.mjs ENDPOINT PKI NAME PASSWORD: browses a spoolflow-opcua server and tells what it finds as JSON.
+// opcua_client.mjs ENDPOINT PKI NAME PASSWORD: browses a spoolflow-opcua server and prints what it finds as JSON.
 // Writes and anonymous sessions are tried, too, and must be refused.
 import {
   AttributeIds, BrowseDirection, DataType, MessageSecurityMode, OPCUACertificateManager, OPCUAClient, SecurityPolicy,
@@ -46,7 +46,7 @@ try {
     const objects = await children(session, "ObjectsFolder");
     const machines = objects.find((one) => one.browseName.name === "Machines");
     for (const valve of await children(session, machines.nodeId)) {
-      const told = {};
+      const nodes = {};
       for (const one of await children(session, valve.nodeId)) {
         const under = await children(session, one.nodeId);
         const signal = under.find((x) => x.browseName.name === "AnalogSignal");
@@ -60,9 +60,9 @@ try {
           entry.write = (await session.write({ nodeId: signal.nodeId, attributeId: AttributeIds.Value,
             value: { value: { dataType: DataType.Double, value: 1 } } })).name;
         }
-        told[one.browseName.name] = entry;
+        nodes[one.browseName.name] = entry;
       }
-      if (told.Flow) out.valves[valve.browseName.name] = told;
+      if (nodes.Flow) out.valves[valve.browseName.name] = nodes;
     }
   });
 } catch (error) {

@@ -64,11 +64,11 @@ try:
         assert len(names) == 1, names
         shutil.move(os.path.join(rejected, names[0]), os.path.join(folder, "pki", "trusted", "certs", names[0]))
         with Bridge(folder, live.port) as server:
-            told = server.browse(folder)
+            found = server.browse(folder)
     for refused in ("withoutEncryption", "anonymous", "wrongPassword"):
-        assert isinstance(told[refused], str) and told[refused], (refused, told)
-    assert "failed" not in told and set(told["valves"]) == {"a", "silent"}, told
-    a, silent = told["valves"]["a"], told["valves"]["silent"]
+        assert isinstance(found[refused], str) and found[refused], (refused, found)
+    assert "failed" not in found and set(found["valves"]) == {"a", "silent"}, found
+    a, silent = found["valves"]["a"], found["valves"]["silent"]
     for name, unit in (("Flow", "L/min"), ("FlowLower", "L/min"), ("FlowUpper", "L/min"), ("PressureDifference", "bar")):
         assert a[name]["type"] == "ProcessValueType" and a[name]["unit"] == unit, a
         assert a[name]["write"] == "BadNotWritable", a

@@ -29,16 +29,16 @@ try:
             message = json.loads(receiver.recv(65536))
             name, = set(message) - {"timestamp"}
             points[name].append((message["timestamp"], message[name]))
-    for name, told in points.items():
-        times = [time_s for time_s, _ in told]
+    for name, series in points.items():
+        times = [time_s for time_s, _ in series]
         assert times == sorted(times), name
         assert abs(times[-1] - time.time()) < 60, (times[-1], time.time())
         steps = [after - before for before, after in zip(times, times[1:])]
         assert abs(sorted(steps)[len(steps) // 2] - 0.02) < 0.002, steps
-        for _, values in told:
+        for _, values in series:
             assert values["flow_lower_L_min"] <= values["flow_min_L_min"] <= values["flow_max_L_min"], values
             assert values["flow_max_L_min"] <= values["flow_upper_L_min"], values
             assert {"time_s", "position_mm", "current_A", "status", "ne107"} <= set(values), values
-    print({name: len(told) for name, told in points.items()}, "points")
+    print({name: len(series) for name, series in points.items()}, "points")
 finally:
     shutil.rmtree(folder)

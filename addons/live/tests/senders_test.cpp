@@ -177,7 +177,7 @@ TEST_F(SendersTest, ReadsSendersThatFollowEachOtherAtOnce) {
   EXPECT_NEAR(engine.view(0).time_s, 0.001 * (10 * senders - 1), 1e-9);
 }
 
-TEST_F(SendersTest, AHeaderOfOtherColumnsInTheMiddleIsToldAndNotMisread) {
+TEST_F(SendersTest, AHeaderOfOtherColumnsInTheMiddleIsReportedAndNotMisread) {
   Engine engine(site({{"t", TcpSettings{{"127.0.0.1", 0}}}}), "test");
   engine.start();
   const Sender sender(engine.source(0).port);

@@ -47,7 +47,7 @@ class Live:
         assert self.process.wait(timeout=60) == 0
 
     def ask(self, path, method="GET", body=None, headers=None, trust=None):
-        """Status, headers and text of one request, with `trust` as the only certificate that is believed."""
+        """Status, headers and text of one request, with `trust` as the only trusted certificate."""
         if self.encrypted:
             context = ssl.create_default_context(cafile=trust)
             connection = http.client.HTTPSConnection("127.0.0.1", self.port, timeout=30, context=context)

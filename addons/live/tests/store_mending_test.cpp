@@ -69,7 +69,7 @@ class StoreMending : public InFolder {
   std::vector<Event> known_;
 };
 
-TEST_F(StoreMending, ADeletedFileIsWrittenAnewWithAllThatItHeld) {
+TEST_F(StoreMending, ADeletedFileIsWrittenAgainWithAllThatItHeld) {
   fs::remove(path("s.sqlite"));
   mend("was deleted");
   keep(5000);
@@ -135,7 +135,7 @@ TEST_F(StoreMending, AnotherStoreInItsPlaceIsGoneOnInAndTheFirstIsSaved) {
   expect_goes_on(3);
 }
 
-TEST_F(StoreMending, WhereNothingCanBeKeptItIsToldAndTriedAgain) {
+TEST_F(StoreMending, WhereNothingCanBeKeptItIsReportedAndTriedAgain) {
   fs::remove(path("s.sqlite"));
   fs::create_directory(path("s.sqlite"));
   EXPECT_THAT(refusal([&] { (void)store_->look_after(3000); }), HasSubstr("s.sqlite"));

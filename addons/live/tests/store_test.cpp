@@ -159,7 +159,7 @@ TEST_F(StoreTest, NothingIsLostThatADiskWithoutRoomRefused) {
   EXPECT_EQ(history("new").size(), 1U);
 }
 
-TEST_F(StoreTest, AFullDiskIsToldWithWhatToDo) {
+TEST_F(StoreTest, AFullDiskIsReportedWithWhatToDo) {
   Database database(path("small.sqlite"), Database::Access::write);
   database.run("CREATE TABLE x(y); PRAGMA max_page_count=3");
   EXPECT_THAT(refusal([&] { database.run("INSERT INTO x VALUES(zeroblob(100000))"); }),
@@ -254,7 +254,7 @@ TEST_F(StoreTest, RefusesWhatItCannotKnow) {
   EXPECT_THAT(refusal([&] { read_history(path("none.sqlite"), "a", 0, 1, {}); }), HasSubstr("there is no such file"));
 }
 
-TEST_F(StoreTest, ADamagedFileIsTold) {
+TEST_F(StoreTest, ADamagedFileIsReported) {
   {
     Store store(path("s.sqlite"));
     for (int k = 0; k < 200; ++k) commit(store, 1000 * k, {kept("a", 1000, 1e-4), kept("b", 500, 2e-4)});

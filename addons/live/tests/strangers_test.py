@@ -108,7 +108,7 @@ class Strangers(unittest.TestCase):
         begin = time.monotonic()
         for _ in range(20):
             self.assertEqual(self.ask("/metrics", headers=self.bearer())[0], 200)
-        self.assertLess(time.monotonic() - begin, 20)  # its hash is reckoned once
+        self.assertLess(time.monotonic() - begin, 20)  # its hash is computed once
         self.assertEqual(self.ask("/api/v1/alarms/1/acknowledge", "POST", headers=self.bearer())[0], 403)
 
     def test_a_password_opens_a_session_that_acknowledges_on_its_own_page(self):
@@ -180,7 +180,7 @@ class Strangers(unittest.TestCase):
         self.assertEqual(statuses, [401] * 5 + [429] * 3)
         self.assertEqual(self.login()[0], 200)
 
-    def test_accounts_and_certificate_are_read_anew_when_their_files_change(self):
+    def test_accounts_and_certificate_are_read_again_when_their_files_change(self):
         folder = tempfile.mkdtemp(prefix="spoolflow-strangers-")
         try:
             certificate(folder)
@@ -206,17 +206,17 @@ class Strangers(unittest.TestCase):
                     self.fail(live.heard())
 
                 self.assertEqual(status(), 200)
-                def read_anew(times):  # not by trying: wrong tokens are held back
+                def read_again(times):  # not by trying: wrong tokens are held back
                     until(lambda: live.heard().count("were read again") == times)
 
                 write(self.anna)
-                read_anew(1)
+                read_again(1)
                 self.assertEqual(status(), 401)
                 write(self.eve + "role = \n")
                 until(lambda: "of before stay in force" in live.heard())
                 self.assertEqual(status(), 401)
                 write(self.eve)
-                read_anew(2)
+                read_again(2)
                 self.assertEqual(status(), 200)
                 # Not both files fit each other: the old ones stay.
                 with open(os.path.join(folder, "key.pem"), "w", encoding="utf-8") as key:

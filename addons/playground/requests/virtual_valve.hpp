@@ -9,7 +9,7 @@
 
 namespace spoolflow::playground {
 
-/// What whoever plays sets.
+/// What the user sets.
 struct ValveSettings {
   double command = 0;                    ///< share of the stroke, 0 to 1
   double pressure_difference_Pa = 60e5;  ///< held over the valve

@@ -111,7 +111,7 @@ test('a recording is inspected, estimated and judged as by the command', async (
   }
 });
 
-test('a foreign file is read by a map that is mended by hand; what cannot be read is told in the program’s words', async () => {
+test('a foreign file is read by a map that is corrected by hand; what cannot be read is reported in the program’s words', async () => {
   const { page } = await opened({ hash: '#files' });
   const [header, ...rows] = readFileSync(join(folder, 'run.csv'), 'utf8').split('\n');
   writeFileSync(join(folder, 'foreign.csv'), [header.replace('current_A', 'Kanal 3'), ...rows].join('\n'));
@@ -178,7 +178,7 @@ async function drop(page, ...files) {
   await mouse.detach();
 }
 
-test('files and folders that are dropped are taken, and what is none of them is told', async () => {
+test('files and folders that are dropped are taken, and other files are reported', async () => {
   const { page, complaints } = await opened({ hash: '#files' });
   writeFileSync(join(folder, 'holiday.png'), 'no recording');
   await drop(page, join(folder, 'holiday.png'));

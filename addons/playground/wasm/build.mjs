@@ -1,6 +1,6 @@
 // node build.mjs PROGRAM OUT: one page of the built program (PROGRAM/playground.js and .wasm) and of web/src/playground, as
 // OUT/playground.html; run by build.sh in a folder that has the packages of web/package-lock.json. The page holds the SHA-256 of each
-// file that it was made of (PROGRAM/deps.txt names those of the program), by which tests/web/fresh_playground.py tells whether it is old.
+// file that it was made of (PROGRAM/deps.txt names those of the program).
 import { createHash } from 'node:crypto';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join, relative, resolve } from 'node:path';

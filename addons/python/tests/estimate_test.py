@@ -141,7 +141,7 @@ class Estimate(examples.InAFolder):
         over.set()
         thread.join()
 
-    def test_a_model_is_told_and_travels(self):
+    def test_a_model_has_a_description_and_travels(self):
         model = examples.model()
         self.assertIn("80 L/min", repr(model))
         self.assertEqual(model.estimators, ["condensed", "observer"])

@@ -17,7 +17,7 @@ class Outputs(examples.InAFolder):
             ours.write_text("of an earlier run")
             estimate.write(ours)
             examples.command("estimate", "-q", examples.MODEL, examples.RAMP, "-o", theirs)
-            if suffix == "csv":  # the others tell valve and estimator, too
+            if suffix == "csv":  # the others hold valve and estimator, too
                 self.assertEqual(ours.read_bytes(), theirs.read_bytes())
             self.assertAlmostEqual(ours.stat().st_size, theirs.stat().st_size, delta=5000)
         for suffix in ("h5", "mat"):
@@ -66,10 +66,10 @@ class ChannelMaps(examples.InAFolder):
         current = {each["channel"]: each for each in seen["channels"]}["current"]
         self.assertEqual((current["lowest"], current["highest"], current["unit"], current["missing"]), (1.5, 1.6, "A", 0))
 
-    def test_seen_files_of_HDF5_tell_what_the_command_tells(self):
+    def test_inspected_files_of_HDF5_give_the_figures_of_the_command(self):
         import json
-        told = json.loads(examples.command("inspect", "-q", "--json", examples.RAMP))
-        self.assertEqual(spoolflow.inspect(examples.RAMP), told)
+        expected = json.loads(examples.command("inspect", "-q", "--json", examples.RAMP))
+        self.assertEqual(spoolflow.inspect(examples.RAMP), expected)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The package itself: what it tells of itself, its types, and what works where pandas and Matplotlib are."""
+"""The package itself: what it documents, its types, and what works where pandas and Matplotlib are."""
 import ast
 import importlib.util
 import inspect
@@ -20,7 +20,7 @@ FOLDER = pathlib.Path(spoolflow.__file__).parent
 
 
 class Package(unittest.TestCase):
-    def test_tells_of_everything_it_offers(self):
+    def test_documents_everything_it_offers(self):
         self.assertIn(spoolflow.__version__, examples.command("--version"))
         for name in spoolflow.__all__:
             offered = getattr(spoolflow, name)
@@ -31,22 +31,22 @@ class Package(unittest.TestCase):
             for member, value in members:
                 if inspect.isfunction(value) and not member.startswith("_"):
                     self.assertTrue(inspect.getdoc(value), f"{name}.{member}")
-                    self.assertIn("return", value.__annotations__, f"{name}.{member} tells no type")
+                    self.assertIn("return", value.__annotations__, f"{name}.{member} has no type")
 
     def test_has_a_stub_of_what_is_compiled(self):
         self.assertTrue((FOLDER / "py.typed").exists())
         stub = ast.parse((FOLDER / "_native.pyi").read_text())
-        told = {}
+        declared = {}
         for node in stub.body:
             if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-                told[node.name] = {each.name for each in getattr(node, "body", []) if isinstance(each, ast.FunctionDef)}
+                declared[node.name] = {each.name for each in getattr(node, "body", []) if isinstance(each, ast.FunctionDef)}
             elif isinstance(node, ast.AnnAssign):
-                told[node.target.id] = set()
+                declared[node.target.id] = set()
         there = {name for name in dir(_native) if not name.startswith("_")} | {"__version__"}
-        self.assertEqual(set(told), there)
+        self.assertEqual(set(declared), there)
         for name in ("Model", "Recording", "Sensor", "Answer"):
             members = {member for member in dir(getattr(_native, name)) if not member.startswith("_")}
-            self.assertEqual({member for member in told[name] if not member.startswith("_")}, members)
+            self.assertEqual({member for member in declared[name] if not member.startswith("_")}, members)
 
     def test_status_has_the_names_of_the_command(self):
         word = spoolflow.Status.closed | spoolflow.Status.time_fault

@@ -94,9 +94,9 @@ class Work(examples.InAFolder):
         page = self.folder / "page.html"
         advice = spoolflow.analyse(examples.model(), scenario, dither=True, ripple_limit_percent=0.3, report=page)
         advice.save(figures)
-        told = ("analyse", "-q", examples.MODEL, "--scenario", scenario, "--dither", "--ripple-limit", "0.3")
-        self.assertEqual(figures.read_text(), examples.command(*told, "--json", "-"))
-        self.assertEqual(examples.command(*told).splitlines()[0], advice.verdict)
+        arguments = ("analyse", "-q", examples.MODEL, "--scenario", scenario, "--dither", "--ripple-limit", "0.3")
+        self.assertEqual(figures.read_text(), examples.command(*arguments, "--json", "-"))
+        self.assertEqual(examples.command(*arguments).splitlines()[0], advice.verdict)
         self.assertIn("</html>", page.read_text())
         for words, more in (("dither_shape: saw not in", {"dither_shape": "saw"}), ("samples: has no meaning", {"samples": 8}),
                             ("ripple_limit_percent: Value 0 not in", {"ripple_limit_percent": 0})):
@@ -197,16 +197,16 @@ class Interruption(examples.InAFolder):
         self.assertLess(sensor.time_s, run["time_s"][-1])  # and goes on from there
 
     def test_stops_a_calibration(self):
-        told = []
+        shares = []
 
-        def tell(step, share):
-            if not told:
+        def report(step, share):
+            if not shares:
                 signal.setitimer(signal.ITIMER_REAL, 0.2)
-            told.append(share)
+            shares.append(share)
 
         with self.assertRaises(KeyboardInterrupt):
-            spoolflow.calibrate(examples.EXAMPLES / "valve_a" / "campaign.toml", progress=tell)
-        self.assertLess(told[-1], 1)
+            spoolflow.calibrate(examples.EXAMPLES / "valve_a" / "campaign.toml", progress=report)
+        self.assertLess(shares[-1], 1)
 
     def test_stops_a_study_of_minutes(self):
         signal.setitimer(signal.ITIMER_REAL, 0.5)
@@ -214,11 +214,11 @@ class Interruption(examples.InAFolder):
             spoolflow.analyse(examples.model(), self.written("scenario.toml", QUICK.replace("true", "false")), samples=1024)
 
     def test_an_exception_of_progress_goes_through(self):
-        def tell(share):
+        def report(share):
             raise LookupError("enough")
 
         with self.assertRaisesRegex(LookupError, "enough"):
-            spoolflow.validate(examples.model(), examples.RAMP, progress=tell)
+            spoolflow.validate(examples.model(), examples.RAMP, progress=report)
 
     def test_the_threads_are_those_of_this_kind_of_machine(self):
         self.assertEqual(len(os.listdir("/proc/self/task")), 1)  # CMakeLists.txt leaves NumPy none

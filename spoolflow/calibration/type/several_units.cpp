@@ -55,7 +55,7 @@ UnitLikelihood likelihood_of(const TableComparison& comparison, const KnownDevia
 void require_comparable(const std::vector<model::Model>& units) {
   if (units.size() < least_units) {
     throw CalibrationError(fmt::format(
-        "a type of several campaigns needs {} and more, and {} are given: two do not tell how far the next unit lies; "
+        "a type of several campaigns needs {} and more, and {} are given: two do not show how far the next unit lies; "
         "give one campaign, that of the unit nearest to the middle, and how units differ as its [tolerances]",
         least_units, units.size()));
   }

@@ -10,7 +10,7 @@ namespace spoolflow::report {
 
 struct Verdict {
   Text sentence;             ///< the figures
-  std::vector<Text> limits;  ///< what limits them, doubts about runs before all, then the most telling, at most eight
+  std::vector<Text> limits;  ///< what limits them, doubts about runs before all, then the most important, at most eight
   std::size_t doubts = 0;    ///< so many of the limits, the first, are doubts about runs
 };
 

@@ -65,7 +65,7 @@ TEST(SlidingFriction, IsFoundForEachDirectionWithinItsUncertainty) {
   EXPECT_LT(fit.uncertainty.coulomb_opening_N, 0.1);
 }
 
-TEST(SlidingFriction, IsToldFromAnOffsetWhereBothDirectionsShareIt) {
+TEST(SlidingFriction, IsSeparatedFromAnOffsetWhereBothDirectionsShareIt) {
   FrictionLaw law = slide;
   law.viscous_closing_N_s_per_m = law.viscous_opening_N_s_per_m;
   law.coulomb_closing_N = law.coulomb_opening_N;

@@ -90,7 +90,8 @@ TEST(FlowBenchFit, FindsTheForcesInNewtonsFromVoltageAndMotionAlone) {
   for (const double x : {0.9e-3, 1.5e-3, 2.1e-3}) {
     EXPECT_NEAR(at(layout.force, x, force_at), 1e5 * flow_force_at(x, 1), 0.08 * 1e5 * flow_force_at(x, 1));
     const double current_A = std::sqrt(spring_at(x) / force_per_A2);
-    // Slow strokes alone do not tell friction from hysteresis: together they are what stands between both directions.
+    // Slow strokes alone do not separate friction from hysteresis: together they are what stands between both
+    // directions.
     const double loop_N = sensor::saturated_output(fit.coil.hysteresis, 0.5) * 2 * force_per_A2 * current_A;
     EXPECT_NEAR(at(layout.dry, x, dry_at) + loop_N, 2.0, 0.4);
     EXPECT_NEAR(

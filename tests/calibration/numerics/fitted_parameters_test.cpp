@@ -81,7 +81,7 @@ TEST_F(ExampleFits, FlowForceGrowsWithPressureAsTheMapSays) {
   EXPECT_LT(law.parameters[0].uncertainty, 0.02 * law.parameters[0].value);
 }
 
-TEST_F(ExampleFits, OperationTellsItsParametersWithTheirUncertainty) {
+TEST_F(ExampleFits, OperationStatesItsParametersWithTheirUncertainty) {
   const model::Fit& known = fit("friction and position sensor in operation");
   ASSERT_EQ(known.parameters.size(), 8U);
   EXPECT_EQ(known.parameters[0].name, "operation_friction_ratio");

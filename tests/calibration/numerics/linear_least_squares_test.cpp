@@ -1,4 +1,4 @@
-/// Unknowns of a linear law, and how well its rows tell them.
+/// Unknowns of a linear law, and how well its rows determine them.
 #include "spoolflow/calibration/numerics/linear_least_squares.hpp"
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(LinearLeastSquares, CountsSamplesInARowOnlyAsFarAsTheyAreIndependent) {
   EXPECT_LT(scatter_and_said(0.9, false).second, 0.4 * scatter);  // taken for independent, they say too much
 }
 
-TEST(LinearLeastSquares, RefusesRowsThatDoNotTellTheUnknownsApart) {
+TEST(LinearLeastSquares, RefusesRowsThatDoNotSeparateTheUnknowns) {
   Eigen::MatrixXd twins(3, 2);
   twins << 1, 2, 2, 4, 3, 6;
   EXPECT_THAT([&] { (void)least_squares(twins, Eigen::VectorXd::Ones(3), "the spring"); },

@@ -85,7 +85,7 @@ TEST(SeveralUnits, SpringsThatLieFurtherApartThanToleratedWidenTheTypeAndEvenOne
   EXPECT_GT(spread_in(wide, Variation::spring_preload), 1.2 * tolerance);
   EXPECT_LT(spread_in(narrow, Variation::spring_preload), 0.8 * tolerance);
   EXPECT_NEAR(spread_in(wide, Variation::position_zero), usual[at(Variation::position_zero)],
-              0.35 * usual[at(Variation::position_zero)]);  // no table tells it
+              0.35 * usual[at(Variation::position_zero)]);  // no table shows it
 }
 
 TEST(SeveralUnits, WhoseTypeCalibratesUnitsAsAnyOther) {

@@ -39,7 +39,7 @@ void watch_floats();
 inline constexpr std::uint32_t invalid_flag = 1U << 0U;               ///< an operation made a NaN, or compared one
 inline constexpr std::uint32_t denormal_flags = 1U << 3U | 1U << 7U;  ///< a denormal result, a denormal operand
 
-/// Fills the stack below the caller with a pattern, and tells how many bytes of it were used since.
+/// Fills the stack below the caller with a pattern, and returns how many bytes of it were used since.
 void paint_stack();
 std::uint32_t used_stack_bytes();
 

@@ -1,5 +1,5 @@
 /* A recording through the sensor by firmware in C: the exported model, or with VALVE_SENSOR_NO_MODEL the flash page
- * valve.bin, changed while running to another page that holds the same valve. Tells what image_replay.cpp tells. */
+ * valve.bin, changed while running to another page that holds the same valve. Prints what image_replay.cpp prints. */
 #include "c_board.h"
 #include "valve_sensor.h"
 

@@ -1,5 +1,5 @@
 /// A recording through the sensor whose numbers come out of a flash page: no model is linked, only the page valve.bin.
-/// With EXPORTED_MODEL the same through the exported model. Tells a sum over every bit of all answers, what checking
+/// With EXPORTED_MODEL the same through the exported model. Prints a sum over every bit of all answers, what checking
 /// the page and what a step costs. The recording is in flash: see packed_run.hpp.
 #include "board.hpp"
 #include "run_in_flash.hpp"

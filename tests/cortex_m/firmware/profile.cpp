@@ -1,4 +1,4 @@
-/// Replays a recording and tells which of its samples takes the most instructions; built again with that sample's
+/// Replays a recording and prints which of its samples takes the most instructions; built again with that sample's
 /// number as TRACED_SAMPLE, it steps through this one in code of its own, whose addresses an emulator can trace.
 #include "board.hpp"
 #include "run_in_flash.hpp"

@@ -1,5 +1,5 @@
-/// Replays a recording through the sensor and tells how far its flow is from the host's, what a step costs, and whether
-/// a NaN or a denormal came up. The recording is in flash: see packed_run.hpp.
+/// Replays a recording through the sensor and prints how far its flow is from the host's, what a step costs, and
+/// whether a NaN or a denormal came up. The recording is in flash: see packed_run.hpp.
 #include "board.hpp"
 #include "run_in_flash.hpp"
 #include "sensor_under_test.hpp"

@@ -184,7 +184,7 @@ TEST(ClocksOfGroups, WaveformsThatBeginAtOtherInstantsAreNotLaidOverEachOther) {
   EXPECT_NEAR(run[Channel::pressure_difference][1234], 1e5 * pressure_bar(1.234), 1e-3);
 }
 
-TEST(ClocksOfGroups, WhatCannotBeToldIsRefused) {
+TEST(ClocksOfGroups, WhatIsAmbiguousIsRefused) {
   GroupedFile no_time;
   add_current(no_time);
   no_time.add("pressure/pressure_difference_bar", times(60, 1, 100));
@@ -221,7 +221,7 @@ TEST(ClocksOfGroups, VectorOfAnotherLengthIsOfTheTimeThatCarriesItsName) {
   EXPECT_NEAR(run[Channel::pressure_difference][1505], 1e5 * pressure_bar(1.505), 1e-3);
 }
 
-TEST(ClocksOfGroups, InspectionTellsEachTimeAndWhatBecomesOfIt) {
+TEST(ClocksOfGroups, InspectionShowsEachTimeAndWhatBecomesOfIt) {
   GroupedFile file;
   add_current(file);
   const auto slow_s = times(0, 0.01, 1001);

@@ -102,7 +102,7 @@ Fields signal(matvar_t* values, matvar_t* label, const std::string& block, doubl
 class MatLabels : public ::testing::TestWithParam<mat_ft> {};
 
 TEST_P(MatLabels, OfAStructureWithTimeNameCurrentPositionAndOilTemperature) {
-  // The oil stands first and still, and the position before the current: no order of the signals tells them.
+  // The oil stands first and still, and the position before the current: no order of the signals identifies them.
   matvar_t* const log =
       structs({{{"time", numbers({log_samples, 1}, log_time_s)},
                 {"signals",

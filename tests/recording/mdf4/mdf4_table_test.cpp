@@ -172,7 +172,7 @@ TEST(Mdf4Table, ColumnsHaveTheTimeOfTheGroupThatHoldsIt) {
   EXPECT_THAT(run.resampled, HasSubstr("'oil/pressure_difference' from"));
 }
 
-TEST(Mdf4Table, TheChannelsAreLookedThroughWhereTheirUnitsTellThem) {
+TEST(Mdf4Table, TheChannelsAreSearchedWhereTheirUnitsIdentifyThem) {
   const TemporaryFile file("run.mf4", by_columns());
   const Inspection found = inspect(file.path(), {}, [](std::optional<double>, std::uint64_t) {});
   EXPECT_EQ(found.samples, 20U);
@@ -220,7 +220,7 @@ TEST(Mdf4Table, ReadsNumbersOfHalfPrecision) {
   EXPECT_THAT(values_of(bytes, "x"), ElementsAre(1, -2.5, 65504, 0x1p-24, IsNan()));
 }
 
-TEST(Mdf4Table, GroupsOfOneNameAreToldApart) {
+TEST(Mdf4Table, GroupsOfOneNameAreDistinguished) {
   Mdf4File file;
   const auto group = [&](const char* name, double first) {
     const std::string records = WrittenBytes().f64(0).f64(first).f64(1).f64(first).content();
@@ -235,7 +235,7 @@ TEST(Mdf4Table, GroupsOfOneNameAreToldApart) {
   EXPECT_THAT(values_of(bytes, "CAN1 #2/position"), ElementsAre(2, 2));
 }
 
-TEST(Mdf4Table, WhatIsNotReadBesideTheNumbersIsTold) {
+TEST(Mdf4Table, WhatIsNotReadBesideTheNumbersIsReported) {
   Mdf4File file;
   const auto virtual_alone = file.group(0, file.channels({{"t", "s", 3, 1, 0, 0, 0}}), "clock", 0, 10, 0);
   const auto group = file.group(0,
@@ -261,13 +261,13 @@ TEST(Mdf4Table, WhatIsNotReadBesideTheNumbersIsTold) {
               HasSubstr("does not have; channel 'note' holds text, which is not read"));
 }
 
-TEST(Mdf4Table, AFileWithoutRecordsIsToldToHaveNone) {
+TEST(Mdf4Table, AFileWithoutRecordsIsReported) {
   Mdf4File file;
   const TemporaryFile written("run.mf4", file.content(0));
   EXPECT_THAT(contents_of(written.path()).unread, ElementsAre(HasSubstr("no group of it holds records of numbers")));
 }
 
-TEST(Mdf4Table, WhatIsNoNumberIsTold) {
+TEST(Mdf4Table, WhatIsNoNumberIsReported) {
   Mdf4File file;
   const std::uint64_t texts = file.conversion(7, {});
   const std::string bytes = one_group(file, {{"t", "s", 2, 1, 4, 0, 64}, {"state", "", 0, 0, 0, 8, 8, 0, texts}},

@@ -160,7 +160,7 @@ TEST(TdmsTable, TimesCountFromTheEarliest) {
   EXPECT_THAT(column(bytes, "g/t"), ElementsAre(0, 0.5));
 }
 
-TEST(TdmsTable, UnfinishedLastSegmentIsReadAsFarAsItGoesAndTold) {
+TEST(TdmsTable, UnfinishedLastSegmentIsReadAsFarAsItGoesAndReported) {
   const std::string metadata =
       Meta().channel("/'g'/'time_s'", Meta::f64, 4).channel("/'g'/'current_A'", Meta::f64, 4).content();
   const std::string numbers = tdms_samples<double>({0, 1, 0.1, 2, 0.2, 3, 0.3});
@@ -180,7 +180,7 @@ TEST(TdmsTable, ZerosBehindTheLastSegmentAreWhatAMachineThatWentDownLeaves) {
               HasSubstr("lacks whatever was to stand in the last 4096 bytes, which begin with zeros"));
 }
 
-TEST(TdmsTable, ACurrentWithoutATimeIsInspectedAndToldToLackIt) {
+TEST(TdmsTable, ACurrentWithoutATimeIsInspectedAndReported) {
   Meta metadata;
   metadata.channel("/'g'/'current'", Meta::f64, 2).property("unit_string", "A");
   metadata.channel("/'g'/'voltage'", Meta::f64, 2).property("unit_string", "V").property("wf_increment", 1e-3);
@@ -206,7 +206,7 @@ TEST(TdmsTable, AWaveformIsInspectedWithoutAColumnOfTime) {
                           "numbers in its unit"));
 }
 
-TEST(TdmsTable, WhatIsNoNumberIsToldWhereAChannelIsMissing) {
+TEST(TdmsTable, WhatIsNoNumberIsReportedWhereAChannelIsMissing) {
   Meta metadata;
   metadata.channel("/'g'/'note'", Meta::text_type, 1).channel("/'g'/'time_s'", Meta::f64, 1);
   const TemporaryFile file("run.tdms", tdms_segment(metadata.content(), "abc" + tdms_samples<double>({1})));

@@ -190,7 +190,7 @@ TEST(CsvReading, ReadsAmericanDatesWithAMAndPMOverNoonAndMidnight) {
     ASSERT_EQ(run.size(), 3u) << text;
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(run[Channel::time][k], 0.25 * static_cast<double>(k), 1e-9) << text;
   }
-  // Without AM or PM nothing tells the day from the month.
+  // Without AM or PM nothing separates day and month.
   EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n3/4/2025 11:59:59,1\n"),
               HasSubstr("'3/4/2025 11:59:59' is not a number"));
   EXPECT_THAT(refused_csv("time_s,position_mm\n0,1\n13/4/2025 11:59:59 AM,1\n"), HasSubstr("is not a number"));

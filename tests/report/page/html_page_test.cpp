@@ -28,7 +28,7 @@ HtmlTable flows() {
   return table;
 }
 
-TEST(HtmlTable, HeadingsTellTheUnitAndCellsDoNot) {
+TEST(HtmlTable, HeadingsStateTheUnitAndCellsDoNot) {
   const std::string usual = flows().str();
   for (const char* part : {">flow<br>[L/min]<", ">pressure<br>difference [bar]<", ">error<br>[L/min /<br>% FS]<",
                            ">37.85<", ">60<", ">+37.85 / +4.7<", ">0.00 to 2.54 mm<", ">share<br>[%]<"}) {
@@ -46,7 +46,7 @@ TEST(HtmlTable, TurnsColumnsAndLeavesNamesAlone) {
   }
 }
 
-TEST(HtmlTable, TellsTheUnitOfAQuantityThatItsColumnDoesNotTell) {
+TEST(HtmlTable, StatesTheUnitOfAQuantityThatItsColumnDoesNotState) {
   HtmlTable table({{"flow", Set::number, Kind::flow}, {"any"}});
   table.row({fixed(units::pressure(1e5), 1), fixed(units::flow(0), 1)});
   EXPECT_THAT(table.str(), HasSubstr("<td>1.0 bar</td><td>0.0 L/min</td>"));

@@ -12,7 +12,7 @@ TEST(ReaderUnits, AreTheUsualOnesUntilOthersAreAskedFor) {
   EXPECT_EQ(choice_of_units(), "L/min|m3/h|gal/min, bar|MPa|psi, mm|um|in, N|lbf, C|F");
 }
 
-TEST(ReaderUnits, TellDifferencesOfTemperaturesWithoutTheOffsetOfTemperatures) {
+TEST(ReaderUnits, WriteDifferencesOfTemperaturesWithoutTheOffsetOfTemperatures) {
   const ReaderUnits american({"F"});
   EXPECT_DOUBLE_EQ(american.value(units::temperature(273.15)), 32);
   EXPECT_DOUBLE_EQ(american.value(units::temperature_difference(10)), 18);
@@ -26,7 +26,7 @@ TEST(ReaderUnits, RefuseWhatTheyDoNotKnow) {
   EXPECT_THROW(ReaderUnits({""}), UnknownUnit);
 }
 
-TEST(ReaderUnits, TellThePagesScriptWhereToBegin) {
+TEST(ReaderUnits, GiveThePagesScriptItsStart) {
   EXPECT_EQ(ReaderUnits({"bar"}).attributes(), "");
   EXPECT_EQ(ReaderUnits({"psi", "in"}).attributes(), " data-pressure-unit=\"2\" data-position-unit=\"2\"");
 }

@@ -56,7 +56,7 @@ TEST(Text, KeepsWhatItWasMadeFrom) {
   EXPECT_EQ(text.str(), "a name long enough to be stored elsewhere and 2.0 a name long enough to be stored elsewhere");
 }
 
-TEST(Text, GrowsAndTellsWhenThereIsNone) {
+TEST(Text, GrowsAndReportsWhenThereIsNone) {
   Text text;
   EXPECT_TRUE(text.empty());
   text += "at";
@@ -68,7 +68,7 @@ TEST(Text, GrowsAndTellsWhenThereIsNone) {
   EXPECT_EQ(text.in(american()), "at 15 psi (gal/min)");
 }
 
-TEST(Text, TellsARangeWithOneUnit) {
+TEST(Text, WritesARangeWithOneUnit) {
   const Text range = range_text(fixed(units::pressure(5e5), 1), fixed(units::pressure(70e5), 1));
   EXPECT_EQ(range.str(), "5.0 to 70.0 bar");
   EXPECT_EQ(range.in(american()), "73 to 1015 psi");

@@ -34,7 +34,7 @@ const Mark* named(const CaptionedFigure& figure, const std::string& name) {
   return nullptr;
 }
 
-TEST(EnvelopeFigures, TellExtrapolatedPointsFromCalibratedOnes) {
+TEST(EnvelopeFigures, DistinguishExtrapolatedPointsFromCalibratedOnes) {
   validation::RunResult run;
   run.operating_points = {{1e-3, 60e5}, {1e-3, 80e5}, {2.5e-3, 20e5}};
   run.solenoid_points = {{1e-3, 1.0}};

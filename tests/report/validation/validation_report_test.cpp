@@ -210,7 +210,7 @@ TEST(Verdict, DoesNotBlameRestWhereItIsNoWorse) {
   for (const Text& limit : said.limits) EXPECT_THAT(limit.str(), Not(HasSubstr("At rest")));
 }
 
-TEST(Verdict, WithoutReferenceSaysThatTheErrorCannotBeTold) {
+TEST(Verdict, WithoutReferenceSaysThatTheErrorIsNotKnown) {
   EXPECT_THAT(verdict(small_model(), one_run(10, 1, false)).sentence.str(), HasSubstr("its error is not known"));
 }
 

@@ -76,7 +76,7 @@ TEST_F(SettingsFile, NamesTheNearestKeyForAnUnknownOne) {
               AllOf(HasSubstr("line 1"), HasSubstr("spol"), HasSubstr("did you mean")));
 }
 
-TEST_F(SettingsFile, TellsAboutTomlThatIsNone) {
+TEST_F(SettingsFile, RefusesTomlThatIsNone) {
   EXPECT_THAT(message("name = \"x\"\nname = \"y\"\n"), AllOf(HasSubstr("worn.toml, line 2"), HasSubstr("TOML")));
   EXPECT_THAT(message("name = [\n"), HasSubstr("worn.toml"));
 }

@@ -150,7 +150,7 @@ TEST(Simulate, TemperatureSweepWarmsTheOilAndDriftsThePositionSensor) {
   EXPECT_NEAR(drift_m, valve.instruments.lvdt.zero_drift_per_K * 2.4e-3 * 45, 4e-6);
 }
 
-TEST(Simulate, TheElectronicsLayOnTheCurrentWhatDitherTheyAreToldAtEachSample) {
+TEST(Simulate, TheElectronicsAddTheRequestedDitherAtEachSample) {
   const ValveUnderTest valve;
   const StepsProtocol steps{.conditions = {}, .positions_percent = {60}, .hold_s = 1.2};
   const BenchRun run = plan(steps);

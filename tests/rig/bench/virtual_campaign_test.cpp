@@ -202,7 +202,7 @@ TEST(VirtualCampaign, DoesNotDependOnTheNumberOfWorkers) {
   EXPECT_NE(one.at("steps.csv"), one.at("again.csv"));
 }
 
-TEST(VirtualCampaign, TellsHowFarItIsWithoutRunningBackwards) {
+TEST(VirtualCampaign, ReportsProgressThatNeverRunsBackwards) {
   double last = 0;
   int calls = 0;
   run_campaign(short_items(), {.store = [](const auto&, const auto&, const auto&) {},

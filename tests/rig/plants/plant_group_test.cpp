@@ -1,4 +1,4 @@
-/// Plants of many valves at once: nobody can tell them from plants alone.
+/// Plants of many valves at once: each as the plant alone.
 #include "spoolflow/rig/plants/plant_group.hpp"
 
 #include <array>
@@ -82,7 +82,7 @@ PlantInput drive(const Case& which, std::size_t valve, int tick, Noise& noise) {
   return input;
 }
 
-/// Bits of all that is told of a valve.
+/// Bits of all figures of a valve.
 std::vector<std::uint64_t> bits(const PlantOutput& output, const PlantState& state) {
   std::vector<std::uint64_t> out;
   const auto put = [&](double value) { out.push_back(std::bit_cast<std::uint64_t>(value)); };
@@ -144,7 +144,7 @@ TEST(PlantGroup, RefusesPlantsThatAreNotAlike) {
   EXPECT_THROW(PlantGroup(both, states), std::invalid_argument);
 }
 
-TEST(PlantGroup, TellsOfAPlantThatHasNoFiniteStateAsThePlantAloneDoes) {
+TEST(PlantGroup, ReportsAPlantWithoutFiniteStateAsThePlantAloneDoes) {
   PlantParameters p;
   const std::vector<const PlantParameters*> all(5, &p);
   std::vector<PlantInput> inputs(5);

@@ -1,4 +1,4 @@
-/** What the program tells at /api/v1 of a fleet (docs/fleet.md). */
+/** What the program answers at /api/v1 of a fleet (docs/fleet.md). */
 import { read, type Alarm, type Sign, type SiteEvent } from '../live/api';
 
 export interface FleetValve {

@@ -20,9 +20,9 @@ export class AlarmsView {
     this.place.append(element('div', 'tools', element('label', '', 'Show ', this.wanted)), this.list.place);
   }
 
-  show(told: FleetTold): void {
-    this.told = told;
-    this.list.show(told.alarms);
+  show(data: FleetTold): void {
+    this.told = data;
+    this.list.show(data.alarms);
   }
 }
 

@@ -47,10 +47,10 @@ export class Overview {
                               element('label', '', this.worstFirst, ' worst first'), this.count), lineHead, this.list.place);
   }
 
-  show(told: FleetTold): void {
-    this.told = told;
+  show(data: FleetTold): void {
+    this.told = data;
     const focused = this.body.contains(document.activeElement) ? document.activeElement!.textContent : null;
-    this.body.replaceChildren(...told.sites.map((site) => siteRow(site, site.site === this.site, () => {
+    this.body.replaceChildren(...data.sites.map((site) => siteRow(site, site.site === this.site, () => {
       this.site = this.site === site.site ? '' : site.site;
       this.show(this.told!);
     })));

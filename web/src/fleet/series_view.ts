@@ -7,16 +7,16 @@ import { readDistribution, readSeries, type Distribution, type Series, type Seri
 const refresh_ms = 20000;
 
 /** Every valve one point: its value across, valves side by side by their order, outliers in the colour of faults. */
-function draw(canvas: HTMLCanvasElement, told: Distribution, factor: number, unit: string): void {
+function draw(canvas: HTMLCanvasElement, distribution: Distribution, factor: number, unit: string): void {
   const width = canvas.clientWidth, height = canvas.clientHeight, ratio = devicePixelRatio;
   canvas.width = width * ratio;
   canvas.height = height * ratio;
   const pen = canvas.getContext('2d');
-  if (pen === null || told.value.length === 0) return;
+  if (pen === null || distribution.value.length === 0) return;
   pen.scale(ratio, ratio);
-  const spread = 10 * told.scale;  // what lies beyond is drawn at the margin
-  const lowest = Math.max(told.value.reduce((a, b) => Math.min(a, b)), told.median - spread);
-  const highest = Math.min(told.value.reduce((a, b) => Math.max(a, b)), told.median + spread);
+  const spread = 10 * distribution.scale;  // what lies beyond is drawn at the margin
+  const lowest = Math.max(distribution.value.reduce((a, b) => Math.min(a, b)), distribution.median - spread);
+  const highest = Math.min(distribution.value.reduce((a, b) => Math.max(a, b)), distribution.median + spread);
   const span = highest - lowest || Math.abs(highest) || 1;
   const left = 12, right = 12, foot = 26;
   const across = (value: number): number =>
@@ -28,19 +28,19 @@ function draw(canvas: HTMLCanvasElement, told: Distribution, factor: number, uni
     pen.lineTo(across(value), height - foot);
     pen.stroke();
   };
-  line(told.median, colour('ink'));
-  for (const side of [-3.5, 3.5]) line(told.median + side * told.scale, colour('rule'));
-  told.value.forEach((value, k) => {
-    const outlying = told.outlier[k]!;
+  line(distribution.median, colour('ink'));
+  for (const side of [-3.5, 3.5]) line(distribution.median + side * distribution.scale, colour('rule'));
+  distribution.value.forEach((value, k) => {
+    const outlying = distribution.outlier[k]!;
     pen.fillStyle = colour(outlying ? 'fault' : 'observer');
     pen.globalAlpha = outlying ? 1 : 0.45;
     const size = outlying ? 5 : 3;
-    pen.fillRect(across(value) - size / 2, 6 + (height - foot - 12) * (k + 0.5) / told.value.length, size, size);
+    pen.fillRect(across(value) - size / 2, 6 + (height - foot - 12) * (k + 0.5) / distribution.value.length, size, size);
   });
   pen.globalAlpha = 1;
   pen.fillStyle = colour('soft');
   pen.font = '12px system-ui, sans-serif';
-  for (const [value, where] of [[lowest, 'left'], [told.median, 'center'], [highest, 'right']] as const) {
+  for (const [value, where] of [[lowest, 'left'], [distribution.median, 'center'], [highest, 'right']] as const) {
     pen.textAlign = where;
     pen.fillText(`${short(factor * value)} ${where === 'center' ? unit : ''}`, across(value), height - 8);
   }
@@ -125,10 +125,10 @@ export class SeriesView {
       return element('li', '', link, ` ${short(scaled(each.value, factor))} ${unit} (${each.score > 0 ? '+' : '−'}${Math.abs(each.score).toFixed(1)})`);
     }));
     try {
-      const told = await readDistribution(series, one.name);
+      const distribution = await readDistribution(series, one.name);
       if (this.indicator !== one.name) return;
-      this.canvas.setAttribute('aria-label', `${words(one.name)} of ${told.value.length} valves about ${short(factor * told.median)} ${unit}`);
-      this.drawn = [told, factor, unit];
+      this.canvas.setAttribute('aria-label', `${words(one.name)} of ${distribution.value.length} valves about ${short(factor * distribution.median)} ${unit}`);
+      this.drawn = [distribution, factor, unit];
       draw(this.canvas, ...this.drawn);
     } catch {
       setText(this.said, 'The program does not answer.');

@@ -21,8 +21,8 @@ export class ValveView {
                          element('h3', '', 'Alarms'), this.alarms.place, element('h3', '', 'Events'), this.events.place);
   }
 
-  show(told: FleetTold): void {
-    const valve = told.valves.find((one) => one.id === this.id);
+  show(data: FleetTold): void {
+    const valve = data.valves.find((one) => one.id === this.id);
     if (valve === undefined) {
       setText(this.figures, 'The fleet knows no valve of this name.');
       return;

@@ -1,4 +1,4 @@
-/** What the program tells at /api/v1 (docs/live.md). */
+/** What the program answers at /api/v1 (docs/live.md). */
 export interface Indicator {
   name: string;
   value: number | null;
@@ -193,7 +193,7 @@ export function figure(value: number | null, digits: number): string {
   return value === null ? '–' : value.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace(/^-/, '−');
 }
 
-/** Whether what is told of a valve is old: no samples come, or its recording has ended. */
+/** Whether what is known of a valve is old: no samples come, or its recording has ended. */
 export function isOld({ source }: Valve): boolean {
   const longest_s = 5;
   return source.stalled || (source.age_s ?? 0) > longest_s;
@@ -206,11 +206,11 @@ export function duration(seconds: number): string {
   return seconds < 172800 ? `${(seconds / 3600).toFixed(0)} h` : `${(seconds / 86400).toFixed(0)} days`;
 }
 
-/** Of indicators those that tell most of a valve, in their order; those of solenoid a count with those of b. */
+/** Of indicators the most informative ones, in their order; those of solenoid a count with those of b. */
 const first = ['friction_ratio', 'edge_rounding', 'spring_preload_ratio', 'spring_rate_ratio', 'shorted_turns', 'position_zero',
   'coil_resistance', 'breakaway_force', 'hysteresis_width', 'stick_slip_share', 'response_time', 'winding_warmer_than_reference'];
 
-/** Raised ones first of all, then the twelve that tell most, what else is judged or learnt, and counters apart. */
+/** Raised ones first of all, then the twelve most informative ones, what else is judged or learnt, and counters apart. */
 export function grouped(indicators: readonly Indicator[]): { shown: Indicator[]; more: Indicator[]; counters: Indicator[] } {
   const rank = (one: Indicator): number => {
     const at = first.indexOf(one.name.replace(/_a$/, ''));

@@ -1,4 +1,4 @@
-/** What the pages of a site and of a fleet share: they ask the program again and again, show one view of what it told, say
+/** What the pages of a site and of a fleet share: they ask the program again and again, show one view of its answer, say
  *  how old that is, and let nobody read who may not. */
 import { readSession, Refusal } from './api';
 import { element, setText } from './element';
@@ -7,7 +7,7 @@ import { AccountControl, LoginForm, visitor } from './visitor';
 
 export interface View<Told> {
   readonly place: HTMLElement;
-  show(told: Told): void;
+  show(data: Told): void;
   resize?(): void;
   recolour?(): void;
   close?(): void;
@@ -22,9 +22,9 @@ export interface Page<Told> {
   /** Nothing: the overview. */
   viewOf(hash: string): View<Told> | null;
   /** The line at the top, and how many alarms nobody has seen. */
-  totals(told: Told): { text: string; open: number };
-  /** For screen readers; `before`: what was told the last time. */
-  announce?(told: Told, before: Told | null): void;
+  totals(data: Told): { text: string; open: number };
+  /** For screen readers; `before`: the answer of the last time. */
+  announce?(data: Told, before: Told | null): void;
 }
 
 /** The valve that the address names. */
@@ -111,22 +111,22 @@ class Frame<Told> {
 
   private async ask(): Promise<void> {
     try {
-      const told = await this.page.read();
+      const data = await this.page.read();
       this.answered = performance.now();
-      this.page.announce?.(told, this.last);
-      this.last = told;
-      const { text, open } = this.page.totals(told);
+      this.page.announce?.(data, this.last);
+      this.last = data;
+      const { text, open } = this.page.totals(data);
       setText(this.totals, text);
       setText(this.alarmCount, open === 0 ? '' : String(open));
       this.alarmCount.hidden = open === 0;
-      this.shown.show(told);
+      this.shown.show(data);
     } catch (error) {
       if (error instanceof Refusal && error.status === 401) {
         visitor.session = { account: null, role: 'none', accounts: true };
         this.answered = performance.now();
         this.askToLogIn();
       }
-      // else told below, as long as it lasts
+      // else shown below, as long as it lasts
     }
   }
 

@@ -22,9 +22,9 @@ function totals({ site, valves, alarms }: Told): { text: string; open: number } 
   return { text, open: alarms.filter((alarm) => alarm.acknowledged === null).length };
 }
 
-/** Screen readers are told of alarms that are new since the page was opened. */
-function announce(told: Told, before: Told | null): void {
-  const open = told.alarms.filter((alarm) => alarm.state === 'raised_unacknowledged');
+/** Screen readers announce alarms that are new since the page was opened. */
+function announce(data: Told, before: Told | null): void {
+  const open = data.alarms.filter((alarm) => alarm.state === 'raised_unacknowledged');
   const fresh = open.filter((alarm) => before !== null && !before.alarms.some((known) => known.id === alarm.id && known.times === alarm.times));
   if (fresh.length > 0) setText(news, `New alarm: ${fresh.map((alarm) => `${words(alarm.cause)} of ${alarm.valve}`).join('; ')}`);
 }

@@ -141,9 +141,9 @@ export class Overview {
     this.place.append(this.alarms.place, tools, this.grid, element('h2', '', 'Events'), this.events.place);
   }
 
-  show(told: Told): void {
-    this.told = told;
-    for (const valve of told.valves) {
+  show(data: Told): void {
+    this.told = data;
+    for (const valve of data.valves) {
       let card = this.cards.get(valve.id);
       if (card === undefined) {
         card = new Card(valve.id);
@@ -153,9 +153,9 @@ export class Overview {
     }
     if (!this.asked) void this.begin();
     this.arrange();
-    this.alarms.follow(told.valves);
-    this.alarms.show(told.alarms);
-    this.events.show(told.events);
+    this.alarms.follow(data.valves);
+    this.alarms.show(data.alarms);
+    this.events.show(data.events);
   }
 
   /** The last two minutes, once. */

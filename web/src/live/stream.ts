@@ -76,7 +76,7 @@ export class Stream {
     if (overlap >= 0 && frame.first <= this.next) this.points.length -= overlap;
     else this.points.length = 0;
     const last = this.points[this.points.length - 1];
-    if (last !== undefined && frame.points[0]!.time < last.time) this.points.length = 0;  // the source began anew
+    if (last !== undefined && frame.points[0]!.time < last.time) this.points.length = 0;  // the source began again
     const grew = frame.first + frame.points.length > this.next || overlap > 1 ||
       frame.points[frame.points.length - 1]!.time !== this.lastTime;
     this.points.push(...frame.points);

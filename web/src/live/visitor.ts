@@ -2,7 +2,7 @@
 import { logIn, logOut, Refusal, type Session } from './api';
 import { element, setText } from './element';
 
-/** Until the program has told, nobody may do anything. */
+/** Until the program has answered, nobody may do anything. */
 export const visitor: { session: Session } = { session: { account: null, role: 'none', accounts: false } };
 
 export class LoginForm {

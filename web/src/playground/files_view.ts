@@ -115,7 +115,7 @@ export class FilesView {
         const bytes = await file.arrayBuffer();
         const kind = kindOf(name, new TextDecoder().decode(bytes.slice(0, 4096)));
         if (kind === 'other') continue;
-        this.tell(0, `reading ${name}`);
+        this.showProgress(0, `reading ${name}`);
         this.add({ name, bytes: bytes.byteLength, kind, map: '' });
         await (await this.engine).write(name, bytes);
         const rank = (each: string): number => ['campaign', 'recording'].indexOf(this.known.get(each)?.kind ?? '');
@@ -153,19 +153,19 @@ export class FilesView {
     }));
   }
 
-  private tell(share: number, step: string): void {
+  private showProgress(share: number, step: string): void {
     this.bar.value = share;
     this.step.textContent = step === '' ? '' : `${step} ${share > 0 ? `${Math.round(100 * share)} %` : ''}`;
   }
 
-  /** One piece of work at a time; what fails is told in the program's own words. */
+  /** One piece of work at a time; what fails is reported in the program's own words. */
   private async working(work: () => Promise<void>): Promise<void> {
     if (this.busy) return;
     this.busy = true;
     this.root.setAttribute('aria-busy', 'true');
     (this.bar.parentElement as HTMLElement).hidden = false;
     this.fault.textContent = '';
-    this.tell(0, '');
+    this.showProgress(0, '');
     try {
       await work();
     } catch (error) {
@@ -176,7 +176,7 @@ export class FilesView {
     this.busy = false;
   }
 
-  private readonly progress = (share: number, step: string): void => this.tell(share, step);
+  private readonly progress = (share: number, step: string): void => this.showProgress(share, step);
 
   private async makeExample(): Promise<void> {
     const name = 'example.csv';

@@ -39,10 +39,10 @@ async function begin(): Promise<void> {
     await valve.begin();
     document.documentElement.dataset.ready = String(Math.round(performance.now()));
   } catch (error) {
-    const told = document.createElement('p');
-    told.className = 'fault';
-    told.textContent = `The program could not be started: ${(error as Error).message}. It needs a browser with WebAssembly exceptions and DecompressionStream: Chromium 95, Firefox 113, Safari 16.4 or later.`;
-    main.replaceChildren(told);
+    const message = document.createElement('p');
+    message.className = 'fault';
+    message.textContent = `The program could not be started: ${(error as Error).message}. It needs a browser with WebAssembly exceptions and DecompressionStream: Chromium 95, Firefox 113, Safari 16.4 or later.`;
+    main.replaceChildren(message);
   }
 }
 

@@ -12,7 +12,7 @@ async function ofEntry(entry: FileSystemEntry, folder: string): Promise<TakenFil
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const out: TakenFile[] = [];
-  for (;;) {  // a folder is told in pieces
+  for (;;) {  // a folder is listed in pieces
     const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
     if (some.length === 0) return out;
     for (const each of some) out.push(...await ofEntry(each, `${folder}${entry.name}/`));

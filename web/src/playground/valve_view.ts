@@ -146,10 +146,10 @@ export class ValveView {
       ['current', `${numberText(last('current_A'), 2)} A`],
     ];
     this.numbers.replaceChildren(...rows.flatMap(([name, value]) => {
-      const term = element('dt', ''), told = element('dd', '');
+      const term = element('dt', ''), definition = element('dd', '');
       term.textContent = name;
-      told.textContent = value;
-      return [term, told];
+      definition.textContent = value;
+      return [term, definition];
     }));
     this.statusLine.textContent = `status: ${samples.status === '' ? 'all is well' : samples.status.replace(/\|/g, ', ')}`;
     this.root.dataset.worked = this.worked_s.toFixed(2);

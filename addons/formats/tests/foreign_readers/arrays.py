@@ -17,11 +17,11 @@ with h5py.File(f"{name}.h5", "r") as hdf5:
     assert sorted(hdf5) == sorted(header), sorted(hdf5)
     assert {key for key in mat if not key.startswith("__")} == {*header, "estimate_units", "status_names"}, sorted(mat)
     for k, column in enumerate(header[:-1]):
-        told = numpy.array([float(line[k]) if line[k] else numpy.nan for line in lines])
+        expected = numpy.array([float(line[k]) if line[k] else numpy.nan for line in lines])
         values = hdf5[column][:]
-        assert values.dtype == numpy.float64 and values.shape == told.shape, (column, values.dtype, values.shape)
-        assert numpy.array_equal(numpy.isnan(values), numpy.isnan(told)), column
-        assert numpy.nanmax(numpy.abs(values - told)) <= 0.501 * 10.0 ** -decimals[k], column
+        assert values.dtype == numpy.float64 and values.shape == expected.shape, (column, values.dtype, values.shape)
+        assert numpy.array_equal(numpy.isnan(values), numpy.isnan(expected)), column
+        assert numpy.nanmax(numpy.abs(values - expected)) <= 0.501 * 10.0 ** -decimals[k], column
         assert numpy.array_equal(mat[column], values, equal_nan=True), column
         assert hdf5[column].attrs["units"].decode() == units[k], column
         assert mat["estimate_units"][column].item() == units[k], column

@@ -36,10 +36,10 @@ for (const [k, column] of numbers.entries()) {
   let at = 0;
   for (const group of about.row_groups) {
     const rows = table.slice(at, (at += Number(group.num_rows))).map((row) => row[column]).filter((value) => value !== null);
-    const told = group.columns[k].meta_data.statistics;
-    assert.equal(told.min_value + 0, rows.reduce((a, b) => Math.min(a, b)) + 0); // -0 tells of either zero
-    assert.equal(told.max_value + 0, rows.reduce((a, b) => Math.max(a, b)) + 0);
-    assert.equal(Number(told.null_count), Number(group.num_rows) - rows.length);
+    const statistics = group.columns[k].meta_data.statistics;
+    assert.equal(statistics.min_value + 0, rows.reduce((a, b) => Math.min(a, b)) + 0); // -0 stands for either zero
+    assert.equal(statistics.max_value + 0, rows.reduce((a, b) => Math.max(a, b)) + 0);
+    assert.equal(Number(statistics.null_count), Number(group.num_rows) - rows.length);
   }
 }
 

@@ -21,7 +21,7 @@ TEST(ThriftCompact, WritesFieldsByTheirStepAndNumbersZigzag) {
   out.long_number(4, 300);                            // step 3, type 6; zigzag 600 in two bytes
   out.text(5, "ab");                                  // step 1, type 8; length, letters
   out.begin_structure(8);                             // step 3, type 12
-  out.number(2, 3);                                   // counted anew inside
+  out.number(2, 3);                                   // counted again inside
   out.end();                                          // 0
   out.begin_list(9, 2, ThriftCompact::Kind::number);  // step 1, type 9; two of type 5
   out.bare_number(0);
@@ -30,7 +30,7 @@ TEST(ThriftCompact, WritesFieldsByTheirStepAndNumbersZigzag) {
                                           0x19, 0x25, 0x00, 0x04, 0x00));
 }
 
-TEST(ParquetRuns, TellHowOftenThenWhich) {
+TEST(ParquetRuns, HoldTheCountThenTheValue) {
   const std::vector<std::uint32_t> numbers{3, 3, 3, 1, 0, 0};
   Bytes out;
   put_runs(out, numbers.size(), 2, [&](std::size_t k) { return numbers[k]; });

@@ -203,7 +203,7 @@ TEST(XlsxTable, RefusesDatesAmongNumbers) {
               HasSubstr("'Sheet1'!A3: is a date or time, where the cells above are numbers"));
 }
 
-TEST(XlsxStyles, TellsFormatsOfTimeFromOthers) {
+TEST(XlsxStyles, DistinguishesFormatsOfTimeFromOthers) {
   for (const char* format : {"yyyy-mm-dd", "hh:mm:ss.000", "[h]:mm", "[ss].00", "[$-407]d. mmmm yyyy", "General\\ d"}) {
     EXPECT_TRUE(shows_time(format)) << format;
   }
@@ -263,7 +263,7 @@ TEST(XlsxTable, NamedColumnsWithoutNumbersTakeNoRoom) {
   EXPECT_THAT(xlsx_column(xlsx_book(rows), "current_A"), Each(1.5));
 }
 
-TEST(XlsxTable, TellsWhatASheetWithoutATableLacks) {
+TEST(XlsxTable, ReportsWhatASheetWithoutATableLacks) {
   EXPECT_THAT(xlsx_refused(xlsx_book(xlsx_row({"1", "2", "3"}) + xlsx_row({"4", "5", "6"}))),
               AllOf(HasSubstr("no sheet holds a table of samples within its first 100 rows: a row of names"),
                     HasSubstr("looked at 'Sheet1'")));

@@ -45,7 +45,7 @@ class LiveSource : public LiveSite {
   std::uint16_t source = 0, page = 0;
 };
 
-TEST_F(LiveSource, ThatStallsIsToldAndTakenUpAgain) {
+TEST_F(LiveSource, ThatStallsIsReportedAndTakenUpAgain) {
   const LoopbackSender sender(source);
   sender.send(std::string(live_header) + live_rows(100));
   EXPECT_EQ(with_samples(100)["samples"], 100);
@@ -58,7 +58,7 @@ TEST_F(LiveSource, ThatStallsIsToldAndTakenUpAgain) {
   EXPECT_FALSE(says(again, "stalled"));
 }
 
-TEST_F(LiveSource, ThatRepeatsItselfIsToldByTimeFault) {
+TEST_F(LiveSource, ThatRepeatsItselfHasATimeFault) {
   const LoopbackSender sender(source);
   sender.send(std::string(live_header) + live_rows(100) + live_rows(1, 99));
   const Json valve = with_samples(101);
@@ -84,7 +84,7 @@ TEST_F(LiveSource, ThatSkipsGoesOnBehindTheGap) {
   const LoopbackSender sender(source);
   sender.send(std::string(live_header) + live_rows(300) + live_rows(1, 5000));
   const Json valve = with_samples(301);
-  EXPECT_TRUE(says(valve, "time_fault"));  // nobody knows what was in so many seconds: it begins anew
+  EXPECT_TRUE(says(valve, "time_fault"));  // nobody knows what was in so many seconds: it is reset
   EXPECT_NEAR(valve["time_s"].get<double>(), 5.0, 1e-9);
   sender.send(live_rows(300, 5001));
   EXPECT_FALSE(says(with_samples(601), "time_fault"));

@@ -68,7 +68,7 @@ TEST(ProcessData, Has16384ForFullFlowLittleEndian) {
   EXPECT_THAT(frame.data, ElementsAre(0x0F, 0x00, 0x00, 0x40, 0x9A, 0x39, 0x66, 0x46));
 }
 
-TEST(ProcessData, IsHeldAtFaultAndTellsNoFlowThatIsNotKnown) {
+TEST(ProcessData, IsHeldAtFaultAndSendsNoFlowThatIsNotKnown) {
   // ready, active, hold, disabled from bit 3 down: FAULT HOLD is 0011, and 0111 would be FAULT REACTION, which passes
   EXPECT_EQ(process_data_frame(answer(0.5F, Status::sample_missing), 1).data[0], 0x03);
   EXPECT_EQ(process_data_frame(answer(0.5F, Status::model_doubt), 1).data[0], 0x0F);

@@ -32,7 +32,7 @@ TEST(ModbusMap, HasTheHighWordFirst) {
   EXPECT_EQ(at[23], '1' << 8);
 }
 
-TEST(ModbusMap, TellsWhatIsNotKnownAsNotANumber) {
+TEST(ModbusMap, WritesWhatIsNotKnownAsNotANumber) {
   const std::vector<std::uint16_t> registers = modbus_registers({PlantAnswer{}});
   EXPECT_EQ(registers[modbus_head] & 0x7FC0, 0x7FC0);
   EXPECT_EQ(registers[modbus_head + 13], 1);

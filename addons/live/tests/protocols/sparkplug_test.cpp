@@ -17,7 +17,7 @@ TEST(Sparkplug, OfADeathHasNoSequence) {
   EXPECT_EQ(sparkplug_bytes({1, -1, {}}), "\x08\x01"s);
 }
 
-TEST(Sparkplug, TellsWhatIsNotKnownAsNull) {
+TEST(Sparkplug, WritesWhatIsNotKnownAsNull) {
   EXPECT_EQ(sparkplug_bytes({1, -1, {{"a", 1, std::nan("")}}}),
             "\x08\x01\x12\x09\x0A\x01\x61\x18\x01\x20\x0A\x38\x01"s);
 }

@@ -61,11 +61,11 @@ def judge_flows(messages):
         assert states[0] == 0 and set(states[1:]) == {5}, (node, states)
         assert abs(median_step(groups[(False, 0x700 + node)]) - 1) < 0.2
     known = [one for one in groups[(False, 0x191)] if process_data(one)[0] == ACTIVE]
-    told = agreeing_flows(groups[FLOW], groups[(False, 0x191)])
-    assert told > 0.5 * len(known) > 20, (told, len(known))
+    agreeing = agreeing_flows(groups[FLOW], groups[(False, 0x191)])
+    assert agreeing > 0.5 * len(known) > 20, (agreeing, len(known))
     assert {process_data(one) for one in groups[(False, 0x193)]} == {(FAULT_HOLD,) + 3 * (NOT_KNOWN,)}
     assert {bytes(one.data) for one in groups[SILENT_FLOW]} == {b"\xff" * 8}
-    return quiet_s, told
+    return quiet_s, agreeing
 
 
 def judge_objects(messages, eds):
@@ -87,11 +87,11 @@ def judge_objects(messages, eds):
 
 
 def judge_network(story):
-    """NMT: node 18 does as it is told, the others go on."""
+    """NMT: node 18 obeys, the others go on."""
     def of_18(part, base):
         """Its frames since the command of that part."""
-        told_at = next(k for k, one in enumerate(story[part]) if not one.is_extended_id and one.arbitration_id == 0)
-        return [one for one in story[part][told_at:] if not one.is_extended_id and one.arbitration_id == base + 18]
+        command_at = next(k for k, one in enumerate(story[part]) if not one.is_extended_id and one.arbitration_id == 0)
+        return [one for one in story[part][command_at:] if not one.is_extended_id and one.arbitration_id == base + 18]
 
     def states(part):
         return [one.data[0] for one in of_18(part, 0x700)]
@@ -105,7 +105,7 @@ def judge_network(story):
 
 
 def judge_addresses(story):
-    """The address is told when asked for, twice here, and lost to a lesser NAME."""
+    """The address is sent when asked for, twice here, and lost to a lesser NAME."""
     def named(part, name):
         return [one for one in story[part] if (one.is_extended_id, one.arbitration_id) == name]
 
@@ -120,7 +120,7 @@ def judge_addresses(story):
 
 
 def judge_mishaps(story, site):
-    """The interface goes down and away: told while it lasts, over after it, and the address is claimed anew."""
+    """The interface goes down and away: reported while it lasts, and the address is claimed again."""
     for part, lost, back in ((8, "went_down", "came_up"), (9, "went_away", "came_back")):
         assert "vcan0" in site(lost)["trouble"], (lost, site(lost))
         assert site(back)["trouble"] == "" and site(back)["sent"] > site(lost)["sent"], (back, site(back))
@@ -146,13 +146,13 @@ def judge(eds, heard):
     messages = list(can.LogReader(os.path.join(heard, "bus.log")))
     story = parts(messages)
     assert sorted(story) == list(range(11)), sorted(story)
-    quiet_s, told = judge_flows(story[0])
+    quiet_s, agreeing = judge_flows(story[0])
     read = judge_objects(story[1], eds)
     assert not [one for one in story[2] if one.arbitration_id in (0x591, 0x594)], "an answer to what was no request"
     judge_network(story)
     judge_addresses(story)
     judge_mishaps(story, site)
-    print(f"Linux {text('kernel')}: {len(messages)} frames, {read} objects, {told} flows told alike, first {quiet_s:.2f} s after the claim")
+    print(f"Linux {text('kernel')}: {len(messages)} frames, {read} objects, {agreeing} flows agree, first {quiet_s:.2f} s after the claim")
 
 
 if sys.argv[1] == "reads":

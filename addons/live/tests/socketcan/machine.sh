@@ -42,8 +42,8 @@ make_bus() {
   ip link add dev vcan0 type vcan
   ip link set vcan0 up
 }
-tell() { cansend vcan0 "$1" && sleep "${2:-0.5}"; }
-mark() { tell "7E0#0$1"; }
+send() { cansend vcan0 "$1" && sleep "${2:-0.5}"; }
+mark() { send "7E0#0$1"; }
 ask_site() { timeout 30 wget -q -O "/heard/$1.json" http://127.0.0.1:8080/api/v1/site; }
 until_heard() { # PATTERN: for five minutes
   for _ in $(seq 300); do
@@ -68,31 +68,31 @@ ask_site running
 sleep 10
 
 mark 1 # objects of the EDS, then what is refused, then what is nobody's request
-while read -r request; do tell "$request" 0.2; done <reads
-tell 611#2B00200100000000
-tell 611#4000300000000000
-tell 611#4000204D00000000
+while read -r request; do send "$request" 0.2; done <reads
+send 611#2B00200100000000
+send 611#4000300000000000
+send 611#4000204D00000000
 mark 2
-tell 611#R
-tell 611#400010
-tell 00000611#4000100000000000
-tell 614#4000100000000000
+send 611#R
+send 611#400010
+send 00000611#4000100000000000
+send 614#4000100000000000
 
 mark 3 # NMT: pre-operational, stopped, without an answer, operational, reset
-tell 000#8012 4
+send 000#8012 4
 mark 4
-tell 000#0212 2
-tell 612#4000100000000000 2
+send 000#0212 2
+send 612#4000100000000000 2
 mark 5
-tell 000#0112 3
+send 000#0112 3
 mark 6
-tell 000#8112 3
+send 000#8112 3
 
 mark 7 # J1939: asked by all, by its address, at another's
-tell 18EAFFF9#00EE00
-tell 18EA80F9#00EE00
-tell 18EA81F9#00EE00
-tell 18EA80F9#00EF00
+send 18EAFFF9#00EE00
+send 18EA80F9#00EE00
+send 18EA81F9#00EE00
+send 18EA80F9#00EF00
 
 mark 8 # the interface goes down and comes up
 ip link set vcan0 down
@@ -109,8 +109,8 @@ make_bus
 sleep 5
 ask_site came_back
 
-tell 7E0#0A # a device of a lesser NAME takes the address
-tell 18EEFF80#0000000000000000 4
+send 7E0#0A # a device of a lesser NAME takes the address
+send 18EEFF80#0000000000000000 4
 ask_site lost
 kill -TERM $live
 wait $live

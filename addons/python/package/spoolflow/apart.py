@@ -51,26 +51,26 @@ def _threads() -> int:
         return 1
 
 
-def call(name: str, files: Iterable[Any], *arguments: Any, **telling: Any) -> Any:
-    """The compiled part's function of that name; in a process of its own where `files` need it. `telling`, its last argument,
+def call(name: str, files: Iterable[Any], *arguments: Any, **progress: Any) -> Any:
+    """The compiled part's function of that name; in a process of its own where `files` need it. `progress`, its last argument,
     is a function that it calls as it goes on, or None; the other process sends the arguments of each call."""
     if _threads() > 1 and sys.executable and _native.takes_a_process([os.fsdecode(file) for file in files]):
-        return _call_apart(name, arguments, telling)
-    return getattr(_native, name)(*arguments, *telling.values())
+        return _call_apart(name, arguments, progress)
+    return getattr(_native, name)(*arguments, *progress.values())
 
 
-def _call_apart(name: str, arguments: Any, telling: Dict[str, Any]) -> Any:
+def _call_apart(name: str, arguments: Any, progress: Dict[str, Any]) -> Any:
     with subprocess.Popen([sys.executable, "-I", "-c", _CHILD, _native.__file__], stdin=subprocess.PIPE,
                           stdout=subprocess.PIPE) as child:
         try:
             assert child.stdin is not None
             with contextlib.suppress(BrokenPipeError), child.stdin:
-                pickle.dump((name, arguments, bool(telling)), child.stdin, protocol=4)
+                pickle.dump((name, arguments, bool(progress)), child.stdin, protocol=4)
             kind, content = _next_message(child)
             while kind == "progress":
-                for progress in telling.values():
-                    if progress is not None:
-                        progress(*content)
+                for report in progress.values():
+                    if report is not None:
+                        report(*content)
                 kind, content = _next_message(child)
         except BaseException:  # an interruption, or what `progress` raised
             child.kill()

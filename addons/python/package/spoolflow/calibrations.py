@@ -100,9 +100,9 @@ def calibrate(campaign: Union[Campaign, Iterable[Campaign]], *, allow_outside: b
         recordings: List[Any] = [name for file in files for name in _native.campaign_files(file, type_file)]
         if type_file is None:
             kept, page, notes = apart.call("calibrate", recordings, files, outside, despite_doubts, as_type,
-                                           _units(report, units), telling=progress)
+                                           _units(report, units), progress=progress)
         else:
-            kept, page, notes = apart.call("calibrate_unit", recordings, files[0], outside, type_file, telling=progress)
+            kept, page, notes = apart.call("calibrate_unit", recordings, files[0], outside, type_file, progress=progress)
     for note in [*notes, *(f"doubt: {doubt}" for doubt in kept.doubts)]:
         warnings.warn(note, stacklevel=2)
     if report is not None and page is not None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-#: What the sensor says about an answer, limits apart from faults (docs/troubleshooting.md tells each). Bits of a word:
+#: What the sensor reports about an answer, limits apart from faults (docs/troubleshooting.md explains each). Bits of a word:
 #: `Status.closed | Status.spool_at_rest`; `Status(word)` names them.
 Status = enum.IntFlag("Status", _native.status_bits, module=__name__)  # type: ignore[misc]
 

@@ -176,7 +176,7 @@ class Model:
 
     def doubts_about(self, run: Optional[Mapping[str, Any]] = None, **samples: Any) -> List[str]:
         """What speaks against a run being of this valve, a sentence each, with the usual recording error that explains it (other units, a
-        sign turned round, a gap in time): what `spoolflow estimate` tells about its recording. Empty where nothing does.
+        sign turned round, a gap in time): what `spoolflow estimate` reports about its recording. Empty where nothing does.
 
         run: a recording, or any mapping with the names of `estimate`; or arrays by these names.
         """

@@ -113,7 +113,7 @@ class Recording(Mapping[str, NDArray[Any]]):
 
 def read_recording(path: PathLike, channels: Optional[Channels] = None, *,
                    stroke_m: Optional[float] = None) -> Recording:
-    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, TDMS, MDF 4, Excel (.xlsx), told apart by content.
+    """Reads a recording whole: CSV, MATLAB v5 or v7.3, HDF5, TDMS, MDF 4, Excel (.xlsx), recognised by content.
 
     path: the file. Columns named `<channel>_<unit>`, such as `current_A` or `position_mm`, need nothing more.
     channels: a channel map of a file with other column names or units: a file (TOML, docs/formats/channels.md), or a
@@ -152,7 +152,7 @@ def inspect(path: PathLike, channels: Optional[Channels] = None, *, stroke_m: Op
     taken for; `times`, where columns have several; what is `missing` and `helpful`; `proposed_map`, a dict for `channels`
     once its units are filled in, and `proposed_channel_map`, the same as TOML. A number that is not known is None.
 
-    Raises Error as `read_recording`; where no channel can be told, only the columns and the proposal are there.
+    Raises Error as `read_recording`; where no channel is recognised, only the columns and the proposal are there.
     """
     file = os.fsdecode(path)
     with naming_missing(path, channels), as_file(channels) as map_file:

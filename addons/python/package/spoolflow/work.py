@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 AnyModel = Union[Model, PathLike]
-#: Told the share of the work that is done, 0 to 1.
+#: Called with the share of the work that is done, 0 to 1.
 Progress = Callable[[float], None]
-#: Told what begins, and the share.
+#: Called with what begins, and the share.
 StepProgress = Callable[[str, float], None]
 #: One recording or several, as files or in memory.
 Runs = Union[Run, Iterable[Run]]
@@ -53,7 +53,7 @@ class Validation(JudgedFigures):
     (docs/formats/metrics.md) by attributes.
 
         validation.verdict                  # the figures in one sentence
-        validation.limits                   # what limits them, the most telling first
+        validation.limits                   # what limits them, the most important first
         validation.runs[0].estimators[-1].error.all.p95.percent_FS
     """
 
@@ -120,7 +120,7 @@ def validate(model: AnyModel, recordings: Runs, *, channels: Optional[Channels] 
     with naming_missing(*runs, requirements, *others, channels), as_files(runs, channels) as files:
         figures, page, _ = apart.call(
             "validate", files.paths, known._kept, files.paths, files.channels, estimator, _path(requirements),
-            reference_lag_s, apply_reference_lag, others, _units(report, units), telling=progress)
+            reference_lag_s, apply_reference_lag, others, _units(report, units), progress=progress)
     if report is not None and page is not None:
         write_whole(report, page)
     return Validation(figures)
@@ -141,11 +141,11 @@ class Condition(JudgedFigures):
     def plot(self, axes: "Optional[Axes]" = None) -> "Axes":
         """Of each judged indicator how far it is from its baseline, in its 95 % uncertainties. Needs Matplotlib."""
         axes = matplotlib_axes(axes)
-        told = [each for each in self.indicators
-                if each.state in ("good", "raised") and each.value is not None and each.baseline is not None
-                and each.uncertainty_95]
-        axes.barh([each.name for each in told], [(each.value - each.baseline) / each.uncertainty_95 for each in told],
-                  color=["tab:red" if each.state == "raised" else "tab:blue" for each in told])
+        shown = [each for each in self.indicators
+                 if each.state in ("good", "raised") and each.value is not None and each.baseline is not None
+                 and each.uncertainty_95]
+        axes.barh([each.name for each in shown], [(each.value - each.baseline) / each.uncertainty_95 for each in shown],
+                  color=["tab:red" if each.state == "raised" else "tab:blue" for each in shown])
         axes.set_xlabel("deviation from the baseline [95 % uncertainties]")
         return axes
 
@@ -174,7 +174,7 @@ def monitor(model: AnyModel, recordings: Runs, *, baseline: Optional[PathLike] =
     with naming_missing(*runs, baseline, channels), as_files(runs, channels) as files:
         figures, page, corrected = apart.call(
             "monitor", files.paths, known._kept, files.paths, files.channels, _path(baseline) or "",
-            false_alarms_per_year, adapt is not None, _units(report, units), telling=progress)
+            false_alarms_per_year, adapt is not None, _units(report, units), progress=progress)
     if adapt is not None:
         write_whole(adapt, corrected)
     if report is not None and page is not None:
@@ -261,7 +261,7 @@ def analyse(model: AnyModel, scenario: Optional[PathLike] = None, *, recording: 
         files = Files([], None) if recording is None else kept_files.enter_context(as_files([recording], channels))
         figures, page, resampled = apart.call(
             "analyse", files.paths, kept, _path(scenario), samples, seed, study, workers, direction,
-            next(iter(files.paths), None), files.channels, _units(report, units), telling=progress)
+            next(iter(files.paths), None), files.channels, _units(report, units), progress=progress)
     if resampled:
         warnings.warn(f"{files.paths[0]}: {resampled}", stacklevel=2)
     if report is not None and page is not None:
