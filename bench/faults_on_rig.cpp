@@ -1,6 +1,6 @@
-/// Faults of the signals put in at random while a virtual valve works, against the plant's true flow: how many are told
-/// and how soon, the share of samples inside the 95 % band while a fault stands and in the second after it, how long
-/// the answer stays off, and how many faults are told where there is none.
+/// Faults of the signals put in at random while a virtual valve works, against the plant's true flow: how many are
+/// reported and how soon, the share of samples inside the 95 % band while a fault stands and in the second after it,
+/// how long the answer stays off, and how many faults are reported where there is none.
 ///
 ///     spoolflow campaign size_6 -o size_6 && spoolflow calibrate size_6/campaign.toml -o size_6.json
 ///     faults_on_rig size_6.json size_6 [KEY=NUMBER ...]
@@ -33,7 +33,7 @@ using estimation::TimedSample;
 using sensor::Status;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-/// Told so long after its end, a fault is told of something else [s].
+/// A report later than this after a fault's end belongs to something else [s].
 constexpr double late_s = 0.3;
 /// The answer is back where it differs from that without faults by less than this share of the rated flow, ...
 constexpr double back_share = 0.02;
@@ -46,7 +46,7 @@ struct FaultKind {
   Kind kind;
   const char* name;
   double shortest_s, longest_s;
-  Status told;
+  Status reported;
 };
 constexpr std::array fault_kinds{
     FaultKind{Kind::spike, "position: one sample off by 0.1 to 1 mm", 0, 0, Status::position_fault},
@@ -130,8 +130,8 @@ struct Share {
 };
 
 struct Outcome {
-  int faults = 0, told = 0;
-  std::vector<double> told_after_s{}, back_after_s{};
+  int faults = 0, reported = 0;
+  std::vector<double> reported_after_s{}, back_after_s{};
   Share during{}, after{};
   double largest_error = 0;  ///< while it stands, share of the rated flow
 };
@@ -160,17 +160,17 @@ void put_in(const model::Model& model, const Run& run, const FaultKind& kind, Ch
       faults(kind, chance, run.samples.front().time_s + 3, run.samples.back().time_s - after_s, every_s);
   estimation::RunningSensor sensor(&model.observer.value().parameters, rated);
   std::size_t next = 0;
-  double held_m = 0, told_s = missing, off_s = 0;
+  double held_m = 0, reported_s = missing, off_s = 0;
   bool in_fault = false;
   const auto close = [&] {
     const Fault& fault = all[next++];
     ++out.faults;
-    if (!std::isnan(told_s)) {
-      ++out.told;
-      out.told_after_s.push_back(told_s - fault.begin_s);
+    if (!std::isnan(reported_s)) {
+      ++out.reported;
+      out.reported_after_s.push_back(reported_s - fault.begin_s);
     }
     out.back_after_s.push_back(off_s);
-    told_s = missing;
+    reported_s = missing;
     off_s = 0;
     in_fault = false;
   };
@@ -197,9 +197,9 @@ void put_in(const model::Model& model, const Run& run, const FaultKind& kind, Ch
     }
     if (!stands && std::abs(answer.flow_m3_per_s - run.sound[k].flow_m3_per_s) > back_share * rated)
       off_s = sample.time_s - fault.end_s;
-    if (std::isnan(told_s) && sample.time_s < fault.end_s + late_s && has(answer.status, kind.told) &&
-        !has(run.sound[k].status, kind.told))
-      told_s = sample.time_s;
+    if (std::isnan(reported_s) && sample.time_s < fault.end_s + late_s && has(answer.status, kind.reported) &&
+        !has(run.sound[k].status, kind.reported))
+      reported_s = sample.time_s;
   }
   if (in_fault) close();
 }
@@ -240,7 +240,7 @@ std::vector<Run> sound_runs(const model::Model& model, const rig::ValveUnderTest
   return out;
 }
 
-/// Faults that are told where there is none.
+/// Faults that are reported where there is none.
 void print_false(const std::vector<Run>& runs) {
   double hours = 0;
   for (const Run& run : runs) hours += (run.samples.back().time_s - run.samples.front().time_s) / 3600;
@@ -254,16 +254,16 @@ void print_false(const std::vector<Run>& runs) {
     for (const Run& run : runs) {
       bool before = false;
       for (std::size_t k = 0; k < run.sound.size(); ++k) {
-        const bool told = has(run.sound[k].status, status);
-        episodes += told && !before ? 1 : 0;
-        before = told;
+        const bool reported = has(run.sound[k].status, status);
+        episodes += reported && !before ? 1 : 0;
+        before = reported;
         ++all;
-        if (!told) continue;
+        if (!reported) continue;
         ++samples;
         inside.count(holds(run.sound[k], run.truth_m3_per_s[k]));
       }
     }
-    fmt::print("  {:<18} {} times, {:.4f} % of the samples, inside the band while told {} %\n", name, episodes,
+    fmt::print("  {:<18} {} times, {:.4f} % of the samples, inside the band while reported {} %\n", name, episodes,
                100 * samples / all, inside.percent());
   }
 }
@@ -276,7 +276,7 @@ void meet_faults(const model::Model& model, const rig::ValveUnderTest& valve, Se
     for (std::size_t k = 0; k < run.sound.size(); ++k) sound.count(holds(run.sound[k], run.truth_m3_per_s[k]));
   fmt::print("  inside the band without faults {} %\n\n", sound.percent());
   fmt::print(
-      "| fault | times | told | after, median ms | inside the band while it stands | in the second after | off by "
+      "| fault | times | reported | after, median ms | inside the band while it stands | in the second after | off by "
       "more than {:.0f} % so long after, 50 %; 95 % ms | largest error, % |\n|---|---|---|---|---|---|---|---|\n",
       100 * back_share);
   for (const FaultKind& kind : fault_kinds) {
@@ -284,9 +284,9 @@ void meet_faults(const model::Model& model, const rig::ValveUnderTest& valve, Se
     Outcome out;
     for (const Run& run : runs) put_in(model, run, kind, chance, set["every"], out);
     fmt::print("| {} | {} | {:.1f} % | {:.0f} | {} % | {} % | {:.0f}; {:.0f} | {:.0f} |\n", kind.name, out.faults,
-               100.0 * out.told / std::max(1, out.faults), 1e3 * quantile(out.told_after_s, 0.5), out.during.percent(),
-               out.after.percent(), 1e3 * quantile(out.back_after_s, 0.5), 1e3 * quantile(out.back_after_s, 0.95),
-               100 * out.largest_error);
+               100.0 * out.reported / std::max(1, out.faults), 1e3 * quantile(out.reported_after_s, 0.5),
+               out.during.percent(), out.after.percent(), 1e3 * quantile(out.back_after_s, 0.5),
+               1e3 * quantile(out.back_after_s, 0.95), 100 * out.largest_error);
   }
 }
 

@@ -162,8 +162,8 @@ Sent send_all(const Child& child, int valves, double seconds, double rate_Hz, st
 
 /// A line a minute: memory, writes, and how far the newest answers are behind the clock of the sender, which is that of
 /// this process.
-void tell_each_minute(const Child& child, const fs::path& store, const std::atomic<std::int64_t>& began_ns,
-                      const std::stop_token& stop) {
+void print_each_minute(const Child& child, const fs::path& store, const std::atomic<std::int64_t>& began_ns,
+                       const std::stop_token& stop) {
   double written_MB = usage_of(child.process).written_MB;
   for (int second = 1; !stop.stop_requested(); ++second) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -263,7 +263,7 @@ int main(int argc, char** argv) {
       fmt::print("page at http://127.0.0.1:{}\n", child.page);
       std::fflush(stdout);
       teller = std::jthread(
-          [&](const std::stop_token& stop) { tell_each_minute(child, folder / "s.sqlite", began_ns, stop); });
+          [&](const std::stop_token& stop) { print_each_minute(child, folder / "s.sqlite", began_ns, stop); });
     }
     const Usage before = usage_of(child.process);
     const Sent sent = send_all(child, valves, seconds, rate_Hz, began_ns);

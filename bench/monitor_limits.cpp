@@ -1,5 +1,5 @@
 /// How small a fault may be that the monitor still finds: valves of the virtual rig with one fault each, judged by
-/// their healthy sister's model, one hundred strokes a case, without a baseline.
+/// the model of the healthy valve, one hundred strokes a case, without a baseline.
 ///
 ///     monitor_limits VALVE=MODEL.json [VALVE=MODEL.json ...] [KEY=NUMBER ...]
 ///
@@ -219,7 +219,7 @@ struct Bench {
     };
     struct Answer {
       bool raised;
-      Band told, widened;
+      Band estimate, widened;
     };
     std::vector<Answer> answers;
     rig::ValveUnderTest faulty = tested(static_cast<std::size_t>(&valve - valves.data()), false);
@@ -231,12 +231,12 @@ struct Bench {
     rig::SimulationOptions options{.with_truth = true, .keeps_recording = false};
     options.each_sample = [&](const rig::MeasuredSample& in) {
       const estimation::TimedSample sample{in.time_s, in.current_A, in.voltage_V, in.position_m, in.oil_temperature_K};
-      const sensor::Estimate<double> told = sensor.step(sample);
-      const auto wide = monitor::widened(valve.model, doubt, sample, watch.state().oil_temperature_K, told);
+      const sensor::Estimate<double> estimate = sensor.step(sample);
+      const auto wide = monitor::widened(valve.model, doubt, sample, watch.state().oil_temperature_K, estimate);
       answers.push_back({doubt.any(),
-                         {told.flow_lower_m3_per_s, told.flow_upper_m3_per_s},
+                         {estimate.flow_lower_m3_per_s, estimate.flow_upper_m3_per_s},
                          {wide.flow_lower_m3_per_s, wide.flow_upper_m3_per_s}});
-      watch.take(sample, told);
+      watch.take(sample, estimate);
       if (watch.judged_windows() != windows) doubt = watch.doubt();
       windows = watch.judged_windows();
     };
@@ -247,7 +247,7 @@ struct Bench {
     for (std::size_t k = 0; k < answers.size(); ++k) {
       if (!answers[k].raised) continue;
       ++raised;
-      const std::array<Band, 2> bands{answers[k].told, answers[k].widened};
+      const std::array<Band, 2> bands{answers[k].estimate, answers[k].widened};
       for (std::size_t b = 0; b < bands.size(); ++b) {
         const double flow_m3_per_s = flow_L_min.at(k) / 60e3;
         within[b] += flow_m3_per_s >= bands[b].lower_m3_per_s && flow_m3_per_s <= bands[b].upper_m3_per_s ? 1 : 0;

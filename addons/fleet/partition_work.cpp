@@ -17,11 +17,11 @@ using std::chrono::seconds;
 /// Blocks of one fetch; of one transaction at most; of one valve that came before their turn.
 constexpr int fetched_blocks = 64;
 constexpr std::size_t committed_blocks = 512, early_blocks = 256;
-/// Whoever may send for one valve may send for many: what waits of all of them, and how many there are of a partition.
+/// A sender of one valve may be one of many: what waits of all of them, and how many there are of a partition.
 constexpr std::size_t most_early_bytes = std::size_t{1} << 26U, most_valves = 16384;
 constexpr milliseconds patience{100}, retry{300};
 /// A site sends again by itself what is not covered in time; asking is quicker where a single block is missing.
-constexpr seconds ask_every{1}, tell_all_every{5};
+constexpr seconds ask_every{1}, publish_all_every{5};
 
 }  // namespace
 
@@ -44,23 +44,23 @@ void PartitionWork::restore() {
           fmt::format("the model {} of {} is missing or damaged; restore a backup", kept.position.model_sha256, valve));
     }
     place(valve).line.restore(kept, *its_model);
-    to_tell_.insert(valve);
+    to_publish_.insert(valve);
   }
 }
 
 /// From what is kept, after the store has refused what a valve gave: which of its blocks it is for is found out by
 /// committing them one by one, and nothing is made of that one then.
-void PartitionWork::begin_anew(const ValveRefused& why) {
+void PartitionWork::restart(const ValveRefused& why) {
   const auto found = places_.find(why.valve);
   if (found == places_.end() || found->second.uncommitted == 0) throw ServerRefuses(why.what());
   const BlockPlace last = found->second.line.last();
   if (!suspects_.refused(why.valve, last, found->second.uncommitted, why.what())) {
-    parts_.tell(fmt::format("partition {}: {} stands at block {} until a worker takes the partition again: {}",
-                            claim_.partition, why.valve, last.number, why.what()));
+    parts_.report(fmt::format("partition {}: {} stands at block {} until a worker takes the partition again: {}",
+                              claim_.partition, why.valve, last.number, why.what()));
   }
   gathered_.clear();
   places_.clear();
-  to_tell_.clear();
+  to_publish_.clear();
   set_aside_ = {};
   puller_.reset();
   uncommitted_ = early_bytes_ = 0;
@@ -169,7 +169,7 @@ void PartitionWork::take(const Message& message) {
     case ValveLine::Turn::early:
       return keep_early(at, std::move(*block));
     case ValveLine::Turn::duplicate:
-      to_tell_.insert(block->valve);  // its site seems not to have heard
+      to_publish_.insert(block->valve);  // its site seems not to have heard
   }
 }
 
@@ -255,33 +255,33 @@ void PartitionWork::commit() {
   for (auto& [valve, at] : places_) {
     auto one = at.line.take_rows();
     if (!one) continue;
-    to_tell_.insert(valve);
+    to_publish_.insert(valve);
     rows.push_back(std::move(*one));
   }
   uncommitted_ = 0;
   if (!rows.empty() || !seen.empty() || set_aside_.waiting().count > 0) {
     try {
       const auto first_seen = store_.commit(rows, seen, set_aside_.waiting(), stream_);
-      for (const std::string& line : set_aside_.committed(claim_.partition, first_seen)) parts_.tell(line);
+      for (const std::string& line : set_aside_.committed(claim_.partition, first_seen)) parts_.report(line);
     } catch (const ValveRefused& error) {
-      return begin_anew(error);
+      return restart(error);
     }
   }
   for (auto& [valve, at] : places_) {
     if (std::exchange(at.uncommitted, 0) > 0) suspects_.committed(valve, at.line.last());
   }
-  tell_coverage(false);
+  publish_coverage(false);
 }
 
 /// Of what is committed alone: called behind a commit.
-void PartitionWork::tell_coverage(bool all) {
+void PartitionWork::publish_coverage(bool all) {
   std::map<std::string, std::string> lines;  // by site
   for (const auto& [valve, at] : places_) {
     const BlockPlace& last = at.line.last();
-    if (last.session == 0 || (!all && !to_tell_.contains(valve))) continue;
+    if (last.session == 0 || (!all && !to_publish_.contains(valve))) continue;
     lines[site_of(valve)] += fmt::format("{} {} {}\n", id_of(valve), last.session, last.number);
   }
-  to_tell_.clear();
+  to_publish_.clear();
   for (const auto& [site, text] : lines) parts_.nats.publish(coverage_subject(site), text);
 }
 
@@ -297,9 +297,9 @@ void PartitionWork::run(const std::stop_token& stop, const std::function<void()>
     const bool waits = uncommitted_ < committed_blocks && now - committed_ < commit_every;
     if (waits && (!suspects_.any() || uncommitted_ == 0)) continue;
     commit();
-    if (now - told_ < tell_all_every) continue;
-    told_ = now;
-    tell_coverage(true);
+    if (now - published_ < publish_all_every) continue;
+    published_ = now;
+    publish_coverage(true);
   }
   commit();
 }

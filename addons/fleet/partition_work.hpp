@@ -26,7 +26,7 @@ struct WorkerParts {
   std::string program;  ///< name and version
   Connection& nats;
   Models& models;
-  std::function<void(const std::string&)> tell;  ///< what is worth a line, from any thread
+  std::function<void(const std::string&)> report;  ///< what is worth a line, from any thread
 };
 
 class PartitionWork {
@@ -61,7 +61,7 @@ class PartitionWork {
   };
   Place& place(const std::string& valve);
   void restore();
-  void begin_anew(const ValveRefused& why);
+  void restart(const ValveRefused& why);
   [[nodiscard]] std::optional<Block> whole_block(const Message& message);
   void open_stream();
   bool fetch();
@@ -75,7 +75,7 @@ class PartitionWork {
   void ask(const std::string& valve, Place& place, const std::string& what);
   void ask_for_missing();
   void commit();
-  void tell_coverage(bool all);
+  void publish_coverage(bool all);
 
   WorkerParts parts_;
   Claim claim_;
@@ -83,7 +83,7 @@ class PartitionWork {
   PartitionStore store_;
   std::map<std::string, Place> places_;
   std::vector<Gathered> gathered_;     ///< of each valve one
-  std::set<std::string> to_tell_;      ///< valves whose coverage their sites should hear
+  std::set<std::string> to_publish_;   ///< valves whose coverage is to be published to their sites
   std::set<std::string> kept_models_;  ///< hashes of those that the store is known to have
   std::optional<Puller> puller_;
   SetAside set_aside_;
@@ -93,7 +93,7 @@ class PartitionWork {
   StreamPosition stream_;
   std::size_t uncommitted_ = 0;  ///< blocks
   std::size_t early_bytes_ = 0;  ///< of all valves
-  Clock::time_point committed_ = Clock::now(), told_ = Clock::now();
+  Clock::time_point committed_ = Clock::now(), published_ = Clock::now();
 };
 
 }  // namespace spoolflow::fleet

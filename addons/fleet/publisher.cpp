@@ -22,9 +22,9 @@ constexpr milliseconds look_every{100}, model_every{500};
 
 }  // namespace
 
-Publisher::Publisher(live::Engine& engine, std::function<void(const std::string&)> tell)
+Publisher::Publisher(live::Engine& engine, std::function<void(const std::string&)> report)
     : engine_(engine),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       nats_(access_of(engine.site().fleet.servers, engine.site().fleet.login), engine.site().fleet.site) {
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -37,7 +37,7 @@ void Publisher::run(const std::stop_token& stop) {
   const std::string& site = engine_.site().fleet.site;
   Subscription coverage = nats_.subscribe(coverage_subject(site));
   Subscription asks = nats_.subscribe(ask_subject(site));
-  std::string told;
+  std::string reported;
   while (!stop.stop_requested()) {
     try {
       const std::uint64_t mendings = engine_.store_view().mendings;
@@ -46,15 +46,15 @@ void Publisher::run(const std::stop_token& stop) {
         hear(coverage, asks);
         const bool connected = nats_.connected();
         if (connected != was_connected_)
-          tell_(connected ? "connected to the fleet" : "the fleet cannot be reached; blocks are kept");
+          report_(connected ? "connected to the fleet" : "the fleet cannot be reached; blocks are kept");
         was_connected_ = connected;
         look_for_new(database);
         if (connected) send(database);
-        told.clear();
+        reported.clear();
       }
     } catch (const live::StoreError& error) {  // a disk that is full, or a store that is held for too long
-      if (told != error.what()) tell_(error.what());
-      told = error.what();
+      if (reported != error.what()) report_(error.what());
+      reported = error.what();
     }
   }
 }
@@ -111,7 +111,7 @@ void Publisher::send_model(const std::string& sha256) {
     std::ifstream in(valve.model.file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     if (model::sha256_of_text(text) != sha256) {
-      tell_(
+      report_(
           fmt::format("{}: is another model than when the program started; start it again", valve.model.file.string()));
       return;
     }

@@ -15,8 +15,8 @@ namespace spoolflow::fleet {
 
 class Publisher {
  public:
-  /// Of the engine's site, which must have servers and a store. Throws LoginError. `tell`: as of Worker.
-  Publisher(live::Engine& engine, std::function<void(const std::string&)> tell);
+  /// Of the engine's site, which must have servers and a store. Throws LoginError. `report`: as of Worker.
+  Publisher(live::Engine& engine, std::function<void(const std::string&)> report);
   ~Publisher();
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
@@ -33,7 +33,7 @@ class Publisher {
   void send(live::Database& database, const std::string& valve, Delivery& at);
 
   live::Engine& engine_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> report_;
   Connection nats_;
   std::map<std::string, Delivery> valves_;
   /// A model that was asked for, as it travels.

@@ -59,7 +59,7 @@ void ValveLine::restore(const KeptValve& kept, live::SharedModel model) {
                             .kind = "program",
                             .text = "sensor and monitor are reset: the program is another than before"});
   }
-  told_condition_ = work_->view(false).condition;
+  reported_condition_ = work_->view(false).condition;
   alarms_.restore(kept.alarms, waits_of(position_.alarm_waits, valve_));
 }
 
@@ -71,7 +71,7 @@ ValveLine::Turn ValveLine::turn(const Block& block) const {
   return block.first <= last.number + 1 ? Turn::next : Turn::early;
 }
 
-void ValveLine::tell(std::string text, const Block& block) {
+void ValveLine::add_event(std::string text, const Block& block) {
   rows_.events.push_back({.wall_ms = block.wall_ms, .valve = valve_, .kind = "program", .text = std::move(text)});
 }
 
@@ -102,14 +102,14 @@ live::ValveAtWork* ValveLine::begin_work(const Block& block, const live::SharedM
   const BlockPlace before = position_.block;
   const BlockPlace now{block.session, block.number};
   if (before.session != 0 && block.session != before.session) {
-    tell("the site's store is another: its blocks are counted from 1 again", block);
+    add_event("the site's store is another: its blocks are counted from 1 again", block);
   }
   const std::uint64_t expected = block.session == before.session ? before.number + 1 : 1;
   if (block.number > expected) {
-    tell(fmt::format("blocks {} to {} are lost: the site could not keep them", expected, block.number - 1), block);
+    add_event(fmt::format("blocks {} to {} are lost: the site could not keep them", expected, block.number - 1), block);
   }
   if (!block.set_aside.empty())
-    tell(fmt::format("block {} is set aside: it is {}", block.number, block.set_aside), block);
+    add_event(fmt::format("block {} is set aside: it is {}", block.number, block.set_aside), block);
   if (!block.set_aside.empty() && !work_ && position_.state.layout == of_the_site) {
     position_.state.session = now.session;
     position_.state.next = now.number + 1;
@@ -129,9 +129,9 @@ live::ValveAtWork* ValveLine::begin_work(const Block& block, const live::SharedM
   }
   if (model.sha256 != position_.model_sha256 || !work_) {
     if (work_)
-      tell(fmt::format("the model {} is in force from block {} on; sensor and monitor are reset", model.sha256,
-                       block.number),
-           block);
+      add_event(fmt::format("the model {} is in force from block {} on; sensor and monitor are reset", model.sha256,
+                            block.number),
+                block);
     begin(model);
     if (model.sha256 != position_.model_sha256) rows_.models.push_back({now, model.sha256});
     position_.model_sha256 = model.sha256;
@@ -192,9 +192,9 @@ void ValveLine::look(const Block& block) {
   for (const live::AlarmChange& change : alarms_.follow(view, live::troubles_of(view, false), block.wall_ms)) {
     rows_.events.push_back(live::alarm_event(view, change, block.wall_ms));
   }
-  if (view.condition == told_condition_) return;
-  rows_.events.push_back(live::condition_event(view, told_condition_, block.wall_ms));
-  told_condition_ = view.condition;
+  if (view.condition == reported_condition_) return;
+  rows_.events.push_back(live::condition_event(view, reported_condition_, block.wall_ms));
+  reported_condition_ = view.condition;
 }
 
 BlockPlace ValveLine::acknowledge(const Acknowledgement& seen) {

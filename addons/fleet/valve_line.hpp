@@ -46,7 +46,7 @@ class ValveLine {
 
  private:
   void begin(const live::SharedModel& model);
-  void tell(std::string text, const Block& block);
+  void add_event(std::string text, const Block& block);
   void look(const Block& block);
   void take_report(const SiteReport& report);
 
@@ -55,7 +55,7 @@ class ValveLine {
   std::unique_ptr<live::ValveAtWork> work_;
   live::Alarms alarms_;
   ValvePosition position_;
-  monitor::Ne107 told_condition_ = monitor::Ne107::good;
+  monitor::Ne107 reported_condition_ = monitor::Ne107::good;
   ValveRows rows_;  ///< since they were taken
   bool changed_ = false;
 };

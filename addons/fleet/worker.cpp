@@ -39,18 +39,18 @@ struct Worker::Task {
   std::jthread thread{};
 };
 
-Worker::Worker(FleetSettings settings, std::string program, std::function<void(const std::string&)> tell)
+Worker::Worker(FleetSettings settings, std::string program, std::function<void(const std::string&)> report)
     : settings_(std::move(settings)),
       program_(std::move(program)),
       owner_(owner_name(settings_.worker.name)),
-      tell_(std::move(tell)) {
+      report_(std::move(report)) {
   nats_ = std::make_unique<Connection>(access_of(settings_.servers, settings_.login), owner_);
   try {
     Session session(settings_.connection, owner_, worker_patience);
     learn_settings(session);
   } catch (const ServerAway& error) {  // as later, too: it is waited for
-    told_ = error.what();
-    tell_(told_);
+    reported_ = error.what();
+    report_(reported_);
   }
   keeper_ = std::jthread([this](const std::stop_token& stop) { keep_share(stop); });
 }
@@ -89,34 +89,35 @@ void Worker::keep_share(const std::stop_token& stop) {
       if (!session) session.emplace(settings_.connection, owner_, worker_patience);
       if (shared_.partitions == 0) learn_settings(*session);
       spread(*session);
-      tell_of_nats();
-      told_.clear();
+      report_nats_away();
+      reported_.clear();
     } catch (const std::exception& error) {
       session.reset();
-      if (told_ != error.what()) tell_(error.what());
-      told_ = error.what();
+      if (reported_ != error.what()) report_(error.what());
+      reported_ = error.what();
     }
     next = std::max(next + spread_every, Clock::now());
   } while (parallel::wait_until(next, stop));
 }
 
 /// Once, when it has been away for longer than a server takes to let somebody in.
-void Worker::tell_of_nats() {
+void Worker::report_nats_away() {
   constexpr int patience = 5;
   away_ = nats_->connected() ? 0 : away_ + 1;
   if (away_ == patience)
-    tell_("NATS: no server can be reached, or none lets this user in; it is tried again and again");
+    report_("NATS: no server can be reached, or none lets this user in; it is tried again and again");
 }
 
-/// Partitions whose thread hangs in something that has no end: their leases run out, and whoever takes them raises the
-/// epoch, so that the thread can keep nothing should it come back.
+/// Partitions whose thread hangs in something that has no end: their leases run out, and the worker that takes them
+/// raises the epoch, so that the thread can keep nothing should it come back.
 std::vector<Claim> Worker::standing() {
   std::vector<Claim> out;
   const auto look = [&](Task& task) {
     if (task.ended || Clock::now() - task.moved.load() < stands_after) return;
     if (!task.stands) {
-      tell_(fmt::format("partition {}: has stood for {} s; it is left to whoever takes it, this thread is given up",
-                        task.claim.partition, stands_after.count()));
+      report_(fmt::format(
+          "partition {}: has stood for {} s; it is left to any worker that takes it, this thread is given up",
+          task.claim.partition, stands_after.count()));
     }
     task.stands = true;
     out.push_back(task.claim);
@@ -180,11 +181,11 @@ void Worker::begin(const Claim& claim) {
   task->claim = claim;
   task->thread = std::jthread([this, at = task.get()](const std::stop_token& stop) {
     try {
-      PartitionWork({settings_, shared_, program_, *nats_, models_, tell_}, at->claim).run(stop, [at] {
+      PartitionWork({settings_, shared_, program_, *nats_, models_, report_}, at->claim).run(stop, [at] {
         at->moved = Clock::now();
       });
     } catch (const std::exception& error) {
-      tell_(fmt::format("partition {}: {}", at->claim.partition, error.what()));
+      report_(fmt::format("partition {}: {}", at->claim.partition, error.what()));
     }
     at->ended = true;
   });

@@ -18,9 +18,9 @@ namespace spoolflow::fleet {
 
 class Worker {
  public:
-  /// Servers that are away are waited for. Throws ServerRefuses, LoginError. `program`: name and version. `tell` is
+  /// Servers that are away are waited for. Throws ServerRefuses, LoginError. `program`: name and version. `report` is
   /// called with what is worth a line, from any thread.
-  Worker(FleetSettings settings, std::string program, std::function<void(const std::string&)> tell);
+  Worker(FleetSettings settings, std::string program, std::function<void(const std::string&)> report);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -31,7 +31,7 @@ class Worker {
   struct Task;
   void keep_share(const std::stop_token& stop);
   void learn_settings(Session& session);
-  void tell_of_nats();
+  void report_nats_away();
   [[nodiscard]] std::vector<Claim> standing();
   void spread(Session& session);
   void begin(const Claim& claim);
@@ -39,12 +39,12 @@ class Worker {
 
   FleetSettings settings_;
   std::string program_, owner_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> report_;
   std::unique_ptr<Connection> nats_;
   SharedSettings shared_;  ///< no partitions: not known yet
   Models models_;
-  std::string told_;  ///< what was reported last of a server that is away; of the keeper, once it is at work
-  int away_ = 0;      ///< times that NATS was found away, one after another
+  std::string reported_;  ///< what was reported last of a server that is away; of the keeper, once it is at work
+  int away_ = 0;          ///< times that NATS was found away, one after another
   std::map<std::int64_t, std::unique_ptr<Task>> tasks_;  ///< by partition
   /// Asked to end; to be waited for by nobody who renews leases.
   std::vector<std::unique_ptr<Task>> leaving_;

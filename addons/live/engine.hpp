@@ -30,7 +30,7 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 
   /// Before the start: who reports the program's own events beside the page, such as at standard error.
-  void tell_by(std::function<void(const std::string&)> report) { journal_.report = std::move(report); }
+  void report_by(std::function<void(const std::string&)> report) { journal_.report = std::move(report); }
   /// Before the start: which clocks it goes by; without it the machine's.
   void go_by(std::function<Instant()> clock) { clock_ = std::move(clock); }
   /// Throws SiteError or RecordingError where a source cannot begin.
@@ -51,7 +51,7 @@ class Engine {
   [[nodiscard]] std::vector<Alarm> alarms() const { return journal_.alarms.all(); }
   /// The alarm as it is then; nothing where there is none of this number. It is kept with the next second's commit.
   std::optional<Alarm> acknowledge(std::int64_t alarm, const std::string& by);
-  /// Something of the program itself that people should know: an event, and reported as tell_by() sets.
+  /// Something of the program itself that people should know: an event, and reported as report_by() sets.
   void note(const std::string& text) { journal_.note(text); }
   /// The fleet has the valve's blocks up to that number: they need not be kept any longer.
   void covered(const std::string& valve, std::uint64_t number);

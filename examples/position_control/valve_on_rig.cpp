@@ -1,5 +1,5 @@
 /// What the firmware's electronics are built into: two amplifiers, the instruments and the valve of the virtual rig, in
-/// closed loop with the firmware over two pipes. Tells, phase by phase, what flowed and what the sensor answered.
+/// closed loop with the firmware over two pipes. Prints, phase by phase, what flowed and what the sensor answered.
 ///
 ///     valve_on_rig SAMPLES ANSWERS
 ///
@@ -67,7 +67,7 @@ constexpr std::array<Phase, 11> phases{{
     {"no position for good", 15.5, -1.2e-3, 40, 1, 3, Event::none, true},
 }};
 
-/// Of one phase, its settling left out: errors of the flow rate [L/min], and what was told.
+/// Of one phase, its settling left out: errors of the flow rate [L/min], and the status.
 struct Figures {
   int samples = 0, inside = 0;
   double truth = 0, answer = 0, largest_error = 0, largest_flow = 0, dithered = 0;
@@ -201,8 +201,8 @@ void expect(const Phase& phase, const Figures& figures) {
   demand(figures.largest_flow < most_flow_L_per_min + most_overshoot_L_per_min, "more flows than the machine can bear");
   if (phase.trust > 1) return;
   // The sensor has not seen the valve for a while, and when the spool slips next is a matter of chance.
-  const double begun_anew = phase.trust == 0 ? 1 : 4;
-  demand(figures.largest_error < begun_anew * most_error_L_per_min,
+  const double restart_factor = phase.trust == 0 ? 1 : 4;
+  demand(figures.largest_error < restart_factor * most_error_L_per_min,
          "the answer is further from the truth than it should be");
   demand(percent(figures, figures.inside) > least_inside_percent, "the truth is outside the band");
 }

@@ -92,8 +92,8 @@ std::optional<MeterLag> meter_lag_uncertainty(std::span<const double> time_s, st
   double largest = 0;
   for (std::size_t k = 0; k < changes.error.size(); ++k) largest = std::max(largest, std::abs(changes.to_lag[k]));
   for (std::size_t k = 0; k < changes.error.size(); ++k) {
-    constexpr double telling = 0.05;
-    if (std::abs(changes.to_lag[k]) > telling * largest) sizes.push_back(std::abs(changes.error[k]));
+    constexpr double relevant = 0.05;
+    if (std::abs(changes.to_lag[k]) > relevant * largest) sizes.push_back(std::abs(changes.error[k]));
   }
   if (sizes.empty()) return std::nullopt;
   const double near = median(std::move(sizes));

@@ -79,10 +79,11 @@ TEST_F(EstimateStream, HoldsOverWhatIsNoSampleAndGoesOn) {
   EXPECT_THAT(answer(std::string("0.1,1\0\n1,2,3,4,5,6,7\n", 21) + stream_sample(12)), StartsWith("0.012000"));
   estimate.close_input();
   EXPECT_EQ(estimate.wait(), 0);
-  std::string told;
-  for (std::string line = estimate.message_line(); !line.empty(); line = estimate.message_line()) told += line + '\n';
-  EXPECT_THAT(told, HasSubstr("1 samples have no time stamp, of 1 it runs back"));
-  EXPECT_THAT(told, HasSubstr("2 lines are no samples"));
+  std::string messages;
+  for (std::string line = estimate.message_line(); !line.empty(); line = estimate.message_line())
+    messages += line + '\n';
+  EXPECT_THAT(messages, HasSubstr("1 samples have no time stamp, of 1 it runs back"));
+  EXPECT_THAT(messages, HasSubstr("2 lines are no samples"));
 }
 
 TEST_F(EstimateStream, AnswersAsFromAFileAndAFileWhoseTimeRunsBackIsRefused) {

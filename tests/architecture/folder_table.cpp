@@ -52,8 +52,8 @@ FolderRule read_rule(const std::string& may_include, const std::string& librarie
   return rule;
 }
 
-/// The rows that a name in a cell means: itself, and the rooms below it. In the row of such a room the name of its own
-/// folder means that folder without its rooms.
+/// The rows that a name in a cell means: itself, and the parts below it. In the row of such a part the name of its own
+/// folder means that folder without its parts.
 std::vector<std::string> rows_meant(const FolderTable& table, const std::string& name, const std::string& in_row = {}) {
   std::vector<std::string> rows;
   const bool own = in_row.starts_with(name + "/");
@@ -123,7 +123,7 @@ bool allows(const FolderRule& rule, const std::string& other) {
   const std::vector<std::string> names = with_those_above(other);
   return (rule.all_folders && !other.starts_with("addons/")) || rule.alone.contains(other) ||
          std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-           return rule.folders.contains(name) && (name == other || name != rule.house);
+           return rule.folders.contains(name) && (name == other || name != rule.parent);
          });
 }
 
@@ -141,8 +141,8 @@ FolderTable read_folder_table(const std::filesystem::path& architecture_page) {
     if (!line.starts_with('|')) break;
     if (cells.size() != 7) throw std::runtime_error("a row of the folder table has not five columns: " + line);
     FolderRule rule = read_rule(cells[3], cells[4], cells[5]);
-    const std::size_t house = cells[1].find('/', cells[1].starts_with(addons) ? addons.size() : 0);
-    if (house != std::string::npos) rule.house = cells[1].substr(0, house);
+    const std::size_t slash = cells[1].find('/', cells[1].starts_with(addons) ? addons.size() : 0);
+    if (slash != std::string::npos) rule.parent = cells[1].substr(0, slash);
     table.emplace(cells[1], std::move(rule));
   }
   if (table.empty()) throw std::runtime_error("no folder table in " + architecture_page.string());

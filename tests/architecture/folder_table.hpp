@@ -1,5 +1,5 @@
 #pragma once
-/// The table of docs/ARCHITECTURE.md: what each folder of spoolflow/, and each room of a divided folder, may include.
+/// The table of docs/ARCHITECTURE.md: what each folder of spoolflow/, and each part of a divided folder, may include.
 #include <filesystem>
 #include <map>
 #include <set>
@@ -9,9 +9,9 @@
 namespace spoolflow::architecture {
 
 struct FolderRule {
-  std::string house{};              ///< that the row is a room of, whose name means it alone here; empty: none
-  std::set<std::string> folders;    ///< beside itself: "rig/plant", "rig" for all its rooms, "addons/live"
-  std::set<std::string> alone;      ///< "estimation": that folder without its rooms
+  std::string parent{};             ///< the folder that the row is a part of: its name means it alone here; empty: none
+  std::set<std::string> folders;    ///< beside itself: "rig/plant", "rig" for all its parts, "addons/live"
+  std::set<std::string> alone;      ///< "estimation": that folder without its parts
   std::set<std::string> libraries;  ///< names as in the table: "fmt", "CLI11", "POSIX"
   std::set<std::string> never;      ///< forbidden words of the last column
   bool all_folders = false;         ///< of the core; never of an add-on
@@ -23,7 +23,7 @@ using FolderTable = std::map<std::string, FolderRule>;
 
 /// `folder` and the folders that it stands in, from the inside out: "rig/plant", "rig".
 [[nodiscard]] std::vector<std::string> with_those_above(std::string folder);
-/// The row by which the files of `folder` live: its own; its parent's only where that has no rooms of its own in the
+/// The row by which the files of `folder` live: its own; its parent's only where that has no parts of its own in the
 /// table. Empty: none.
 [[nodiscard]] std::string row_of(const FolderTable& table, const std::string& folder);
 /// Whether what lives by `rule` may use files of the row `other`.

@@ -9,9 +9,9 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> sources_below(const fs::path& root) {
   std::vector<fs::path> sources;
-  for (const char* house : {"spoolflow", "addons"}) {
-    if (!fs::exists(root / house)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(root / house)) {
+  for (const char* folder : {"spoolflow", "addons"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string place = entry.path().lexically_relative(root).generic_string();
       const bool elsewhere = place.starts_with("addons/playground/wasm/") ||
                              (place.starts_with("addons/") && place.find("/tests/") != std::string::npos);

@@ -27,8 +27,8 @@ recording::Recording at_work(const ClosedFormEdge& inlet, const ClosedFormEdge& 
   return out;
 }
 
-std::optional<EdgeRatio> told_by(const recording::Recording& run, const ClosedFormEdge& inlet,
-                                 const ClosedFormEdge& outlet, double k, double sign) {
+std::optional<EdgeRatio> ratio_found_in(const recording::Recording& run, const ClosedFormEdge& inlet,
+                                        const ClosedFormEdge& outlet, double k, double sign) {
   const recording::Recording spring = axial_force_recording({{}}, 0);
   const recording::Recording both =
       recorded("joined.csv", [&](double x_m, double p_Pa) { return reading_of(inlet, outlet, 1, x_m, p_Pa); });
@@ -38,31 +38,31 @@ std::optional<EdgeRatio> told_by(const recording::Recording& run, const ClosedFo
   return edge_ratio_in_operation(benches, {{{&run}, sign}}, valve_at_work);
 }
 
-TEST(EdgesInOperation, AreToldApartByTheFlowThatTheCylinderMakesOfAPressureDifference) {
+TEST(EdgesInOperation, AreSeparatedByTheFlowThatTheCylinderMakesOfAPressureDifference) {
   const double ratio = narrow.conductance_per_m / wide.conductance_per_m;
   for (const double sign : {1.0, -1.0}) {
-    const auto found = told_by(at_work(wide, narrow, 0.6, sign), wide, narrow, 0.6, sign);
+    const auto found = ratio_found_in(at_work(wide, narrow, 0.6, sign), wide, narrow, 0.6, sign);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->value, ratio, 0.01);
     EXPECT_LT(found->lowest, ratio);
     EXPECT_GT(found->highest, ratio);
     EXPECT_LT(found->highest - found->lowest, 0.3 * ratio);  // the meter's percent, and no more
   }
-  const auto other_way = told_by(at_work(narrow, wide, 1 / 0.6, 1), narrow, wide, 1 / 0.6, 1);
+  const auto other_way = ratio_found_in(at_work(narrow, wide, 1 / 0.6, 1), narrow, wide, 1 / 0.6, 1);
   ASSERT_TRUE(other_way);
   EXPECT_NEAR(other_way->value, 1 / ratio, 0.05);
 }
 
-TEST(EdgesInOperation, AreNotToldByARunThatHardlyOpensOrShowsNoPressureOrAnotherLoad) {
-  EXPECT_FALSE(told_by(at_work(wide, narrow, 0.6, 1, 0.9e-3), wide, narrow, 0.6, 1));
-  EXPECT_FALSE(told_by(at_work(wide, narrow, 0.6, 1), wide, narrow, 0.6, -1));  // the other side of the centre
-  EXPECT_FALSE(told_by(at_work(wide, narrow, 3.0, 1), wide, narrow, 0.6, 1));
+TEST(EdgesInOperation, AreNotFoundInARunThatHardlyOpensOrShowsNoPressureOrAnotherLoad) {
+  EXPECT_FALSE(ratio_found_in(at_work(wide, narrow, 0.6, 1, 0.9e-3), wide, narrow, 0.6, 1));
+  EXPECT_FALSE(ratio_found_in(at_work(wide, narrow, 0.6, 1), wide, narrow, 0.6, -1));  // the other side of the centre
+  EXPECT_FALSE(ratio_found_in(at_work(wide, narrow, 3.0, 1), wide, narrow, 0.6, 1));
   recording::Recording blind = at_work(wide, narrow, 0.6, 1);
   recording::Recording without;
   without.file = blind.file;
   for (const Channel channel : {Channel::time, Channel::position, Channel::flow_reference})
     without.column(channel) = blind.column(channel);
-  EXPECT_FALSE(told_by(without, wide, narrow, 0.6, 1));
+  EXPECT_FALSE(ratio_found_in(without, wide, narrow, 0.6, 1));
 }
 
 }  // namespace

@@ -100,11 +100,11 @@ TEST(Physics, NamesEveryEquationsHeaderOfTheSensor) {
   const std::set<std::string> named = files_named(read_page(root / "docs/physics.md"));
   const std::set<std::string> no_physics{"compiler.hpp", "sample.hpp", "scalar.hpp", "status.hpp", "due.hpp"};
   std::vector<std::string> missing;
-  for (const std::string room : {"spoolflow/sensor/", "spoolflow/sensor/basis/", "spoolflow/sensor/signals/"}) {
-    for (const auto& entry : fs::directory_iterator(root / room)) {
+  for (const std::string folder : {"spoolflow/sensor/", "spoolflow/sensor/basis/", "spoolflow/sensor/signals/"}) {
+    for (const auto& entry : fs::directory_iterator(root / folder)) {
       const std::string name = entry.path().filename().string();
       if (entry.path().extension() != ".hpp" || no_physics.count(name) > 0) continue;
-      if (named.count(room + name) == 0) missing.push_back(room + name);
+      if (named.count(folder + name) == 0) missing.push_back(folder + name);
     }
   }
   EXPECT_THAT(missing, IsEmpty());

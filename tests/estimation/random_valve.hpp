@@ -184,23 +184,23 @@ class RandomSamples {
   double odd_or(double usual) {
     if (!dice_.one_in(40)) return usual;
     using Limit = std::numeric_limits<double>;
-    const double odd[] = {Limit::quiet_NaN(),
-                          Limit::infinity(),
-                          -Limit::infinity(),
-                          Limit::max(),
-                          Limit::lowest(),
-                          Limit::denorm_min(),
-                          -Limit::denorm_min(),
-                          0.0,
-                          -0.0,
-                          1e9,
-                          -1e9,
-                          1e-40,
-                          -1e8,
-                          1e6,
-                          std::bit_cast<double>(dice_.bits()),
-                          static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(dice_.bits())))};
-    return odd[dice_.bits() % std::size(odd)];
+    const double extreme[] = {Limit::quiet_NaN(),
+                              Limit::infinity(),
+                              -Limit::infinity(),
+                              Limit::max(),
+                              Limit::lowest(),
+                              Limit::denorm_min(),
+                              -Limit::denorm_min(),
+                              0.0,
+                              -0.0,
+                              1e9,
+                              -1e9,
+                              1e-40,
+                              -1e8,
+                              1e6,
+                              std::bit_cast<double>(dice_.bits()),
+                              static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(dice_.bits())))};
+    return extreme[dice_.bits() % std::size(extreme)];
   }
 
   Dice& dice_;

@@ -23,7 +23,7 @@ struct Swing {
 };
 
 /// First sample of `samples` at which the position is said to hang; -1: none. It is held from `stuck` on.
-int told_at(Swing swing, int samples, int stuck, double resolution_m, int hold = 1) {
+int reported_at(Swing swing, int samples, int stuck, double resolution_m, int hold = 1) {
   StillPosition still;
   double held_m = 0;
   for (int k = 0; k < samples; ++k) {
@@ -37,13 +37,14 @@ int told_at(Swing swing, int samples, int stuck, double resolution_m, int hold =
 }
 
 TEST(StillPosition, HangsWhereANoisyChannelRepeatsItselfUnderAMovingCurrent) {
-  const int told = told_at({.rate = 0.004}, 12'000, 10'020, 1e-8);
-  EXPECT_GT(told, 10'040);
-  EXPECT_LT(told, 10'300);  // the current moves by some hundredths first
+  const int reported = reported_at({.rate = 0.004}, 12'000, 10'020, 1e-8);
+  EXPECT_GT(reported, 10'040);
+  EXPECT_LT(reported, 10'300);  // the current moves by some hundredths first
 }
 
 TEST(StillPosition, CoarseChannelIsSound) {
-  for (const double resolution_m : {1e-6, 2e-6, 5e-6, 2e-5}) EXPECT_EQ(told_at({}, 40'000, 40'000, resolution_m), -1);
+  for (const double resolution_m : {1e-6, 2e-6, 5e-6, 2e-5})
+    EXPECT_EQ(reported_at({}, 40'000, 40'000, resolution_m), -1);
 }
 
 TEST(StillPosition, CoarseChannelThatRestsAndStartsLateIsSound) {
@@ -61,7 +62,7 @@ TEST(StillPosition, CoarseChannelThatRestsAndStartsLateIsSound) {
 }
 
 TEST(StillPosition, ChannelThatHoldsEachValueForTenSamplesIsSound) {
-  EXPECT_EQ(told_at({}, 60'000, 60'000, 1e-8, 10), -1);
+  EXPECT_EQ(reported_at({}, 60'000, 60'000, 1e-8, 10), -1);
 }
 
 TEST(StillPosition, SpoolAtRestUnderASteadyCurrentIsNotBlamed) {

@@ -98,7 +98,7 @@ TEST(CInterface, RefusesTheObserverOfAModelThatIsNotCalibratedForItAndFallsBackW
   spoolflow_destroy(sensor);
 }
 
-TEST(CInterface, TellsAFileThatIsNotThereFromAModelThatIsDamaged) {
+TEST(CInterface, SeparatesAFileThatIsNotThereFromAModelThatIsDamaged) {
   spoolflow_sensor* sensor = nullptr;
   char message[256];
   EXPECT_EQ(spoolflow_create("/nowhere/valve.json", SPOOLFLOW_BEST, &sensor, message, sizeof message),
@@ -173,13 +173,13 @@ TEST(CInterface, SaysThatInputsAreMissingAndRecoversWhenTheyAreBack) {
 TEST(CInterface, StaysFiniteWhateverComesIn) {
   for (const spoolflow_estimator estimator : {SPOOLFLOW_CONDENSED, SPOOLFLOW_OBSERVER}) {
     const Sensor sensor = sensor_of(estimator);
-    const double odd[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e8, -1e8, 0.0, 1e-320};
+    const double extreme[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e8, -1e8, 0.0, 1e-320};
     int turn = 0;
     for (int k = 0; k < 4000; ++k) {
       spoolflow_sample sample = sample_at(k);
       double* const member[] = {&sample.time_s, &sample.current_A, &sample.voltage_V, &sample.position_m,
                                 &sample.oil_temperature_K};
-      if (k % 7 == 0) *member[turn % 5] = odd[turn % 9], ++turn;
+      if (k % 7 == 0) *member[turn % 5] = extreme[turn % 9], ++turn;
       const spoolflow_estimate estimate = step(sensor, sample);
       ASSERT_TRUE(std::isfinite(estimate.flow_m3_per_s) && std::isfinite(estimate.flow_lower_m3_per_s) &&
                   std::isfinite(estimate.flow_upper_m3_per_s) && std::isfinite(estimate.pressure_difference_Pa))

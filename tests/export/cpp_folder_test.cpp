@@ -170,7 +170,7 @@ TEST(CppFolder, InitialisesAStateInCAsInCpp) {
   EXPECT_TRUE(begins_with_zeros<sensor::WholeCondensedState<float>>());
 }
 
-TEST(CppFolder, SelfTestTellsWhichSensorWentAstray) {
+TEST(CppFolder, SelfTestNamesTheSensorThatWentAstray) {
   const ExportedFolder folder(example_model());
   const std::string golden = folder.content("golden_points.hpp");
   const std::string build = std::string("g++") + strict + "self_test.cpp -o self_test && ./self_test";
@@ -210,12 +210,12 @@ TEST(CppFolder, SelfTestFindsASingleWrongNumberOfTheTables) {
   }
 }
 
-/// Of every 97th number that is not zero, made a tenth larger in turn, the share that the sums over the cells tell.
+/// Of every 97th number that is not zero, made a tenth larger in turn, the share that the sums over the cells find.
 template <class Tables>
-double share_told(const Tables& sound, const std::vector<float>& cells) {
+double share_found(const Tables& sound, const std::vector<float>& cells) {
   EXPECT_TRUE(cells_agree(sound, cells));
   const auto tables = std::make_unique<Tables>(sound);
-  int told = 0, all = 0;
+  int found = 0, all = 0;
   for (std::size_t at = 0; at + sizeof(float) <= sizeof(Tables); at += 97 * sizeof(float)) {
     char* const place = reinterpret_cast<char*>(tables.get()) + at;
     float number = 0;
@@ -223,11 +223,11 @@ double share_told(const Tables& sound, const std::vector<float>& cells) {
     if (number == 0) continue;
     const float wrong = 1.1F * number;
     std::memcpy(place, &wrong, sizeof wrong);
-    told += cells_agree(*tables, cells) ? 0 : 1;
+    found += cells_agree(*tables, cells) ? 0 : 1;
     ++all;
     std::memcpy(place, &number, sizeof number);
   }
-  return static_cast<double>(told) / all;
+  return static_cast<double>(found) / all;
 }
 
 template <class Tables>
@@ -242,9 +242,9 @@ TEST(CppFolder, SelfTestFindsMostSingleWrongNumbersByWhatTheTablesAnswer) {
   const model::Model model = example_model();
   const auto tables = std::make_unique<sensor::CondensedTables<double>>();
   sensor::lay_out(model.condensed.parameters, *tables);
-  EXPECT_GT(share_told(single_precision(*tables), cells_of(*tables)), 0.8);
+  EXPECT_GT(share_found(single_precision(*tables), cells_of(*tables)), 0.8);
   const auto& observer = model.observer->parameters;
-  EXPECT_GT(share_told(single_precision(observer), cells_of(observer)), 0.9);
+  EXPECT_GT(share_found(single_precision(observer), cells_of(observer)), 0.9);
 }
 
 TEST(CppFolder, HoldsTheSensorsHeadersUnchanged) {

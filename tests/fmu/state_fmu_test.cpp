@@ -86,8 +86,8 @@ TEST_P(StateFmu, AStateOfWhichOneNumberCannotBeLeavesTheInstanceAsItWas) {
   int refused = 0;
   for (std::size_t k = header; k + sizeof(double) <= state.size(); k += sizeof(double)) {
     std::vector<char> forged = state;
-    const double odd = -1e300;
-    std::memcpy(forged.data() + k, &odd, sizeof odd);
+    const double extreme = -1e300;
+    std::memcpy(forged.data() + k, &extreme, sizeof extreme);
     const std::uint64_t sum = checksum(forged.data() + header, forged.size() - header);
     std::memcpy(forged.data() + offsetof(StateHeader, checksum), &sum, sizeof sum);
     if (instance->set_state(forged) == FmuStatus::ok) {

@@ -1,4 +1,4 @@
-/// The C interface: any of its functions in any order, with any numbers, buffers of exactly the size that is told, and
+/// The C interface: any of its functions in any order, with any numbers, buffers of exactly the stated size, and
 /// states whose bytes were changed, with a checksum that holds. Whatever comes, an answer is finite and inside its
 /// band.
 #include <array>
@@ -168,8 +168,8 @@ class Calls {
   void step_columns(spoolflow_sensor* at) {
     const std::size_t count = in_.below(5);
     std::array<std::vector<double>, 5> given;
-    std::array<std::vector<double>, 8> told;
-    for (auto& column : told) column.resize(count);
+    std::array<std::vector<double>, 8> answers;
+    for (auto& column : answers) column.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
       const spoolflow_sample one = next_sample();
       given[0].push_back(one.time_s), given[1].push_back(one.current_A), given[2].push_back(one.voltage_V);
@@ -177,12 +177,12 @@ class Calls {
     }
     const std::uint8_t absent = in_.byte();
     const auto in = [&](std::size_t k) { return (absent >> k) % 4 == 3 ? nullptr : given[k].data(); };
-    const auto out = [&](std::size_t k) { return (absent >> (k % 4)) % 4 == 2 ? nullptr : told[k].data(); };
+    const auto out = [&](std::size_t k) { return (absent >> (k % 4)) % 4 == 2 ? nullptr : answers[k].data(); };
     const spoolflow_inputs inputs{in(0), in(1), in(2), in(3), in(4)};
     const spoolflow_outputs outputs{out(0), out(1), out(2), out(3), out(4), out(5), out(6), out(7), nullptr};
     (void)spoolflow_step_arrays(at, count, &inputs, &outputs);
     if (forged_) return;
-    for (const auto& column : told)
+    for (const auto& column : answers)
       for (const double number : column) fuzz::require(std::isfinite(number));
   }
 

@@ -23,8 +23,8 @@ inline bool forge_state(Input& in, std::vector<char>& state) {
       if (kind % 2 == 0) {
         number[kind / 2 % sizeof(double)] = static_cast<char>(in.byte());
       } else {
-        const double odd = in.number(1, 1);
-        std::memcpy(number, &odd, sizeof odd);
+        const double extreme = in.number(1, 1);
+        std::memcpy(number, &extreme, sizeof extreme);
       }
     }
     const std::uint64_t sum = exports::checksum(state.data() + header, state.size() - header);

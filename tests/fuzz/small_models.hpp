@@ -19,10 +19,10 @@ inline SmallModels small_models() {
   const std::string one{std::istreambuf_iterator<char>(in), {}};
   // The second direction is everything from the condensed sensor on, once more.
   const std::string direction = "\"direction\":\"b\"";
-  const std::size_t told = one.find(direction), sensors = one.find("\"condensed\":"), end = one.rfind('}');
-  require(told < sensors && sensors < end && end < one.size());
+  const std::size_t at = one.find(direction), sensors = one.find("\"condensed\":"), end = one.rfind('}');
+  require(at < sensors && sensors < end && end < one.size());
   std::string whole = one.substr(0, end) + ",\"p_to_a\":{" + one.substr(sensors, end - sensors) + "}}";
-  whole.replace(told, direction.size(), "\"direction\":\"both\"");
+  whole.replace(at, direction.size(), "\"direction\":\"both\"");
   return {one, whole};
 }
 

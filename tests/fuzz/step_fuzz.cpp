@@ -1,6 +1,6 @@
 /// The sensor's step over any samples: double and single precision, observer, condensed sensor and whole valve. Each
-/// byte group is a sample: which of its numbers are odd, and how. Whatever comes, an answer is finite, its band holds
-/// it, and where an input was no number a fault says so.
+/// byte group is a sample: which of its numbers are extreme, and how. Whatever comes, an answer is finite, its band
+/// holds it, and where an input was no number a fault reports it.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -102,7 +102,7 @@ void hold(const sensor::Estimate<T>& answer) {
 }
 
 template <class T>
-void must_tell(const sensor::Estimate<T>& answer, bool missing, bool endless) {
+void must_report(const sensor::Estimate<T>& answer, bool missing, bool endless) {
   if (missing) fuzz::require(has(answer.status, sensor::Status::sample_missing));
   if (endless) fuzz::require(has(answer.status, sensor::Status::time_fault));
 }
@@ -121,11 +121,11 @@ void run(const Valve<T>& valve, const std::uint8_t* data, std::size_t size) {
     const bool missing = std::isnan(one.current_A) || std::isnan(one.position_m);
     const bool endless = std::isnan(one.time_step_s) || one.time_step_s < 0 || one.time_step_s > 1;
     hold(step(valve.observer, observer, one));
-    must_tell(observer.last, missing, endless);
+    must_report(observer.last, missing, endless);
     hold(step(valve.condensed, condensed, one));
-    must_tell(condensed.last, missing && !endless, false);
+    must_report(condensed.last, missing && !endless, false);
     hold(step(whole, both, in));
-    must_tell(both.open.last, missing || std::isnan(in.current_a_A), endless);
+    must_report(both.open.last, missing || std::isnan(in.current_a_A), endless);
     hold(step(whole_tables, both_condensed, in));
   }
 }

@@ -108,14 +108,14 @@ TEST(Adaptation, ReadsBackWithWhatWasCorrectedByHowMuchFromWhatAndByWhom) {
   model::write_model(text, corrected);
   const model::Model read = model::parse_model(text.str(), "corrected.json");
   ASSERT_EQ(read.provenance.adaptations.size(), 1U);
-  const model::Adaptation& told = read.provenance.adaptations.front();
-  EXPECT_EQ(told.tool_version, "1.2.3");
-  EXPECT_EQ(told.adapted_from, std::string(64, 'a'));
-  EXPECT_EQ(told.files, std::vector<std::string>{"monday.csv"});
-  ASSERT_EQ(told.corrections.size(), 1U);
-  EXPECT_EQ(told.corrections.front().of, "shorted turns");
-  EXPECT_NEAR(told.corrections.front().value, 0.04, 1e-12);
-  EXPECT_NEAR(told.corrections.front().uncertainty_95, 2 * 0.1 * 0.04, 1e-12);
+  const model::Adaptation& adaptation = read.provenance.adaptations.front();
+  EXPECT_EQ(adaptation.tool_version, "1.2.3");
+  EXPECT_EQ(adaptation.adapted_from, std::string(64, 'a'));
+  EXPECT_EQ(adaptation.files, std::vector<std::string>{"monday.csv"});
+  ASSERT_EQ(adaptation.corrections.size(), 1U);
+  EXPECT_EQ(adaptation.corrections.front().of, "shorted turns");
+  EXPECT_NEAR(adaptation.corrections.front().value, 0.04, 1e-12);
+  EXPECT_NEAR(adaptation.corrections.front().uncertainty_95, 2 * 0.1 * 0.04, 1e-12);
   EXPECT_NEAR(read.observer->parameters.actuator.magnetic_force.map.row_axis.spacing,
               sound().actuator.magnetic_force.map.row_axis.spacing / 0.96, 1e-12);
 }

@@ -1,4 +1,4 @@
-/// What is told beside the magnitudes: trends, steps of the command, dither, the contacts.
+/// What is reported beside the magnitudes: trends, steps of the command, dither, the contacts.
 #include <numbers>
 #include <random>
 
@@ -124,22 +124,22 @@ ContactReading read(const WindowState& window) {
   return read_contacts(example().observer->parameters, example().valve.stroke_m, window, 50e5);
 }
 
-TEST(Contacts, FrictionIsToldWhereItGrows) {
-  const ContactReading told = read(window_of([](double share) { return share < 0.3 ? 1.6 : 1.0; }, 0));
-  EXPECT_NEAR(told.friction_ratio[0].value, 1.6, 0.1);
-  EXPECT_NEAR(told.friction_ratio[2].value, 1.0, 0.02);
-  EXPECT_EQ(told.stick_share.value, 1);
+TEST(Contacts, FrictionIsFoundWhereItGrows) {
+  const ContactReading reading = read(window_of([](double share) { return share < 0.3 ? 1.6 : 1.0; }, 0));
+  EXPECT_NEAR(reading.friction_ratio[0].value, 1.6, 0.1);
+  EXPECT_NEAR(reading.friction_ratio[2].value, 1.0, 0.02);
+  EXPECT_EQ(reading.stick_share.value, 1);
 }
 
 TEST(Contacts, AForceThatIsAlikeBothWaysIsNoFriction) {
-  const ContactReading told = read(window_of([](double) { return 1.0; }, 1.5));
-  for (const Weighted& region : told.friction_ratio) EXPECT_NEAR(region.value, 1, 0.05);
-  EXPECT_NEAR(told.breakaway_N.value, told.breakaway_expected_N, 0.05 * told.breakaway_expected_N);
+  const ContactReading reading = read(window_of([](double) { return 1.0; }, 1.5));
+  for (const Weighted& region : reading.friction_ratio) EXPECT_NEAR(region.value, 1, 0.05);
+  EXPECT_NEAR(reading.breakaway_N.value, reading.breakaway_expected_N, 0.05 * reading.breakaway_expected_N);
 }
 
 TEST(Contacts, AWornSpoolBreaksAwayLate) {
-  const ContactReading told = read(window_of([](double) { return 1.5; }, 0));
-  EXPECT_NEAR(told.breakaway_N.value, 1.5 * told.breakaway_expected_N, 0.05 * told.breakaway_expected_N);
+  const ContactReading reading = read(window_of([](double) { return 1.5; }, 0));
+  EXPECT_NEAR(reading.breakaway_N.value, 1.5 * reading.breakaway_expected_N, 0.05 * reading.breakaway_expected_N);
 }
 
 }  // namespace

@@ -92,9 +92,9 @@ TEST(Campaign, KnowsTheEdgeThatAnAxialForceMapIsOfAndItsDirection) {
   std::ofstream(file.folder() / "spring.csv") << "time_s\n";
   const Campaign campaign = read_campaign(file.path());
   EXPECT_EQ(campaign.load.area_ratio, 0.6);
-  std::string told;
-  for (const CampaignRecording& each : campaign.recordings) told += each.edge + each.direction + " ";
-  EXPECT_EQ(told, "PBb ATb PAa BTa ");
+  std::string edges;
+  for (const CampaignRecording& each : campaign.recordings) edges += each.edge + each.direction + " ";
+  EXPECT_EQ(edges, "PBb ATb PAa BTa ");
 }
 
 TEST(Campaign, TakesBothEdgesAsMeasuredTogetherAndEqualFlowsWhereNothingIsSaid) {
@@ -127,7 +127,7 @@ TEST(Campaign, RefusesAnAreaRatioThatIsNoCylinders) {
   EXPECT_THAT(refused_campaign(maps_with({""}, "[load]\nratio = 0.6\n")), HasSubstr("unknown key 'ratio' in [load]"));
 }
 
-TEST(Campaign, ReadsNothingOutsideItsFolderUnlessToldTo) {
+TEST(Campaign, ReadsNothingOutsideItsFolderUnlessAllowed) {
   const TemporaryFile outside("secret.csv", "time_s\n");
   const std::string climbing = "../" + outside.folder().filename().string() + "/secret.csv";
   for (const std::string& name :

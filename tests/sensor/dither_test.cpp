@@ -1,4 +1,4 @@
-/// Dither found from the current, and what it tells of friction.
+/// Dither found from the current, and what it shows of friction.
 #include "spoolflow/sensor/signals/dither.hpp"
 
 #include <cmath>
@@ -89,7 +89,7 @@ TEST(Dither, IsNotFoundInNoiseRampsStepsOrTheHuntingOfAPositionControl) {
   for (const auto& current_A : currents) EXPECT_EQ(listen_to(current_A, 1e-3, 3).present, 0);
 }
 
-TEST(Dither, SwingOfFrictionIsToldByItsExtremesAndItsMiddle) {
+TEST(Dither, SwingOfFrictionFollowsFromItsExtremesAndItsMiddle) {
   DitherState<double> state{};
   FrictionSwingState<double> swing{};
   begin(state, 1.0);
@@ -97,16 +97,16 @@ TEST(Dither, SwingOfFrictionIsToldByItsExtremesAndItsMiddle) {
   for (double time_s = 0; time_s < 0.5; time_s += 1e-3) {
     const double wave = sine(140 * time_s);
     const Dither<double> dither = follow_dither(state, 1.0 + 0.1 * wave, dithered_coil_A, 1e-3);
-    const FrictionSwing<double> told = follow_swing(swing, dither, 1.5 + 3 * wave);
+    const FrictionSwing<double> found = follow_swing(swing, dither, 1.5 + 3 * wave);
     if (time_s < 0.2) continue;
-    settled += told.settled ? 1 : 0;
-    EXPECT_NEAR(told.middle_N, 1.5, 0.25);
-    EXPECT_NEAR(told.half_swing_N, 3, 0.3);
+    settled += found.settled ? 1 : 0;
+    EXPECT_NEAR(found.middle_N, 1.5, 0.25);
+    EXPECT_NEAR(found.half_swing_N, 3, 0.3);
   }
   EXPECT_EQ(settled, 300);
 }
 
-TEST(Dither, SwingIsToldInTheMeanThoughSamplesMissItsPeaks) {
+TEST(Dither, SwingIsRightInTheMeanThoughSamplesMissItsPeaks) {
   for (const double step_s : {1e-3, 2e-3})
     for (const double frequency_Hz : {91.0, 117.0, 143.0, 171.0}) {
       DitherState<double> state{};
@@ -117,12 +117,12 @@ TEST(Dither, SwingIsToldInTheMeanThoughSamplesMissItsPeaks) {
       for (double time_s = 0; time_s < 2; time_s += step_s) {
         const double wave = sine(frequency_Hz * time_s);
         const Dither<double> dither = follow_dither(state, 1.0 + 0.1 * wave, dithered_coil_A, step_s);
-        const FrictionSwing<double> told = follow_swing(swing, dither, 1.5 + 3 * wave);
+        const FrictionSwing<double> found = follow_swing(swing, dither, 1.5 + 3 * wave);
         if (time_s < 0.2) continue;
         ++samples;
-        half_N += told.half_swing_N;
-        square_N2 += squared(told.middle_N - 1.5);
-        allowed_N2 += squared(missed_middle * squared(dither.sample_per_period) * told.half_swing_N);
+        half_N += found.half_swing_N;
+        square_N2 += squared(found.middle_N - 1.5);
+        allowed_N2 += squared(missed_middle * squared(dither.sample_per_period) * found.half_swing_N);
       }
       EXPECT_NEAR(half_N / samples, 3, 0.27) << frequency_Hz << ' ' << step_s;
       EXPECT_LT(square_N2, allowed_N2) << frequency_Hz << ' ' << step_s;

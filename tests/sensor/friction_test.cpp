@@ -117,22 +117,22 @@ TEST_P(Friction, IsNotMovedByNoiseThatTheTrackHasLearntOf) {
   EXPECT_LT(quiet_N, 0.5 * surprised_N);
 }
 
-TEST_P(Friction, TellsTheForceAtWhichTheSpoolBrokeAwayNotThatOfTheSlip) {
+TEST_P(Friction, FindsTheForceAtWhichTheSpoolBrokeAwayNotThatOfTheSlip) {
   stop_after(1);
   double residual_N = 5;
   for (double time_s = 0; time_s < 1; time_s += GetParam()) sample(Motion::rest, 1e-3, residual_N = 5 + 1.2 * time_s);
   const double breakaway_N = residual_N;
-  // Inertia takes part of the force as soon as the spool goes; motion is told a block later.
+  // Inertia takes part of the force as soon as the spool goes; motion is found a block later.
   FrictionInterval<double> interval{};
-  int told = 0;
+  int breakaways = 0;
   for (int k = 0; k < 3; ++k) {
     interval = sample(Motion::transient, 1.02e-3, 2.0);
     if (interval.breakaway_N == 0) continue;
-    ++told;
+    ++breakaways;
     EXPECT_NEAR(interval.breakaway_N, breakaway_N, 0.05);
     EXPECT_NEAR(interval.rested_s, 1, 0.02);
   }
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(breakaways, 1);
 }
 
 TEST(Ageing, GrowsFromSlidingFrictionToItsLimitAndIsHalfwayAtItsTimeConstant) {

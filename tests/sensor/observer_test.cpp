@@ -110,7 +110,7 @@ TEST_P(Observer, TakesAJumpOfThePositionSignalForAFaultAndGoesOn) {
   const Course course = opening();
   const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), step_s());
   Judgement faulty;
-  int told = 0, jumped = 0;
+  int reported = 0, jumped = 0;
   observe(
       run,
       [](double time_s, Sample<double>& measured) {
@@ -120,11 +120,11 @@ TEST_P(Observer, TakesAJumpOfThePositionSignalForAFaultAndGoesOn) {
         if (time_s > 0.8) faulty.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
         const bool jumps = time_s > 1.2 && time_s < 1.23;
         jumped += jumps ? 1 : 0;
-        told += jumps && has(answer.status, Status::position_fault) ? 1 : 0;
+        reported += jumps && has(answer.status, Status::position_fault) ? 1 : 0;
       });
-  // At 5 ms the hardest acceleration allows 2.3 mm a sample: nothing can be told from motion.
+  // At 5 ms the hardest acceleration allows 2.3 mm a sample: nothing can be separated from motion.
   if (step_s() < 2e-3) {
-    EXPECT_EQ(told, jumped);
+    EXPECT_EQ(reported, jumped);
     EXPECT_LT(faulty.largest, 0.012);
   }
   EXPECT_GT(faulty.coverage(), 0.95);
@@ -154,11 +154,11 @@ TEST_P(Observer, FindsFrictionThatDiffersFromTheBench) {
         ratio = state.pressure.friction_ratio;
         if (time_s > course.end_s() - 0.6) last.add(answer, sample.flow_m3_per_s, closed_form.full_scale_m3_per_s());
       });
-  EXPECT_NEAR(ratio, 0.9, step_s() > 2e-3 ? 0.07 : 0.04);  // a quarter of the blocks in which motion is told
+  EXPECT_NEAR(ratio, 0.9, step_s() > 2e-3 ? 0.07 : 0.04);  // a quarter of the blocks in which motion is found
   EXPECT_LT(last.largest, 0.012);
 }
 
-TEST(Observer, TellsAShortedCoilByItsResistance) {
+TEST(Observer, FindsAShortedCoilByItsResistance) {
   const Course course = opening();
   const auto run = ClosedFormRun(closed_form, course).sampled(course.end_s(), 1e-3);
   Status last{};
@@ -193,7 +193,7 @@ void leap(T step_s) {
   }
 }
 
-TEST(Observer, BeginsAnewAndSaysSoWhereTimeLeaps) {
+TEST(Observer, IsResetAndReportsItWhereTimeLeaps) {
   // 4 294 967 s: a counter of milliseconds in 32 bits that ran back by a tick.
   for (const double step_s : {1.5, 100.0, 2e6, 4294967.296, 1e9}) {
     leap<float>(static_cast<float>(step_s));

@@ -1,4 +1,4 @@
-/// What the spool does, told from a signal with noise, drift and faults, at every sampling rate.
+/// What the spool does, found from a signal with noise, drift and faults, at every sampling rate.
 #include "spoolflow/sensor/signals/position_track.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ class PositionTrack : public testing::TestWithParam<double> {
   using Course = std::function<double(double time_s)>;
   using Each = std::function<void(double time_s, const PositionPoint<double>& point)>;
 
-  /// The track over the signal of a course; `fault_m` adds to the signal. The coil's current tells of no motion where
+  /// The track over the signal of a course; `fault_m` adds to the signal. The coil's current shows no motion where
   /// it is steady, and the voltage with it where there is one.
   void follow(double duration_s, const Course& course, const Each& each, const Course& fault_m = nullptr,
               const Course& voltage_V = nullptr) const {
@@ -44,7 +44,7 @@ class PositionTrack : public testing::TestWithParam<double> {
 INSTANTIATE_TEST_SUITE_P(SampledEvery, PositionTrack, testing::Values(50e-6, 200e-6, 1e-3, 5e-3),
                          [](const auto& rate) { return std::to_string(static_cast<int>(1e6 * rate.param)) + "us"; });
 
-TEST_P(PositionTrack, TellsRestFromNoise) {
+TEST_P(PositionTrack, SeparatesRestFromNoise) {
   int moving = 0, samples = 0;
   follow(
       5, [](double) { return 1e-3; },
@@ -71,17 +71,17 @@ TEST_P(PositionTrack, LearnsThatItsSignalHasMoreNoiseThanTheBenchHad) {
   EXPECT_LT(moving, 0.02 * samples);
 }
 
-TEST_P(PositionTrack, TellsWhichWayTheSpoolSlidesWithinAFewBlocks) {
+TEST_P(PositionTrack, FindsWhichWayTheSpoolSlidesWithinAFewBlocks) {
   // 0.12 mm/s is 5 %/s, the paper's stroke; 10 mm/s is a fast duty cycle.
   for (const double speed_m_per_s : {0.12e-3, 1e-3, 10e-3}) {
     const double turn_s = 1.5e-3 / speed_m_per_s;
     const auto course = [&](double time_s) { return speed_m_per_s * (time_s < turn_s ? time_s : 2 * turn_s - time_s); };
     const double blocks = speed_m_per_s < 0.5e-3 ? 32 : 9;  // the long windows, or the short
-    const double tells_s = blocks * std::max(step_s(), block_length_s);
+    const double found_after_s = blocks * std::max(step_s(), block_length_s);
     int wrong = 0, opening = 0, closing = 0, samples = 0;
     follow(2 * turn_s, course, [&](double time_s, const PositionPoint<double>& point) {
       const double since_s = time_s < turn_s ? time_s : time_s - turn_s;
-      if (since_s < tells_s) return;
+      if (since_s < found_after_s) return;
       ++samples;
       opening += point.motion == Motion::opening ? 1 : 0;
       closing += point.motion == Motion::closing ? 1 : 0;
@@ -92,7 +92,7 @@ TEST_P(PositionTrack, TellsWhichWayTheSpoolSlidesWithinAFewBlocks) {
   }
 }
 
-TEST_P(PositionTrack, TellsASlipWithItsDirectionAndLetsItSettle) {
+TEST_P(PositionTrack, FindsASlipWithItsDirectionAndLetsItSettle) {
   int transients = 0;
   double direction = 0;
   follow(
@@ -132,7 +132,7 @@ TEST_P(PositionTrack, TakesAFaultOutThatTheCoilKnowsNothingOfHoweverLongTheStep)
       [&](double time_s) { return time_s >= 0.4 && time_s < until_s - 1e-9 ? 0.15e-3 : 0; }, [](double) { return 5; });
 }
 
-TEST_P(PositionTrack, BelievesASlipThatTheVoltageTellsOf) {
+TEST_P(PositionTrack, AcceptsASlipThatTheVoltageShows) {
   if (step_s() < 2e-3) GTEST_SKIP() << "no spool slips by 0.15 mm within one sample";
   follow(
       1, [](double time_s) { return time_s < 0.4 ? 1e-3 : 1.15e-3; },

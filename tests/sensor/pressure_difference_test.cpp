@@ -69,8 +69,8 @@ TEST(PressureDifference, TakesOneSampleForNoMoreThanOneHoweverLongItsStep) {
     PressureState<double> state = begin(35e5);
     state.ratio_variance = 0;
     update_sliding(supply, state, {slope_N_per_Pa * 5e5, slope_N_per_Pa, friction_N, 0.7}, dt_s, highest_Pa);
-    const double told_Pa = 0.7 / slope_N_per_Pa;  // what one force balance tells
-    EXPECT_NEAR(std::sqrt(state.variance_Pa2), told_Pa * 10e5 / std::hypot(told_Pa, 10e5), 1e3) << dt_s;
+    const double measured_Pa = 0.7 / slope_N_per_Pa;  // what one force balance shows
+    EXPECT_NEAR(std::sqrt(state.variance_Pa2), measured_Pa * 10e5 / std::hypot(measured_Pa, 10e5), 1e3) << dt_s;
   }
 }
 
@@ -124,7 +124,7 @@ TEST(PressureDifference, StaysWhereNoPressureDifferenceCouldExplainTheForce) {
   EXPECT_LE(std::sqrt(state.variance_Pa2), 1.01 * most_deviation_share * highest_Pa);
 }
 
-TEST(PressureDifference, TellsLittleOfTheSupplyWhenFirstSeen) {
+TEST(PressureDifference, ShowsLittleOfTheSupplyWhenFirstSeen) {
   PressureState<double> state{};
   begin(supply, state, highest_Pa, 1.0, 2.0);
   for (int k = 0; k < 500; ++k) drift_unobserved(supply, state, 1e-3, highest_Pa);
@@ -164,7 +164,7 @@ TEST(Band, ABreakawayTakesTheVarianceOfUnseenChangesAway) {
   EXPECT_LT(unobserved_change_Pa(state, 4.0), 0.5 * before_Pa);
 }
 
-TEST(Band, KnowsThatWhatIsToldNowIsSomeMillisecondsOld) {
+TEST(Band, KnowsThatWhatIsMeasuredIsSomeMillisecondsOld) {
   PressureState<double> state = begin(60e5);
   slide(state, 60e5, 1, 1, 1, 1e-3);
   state.process_noise = 0.5;

@@ -29,23 +29,23 @@ Outcome outcome_of(const FinishedJob& job) {
 
 }  // namespace
 
-Batch::Batch(std::string connection, std::string program, std::function<void(const std::string&)> tell)
+Batch::Batch(std::string connection, std::string program, std::function<void(const std::string&)> report)
     : connection_(std::move(connection)),
       program_(std::move(program)),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       session_(std::make_unique<Session>(connection_, "spoolflow batch")) {
   (void)read_settings(*session_);
 }
 
 void Batch::with_session(const std::function<void(Session&)>& work) {
-  for (bool told = false;;) {
+  for (bool reported = false;;) {
     try {
       if (!session_) session_ = std::make_unique<Session>(connection_, "spoolflow batch");
       return work(*session_);
     } catch (const ServerAway& error) {  // all that is asked of it may be asked twice
       session_.reset();
-      if (!told) tell_(fmt::format("{}; it is tried again and again", error.what()));
-      told = true;
+      if (!reported) report_(fmt::format("{}; it is tried again and again", error.what()));
+      reported = true;
       std::this_thread::sleep_for(tries_again_every);
     }
   }
@@ -81,7 +81,7 @@ void Batch::wait(const std::function<void(std::size_t, const Outcome&)>& finishe
         want_jobs(session, keys);
         wanted = Clock::now();
       }
-      if (found.empty() && Clock::now() - begun > std::chrono::duration<double>(silent_s)) tell_of_silence(session);
+      if (found.empty() && Clock::now() - begun > std::chrono::duration<double>(silent_s)) report_silence(session);
     });
     for (const FinishedJob& job : found) {
       const auto pieces = open_.extract(job.key);
@@ -92,18 +92,19 @@ void Batch::wait(const std::function<void(std::size_t, const Outcome&)>& finishe
   }
 }
 
-void Batch::tell_of_silence(Session& session) {
+void Batch::report_silence(Session& session) {
   const Takers takers = takers_of(session, program_);
   if (takers.silent_s < silent_s) {
-    told_of_silence_ = false;
+    silence_reported_ = false;
     return;
   }
-  if (told_of_silence_) return;
-  told_of_silence_ = true;
-  tell_(takers.other_programs.empty()
-            ? fmt::format("no worker has asked for work for {:.0f} s; start one: spoolflow worker FLEET.toml", silent_s)
-            : fmt::format("no worker of this program ({}) has asked for work for {:.0f} s; those at work are of {}",
-                          program_, silent_s, takers.other_programs));
+  if (silence_reported_) return;
+  silence_reported_ = true;
+  report_(
+      takers.other_programs.empty()
+          ? fmt::format("no worker has asked for work for {:.0f} s; start one: spoolflow worker FLEET.toml", silent_s)
+          : fmt::format("no worker of this program ({}) has asked for work for {:.0f} s; those at work are of {}",
+                        program_, silent_s, takers.other_programs));
 }
 
 std::string Batch::content(const PieceFile& file) {

@@ -20,9 +20,9 @@ namespace spoolflow::fleet {
 
 class Batch {
  public:
-  /// Throws ServerAway, ServerRefuses; later a server that is away is waited for. `tell` is called with what is worth a
-  /// line.
-  Batch(std::string connection, std::string program, std::function<void(const std::string&)> tell);
+  /// Throws ServerAway, ServerRefuses; later a server that is away is waited for. `report` is called with what is worth
+  /// a line.
+  Batch(std::string connection, std::string program, std::function<void(const std::string&)> report);
 
   /// Kept by the fleet from now on.
   [[nodiscard]] PieceFile keep(const std::string& name, const std::string& content);
@@ -35,15 +35,15 @@ class Batch {
 
  private:
   void with_session(const std::function<void(Session&)>& work);
-  void tell_of_silence(Session& session);
+  void report_silence(Session& session);
 
   std::string connection_, program_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> report_;
   std::unique_ptr<Session> session_;
   std::unordered_set<std::string> kept_;  ///< contents
   std::vector<std::string> keys_;         ///< by number
   std::unordered_map<std::string, std::vector<std::size_t>> open_;
-  bool told_of_silence_ = false;
+  bool silence_reported_ = false;
 };
 
 }  // namespace spoolflow::fleet

@@ -25,8 +25,8 @@ Outcome failed(const std::string& message) {
 
 }  // namespace
 
-JobWorker::JobWorker(JobWorkerParts parts, std::function<void(const std::string&)> tell)
-    : parts_(std::move(parts)), tell_(std::move(tell)) {
+JobWorker::JobWorker(JobWorkerParts parts, std::function<void(const std::string&)> report)
+    : parts_(std::move(parts)), report_(std::move(report)) {
   remove_abandoned_folders();
   for (unsigned k = 0; k < parts_.settings.processes; ++k)
     threads_.emplace_back([this, k](const std::stop_token& stop) { work(stop, k == 0); });
@@ -40,7 +40,7 @@ void JobWorker::stop() {
 void JobWorker::work(const std::stop_token& stop, bool cleans_up) {
   std::unique_ptr<Session> session;
   Clock::time_point cleaned{};
-  std::string told;
+  std::string reported;
   while (!stop.stop_requested()) {
     try {
       if (!session) {
@@ -51,16 +51,16 @@ void JobWorker::work(const std::stop_token& stop, bool cleans_up) {
         remove_old_jobs(*session, parts_.settings.keep_hours);
         cleaned = Clock::now();
       }
-      tell_at_work(*session, parts_.owner, parts_.program);
+      report_at_work(*session, parts_.owner, parts_.program);
       if (!take_one(session, stop)) parallel::wait_for(asks_every, stop);
-      told.clear();
+      reported.clear();
     } catch (const ServerAway&) {  // the worker reports it as a whole
       session.reset();
       parallel::wait_for(takes_up_again_after, stop);
     } catch (const std::exception& error) {
       session.reset();
-      if (told != error.what()) tell_(error.what());
-      told = error.what();
+      if (reported != error.what()) report_(error.what());
+      reported = error.what();
       parallel::wait_for(takes_up_again_after, stop);
     }
   }
@@ -90,18 +90,18 @@ bool JobWorker::take_one(std::unique_ptr<Session>& session, const std::stop_toke
   } else {
     return_job(*session, job->key, parts_.owner, !stop.stop_requested());
     if (!stop.stop_requested())
-      tell_(fmt::format("the piece {:.8} ended without a result ({} {})", job->key,
-                        ended < 0 ? "signal" : "exit status", std::abs(ended)));
+      report_(fmt::format("the piece {:.8} ended without a result ({} {})", job->key,
+                          ended < 0 ? "signal" : "exit status", std::abs(ended)));
   }
   return true;
 }
 
-/// What is done while the database is away is not lost: whoever has the piece then, its result is the same.
+/// What is done while the database is away is not lost: any worker that has the piece then makes the same result.
 bool JobWorker::goes_on(std::unique_ptr<Session>& session, const std::string& key, const std::stop_token& stop) {
   if (stop.stop_requested()) return false;
   try {
     if (!session) session = std::make_unique<Session>(parts_.connection, parts_.owner);
-    tell_at_work(*session, parts_.owner, parts_.program);
+    report_at_work(*session, parts_.owner, parts_.program);
     return renew_job(*session, key, parts_.owner, parts_.lease_s);
   } catch (const ServerAway&) {
     session.reset();

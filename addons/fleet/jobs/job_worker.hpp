@@ -31,8 +31,8 @@ struct JobWorkerParts {
 
 class JobWorker {
  public:
-  /// A server that is away is waited for. `tell` is called with what is worth a line, from any thread.
-  JobWorker(JobWorkerParts parts, std::function<void(const std::string&)> tell);
+  /// A server that is away is waited for. `report` is called with what is worth a line, from any thread.
+  JobWorker(JobWorkerParts parts, std::function<void(const std::string&)> report);
   /// What is at work is killed and left to others.
   void stop();
 
@@ -43,7 +43,7 @@ class JobWorker {
   void finish(Session& session, const std::string& key, const std::filesystem::path& folder);
 
   JobWorkerParts parts_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> report_;
   std::vector<std::jthread> threads_;  ///< last: they use the others
 };
 

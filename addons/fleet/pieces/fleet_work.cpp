@@ -19,10 +19,10 @@ std::string SentPiece::here(std::string text) const {
 }
 
 FleetWork::FleetWork(const std::string& fleet_file, std::string_view version,
-                     const std::function<void(const std::string&)>& tell) {
+                     const std::function<void(const std::string&)>& report) {
   const fleet::FleetSettings settings = fleet::read_fleet(fleet_file);
   limits_ = settings.jobs;
-  batch_ = std::make_unique<fleet::Batch>(settings.connection, fleet::piece_program(std::string(version)), tell);
+  batch_ = std::make_unique<fleet::Batch>(settings.connection, fleet::piece_program(std::string(version)), report);
 }
 
 void FleetWork::place(SentPiece& piece, const std::string& name, const std::string& here, const std::string& content) {

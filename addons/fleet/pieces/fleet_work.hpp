@@ -24,9 +24,9 @@ struct SentPiece {
 class FleetWork {
  public:
   /// `version`: of this program. Throws what read_fleet throws, ServerAway, ServerRefuses; a server that goes away
-  /// later is waited for. `tell` is called with what is worth a line.
+  /// later is waited for. `report` is called with what is worth a line.
   FleetWork(const std::string& fleet_file, std::string_view version,
-            const std::function<void(const std::string&)>& tell);
+            const std::function<void(const std::string&)>& report);
 
   /// The next file of the piece, and its name there. `inside`: its path in a folder that it shares with others; empty:
   /// it stands alone under its own name. Throws std::invalid_argument where it cannot be read or is too large.

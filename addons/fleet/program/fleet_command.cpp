@@ -118,16 +118,16 @@ void worker_command(const FleetArguments& arguments) {
   fleet::FleetSettings settings = fleet::read_fleet(arguments.fleet);
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   {
-    const auto tell = [](const std::string& text) { say("{}\n", text); };
+    const auto report = [](const std::string& text) { say("{}\n", text); };
     fleet::JobWorkerParts parts{.connection = settings.connection, .owner = {}, .program = {}};
     parts.lease_s = settings.worker.lease_s;
     parts.settings = settings.jobs;
     parts.write = write_piece_file;
-    fleet::Worker worker(std::move(settings), fmt::format("spoolflow {}", tool_version()), tell);
+    fleet::Worker worker(std::move(settings), fmt::format("spoolflow {}", tool_version()), report);
     parts.owner = worker.owner();
     parts.program = fleet::piece_program(std::string(tool_version()));
     say("worker {}; end with Ctrl-C\n", worker.owner());
-    fleet::JobWorker jobs(std::move(parts), tell);
+    fleet::JobWorker jobs(std::move(parts), report);
     wait_for_the_end();
     jobs.stop();
     worker.stop();

@@ -145,7 +145,7 @@ void return_job(Session& session, const std::string& key, const std::string& own
       Values().put(string_view(key)).put(string_view(owner)).put(std::int64_t{ended ? 1 : 0}).put(most_attempts));
 }
 
-void tell_at_work(Session& session, const std::string& owner, const std::string& program) {
+void report_at_work(Session& session, const std::string& owner, const std::string& program) {
   session.run("UPDATE worker SET program = $2, takes_jobs = now() WHERE name = $1",
               Values().put(string_view(owner)).put(string_view(program)));
 }

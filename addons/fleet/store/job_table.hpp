@@ -51,12 +51,12 @@ struct TakenJob {
                                                double lease_s);
 /// False where it is not this worker's any more.
 [[nodiscard]] bool renew_job(Session& session, const std::string& key, const std::string& owner, double lease_s);
-/// Whoever has done it: the result follows from the key. One that is done stays as it is.
+/// By any worker: the result follows from the key. One that is done stays as it is.
 void finish_job(Session& session, const FinishedJob& job, const std::vector<std::string>& contents);
 /// It is for others to take. `ended`: its process has ended without a result; such a beginning counts.
 void return_job(Session& session, const std::string& key, const std::string& owner, bool ended);
 /// This worker, which is alive, takes pieces of that program.
-void tell_at_work(Session& session, const std::string& owner, const std::string& program);
+void report_at_work(Session& session, const std::string& owner, const std::string& program);
 /// Those that nobody has waited for since, and contents that no other needs.
 void remove_old_jobs(Session& session, double keep_hours);
 

@@ -11,14 +11,14 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// 1 to 9, each known as well as stated.
-std::vector<ValveFigure> sisters(double uncertainty_95) {
+std::vector<ValveFigure> series(double uncertainty_95) {
   std::vector<ValveFigure> out;
   for (int k = 1; k <= 9; ++k) out.push_back({static_cast<double>(k), uncertainty_95});
   return out;
 }
 
 TEST(SeriesSpread, MedianAndDeviationAreNotMovedByOneWildValve) {
-  std::vector<ValveFigure> values = sisters(0.1);
+  std::vector<ValveFigure> values = series(0.1);
   const SeriesSpread before = spread_of(values);
   EXPECT_EQ(before.median, 5);
   EXPECT_DOUBLE_EQ(before.scale, 1.4826 * 2);
@@ -35,14 +35,14 @@ TEST(SeriesSpread, MedianAndDeviationAreNotMovedByOneWildValve) {
   EXPECT_FALSE(is_outlier(after, {unknown, 0.1}));
 }
 
-TEST(SeriesSpread, NobodyIsNamedForWhatIsNotKnownSoWell) {
-  const SeriesSpread rough = spread_of(sisters(19.6));
-  EXPECT_DOUBLE_EQ(rough.scale, 10);  // sisters are told apart no better than each is known
+TEST(SeriesSpread, NoneIsNamedWhereItsValueIsUncertain) {
+  const SeriesSpread rough = spread_of(series(19.6));
+  EXPECT_DOUBLE_EQ(rough.scale, 10);  // valves differ by no more than their uncertainty
   EXPECT_FALSE(is_outlier(rough, {16, 19.6}));
-  EXPECT_FALSE(is_outlier(spread_of(sisters(0.1)), {16, 12}));
+  EXPECT_FALSE(is_outlier(spread_of(series(0.1)), {16, 12}));
 }
 
-TEST(SeriesSpread, EqualSistersAndFewOnesNameNobody) {
+TEST(SeriesSpread, EqualValvesAndFewOnesNameNone) {
   const SeriesSpread equal = spread_of(std::vector<ValveFigure>(9, {3, 0}));
   EXPECT_EQ(equal.scale, 0);
   EXPECT_EQ(score(equal, {4, 0}), 0);

@@ -236,8 +236,8 @@ std::vector<Message> Puller::fetch(int most, std::chrono::milliseconds patience)
     if (status == NATS_TIMEOUT) break;
     if (status != NATS_OK) refuse(status, "fetch");
     const Handle<natsMsg> message(made);
-    if (const char* told = nullptr; natsMsgHeader_Get(made, "Status", &told) == NATS_OK) {
-      const std::string_view verdict(told);
+    if (const char* header = nullptr; natsMsgHeader_Get(made, "Status", &header) == NATS_OK) {
+      const std::string_view verdict(header);
       // Of a request: that it found nothing or is over; else that nobody takes it, or will not.
       if (verdict != nothing_there && verdict != request_over) refuse(NATS_NO_RESPONDERS, "fetch");
       owed_ = 0;

@@ -13,7 +13,7 @@ double XlsxColumnOfCells::value(const XlsxCell& cell, std::uint64_t row) {
   if (cell.kind == XlsxCell::Kind::number) return number(cell, row, cell.number);
   if (cell.kind == XlsxCell::Kind::time) return since_first(cell, row, clock_of(cell.number));
   if (cell.kind == XlsxCell::Kind::error) return missing;
-  if (cell.kind == XlsxCell::Kind::unreckoned) {
+  if (cell.kind == XlsxCell::Kind::without_result) {
     is_used_ = true;
     return refuse(
         cell, row,

@@ -113,7 +113,7 @@ class RowsListener final : public XmlListener {
     XlsxCell cell{column_};
     if (!has_value_ || (value_.empty() && type_ != 't')) {
       if (!has_formula_) return;
-      cell.kind = XlsxCell::Kind::unreckoned;
+      cell.kind = XlsxCell::Kind::without_result;
     } else if (type_ == 'n' || type_ == 'b') {
       if (read_number(value_, '.', cell.number) != Digits::number) {
         refuse_xlsx(place(), fmt::format("'{}' is no number", value_.substr(0, 40)));

@@ -16,11 +16,11 @@ inline constexpr std::uint32_t most_xlsx_columns = 16384;  ///< of a sheet: A to
 
 struct XlsxCell {
   enum class Kind : std::uint8_t {
-    number,     ///< booleans, too: 1 and 0
-    time,       ///< in days, as the workbook counts them
-    text,       ///< also a number that is written as text, and a date of ISO 8601
-    error,      ///< such as #N/A
-    unreckoned  ///< a formula whose result the file does not hold
+    number,         ///< booleans, too: 1 and 0
+    time,           ///< in days, as the workbook counts them
+    text,           ///< also a number that is written as text, and a date of ISO 8601
+    error,          ///< such as #N/A
+    without_result  ///< a formula whose result the file does not hold
   };
   std::uint32_t column = 0;  ///< 0 is A
   Kind kind = Kind::number;

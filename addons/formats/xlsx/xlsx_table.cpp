@@ -125,7 +125,7 @@ class XlsxTable final : public VectorTable {
     }
     if (!sheet_) refuse_tableless(workbook);
     list();
-    tell_unread(workbook);
+    list_unread(workbook);
   }
 
   [[nodiscard]] std::vector<UnreadPart> unread() const override { return unread_; }
@@ -165,7 +165,7 @@ class XlsxTable final : public VectorTable {
     }
   }
 
-  void tell_unread(const XlsxWorkbook& workbook) {
+  void list_unread(const XlsxWorkbook& workbook) {
     for (std::size_t k = 0; k < sheet_->columns().size(); ++k) {
       if (sheet_->cells(k).is_used()) continue;
       const std::string& column = sheet_->columns()[k].name;

@@ -86,7 +86,7 @@ struct CanSender::Parts {
       }
     }
   }
-  void tell(std::uint32_t tick) {
+  void send_due(std::uint32_t tick) {
     const auto is_due = [&](std::uint32_t period_ms) { return tick * tick_ms % period_ms < tick_ms; };
     const bool is_ours = !address.is_lost() && tick - claimed_tick > objection_ms / tick_ms;
     if (is_ours && is_due(sensor::estimated_flow_period_ms)) {
@@ -120,7 +120,7 @@ struct CanSender::Parts {
     claim(0);
     for (std::uint32_t tick = 0;; ++tick) {
       hear();
-      tell(tick);
+      send_due(tick);
       if (tick % ticks_a_second == 0) look_after(tick);
       next = std::max(next + std::chrono::milliseconds(tick_ms), std::chrono::steady_clock::now());
       if (!parallel::wait_until(next, stop)) return;

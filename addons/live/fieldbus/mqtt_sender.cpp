@@ -98,7 +98,7 @@ struct MqttSender::Parts {
   int seq = 0;
   std::int64_t bd_seq = -1;  ///< of the last connection
   std::int64_t birth_ms = 0;
-  std::vector<std::vector<SparkplugMetric>> told{};  ///< of each valve; empty: it has no birth
+  std::vector<std::vector<SparkplugMetric>> published{};  ///< of each valve; empty: it has no birth
   std::jthread sampler{}, sender{};
 
   Parts(Engine& of, const MqttSettings& with)
@@ -107,7 +107,7 @@ struct MqttSender::Parts {
         password(with.user.empty() ? "" : first_line(with.password_file)),
         output(of.outputs().add("mqtt")),
         waiting(most_records(with, of.size())),
-        told(of.size()) {
+        published(of.size()) {
     const std::string id = fmt::format("spoolflow-{}-{}", settings.group, settings.edge_node);
     const int made =
         MQTTClient_create(&client, settings.broker.c_str(), id.c_str(), MQTTCLIENT_PERSISTENCE_NONE, nullptr);
@@ -206,38 +206,38 @@ struct MqttSender::Parts {
     birth_ms = wall_ms();
     std::vector<SparkplugMetric> node{bd_metric(birth_ms), {"Node Control/Rebirth", birth_ms, false}};
     if (!publish_next("NBIRTH", "", birth_ms, std::move(node))) return false;
-    for (std::size_t k = 0; k < told.size(); ++k) {
-      if (!bear(k, birth_ms, answer_of(engine, k))) return false;
+    for (std::size_t k = 0; k < published.size(); ++k) {
+      if (!publish_birth(k, birth_ms, answer_of(engine, k))) return false;
     }
     return true;
   }
-  bool bear(std::size_t k, std::int64_t time_ms, const PlantAnswer& answer) {
-    told[k] = fieldbus::valve_metrics(answer, time_ms);
-    return publish_next("DBIRTH", answer.id, time_ms, told[k]);
+  bool publish_birth(std::size_t k, std::int64_t time_ms, const PlantAnswer& answer) {
+    published[k] = fieldbus::valve_metrics(answer, time_ms);
+    return publish_next("DBIRTH", answer.id, time_ms, published[k]);
   }
   /// What was kept from before the birth comes whole; what is of now as far as it is new.
-  bool tell(const Record& record) {
+  bool publish_record(const Record& record) {
     const bool is_historical = record.time_ms < birth_ms;
     for (std::size_t k = 0; k < record.valves.size(); ++k) {
       const PlantAnswer& answer = record.valves[k];
-      if (!is_historical && answer.stalled == told[k].empty()) {
+      if (!is_historical && answer.stalled == published[k].empty()) {
         if (answer.stalled) continue;
       } else if (!is_historical && answer.stalled) {
-        told[k].clear();
+        published[k].clear();
         if (!publish_next("DDEATH", answer.id, record.time_ms, {})) return false;
         continue;
       } else if (!is_historical) {
-        if (!bear(k, record.time_ms, answer)) return false;
+        if (!publish_birth(k, record.time_ms, answer)) return false;
         continue;
       }
       std::vector<SparkplugMetric> now = fieldbus::valve_metrics(answer, record.time_ms);
       std::vector<SparkplugMetric> news = now;
       if (is_historical) {
-        if (answer.stalled || told[k].empty()) continue;
+        if (answer.stalled || published[k].empty()) continue;
         for (SparkplugMetric& one : news) one.is_historical = true;
       } else {
-        news = fieldbus::changed_metrics(told[k], now);
-        told[k] = std::move(now);
+        news = fieldbus::changed_metrics(published[k], now);
+        published[k] = std::move(now);
       }
       if (!news.empty() && !publish_next("DDATA", answer.id, record.time_ms, std::move(news))) return false;
     }
@@ -271,7 +271,7 @@ struct MqttSender::Parts {
         (void)parallel::wait_for(between_looks, stop);
         continue;
       }
-      if (tell(next->second)) waiting.remove(next->first);
+      if (publish_record(next->second)) waiting.remove(next->first);
       output->waiting = waiting.size();
     }
     if (!is_connected) return;

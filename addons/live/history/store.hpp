@@ -132,7 +132,7 @@ class Store {
   void close();
   [[nodiscard]] Database& open_one();
   void save_as(const std::string& path);
-  [[nodiscard]] std::string write_anew();
+  [[nodiscard]] std::string rewrite();
   [[nodiscard]] std::string go_on_in_another(const std::string& stamp);
   [[nodiscard]] std::string set_aside(const std::string& stamp);
   std::string path_;

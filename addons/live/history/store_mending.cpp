@@ -72,7 +72,7 @@ std::string Store::look_after(std::int64_t wall_ms) {
   const bool damaged = std::exchange(damaged_, false);
   switch (watch_->look(*database_)) {
     case FileWatch::Found::gone:
-      return write_anew();
+      return rewrite();
     case FileWatch::Found::replaced:
       return go_on_in_another(stamp_of(wall_ms));
     case FileWatch::Found::damaged:
@@ -102,10 +102,10 @@ void Store::save_as(const std::string& path) {
   }
 }
 
-std::string Store::write_anew() {
-  const std::string anew = path_ + ".anew";
+std::string Store::rewrite() {
+  const std::string fresh = path_ + ".anew";
   try {
-    save_as(anew);
+    save_as(fresh);
   } catch (const StoreDamage&) {  // deleted after it was damaged: there is nothing to set aside
     close();
     remove_log(path_);
@@ -118,7 +118,7 @@ std::string Store::write_anew() {
   }
   close();
   remove_log(path_);  // of the deleted file: it must not be taken for the new one's
-  rename(anew, path_);
+  rename(fresh, path_);
   needs_states_ = true;
   open();
   return fmt::format(

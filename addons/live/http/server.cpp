@@ -87,12 +87,12 @@ struct PageServer::Parts {
     next_look.expires_after(look_period);
     next_look.async_wait([this](beast::error_code ended) {
       if (ended) return;
-      if (watch.changed()) read_anew();
+      if (watch.changed()) read_again();
       look_again();
     });
   }
   /// All of it or nothing.
-  void read_anew() {
+  void read_again() {
     std::string message;
     try {
       PageSettings now = origin.file.empty() ? settings : read_page_of(origin.file);
@@ -111,10 +111,10 @@ struct PageServer::Parts {
     } catch (const std::exception& error) {
       message = fmt::format("{}; the accounts and the certificate of before stay in force", error.what());
     }
-    if (origin.tell) origin.tell(message);
+    if (origin.report) origin.report(message);
   }
 
-  /// Whoever waits is taken; without a descriptor one that is idle gives way, and the listener rests.
+  /// A waiting connection is accepted; without a descriptor an idle one is closed, and the listener rests.
   void accept() {
     acceptor.async_wait(tcp::acceptor::wait_read, [this](beast::error_code error) {
       if (error == asio::error::operation_aborted) return;

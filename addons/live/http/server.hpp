@@ -14,8 +14,8 @@ namespace spoolflow::live {
 /// Where the settings came from. As long as the page is served they are read again whenever this file, the certificate
 /// or the key has changed: accounts, names and TLS are then those; settings that cannot be used change nothing.
 struct PageOrigin {
-  std::filesystem::path file{};                    ///< with a table [page]; empty: certificate and key alone
-  std::function<void(const std::string&)> tell{};  ///< in the server's thread: what was read again, or why it was not
+  std::filesystem::path file{};                      ///< with a table [page]; empty: certificate and key alone
+  std::function<void(const std::string&)> report{};  ///< in the server's thread: what was read again, or why it was not
 };
 
 class PageServer {

@@ -44,7 +44,7 @@ std::vector<std::filesystem::path> replayed_recordings(const live::SiteSettings&
   return files;
 }
 
-void tell_where(const live::Engine& engine, const live::PageSettings& page) {
+void report_addresses(const live::Engine& engine, const live::PageSettings& page) {
   for (std::size_t k = 0; k < engine.size(); ++k) {
     const live::SourceView source = engine.source(k);
     const auto* tcp = std::get_if<live::TcpSettings>(&engine.site().valves[k].source);
@@ -85,7 +85,7 @@ void live_command(const LiveArguments& arguments) {
   const InterruptionPause held_back;  // in this thread, and in all that it starts
   const auto fork_server = recording::fork_server_for(replayed_recordings(site));
   live::Engine engine(std::move(site), fmt::format("spoolflow {}", tool_version()));
-  engine.tell_by([](const std::string& text) { say("{}\n", text); });
+  engine.report_by([](const std::string& text) { say("{}\n", text); });
   engine.start();
   {
     const live::PageServer server(site_page(engine), page,
@@ -95,7 +95,7 @@ void live_command(const LiveArguments& arguments) {
     const live::FieldbusOutputs fieldbus(engine);
     for (const std::string& one : fieldbus.where()) say("{}\n", one);
     page.listen.port = server.port();
-    tell_where(engine, page);
+    report_addresses(engine, page);
     std::shared_ptr<void> publisher;
     if (!engine.site().fleet.servers.empty()) {
       publisher = publisher_maker()(engine, [](const std::string& text) { say("{}\n", text); });

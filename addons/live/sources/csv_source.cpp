@@ -28,7 +28,7 @@ TcpSource::TcpSource(const Address& address, std::vector<std::string> allowed, r
       next_(after.next),
       intake_(intake) {
   options_.runs_on = true;
-  intake_.tell("nobody is connected");
+  intake_.set_trouble("nobody is connected");
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -44,7 +44,7 @@ void TcpSource::answer_callers(int patience_ms) {
     if (connection.number() < 0) {
       if (errno != EMFILE && errno != ENFILE) return;
       // The caller stays in the queue of the socket, which stays readable: without a pause this would keep a core busy.
-      intake_.tell("a connection waits, and the process may open no more files; raise its limit (LimitNOFILE)");
+      intake_.set_trouble("a connection waits, and the process may open no more files; raise its limit (LimitNOFILE)");
       std::this_thread::sleep_for(std::chrono::milliseconds(patience_ms));
       return;
     }
@@ -52,7 +52,7 @@ void TcpSource::answer_callers(int patience_ms) {
       caller_ = {std::move(connection), peer_host(peer)};
       return;
     }
-    intake_.tell(fmt::format("{} tried to connect and is not allowed to", peer_host(peer)));
+    intake_.set_trouble(fmt::format("{} tried to connect and is not allowed to", peer_host(peer)));
   }
 }
 
@@ -69,7 +69,7 @@ void TcpSource::run(const std::stop_token& stop) {
     next_ =
         read_csv(std::make_unique<recording::InputBytes>(serves.connection.release(), std::move(serves.host), given_up),
                  options_, next_, intake_);
-    if (intake_.trouble().empty()) intake_.tell("nobody is connected");
+    if (intake_.trouble().empty()) intake_.set_trouble("nobody is connected");
   }
 }
 
@@ -81,7 +81,7 @@ PipeSource::PipeSource(std::filesystem::path path, recording::ReadOptions option
     throw SiteError(
         fmt::format("{}: is no pipe; make it with mkfifo, or replay a file with kind = \"replay\"", path_.string()));
   }
-  intake_.tell("nobody writes to the pipe");
+  intake_.set_trouble("nobody writes to the pipe");
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -93,7 +93,7 @@ void PipeSource::run(const std::stop_token& stop) {
     const int opened =
         once ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (opened < 0) {
-      intake_.tell("the pipe cannot be opened");
+      intake_.set_trouble("the pipe cannot be opened");
       if (!parallel::wait_for(std::chrono::milliseconds(1000), stop) || once) return;
       continue;
     }
@@ -101,7 +101,7 @@ void PipeSource::run(const std::stop_token& stop) {
     intake_.count_connection();
     next_ =
         read_csv(std::make_unique<recording::InputBytes>(opened, path_.string(), given_up), options_, next_, intake_);
-    if (intake_.trouble().empty()) intake_.tell(once ? "standard input has ended" : "nobody writes to the pipe");
+    if (intake_.trouble().empty()) intake_.set_trouble(once ? "standard input has ended" : "nobody writes to the pipe");
     if (once) return;
     parallel::wait_for(std::chrono::milliseconds(10), stop);  // a writer that ends at once must not keep a core busy
   }

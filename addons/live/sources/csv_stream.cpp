@@ -20,7 +20,7 @@ std::uint64_t read_csv(std::unique_ptr<recording::InputBytes> input, const recor
                        std::uint64_t next, Intake& intake) {
   try {
     const auto reader = estimation::open_sensor_channels(std::move(input), options);
-    intake.tell({});
+    intake.set_trouble({});
     recording::SampleBlock block;
     std::uint64_t left_out = 0;
     while (reader->next(block)) {
@@ -29,7 +29,7 @@ std::uint64_t read_csv(std::unique_ptr<recording::InputBytes> input, const recor
       intake.push({.samples = samples_of(block), .after = {.next = next}, .arrived_ns = steady_ns()});
     }
   } catch (const std::exception& error) {  // a header of rubbish, a connection that broke
-    intake.tell(error.what());
+    intake.set_trouble(error.what());
   }
   return next;
 }

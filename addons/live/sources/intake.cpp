@@ -56,7 +56,7 @@ void Intake::take(std::vector<SampleBlock>& blocks) {
   room_.notify_all();
 }
 
-void Intake::tell(std::string trouble) {
+void Intake::set_trouble(std::string trouble) {
   const std::lock_guard lock(mutex_);
   trouble_ = std::move(trouble);
 }

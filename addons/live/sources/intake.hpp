@@ -1,5 +1,5 @@
 #pragma once
-/// The bounded queue between the source of one valve and whoever works on it. A source never waits for a slow consumer
+/// The bounded queue between the source of one valve and its consumer. A source never waits for a slow consumer
 /// (but one that can, such as a replay as fast as may be): what finds no room is dropped and counted.
 #include <atomic>
 #include <condition_variable>
@@ -32,7 +32,7 @@ class Intake {
   void count_unreadable(std::uint64_t pieces) { unreadable_ += pieces; }
   void count_connection() { ++connections_; }
   /// What is wrong with the source at present, as the page shows it; empty: nothing.
-  void tell(std::string trouble);
+  void set_trouble(std::string trouble);
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] IntakeCounters counters() const;
   /// Whether nothing waits to be worked on.

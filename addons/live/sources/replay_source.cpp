@@ -38,10 +38,10 @@ void ReplaySource::run(const std::stop_token& stop) {
         added_s_ += static_cast<double>(passes) * pass_s;
       }
     } while (settings_.repeats);
-    intake_.tell("the recording has ended");
+    intake_.set_trouble("the recording has ended");
     ended_ = true;
   } catch (const std::exception& error) {
-    intake_.tell(error.what());
+    intake_.set_trouble(error.what());
   }
 }
 

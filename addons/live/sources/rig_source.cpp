@@ -103,7 +103,7 @@ void RigSource::run(const std::stop_token& stop) {
     }
   } catch (const Stopped&) {  // wanted
   } catch (const std::exception& error) {
-    intake_.tell(error.what());
+    intake_.set_trouble(error.what());
   }
 }
 

@@ -98,10 +98,10 @@ Address read_address(const std::string& text, const std::string& place) {
 std::string read_host(const std::string& text, const std::string& place) {
   const int family = is_6(text) ? AF_INET6 : AF_INET;
   in6_addr host{};
-  std::array<char, INET6_ADDRSTRLEN> told{};
+  std::array<char, INET6_ADDRSTRLEN> written{};
   if (::inet_pton(family, text.c_str(), &host) == 1 &&
-      ::inet_ntop(family, &host, told.data(), told.size()) != nullptr) {
-    return told.data();
+      ::inet_ntop(family, &host, written.data(), written.size()) != nullptr) {
+    return written.data();
   }
   throw SiteError(fmt::format(
       "{}: '{}' is no machine's address; write each one's by its numbers, such as \"192.168.0.7\" or \"fd00::7\" "

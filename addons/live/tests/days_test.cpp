@@ -98,11 +98,11 @@ TEST_F(Days, AreAskedForByInstants) {
   const Engine engine(site, "test");
   const PageAnswer asked = answer_to(engine, "GET", "/api/v1/valves/a/indicators?from=1700000000&to=2023-11-15T00:00Z");
   ASSERT_EQ(asked.status, 200U);
-  const auto told = nlohmann::json::parse(asked.body);
-  ASSERT_FALSE(told["indicators"].empty());
-  EXPECT_EQ(told["indicators"][0]["name"], "friction_ratio");
-  EXPECT_EQ(told["indicators"][0]["value"].size(), told["indicators"][0]["time_ms"].size());
-  EXPECT_TRUE(told["indicators"][1]["value"][0].is_null());
+  const auto answer = nlohmann::json::parse(asked.body);
+  ASSERT_FALSE(answer["indicators"].empty());
+  EXPECT_EQ(answer["indicators"][0]["name"], "friction_ratio");
+  EXPECT_EQ(answer["indicators"][0]["value"].size(), answer["indicators"][0]["time_ms"].size());
+  EXPECT_TRUE(answer["indicators"][1]["value"][0].is_null());
   const auto flow =
       nlohmann::json::parse(answer_to(engine, "GET", "/api/v1/valves/a/history?from=1.7e9&to=1.71e9").body);
   EXPECT_EQ(flow["flow_mean_L_min"][0], 60);

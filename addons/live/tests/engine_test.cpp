@@ -1,4 +1,4 @@
-/// What the engine of a site keeps, takes up again, deletes and tells.
+/// What the engine of a site keeps, takes up again, deletes and reports.
 #include "addons/live/engine.hpp"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ TEST_F(EngineTest, AValveThatIsTakenUpAgainAnswersAsIfItHadNeverStopped) {
   EXPECT_GT(expected.state.energy_J, 0);
 }
 
-TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedBeginsAnewAndCountsOn) {
+TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedStartsAgainAndCountsOn) {
   ValveAtWork before("v", model, "test");
   ValveCommit kept = before.take_commit(false);
   kept.state.samples = 7;
@@ -101,7 +101,7 @@ TEST_F(EngineTest, AValveWhoseKeptStateIsDamagedBeginsAnewAndCountsOn) {
   }
 }
 
-TEST_F(EngineTest, AnotherModelBeginsAnewAndCountsOn) {
+TEST_F(EngineTest, AnotherModelStartsAgainAndCountsOn) {
   write("run.csv", engine_header + rows(0, 100));
   SiteSettings kept = site({{"r", ReplaySettings{path("run.csv"), 0}}});
   kept.store = path("kept.sqlite");
@@ -132,12 +132,12 @@ TEST_F(EngineTest, AFullDiskStopsKeepingNotWatching) {
   const rlimit no_more{4096, limit.rlim_max};
   ::setrlimit(RLIMIT_FSIZE, &no_more);
   sender.send(rows(100, 200));
-  const bool told = comes_true([&] { return !engine.store_view().trouble.empty(); });
+  const bool reported = comes_true([&] { return !engine.store_view().trouble.empty(); });
   sender.send(rows(200, 300));
   const bool watched = has(engine, 0, 300);
   ::setrlimit(RLIMIT_FSIZE, &limit);
   ::signal(SIGXFSZ, before);
-  EXPECT_TRUE(told);
+  EXPECT_TRUE(reported);
   EXPECT_TRUE(watched);
   EXPECT_TRUE(comes_true([&] { return engine.store_view().trouble.empty(); }));
   engine.stop();
@@ -155,7 +155,7 @@ TEST_F(EngineTest, BlocksThatADiskWithoutRoomRefusesAreGivenUpBeyondTheLimitAndT
   kept.fleet.block_s = 0.1;
   kept.fleet.largest_MB = 0.002;
   Engine engine(kept, "test");
-  const auto told = [&engine](const char* text) {
+  const auto reported = [&engine](const char* text) {
     return comes_true([&] {
       const std::vector<Event> all = engine.events();
       return std::any_of(all.begin(), all.end(),
@@ -172,11 +172,11 @@ TEST_F(EngineTest, BlocksThatADiskWithoutRoomRefusesAreGivenUpBeyondTheLimitAndT
   const rlimit no_more{4096, limit.rlim_max};
   ::setrlimit(RLIMIT_FSIZE, &no_more);
   sender.send(rows(100, 5000));
-  const bool told_at_once = told("the oldest are given up");
+  const bool reported_at_once = reported("the oldest are given up");
   ::setrlimit(RLIMIT_FSIZE, &limit);
   ::signal(SIGXFSZ, before);
-  EXPECT_TRUE(told_at_once);
-  EXPECT_TRUE(told("blocks that the fleet had not got were given up while the store kept nothing"));
+  EXPECT_TRUE(reported_at_once);
+  EXPECT_TRUE(reported("blocks that the fleet had not got were given up while the store kept nothing"));
   engine.stop();
   Database store = open_store_to_read(kept.store);
   const std::int64_t newest = store.number("SELECT max(number) FROM outbox");
@@ -214,7 +214,7 @@ TEST_F(EngineTest, AStepOfTheSystemClockIsAnEventAndTakesNothingFromTheHistory) 
   constexpr std::int64_t day_ms = 86'400'000, hour_ms = 3'600'000;
   SiteSettings kept = site({{"t", TcpSettings{{"127.0.0.1", 0}}}});
   kept.store = path("kept.sqlite");
-  const auto told = [](const Engine& engine, const char* text) {
+  const auto reported = [](const Engine& engine, const char* text) {
     return comes_true([&] {
       const std::vector<Event> all = engine.events();
       return std::any_of(all.begin(), all.end(),
@@ -242,16 +242,16 @@ TEST_F(EngineTest, AStepOfTheSystemClockIsAnEventAndTakesNothingFromTheHistory) 
     sender.send(engine_header + rows(0, 100));
     ASSERT_TRUE(comes_true([&] { return samples() == 100; }));
     set_ms = 45 * day_ms;
-    EXPECT_TRUE(told(engine, "set forward by 45.0 days"));
+    EXPECT_TRUE(reported(engine, "set forward by 45.0 days"));
     sender.send(rows(100, 200));
     ASSERT_TRUE(comes_true([&] { return samples() == 200; }));
     set_ms = 45 * day_ms - hour_ms;
-    EXPECT_TRUE(told(engine, "set back by 60.0 min"));
+    EXPECT_TRUE(reported(engine, "set back by 60.0 min"));
   }
   EXPECT_EQ(samples(), 200);
   Engine again(kept, "test");
   again.start();
-  EXPECT_TRUE(told(again, "set back by 45.0 days"));  // while no program ran
+  EXPECT_TRUE(reported(again, "set back by 45.0 days"));  // while no program ran
   again.stop();
   EXPECT_EQ(samples(), 200);
 }

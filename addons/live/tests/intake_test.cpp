@@ -12,12 +12,12 @@ SampleBlock intake_block(std::size_t samples, std::uint64_t next = 0) {
 }
 
 TEST(Intake, DropsWhatFindsNoRoomAndCountsIt) {
-  int told = 0;
-  Intake intake([&] { ++told; });
+  int calls = 0;
+  Intake intake([&] { ++calls; });
   intake.push(intake_block(Intake::most_samples - 10, 1));
   intake.push(intake_block(11, 2));
   intake.push(intake_block(10, 3));
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(calls, 1);
   EXPECT_EQ(intake.counters().received, Intake::most_samples + 11);
   EXPECT_EQ(intake.counters().dropped, 11U);
   std::vector<SampleBlock> blocks;
@@ -25,7 +25,7 @@ TEST(Intake, DropsWhatFindsNoRoomAndCountsIt) {
   ASSERT_EQ(blocks.size(), 2U);
   EXPECT_EQ(blocks[1].after.next, 3U);
   intake.push(intake_block(1));
-  EXPECT_EQ(told, 2);
+  EXPECT_EQ(calls, 2);
 }
 
 TEST(Intake, ASourceThatCanWaitLosesNothing) {

@@ -66,7 +66,8 @@ Json inspect(const Json& asked, const Outlet& outlet) {
   recording::ReadOptions options;
   options.channels = channels_of(asked);
   const recording::Inspection found = recording::inspect(
-      file, options, [&](std::optional<double> share, std::uint64_t) { outlet.told(share.value_or(0), "inspecting"); });
+      file, options,
+      [&](std::optional<double> share, std::uint64_t) { outlet.progress(share.value_or(0), "inspecting"); });
   const apps::InspectedFile inspected{
       .file = file, .map_file = asked.value("channels", ""), .map = options.channels, .found = found};
   return {{"text", apps::inspection_text(inspected)}, {"inspection", Json::parse(apps::inspection_json(found))}};
@@ -76,7 +77,7 @@ Json calibrate(const Json& asked, const Outlet& outlet) {
   const std::string model_file = asked.at("model");
   const recording::Campaign campaign = recording::read_campaign(asked.at("campaign").get<std::string>());
   const model::Model model = calibration::calibrate(
-      campaign, SPOOLFLOW_VERSION, [&](const std::string& step, double share) { outlet.told(share, step); },
+      campaign, SPOOLFLOW_VERSION, [&](const std::string& step, double share) { outlet.progress(share, step); },
       asked.value("despite_doubts", false) ? calibration::Contradictions::noted : calibration::Contradictions::refused);
   *opened(outlet, model_file) << apps::readable_text(model, model_file);
   const auto page = opened(outlet, asked.at("report"));
@@ -120,7 +121,7 @@ Json estimate(const Json& asked, const Outlet& outlet) {
     apps::put_estimates(rows, block.column(recording::Channel::time), estimates);
     out->write(rows);
     summary.add(estimates);
-    outlet.told(reader->progress().value_or(0), "estimating");
+    outlet.progress(reader->progress().value_or(0), "estimating");
   }
   out->finish();
   summary.notes = reader->notes();
@@ -137,8 +138,9 @@ Json validate(const Json& asked, const Outlet& outlet) {
   const auto recordings = asked.at("recordings").get<std::vector<std::string>>();
   const validation::ValidationOptions options{.estimators = estimation::all_estimators(model),
                                               .channels = channels_of(asked)};
-  const validation::Validation validation = validation::validate(
-      model, {recordings.begin(), recordings.end()}, options, [&](double share) { outlet.told(share, "validating"); });
+  const validation::Validation validation =
+      validation::validate(model, {recordings.begin(), recordings.end()}, options,
+                           [&](double share) { outlet.progress(share, "validating"); });
   const auto page = opened(outlet, asked.at("report"));
   report::write_validation_report(*page, model, validation);
   const auto metrics = opened(outlet, asked.at("metrics"));
@@ -151,7 +153,7 @@ Json simulate(const Json& asked, const Outlet& outlet) {
   const rig::PlannedScenario planned = rig::plan(rig::read_scenario(asked.at("scenario").get<std::string>()));
   const rig::Simulation simulation =
       rig::simulate(planned.valve, planned.run, planned.valve.seed,
-                    {.with_truth = true, .progress = [&](double share) { outlet.told(share, "simulating"); }});
+                    {.with_truth = true, .progress = [&](double share) { outlet.progress(share, "simulating"); }});
   const auto recording = opened(outlet, asked.at("recording"));
   rig::write_recording(*recording, simulation.recording, planned.run);
   const auto truth = opened(outlet, asked.at("truth"));

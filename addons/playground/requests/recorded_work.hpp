@@ -13,7 +13,7 @@ namespace spoolflow::playground {
 /// Where progress and files go.
 struct Outlet {
   /// Receives the share of the work done, 0 to 1, and the present step.
-  std::function<void(double share, std::string_view step)> told;
+  std::function<void(double share, std::string_view step)> progress;
   /// Opens a file to be written, or null where it cannot be.
   std::function<std::unique_ptr<std::ostream>(const std::string& file)> opened;
 };

@@ -23,11 +23,11 @@ json answered(Playground& playground, const json& request) {
 }
 
 Playground silent() {
-  return Playground({.told = [](double, std::string_view) {},
+  return Playground({.progress = [](double, std::string_view) {},
                      .opened = [](const std::string& file) { return std::make_unique<std::ofstream>(file); }});
 }
 
-TEST(Playground, TellsFaultsInTheProgramsOwnWords) {
+TEST(Playground, ReportsFaultsInTheProgramsOwnWords) {
   Playground playground = silent();
   const json missing = answered(playground, {{"work", "inspect"}, {"file", "/nowhere/run.csv"}});
   EXPECT_THAT(missing.at("error").get<std::string>(), HasSubstr("/nowhere/run.csv"));

@@ -7,7 +7,7 @@ import { basename, join, resolve } from 'node:path';
 
 const [folder, model, recording, estimate] = process.argv.slice(2).map((path) => resolve(path));
 const program = await createRequire(import.meta.url)(join(folder, 'playground.js'))(
-  { wasmBinary: readFileSync(join(folder, 'playground.wasm')), told: () => {}, noInitialRun: true });
+  { wasmBinary: readFileSync(join(folder, 'playground.wasm')), progress: () => {}, noInitialRun: true });
 program.FS.mkdirTree('/work');
 program.FS.chdir('/work');
 const answer = (request) => {

@@ -53,7 +53,7 @@ struct Made {
 
 /// Of one campaign; `as_type` makes it the model of every unit of its type, and several campaigns are compared for it.
 py::tuple calibrate(const std::vector<Path>& files, bool allow_outside, bool despite_doubts, bool as_type,
-                    const PageUnits& units, const py::object& tell) {
+                    const PageUnits& units, const py::object& progress) {
   return at_work([&](SignalCheck& check) {
            std::vector<recording::Campaign> campaigns;
            for (const Path& file : files) campaigns.push_back(recording::read_campaign(file, outside(allow_outside)));
@@ -63,7 +63,7 @@ py::tuple calibrate(const std::vector<Path>& files, bool allow_outside, bool des
              const auto done = static_cast<double>(models.size()), all = static_cast<double>(campaigns.size());
              models.push_back(calibration::calibrate(
                  campaign, SPOOLFLOW_VERSION,
-                 [&](const std::string& step, double share) { check(tell, step, (done + share) / all); },
+                 [&](const std::string& step, double share) { check(progress, step, (done + share) / all); },
                  despite_doubts ? calibration::Contradictions::noted : calibration::Contradictions::refused));
              for (std::string& note : resampled_in(models.back())) out.notes.push_back(std::move(note));
            }
@@ -85,14 +85,14 @@ py::tuple calibrate(const std::vector<Path>& files, bool allow_outside, bool des
 }
 
 /// Of one unit of a type; `type_file` holds the type's model.
-py::tuple calibrate_unit(const Path& file, bool allow_outside, const Path& type_file, const py::object& tell) {
+py::tuple calibrate_unit(const Path& file, bool allow_outside, const Path& type_file, const py::object& progress) {
   return at_work([&](SignalCheck& check) {
            const model::Model type = model::read_model(type_file);
            const recording::Campaign campaign =
                recording::read_unit_campaign(file, calibration::valve_of_type(type), outside(allow_outside));
-           const calibration::UnitCalibration unit =
-               calibration::calibrate_unit(type, type_file.string(), campaign, SPOOLFLOW_VERSION,
-                                           [&](const std::string& step, double share) { check(tell, step, share); });
+           const calibration::UnitCalibration unit = calibration::calibrate_unit(
+               type, type_file.string(), campaign, SPOOLFLOW_VERSION,
+               [&](const std::string& step, double share) { check(progress, step, share); });
            Made out{kept(unit.model)};
            for (const calibration::UnitParameter& each : unit.parameters) {
              if (!each.marginal) continue;

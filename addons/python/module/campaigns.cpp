@@ -24,7 +24,7 @@ struct CampaignRequest {
 };
 
 /// Calls `store(file, recording, truth)` with each recording as it is finished, from any thread; returns campaign.toml.
-std::string campaign(const CampaignRequest& asked, const py::object& store, const py::object& tell) {
+std::string campaign(const CampaignRequest& asked, const py::object& store, const py::object& progress) {
   return at_work([&](SignalCheck& check) {
     const rig::ValveAndCampaign known = rig::read_valve_and_campaign(asked.valve);
     const auto items = asked.calibration_only ? rig::calibration_items(known.valve, known.campaign)
@@ -44,7 +44,7 @@ std::string campaign(const CampaignRequest& asked, const py::object& store, cons
       }
     };
     rig::run_campaign(items, {.store = keep,
-                              .progress = [&](double share) { check(tell, share); },
+                              .progress = [&](double share) { check(progress, share); },
                               .workers = asked.workers == 0 ? parallel::cores() : asked.workers,
                               .with_truth = asked.with_truth});
     return rig::campaign_text(known.valve, items);
@@ -55,8 +55,8 @@ std::string campaign(const CampaignRequest& asked, const py::object& store, cons
 
 void add_campaigns(py::module_& module) {
   module.def("campaign", [](const std::string& valve, bool calibration_only, bool with_truth, bool as_text,
-                            unsigned workers, const py::object& store, const py::object& tell) {
-    return campaign({valve, calibration_only, with_truth, as_text, workers}, store, tell);
+                            unsigned workers, const py::object& store, const py::object& progress) {
+    return campaign({valve, calibration_only, with_truth, as_text, workers}, store, progress);
   });
 }
 

@@ -78,11 +78,11 @@ py::dict notes_of(const ReadRecording& read) {
   return out;
 }
 
-py::tuple simulate(const std::filesystem::path& scenario, bool with_truth, const py::object& tell) {
+py::tuple simulate(const std::filesystem::path& scenario, bool with_truth, const py::object& progress) {
   const auto simulated = at_work([&](SignalCheck& check) {
     const rig::PlannedScenario planned = rig::plan(rig::read_scenario(scenario));
     return rig::simulate(planned.valve, planned.run, planned.valve.seed,
-                         {.with_truth = with_truth, .progress = [&](double share) { check(tell, share); }});
+                         {.with_truth = with_truth, .progress = [&](double share) { check(progress, share); }});
   });
   return simulated_objects(simulated, scenario);
 }

@@ -24,14 +24,14 @@ class SignalCheck {
     raise_where(PyErr_CheckSignals() != 0);
   }
 
-  /// The same, and calls `tell`, a function of Python or None, with these values.
-  template <class... Told>
-  void operator()(const pybind11::object& tell, const Told&... told) {
+  /// The same, and calls `progress`, a function of Python or None, with these values.
+  template <class... Values>
+  void operator()(const pybind11::object& progress, const Values&... values) {
     (*this)();
-    if (std::this_thread::get_id() != thread_ || tell.is_none()) return;
+    if (std::this_thread::get_id() != thread_ || progress.is_none()) return;
     const pybind11::gil_scoped_acquire lock;
     try {
-      tell(told...);
+      progress(values...);
     } catch (pybind11::error_already_set& error) {
       error.restore();
       raise_where(true);

@@ -53,7 +53,7 @@ std::vector<estimation::Estimator> chosen(const std::string& name, const model::
 py::tuple validate(const SharedModel& kept, const std::vector<Path>& recordings, const std::optional<Path>& channels,
                    const std::string& estimator, const std::optional<Path>& requirements,
                    const std::optional<double>& reference_lag_s, bool apply_reference_lag,
-                   const std::vector<Path>& compare, const PageUnits& units, const py::object& tell) {
+                   const std::vector<Path>& compare, const PageUnits& units, const py::object& progress) {
   return at_work([&](SignalCheck& check) {
            const model::Model& model = kept->model;
            std::vector<report::ComparedValidation> others;
@@ -62,7 +62,7 @@ py::tuple validate(const SharedModel& kept, const std::vector<Path>& recordings,
                                                  apply_reference_lag};
            if (requirements) options.requirements = validation::read_requirements(*requirements);
            const validation::Validation found =
-               validation::validate(model, recordings, options, [&](double share) { check(tell, share); });
+               validation::validate(model, recordings, options, [&](double share) { check(progress, share); });
            return Judgement{text_of([&](std::ostream& json) { report::write_metrics(json, model, found); }),
                             page_of(units, [&](std::ostream& page, const report::ReaderUnits& in) {
                               report::write_validation_report(page, model, found, others, in);
@@ -73,7 +73,8 @@ py::tuple validate(const SharedModel& kept, const std::vector<Path>& recordings,
 
 py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& recordings,
                              const std::optional<Path>& channels, const std::string& baseline,
-                             double false_alarms_per_year, bool adapt, const PageUnits& units, const py::object& tell) {
+                             double false_alarms_per_year, bool adapt, const PageUnits& units,
+                             const py::object& progress) {
   return at_work([&](SignalCheck& check) {
            const model::Model& model = kept->model;
            const recording::ChannelMap map = channel_map(channels);
@@ -82,11 +83,11 @@ py::tuple monitor_recordings(const SharedModel& kept, const std::vector<Path>& r
            apps::Monitored from{model, model::sha256_of_text(kept->text), recordings, {}, SPOOLFLOW_VERSION};
            std::uint64_t before_it = 0;
            for (const Path& recording : recordings) {
-             const auto tell_share = [&](std::optional<double> share) {
+             const auto report_share = [&](std::optional<double> share) {
                const auto before = static_cast<double>(done.runs.size());
-               check(tell, (before + share.value_or(0)) / static_cast<double>(recordings.size()));
+               check(progress, (before + share.value_or(0)) / static_cast<double>(recordings.size()));
              };
-             apps::monitor_recording(model, recording.string(), map, watch, done.trend, done.band, tell_share);
+             apps::monitor_recording(model, recording.string(), map, watch, done.trend, done.band, report_share);
              done.runs.push_back({recording.stem().string(), watch.condition(), watch.causes(), watch.indicators()});
              from.samples.push_back(watch.usage().samples - before_it);
              before_it = watch.usage().samples;
@@ -130,7 +131,7 @@ model::Model analysed_model(const SharedModel& kept, const std::string& directio
 }
 
 py::tuple analyse(const SharedModel& kept, const AnalysisRequest& asked, const PageUnits& units,
-                  const py::object& tell) {
+                  const py::object& progress) {
   return at_work([&](SignalCheck& check) {
            const model::Model model = analysed_model(kept, asked.direction);
            const unsigned workers = asked.threads();
@@ -144,19 +145,19 @@ py::tuple analyse(const SharedModel& kept, const AnalysisRequest& asked, const P
            if (whole) valve = analysis::study_valve(model, results.scenario);
            const double of_points = whole ? 0.25 : 1;
            results.points = analysis::analyse_points(model, results.scenario, workers, [&](double share) {
-             check(tell, "uncertainty budget", of_points * 0.7 * share);
+             check(progress, "uncertainty budget", of_points * 0.7 * share);
            });
            results.maps = analysis::operating_maps(model, results.scenario, workers, [&](double share) {
-             check(tell, "operating maps", of_points * (0.7 + 0.3 * share));
+             check(progress, "operating maps", of_points * (0.7 + 0.3 * share));
            });
            if (run) {
              results.run = analysis::analyse_run(model, run->samples, results.scenario, workers,
-                                                 [&](double) { check(tell, "budget along the run", of_points); });
+                                                 [&](double) { check(progress, "budget along the run", of_points); });
            }
            if (whole) {
              analysis::StudyWork work{.identity = SPOOLFLOW_VERSION, .workers = workers};
              work.progress = [&](const std::string& task, double share) {
-               check(tell, task, of_points + (1 - of_points) * share);
+               check(progress, task, of_points + (1 - of_points) * share);
              };
              results.study = analysis::global_study(model, results.scenario, *valve, work);
            }
@@ -200,8 +201,8 @@ void add_work(py::module_& module) {
                            const std::optional<std::uint32_t>& samples, const std::optional<std::uint64_t>& seed,
                            const std::optional<bool>& study, unsigned workers, const std::string& direction,
                            const std::optional<Path>& recording, const std::optional<Path>& channels,
-                           const PageUnits& units, const py::object& tell) {
-    return analyse(model, {scenario, samples, seed, study, workers, direction, recording, channels}, units, tell);
+                           const PageUnits& units, const py::object& progress) {
+    return analyse(model, {scenario, samples, seed, study, workers, direction, recording, channels}, units, progress);
   });
   module.def("dither", [](const SharedModel& model, const std::optional<Path>& scenario, unsigned workers,
                           const std::string& direction, const std::string& shape, double ripple_limit_share,

@@ -34,7 +34,7 @@ struct Doing {
   double broke_after_s;  ///< > 0: it broke away after this rest
 };
 
-/// Tells it from the state of the type's sensor, sample by sample.
+/// Finds it from the state of the type's sensor, sample by sample.
 class SpoolTrack {
  public:
   explicit SpoolTrack(const model::Model& type) : type_(type) {}
@@ -105,13 +105,14 @@ void UnitEvidence::prepare(const UnitRun& of) {
                                     .oil_temperature_K = recording.column(Channel::oil_temperature)};
   SpoolTrack track(type_);
   double before_s = columns.time_s.empty() ? 0 : columns.time_s[0];
-  estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& told) {
+  estimation::run(sensor, columns, [&](std::size_t k, const sensor::Estimate<double>& estimate) {
     const sensor::ObserverState<double>& state = sensor.state().observer;
     const double step_s = columns.time_s[k] - before_s, current_A = columns.current_A[k];
     before_s = columns.time_s[k];
     const double position_m =
         sensor::drift_free_m(type.position_sensor, columns.position_m[k], state.oil.temperature_K);
-    const Doing doing = track.next(state, told.status, {step_s, current_A, {}, columns.position_m[k], {}}, position_m);
+    const Doing doing =
+        track.next(state, estimate.status, {step_s, current_A, {}, columns.position_m[k], {}}, position_m);
     run.samples.push_back(
         {position_m, current_A, step_s, run.pressurised ? value_or(recording, Channel::pressure_difference, k, NAN) : 0,
          value_or(recording, Channel::flow_reference, k, NAN), state.oil.temperature_K, doing.slides ? 0 : -1,
@@ -188,11 +189,11 @@ void UnitEvidence::find_rows(Run& run) {
       counts_.back() += 1;
     }
   };
-  const bool forces_tell = !run.pressurised || run.has_pressure || run.has_flow;
+  const bool has_forces = !run.pressurised || run.has_pressure || run.has_flow;
   const double highest_Pa = type_.observer->parameters.edge.highest_pressure_difference_Pa();
   for (Sample& sample : run.samples) {
     if (sample.pressure_Pa > (1 + sensor::ripple_share) * highest_Pa) sample.force_row = sample.flow_row = -1;
-    if (!forces_tell || (run.has_pressure && std::isnan(sample.pressure_Pa))) sample.force_row = -1;
+    if (!has_forces || (run.has_pressure && std::isnan(sample.pressure_Pa))) sample.force_row = -1;
     if (!run.has_pressure || std::isnan(sample.flow_m3_per_s)) sample.flow_row = -1;
     if (!run.has_pressure && run.pressurised && !(sample.flow_m3_per_s > 0.01 * type_.valve.rated_flow_m3_per_s))
       sample.force_row = -1;
@@ -244,7 +245,7 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
   bool first = true;
   for (const Sample& sample : run.samples) {
     if (!std::isfinite(sample.current_A) || !std::isfinite(sample.position_m)) continue;
-    const sensor::ActuatorEstimate<double> told =
+    const sensor::ActuatorEstimate<double> estimate =
         sensor::step(unit.actuator, actuator,
                      sensor::Sample<double>{sample.time_step_s, sample.current_A, {}, sample.position_m, {}}, first,
                      sample.force_row >= 0);
@@ -259,8 +260,8 @@ void UnitEvidence::add_forces(const Run& run, const sensor::ObserverParameters<d
     const sensor::EdgePoint<double> edge =
         unit.edge.at(sample.temperature_K, std::max(0.0, pressure_Pa), sample.position_m);
     const double aged = sample.rested_s > 0 ? sensor::ageing(unit.friction, sample.rested_s) : 1;
-    const double friction_N = unit.friction.operation_ratio * (aged * edge.friction_N + told.friction_half_width_N);
-    sums(sample.force_row) += told.magnetic_force_N - unit.spring.at(sample.position_m).value -
+    const double friction_N = unit.friction.operation_ratio * (aged * edge.friction_N + estimate.friction_half_width_N);
+    sums(sample.force_row) += estimate.magnetic_force_N - unit.spring.at(sample.position_m).value -
                               (run.pressurised ? edge.flow_force_N : 0) - sample.direction * friction_N;
   }
 }

@@ -73,7 +73,7 @@ TEST(PathOfEdges, SharesThePressureDifferenceAsTheCylinderPassesTheFlow) {
   }
 }
 
-TEST(PathOfEdges, TellsWhatOfThePressureDifferenceLiesOverTheInlet) {
+TEST(PathOfEdges, ShowsWhatOfThePressureDifferenceLiesOverTheInlet) {
   const recording::Recording of_inlet = recorded("PB.csv", wide), of_outlet = recorded("AT.csv", narrow);
   const SpringFit spring = unloaded_spring();
   for (const double k : {0.6, 1.0}) {
@@ -84,14 +84,14 @@ TEST(PathOfEdges, TellsWhatOfThePressureDifferenceLiesOverTheInlet) {
     const sensor::InletShare<double> apart = fit_path(maps, spring.spring, stroke_m).inlet;
     EXPECT_NEAR(apart.share, 0.36 / (0.36 + k * k), 1e-3) << k;  // the outlet's conductance is 0.6 of the inlet's
     EXPECT_NEAR(apart.range, 0.02, 1e-9) << k;
-    // Joined, only operation tells.
+    // Joined, only operation shows the ratio.
     const sensor::InletShare<double> assumed = fit_path(joined_maps(of_inlet, k), spring.spring, stroke_m).inlet;
     EXPECT_EQ(assumed.share, 0.5) << k;
     EXPECT_EQ(assumed.range, 0.25) << k;
   }
-  AxialForceMaps told = joined_maps(of_inlet, 0.6);
-  told.edge_ratio = EdgeRatio{0.6, 0.5, 0.7};
-  const sensor::InletShare<double> inlet = fit_path(told, spring.spring, stroke_m).inlet;
+  AxialForceMaps maps = joined_maps(of_inlet, 0.6);
+  maps.edge_ratio = EdgeRatio{0.6, 0.5, 0.7};
+  const sensor::InletShare<double> inlet = fit_path(maps, spring.spring, stroke_m).inlet;
   EXPECT_NEAR(inlet.share, 0.5, 1e-9);
   EXPECT_NEAR(inlet.range, 0.5 - 0.25 / (0.25 + 0.36), 1e-9);
 }
@@ -141,16 +141,16 @@ TEST(PathOfEdges, WhoseEdgesAreAssumedHasABandThatHoldsEdgesCutForTheCylinder) {
     const EdgeReading known = reading_of(wide, cut, k, x_m, 30e5);
     // The sensor reads the flow force, and the flow from it.
     const auto point = fit.edge.at(warm_K, 30e5, x_m);
-    const double told_Pa = 30e5 * known.force_N / point.flow_force_N;
-    const double told_m3_per_s = point.conductance * std::sqrt(told_Pa);
+    const double estimated_Pa = 30e5 * known.force_N / point.flow_force_N;
+    const double estimated_m3_per_s = point.conductance * std::sqrt(estimated_Pa);
     const double residual_m3_per_s = flow_residual_with_unknown_edges(joined_maps(both, k), 0, known.flow_m3_per_s);
-    const double missed_m3_per_s = std::abs(told_m3_per_s - known.flow_m3_per_s);
+    const double missed_m3_per_s = std::abs(estimated_m3_per_s - known.flow_m3_per_s);
     EXPECT_LT(missed_m3_per_s, 1.02 * sensor::flow_residual_factor * residual_m3_per_s) << k;
     EXPECT_GT(missed_m3_per_s, 0.5 * sensor::flow_residual_factor * residual_m3_per_s) << k;
   }
 }
 
-TEST(PathOfEdges, WhoseProportionOperationToldIsThatUnderTheCylinder) {
+TEST(PathOfEdges, WhoseProportionOperationShowedIsThatUnderTheCylinder) {
   ClosedFormEdge cut = wide;
   cut.conductance_per_m *= 0.5;
   cut.force_per_m_Pa *= 0.5;
@@ -165,13 +165,13 @@ TEST(PathOfEdges, WhoseProportionOperationToldIsThatUnderTheCylinder) {
   const auto found = fit.edge.at(warm_K, 50e5, 1.6e-3);
   EXPECT_NEAR(found.conductance * std::sqrt(50e5) / known.flow_m3_per_s, 1, 2e-3);
   EXPECT_NEAR(found.flow_force_N, known.force_N, 0.02);
-  const double told_m3_per_s = flow_residual_with_unknown_edges(maps, 0, 1e-3);
+  const double measured_m3_per_s = flow_residual_with_unknown_edges(maps, 0, 1e-3);
   maps.edge_ratio.reset();
-  EXPECT_LT(told_m3_per_s, 0.2 * flow_residual_with_unknown_edges(maps, 0, 1e-3));
+  EXPECT_LT(measured_m3_per_s, 0.2 * flow_residual_with_unknown_edges(maps, 0, 1e-3));
   EXPECT_NEAR(edge_ratio_of(0.6, conductance_under_load(0.6, 0.5)), 0.5, 1e-12);
 }
 
-TEST(PathOfEdges, WidensNoBandWhereTheCampaignTellsTheEdges) {
+TEST(PathOfEdges, WidensNoBandWhereTheCampaignShowsTheEdges) {
   const recording::Recording one = recorded("one.csv", wide);
   EXPECT_EQ(flow_residual_with_unknown_edges(joined_maps(one, 1), 1e-6, 1e-3), 1e-6);
   AxialForceMaps apart;

@@ -91,14 +91,14 @@ TEST(Operation, TakesFrictionAtRestAsAssumedWhereEveryRecordingIsDithered) {
     return fit_operation(parameters, runs, valve.full_scale_m3_per_s(), [](double) {});
   };
   const OperationFit blind = fitted(only(dithered)), both = fitted({{.recording = &dithered}, {.recording = &plain}});
-  const auto tells = [](const OperationFit& fit, const char* name) {
+  const auto identifies = [](const OperationFit& fit, const char* name) {
     return std::ranges::find(fit.not_identifiable, name) == fit.not_identifiable.end();
   };
   for (const char* of_rest : {"friction_ageing_ratio", "friction_tolerance_N", "position_backlash_m"}) {
-    EXPECT_FALSE(tells(blind, of_rest)) << of_rest;
-    EXPECT_TRUE(tells(both, of_rest)) << of_rest;
+    EXPECT_FALSE(identifies(blind, of_rest)) << of_rest;
+    EXPECT_TRUE(identifies(both, of_rest)) << of_rest;
   }
-  EXPECT_TRUE(tells(blind, "operation_friction_ratio"));
+  EXPECT_TRUE(identifies(blind, "operation_friction_ratio"));
   EXPECT_GE(blind.force_error_ratio, least_dithered_force_error_ratio);
 }
 
@@ -115,7 +115,7 @@ TEST(Operation, BandFromADitheredRecordingHoldsTheFlowWithoutDither) {
 }
 
 /// A mass leaves no trace in slow strokes without dither.
-TEST(Operation, LeavesTheMassWhereNothingTellsIt) {
+TEST(Operation, LeavesTheMassWhereNothingIdentifiesIt) {
   const sensor::ClosedFormValve valve;
   const recording::Recording plain = recorded(valve, work(), 1);
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
@@ -155,8 +155,8 @@ TEST(Operation, ScoreOfARunWhoseReferenceEndsIsThatOfTheRunCutThere) {
   EXPECT_DOUBLE_EQ(score, operation_score(parameters, only(cut), valve.full_scale_m3_per_s()));
 }
 
-/// The observer of that valve with a spring that is wrong by so many standard deviations of what it believes its forces
-/// to be right to.
+/// The observer of that valve with a spring that is wrong by so many standard deviations of what the model states of
+/// its forces to be right to.
 sensor::ObserverParameters<double> with_wrong_spring(const sensor::ClosedFormValve& valve,
                                                      const recording::Recording& run, double deviations) {
   sensor::ObserverParameters<double> parameters = sensor::closed_form_observer<double>(valve);
@@ -176,7 +176,7 @@ TEST(ForceErrorRatio, IsThatOfTheForcesErrorToWhatTheyAreBelievedToBeRightTo) {
   // Without an error what is left is noise that the filter averages out, and drags of the sensor that noise fakes.
   EXPECT_LT(force_error_ratio(with_wrong_spring(valve, run, 0), only(run)), 0.6);
   for (const double deviations : {-4, -2, -1, 1, 2, 4}) {
-    // 6 to 8 % too small: the residual of the flow's map counts as well, and the believed noise rises with friction.
+    // 6 to 8 % too small: the residual of the flow's map counts as well, and the stated noise rises with friction.
     EXPECT_NEAR(force_error_ratio(with_wrong_spring(valve, run, deviations), only(run)), std::abs(deviations),
                 0.3 * std::abs(deviations));
   }

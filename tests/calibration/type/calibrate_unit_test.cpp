@@ -67,8 +67,8 @@ double flow_error(const sensor::ObserverParameters<double>& found, const sensor:
   const sensor::EdgePoint<double> here = found.edge.at(oil_K, pressure_Pa, position_m);
   const double left_N =
       found.actuator.magnetic_force.at(low_A, position_m).value - found.spring.at(position_m).value - here.flow_force_N;
-  const double told_Pa = pressure_Pa + left_N / here.flow_force_per_pressure_N_Pa;
-  return here.conductance * std::sqrt(told_Pa) / (there.conductance * std::sqrt(pressure_Pa)) - 1;
+  const double estimated_Pa = pressure_Pa + left_N / here.flow_force_per_pressure_N_Pa;
+  return here.conductance * std::sqrt(estimated_Pa) / (there.conductance * std::sqrt(pressure_Pa)) - 1;
 }
 
 TEST(CalibrateUnit, FindsAUnitsFlowWithinAHundredthWhereItsTypeErrsByMore) {

@@ -22,9 +22,9 @@ inline double balancing_current_A(const sensor::ObserverParameters<double>& unit
   for (int k = 0; k < 22; ++k) {
     const double middle_A = 0.5 * (low_A + high_A);
     sensor::ActuatorState<double> tried = before;
-    const auto told =
+    const auto answer =
         sensor::step(unit.actuator, tried, sensor::Sample<double>{virtual_step_s, middle_A, {}, position_m, {}}, false);
-    (told.magnetic_force_N - direction * told.friction_half_width_N < wanted_N ? low_A : high_A) = middle_A;
+    (answer.magnetic_force_N - direction * answer.friction_half_width_N < wanted_N ? low_A : high_A) = middle_A;
   }
   return low_A;
 }

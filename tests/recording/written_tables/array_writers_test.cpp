@@ -51,10 +51,10 @@ TEST(Hdf5Writer, WritesADatasetAColumnWithItsUnit) {
   EXPECT_EQ(units["flow_L_min"], "L/min");
 }
 
-TEST(Hdf5Writer, TellsAFullDiskInTheOutputsWords) {
+TEST(Hdf5Writer, ReportsAFullDiskInTheOutputsWords) {
   OutputInMemory output;
   output.places.limit = 100'000;
-  std::string told;
+  std::string message;
   try {
     const auto writer = table_writer(TableFormat::hdf5, small_head(), output);
     const TableRows rows{{std::vector<double>(10'000, 1.0), std::vector<double>(10'000, 2.0)},
@@ -62,13 +62,13 @@ TEST(Hdf5Writer, TellsAFullDiskInTheOutputsWords) {
     for (int k = 0; k < 10; ++k) writer->write(rows);
     writer->finish();
   } catch (const std::runtime_error& error) {
-    told = error.what();
+    message = error.what();
   }
-  EXPECT_EQ(told, "the disk is full");
+  EXPECT_EQ(message, "the disk is full");
   EXPECT_NO_THROW((void)small_table(TableFormat::hdf5));  // the library goes on
 }
 
-TEST(MatWriter, WritesAVariableAColumnAndTellsUnitsAndNames) {
+TEST(MatWriter, WritesAVariableAColumnWithUnitsAndNames) {
   const Bytes bytes = small_table(TableFormat::mat);
   const std::string begun(bytes.begin(), bytes.begin() + 128);
   EXPECT_EQ(begun.substr(0, 29), "MATLAB 5.0 MAT-file, valve: A");

@@ -1,9 +1,9 @@
 /** The program in its worker, from what the page carries: nothing is asked of any network. */
-import type { Asked, Told } from './requests';
+import type { Asked, Reply } from './requests';
 
 export type Progress = (share: number, step: string) => void;
 interface Waiting {
-  resolve(told: Told): void;
+  resolve(reply: Reply): void;
   reject(error: Error): void;
   progress: Progress | undefined;
 }
@@ -32,7 +32,7 @@ export class Engine {
   private number = 0;
 
   private constructor(private readonly worker: Worker) {
-    worker.addEventListener('message', (event: MessageEvent<Told>) => this.hear(event.data));
+    worker.addEventListener('message', (event: MessageEvent<Reply>) => this.hear(event.data));
     worker.addEventListener('error', (event) => {
       for (const each of this.waiting.values()) each.reject(new Error(event.message));
       this.waiting.clear();
@@ -59,7 +59,7 @@ export class Engine {
     return (await this.ask({ kind: 'answer', request }, [], progress)).answer as Answer;
   }
 
-  private ask(asked: Omit<Asked, 'number'>, transfer: Transferable[] = [], progress?: Progress): Promise<Told> {
+  private ask(asked: Omit<Asked, 'number'>, transfer: Transferable[] = [], progress?: Progress): Promise<Reply> {
     const number = ++this.number;
     return new Promise((resolve, reject) => {
       this.waiting.set(number, { resolve, reject, progress });
@@ -67,15 +67,15 @@ export class Engine {
     });
   }
 
-  private hear(told: Told): void {
-    const waiting = this.waiting.get(told.number);
+  private hear(reply: Reply): void {
+    const waiting = this.waiting.get(reply.number);
     if (waiting === undefined) return;
-    if (told.progress) {
-      waiting.progress?.(told.progress.share, told.progress.step);
+    if (reply.progress) {
+      waiting.progress?.(reply.progress.share, reply.progress.step);
       return;
     }
-    this.waiting.delete(told.number);
-    if (told.error === undefined) waiting.resolve(told);
-    else waiting.reject(new Error(told.error));
+    this.waiting.delete(reply.number);
+    if (reply.error === undefined) waiting.resolve(reply);
+    else waiting.reject(new Error(reply.error));
   }
 }

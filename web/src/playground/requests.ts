@@ -1,4 +1,4 @@
-/** What the page and its worker tell each other. Files are paths in the worker's own folder, in memory. */
+/** What the page and its worker send each other. Files are paths in the worker's own folder, in memory. */
 export interface Asked {
   number: number;
   /** `start` brings the program, `write` a file, `read` takes one, `answer` does work (addons/playground/requests/playground.hpp). */
@@ -9,7 +9,7 @@ export interface Asked {
   request?: Record<string, unknown>;
 }
 
-export interface Told {
+export interface Reply {
   number: number;
   answer?: Record<string, unknown>;
   bytes?: ArrayBuffer;

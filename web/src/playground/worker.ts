@@ -1,5 +1,5 @@
 /** The program at work beside the page: files in, answers and files out. */
-import type { Asked, Told } from './requests';
+import type { Asked, Reply } from './requests';
 
 interface Program {
   FS: {
@@ -16,24 +16,24 @@ interface Program {
   lengthBytesUTF8(text: string): number;
 }
 declare const spoolflowModule: (options: object) => Promise<Program>;
-const tell = self.postMessage.bind(self) as unknown as (message: Told, transfer?: Transferable[]) => void;
+const send = self.postMessage.bind(self) as unknown as (message: Reply, transfer?: Transferable[]) => void;
 
 const folder = '/work';
 const progressEvery_ms = 60;
 let program: Program | null = null;
-let now = 0, lastTold_ms = 0;
+let now = 0, lastProgress_ms = 0;
 
 function progress(share: number, step: string): void {
   const time_ms = performance.now();
-  if (time_ms - lastTold_ms < progressEvery_ms && share < 1) return;
-  lastTold_ms = time_ms;
-  tell({ number: now, progress: { share, step } });
+  if (time_ms - lastProgress_ms < progressEvery_ms && share < 1) return;
+  lastProgress_ms = time_ms;
+  send({ number: now, progress: { share, step } });
 }
 
 /** `compiled` once by the page, for all its workers. */
 async function start(compiled: WebAssembly.Module): Promise<void> {
   program = await spoolflowModule({
-    told: progress,
+    progress,
     noInitialRun: true,
     instantiateWasm: (imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void) => {
       void WebAssembly.instantiate(compiled, imports).then((instance) => receive(instance, compiled));
@@ -64,14 +64,14 @@ function work(asked: Asked): void {
     const slash = name.lastIndexOf('/');
     if (slash > 0) running.FS.mkdirTree(`${folder}/${name.slice(0, slash)}`);
     running.FS.writeFile(name, new Uint8Array(asked.bytes as ArrayBuffer));
-    tell({ number });
+    send({ number });
   } else if (asked.kind === 'read') {
     const bytes = running.FS.readFile(name).slice().buffer;
-    tell({ number, bytes }, [bytes]);
+    send({ number, bytes }, [bytes]);
   } else {
     const answer = answered(running, asked.request as object);
-    if (typeof answer.error === 'string') tell({ number, error: answer.error });
-    else tell({ number, answer });
+    if (typeof answer.error === 'string') send({ number, error: answer.error });
+    else send({ number, answer });
   }
 }
 
@@ -82,12 +82,12 @@ self.addEventListener('message', (event: MessageEvent<Asked>) => {
     try {
       if (asked.kind === 'start') {
         await start(asked.program as WebAssembly.Module);
-        tell({ number: asked.number });
+        send({ number: asked.number });
       } else {
         work(asked);
       }
     } catch (error) {
-      tell({ number: asked.number, error: `the program stopped: ${String(error)}; load the page again` });
+      send({ number: asked.number, error: `the program stopped: ${String(error)}; load the page again` });
     }
   })();
 });

@@ -1,5 +1,5 @@
 /// fleet_reference VERSION STORE.sqlite MODEL.json RAISED_AFTER_S GONE_AFTER_S: what the fleet must keep of the blocks
-/// in a site's store, reckoned by one process without servers, one line a row, numbers as their bits. The driver
+/// in a site's store, computed by one process without servers, one line a row, numbers as their bits. The driver
 /// compares it with the rows in PostgreSQL.
 #include <bit>
 #include <cmath>
@@ -53,7 +53,7 @@ void print_end(const std::string& valve, const fleet::ValvePosition& at,
   }
 }
 
-void reckon(char** arguments) {
+void compute(char** arguments) {
   std::ifstream in(arguments[3], std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   fleet::Models models;
@@ -87,7 +87,7 @@ void reckon(char** arguments) {
 int main(int argc, char** argv) {
   if (argc != 6) return 2;
   try {
-    reckon(argv);
+    compute(argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "fleet_reference: %s\n", error.what());
     return 1;

@@ -31,7 +31,7 @@ CanFrame request(std::uint8_t command, std::uint16_t index, std::uint8_t sub) {
   return out;
 }
 
-TEST(CanopenDevice, BootsStartsByItselfAndTellsItsState) {
+TEST(CanopenDevice, BootsStartsByItselfAndReportsItsState) {
   CanopenDevice device({.node = 17});
   EXPECT_EQ(device.heartbeat().data[0], 0);
   EXPECT_EQ(device.heartbeat().data[0], 5);
@@ -81,7 +81,7 @@ TEST(CanopenDevice, RefusesWritesAndWhatItHasNot) {
   EXPECT_FALSE(device.hear(for_another, valve()));
 }
 
-TEST(CanopenDevice, TellsAsUnknownWhatAStalledValveHad) {
+TEST(CanopenDevice, MarksAsUnknownWhatAStalledValveHad) {
   CanopenDevice device({.node = 17});
   PlantAnswer stalled = valve();
   stalled.stalled = true;
@@ -91,21 +91,21 @@ TEST(CanopenDevice, TellsAsUnknownWhatAStalledValveHad) {
 
 TEST(CanopenDevice, HasAnErrorInItsRegisterWhereItsStateIsAFault) {
   CanopenDevice device({.node = 17});
-  const auto told = [&](std::uint16_t index, const PlantAnswer& answer) {
+  const auto value_of = [&](std::uint16_t index, const PlantAnswer& answer) {
     return device.hear(request(0x40, index, 0), answer)->data[4];
   };
   PlantAnswer faulty = valve(), silent = valve();
   faulty.status = sensor::Status::coil_fault;
   silent.stalled = true;
-  EXPECT_EQ(told(0x6041, valve()), 0x0F);
-  EXPECT_EQ(told(0x1001, valve()), 0);
+  EXPECT_EQ(value_of(0x6041, valve()), 0x0F);
+  EXPECT_EQ(value_of(0x1001, valve()), 0);
   for (const PlantAnswer& held : {faulty, silent}) {
-    EXPECT_EQ(told(0x6041, held), 0x03);
-    EXPECT_EQ(told(0x1001, held), 0x81);
+    EXPECT_EQ(value_of(0x6041, held), 0x03);
+    EXPECT_EQ(value_of(0x1001, held), 0x81);
   }
 }
 
-/// SPOOLFLOW_WRITE_EDS=1 writes it anew.
+/// SPOOLFLOW_WRITE_EDS=1 writes it again.
 TEST(CanopenDevice, HasTheElectronicDataSheetOfTheDocuments) {
   if (std::getenv("SPOOLFLOW_WRITE_EDS") != nullptr) std::ofstream(SPOOLFLOW_EDS) << eds_text();
   std::ostringstream kept;

@@ -6,11 +6,11 @@
 
 #include "addons/playground/requests/playground.hpp"
 
-EM_JS(void, spoolflow_told, (double share, const char* step), { Module.told(share, UTF8ToString(step)); });
+EM_JS(void, spoolflow_progress, (double share, const char* step), { Module.progress(share, UTF8ToString(step)); });
 
 extern "C" EMSCRIPTEN_KEEPALIVE const char* spoolflow_answer(const char* request) {
   static spoolflow::playground::Playground playground(
-      {.told = [](double share, std::string_view step) { spoolflow_told(share, std::string(step).c_str()); },
+      {.progress = [](double share, std::string_view step) { spoolflow_progress(share, std::string(step).c_str()); },
        .opened = [](const std::string& file) -> std::unique_ptr<std::ostream> {
          auto out = std::make_unique<std::ofstream>(file, std::ios::binary);
          if (!*out) return nullptr;
