@@ -14,10 +14,6 @@ namespace {
 
 using Uncertainty = std::optional<double>;
 
-constexpr const char* measured = "measured";
-constexpr const char* inferred = "inferred";
-constexpr const char* assumed = "assumed";
-
 /// Half width at 95 % of a fitted parameter, as a share of its value; none where no fit has it or holds it at a bound.
 Uncertainty share_of(const model::Observer& observer, std::string_view parameter) {
   for (const model::Fit& fit : observer.fits) {
@@ -51,8 +47,7 @@ class Rows {
 
   void add_flow() {
     const bool by_metering = bench_ != nullptr && !bench_->axial_force_maps.empty();
-    add("conductance", measured, by_metering ? "metering" : "axial_force_map", "m3/s",
-        2 * rms_of(model::of_flow_rate));
+    add("conductance", measured, by_metering ? "metering" : "axial_force_map", "m3/s", 2 * rms_of(model::of_flow_rate));
     const AxialForceMaps& maps = recordings_.axial_force_maps;
     if (maps.edges_are_unknown()) {
       const bool alike = std::ranges::count(observer_.defaults, model::each_edge_alone) > 0;
@@ -83,6 +78,10 @@ class Rows {
   [[nodiscard]] std::vector<model::KnownQuantity> take() { return std::move(rows_); }
 
  private:
+  static constexpr const char* measured = "measured";
+  static constexpr const char* inferred = "inferred";
+  static constexpr const char* assumed = "assumed";
+
   void add(const char* of, const char* how, std::string from, const char* unit, Uncertainty uncertainty_95) {
     rows_.push_back({model_.valve.direction, of, how, std::move(from), unit, uncertainty_95});
   }
@@ -96,7 +95,8 @@ class Rows {
   /// Newtons, which the flow does not depend on.
   void add_scale() {
     constexpr const char* of = "scale of all forces";
-    if (bench_ == nullptr || own_map_) return add(of, measured, "load cells of the force benches", "N", model_.instruments.force_N);
+    if (bench_ == nullptr || own_map_)
+      return add(of, measured, "load cells of the force benches", "N", model_.instruments.force_N);
     if (own_spring_ || own_axial_)
       return add(of, measured, own_axial_ ? "axial_force_map" : "spring", "1", bench_->force_scale_95);
     add(of, inferred, "coenergy of the coil, beside the momentum of the jet", "1", bench_->force_scale_95);
@@ -112,7 +112,10 @@ class Rows {
                    : "moves on the flow bench",
         "A", 2 * actuator.current_uncertainty_A);
     const bool eddy_currents = dynamic || !own_map_;
-    add("eddy currents", dynamic ? measured : eddy_currents ? inferred : assumed,
+    add("eddy currents",
+        dynamic         ? measured
+        : eddy_currents ? inferred
+                        : assumed,
         dynamic         ? "solenoid_dynamic"
         : eddy_currents ? "moves on the flow bench"
                         : "none",

@@ -50,7 +50,8 @@ Json provenance(const Provenance& provenance) {
   }
   if (!provenance.doubts.empty()) out["doubts"] = provenance.doubts;
   for (const KnownQuantity& each : provenance.quantities) {
-    Json quantity{{"direction", each.direction}, {"of", each.of}, {"how", each.how}, {"from", each.from}, {"unit", each.unit}};
+    Json quantity{
+        {"direction", each.direction}, {"of", each.of}, {"how", each.how}, {"from", each.from}, {"unit", each.unit}};
     if (each.uncertainty_95) quantity["uncertainty_95"] = *each.uncertainty_95;
     out["quantities"].push_back(std::move(quantity));
   }

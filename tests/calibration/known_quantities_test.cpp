@@ -13,8 +13,10 @@ model::Model calibrated() {
   model::Model out{};
   out.valve.direction = "b";
   out.observer.emplace();
-  out.observer->residuals = {{"magnetic force", "N", 0.1, 1}, {"spring force", "N", 0.2, 1},
-                             {"axial force", "N", 0.3, 1},    {"flow rate", "m3/s", 1e-6, 1e-5}};
+  out.observer->residuals = {{"magnetic force", "N", 0.1, 1},
+                             {"spring force", "N", 0.2, 1},
+                             {"axial force", "N", 0.3, 1},
+                             {"flow rate", "m3/s", 1e-6, 1e-5}};
   return out;
 }
 

@@ -179,7 +179,7 @@ model::Fit known_of_forces(const FlowBenchFit& fit, const ConductanceFit& flow, 
 /// By how much all forces may be wrong in proportion: coenergy and the momentum of the jet each give their scale, and
 /// what parts them is counted in full beside what the jet's angle is unknown by.
 double scale_uncertainty(const EquivalentBenches& benches) {
-  constexpr double without_flow = 0.3;   // as far as coenergy was found wrong on valves of the rig
+  constexpr double without_flow = 0.3;  // as far as coenergy was found wrong on valves of the rig
   if (benches.known.empty()) return without_flow;
   return std::abs(benches.known.back().parameters.back().value - 1) + jet_force_95;
 }
