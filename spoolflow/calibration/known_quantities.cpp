@@ -29,10 +29,9 @@ class Rows {
  public:
   Rows(const CampaignRecordings& recordings, const model::Model& model)
       : recordings_(recordings), model_(model), observer_(*model.observer), bench_(recordings.flow_bench) {
-    const std::size_t equivalent = bench_ == nullptr ? 0 : bench_->axial_force_maps.size();
     own_map_ = !recordings.actuator_is_inferred();
-    own_spring_ = bench_ == nullptr || &recordings.spring != &bench_->spring;
-    own_axial_ = recordings.axial_force_maps.recordings().size() > equivalent;
+    own_spring_ = bench_ == nullptr || bench_->spring_was_measured;
+    own_axial_ = bench_ == nullptr || bench_->axial_force_was_measured;
   }
 
   void add_forces() {

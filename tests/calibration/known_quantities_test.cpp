@@ -73,17 +73,18 @@ TEST(KnownQuantities, OnAFlowBenchOnlyWhatItsMetersShowIsMeasured) {
 TEST(KnownQuantities, OneForceRecordingBesideAFlowBenchIsMeasuredAndGivesTheScale) {
   EquivalentBenches bench{};
   bench.force_scale_95 = 0.02;
+  bench.spring_was_measured = true;
   bench.axial_force_maps.push_back(map_at(323));
   const recording::Recording& metered = bench.axial_force_maps.front();
-  const recording::Recording spring, axial = map_at(323);
-  const auto with_spring =
-      known_quantities({spring, bench.solenoid_force_map, {}, {{&metered}, {}, {}, 1, {}}, {}, &bench}, calibrated());
+  const CampaignRecordings mixed{bench.spring, bench.solenoid_force_map, {}, {{&metered}, {}, {}, 1, {}}, {}, &bench};
+  const auto with_spring = known_quantities(mixed, calibrated());
   EXPECT_EQ(of(with_spring, "spring force").how, "measured");
   EXPECT_EQ(of(with_spring, "scale of all forces").from, "spring");
   EXPECT_EQ(of(with_spring, "scale of all forces").uncertainty_95, 0.02);
   EXPECT_EQ(of(with_spring, "flow force").how, "inferred");
-  const auto with_axial = known_quantities(
-      {bench.spring, bench.solenoid_force_map, {}, {{&axial, &metered}, {}, {}, 1, {}}, {}, &bench}, calibrated());
+  bench.spring_was_measured = false;
+  bench.axial_force_was_measured = true;
+  const auto with_axial = known_quantities(mixed, calibrated());
   EXPECT_EQ(of(with_axial, "flow force").how, "measured");
   EXPECT_EQ(of(with_axial, "scale of all forces").from, "axial_force_map");
   EXPECT_EQ(of(with_axial, "spring force").how, "inferred");

@@ -176,9 +176,13 @@ model::Fit known_of_forces(const FlowBenchFit& fit, const ConductanceFit& flow, 
                     values, covariance);
 }
 
-/// By how much all forces may be wrong in proportion: coenergy and the momentum of the jet each give their scale, and
-/// what parts them is counted in full beside what the jet's angle is unknown by.
-double scale_uncertainty(const EquivalentBenches& benches) {
+/// By how much all forces may be wrong in proportion. Where no force rig says so, coenergy and the momentum of the jet
+/// each give their scale, and what parts them is counted in full beside what the jet's angle is unknown by.
+double scale_uncertainty(const EquivalentBenches& benches, const FlowBenchFit& fit, const MeasuredForces& measured) {
+  if (measured.spring || !measured.axial.empty()) {
+    const Eigen::Index middle = fit.layout.map_at(fit.layout.currents.count / 2, fit.layout.places.count / 2);
+    return 2 * std::sqrt(std::max(0.0, fit.forces.covariance(middle, middle)));
+  }
   constexpr double without_flow = 0.3;  // as far as coenergy was found wrong on valves of the rig
   if (benches.known.empty()) return without_flow;
   return std::abs(benches.known.back().parameters.back().value - 1) + jet_force_95;
@@ -248,14 +252,27 @@ EquivalentBenches equivalent_benches(const FlowBenchRecordings& recordings, cons
                         0,
                         largest_voltage_V(recordings),
                         {},
-                        {}};
+                        measured.spring.has_value(),
+                        !measured.axial.empty(),
+                        0};
+  std::vector<ConductanceFit> flows;
   for (const Recording* metering : recordings.metering) {
-    const ConductanceFit flow = fit_conductance(*metering, stroke_m);
+    const ConductanceFit& flow = flows.emplace_back(fit_conductance(*metering, stroke_m));
     out.flow_residual_m3_per_s = std::max(out.flow_residual_m3_per_s, flow.residual_m3_per_s);
     out.axial_force_maps.push_back(axial_force_of(fit, flow, metering->file, stroke_m));
     if (out.known.empty()) out.known.push_back(known_of_forces(fit, flow, stroke_m));
   }
-  out.force_scale_95 = scale_uncertainty(out);
+  const auto metered = [&](const AxialForceFit& map) {
+    return std::ranges::any_of(flows, [&](const ConductanceFit& flow) {
+      return !(std::abs(flow.oil_temperature_K - map.oil_temperature_K) > same_oil_K);
+    });
+  };
+  for (const AxialForceFit& map : measured.axial) {
+    if (!measured.actuator && !metered(map))
+      out.axial_force_maps.push_back(
+          axial_force_of(fit, conductance_of(map), "axial force, from force rig and flow bench", stroke_m));
+  }
+  out.force_scale_95 = scale_uncertainty(out, fit, measured);
   return out;
 }
 
